@@ -1,0 +1,21 @@
+#pragma once
+// The door to scenes in files. Picks the reader by the file's ending; every reader fills the same Scene.
+
+#include <filesystem>
+
+#include "engine/scene.h"
+
+namespace aleph {
+
+/// Reads a keyframed scene file (.json) or a .gltf or .glb, includes and images with it.
+/// A glTF without a camera gets one that frames its bounds over the whole range; a scene without light gets a constant
+/// white environment; both are said in Scene::warnings.
+/// @throws InputError with file, place and reason; nothing is half loaded
+Scene load_scene(const std::filesystem::path& path);
+
+/// Writes a keyframed scene file; load_scene gives back an equal scene (apart from `file`). Includes stay includes.
+/// The file appears whole or not at all.
+/// @throws InputError where the scene holds what the file format cannot say, OutputError if writing fails
+void save_scene(const Scene& scene, const std::filesystem::path& path);
+
+}  // namespace aleph

@@ -1,0 +1,30 @@
+#pragma once
+// Embree wants flush-to-zero on every thread that traces; we set it for all parallel work, so that a stage
+// gives the same bits on the calling thread and on a pool thread (HARD_CASES DT-06).
+
+#if defined(__SSE2__)
+#include <pmmintrin.h>
+#include <xmmintrin.h>
+#endif
+
+namespace aleph {
+
+/// Sets flush-to-zero and denormals-are-zero for a scope.
+class FlushDenormals {
+  public:
+#if defined(__SSE2__)
+    FlushDenormals() : saved_(_mm_getcsr()) { _mm_setcsr(saved_ | _MM_FLUSH_ZERO_ON | _MM_DENORMALS_ZERO_ON); }
+    ~FlushDenormals() { _mm_setcsr(saved_); }
+#else
+    FlushDenormals() = default;
+#endif
+    FlushDenormals(const FlushDenormals&) = delete;
+    FlushDenormals& operator=(const FlushDenormals&) = delete;
+
+  private:
+#if defined(__SSE2__)
+    unsigned saved_;
+#endif
+};
+
+}  // namespace aleph

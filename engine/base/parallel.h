@@ -1,0 +1,79 @@
+#pragma once
+// Parallel loops with fixed chunks: what a chunk computes never depends on the number of threads, so results that are
+// combined in chunk order are the same for any number of threads.
+// ALEPH_STD_THREADS selects a std::thread back-end, for ThreadSanitizer, which reports false races in oneTBB.
+
+#include <algorithm>
+#include <cstddef>
+#include <memory>
+
+#include "engine/base/flush_denormals.h"
+
+#if defined(ALEPH_STD_THREADS)
+#include <atomic>
+#include <exception>
+#include <mutex>
+#include <thread>
+#include <vector>
+#else
+#include <tbb/parallel_for.h>
+#endif
+
+namespace aleph {
+
+/// Limits how many threads parallel_for uses, while it lives. 0 means all that the machine has.
+class ThreadLimit {
+  public:
+    explicit ThreadLimit(int threads);
+    ~ThreadLimit();
+    ThreadLimit(const ThreadLimit&) = delete;
+    ThreadLimit& operator=(const ThreadLimit&) = delete;
+
+  private:
+    struct State;
+    std::unique_ptr<State> state_;
+};
+
+/// How many threads parallel_for may use now.
+int thread_count();
+
+/// Calls body(begin, end) for the ranges [0, grain), [grain, 2 grain), ... of [0, count), in any order, on any thread.
+/// The first exception thrown by a body reaches the caller.
+template <class Body>
+void parallel_for(std::size_t count, std::size_t grain, const Body& body) {
+    const std::size_t step = std::max<std::size_t>(1, grain);
+    const std::size_t chunks = (count + step - 1) / step;
+    const auto run_chunk = [&](std::size_t chunk) {
+        const FlushDenormals flush;
+        body(chunk * step, std::min(count, (chunk + 1) * step));
+    };
+    if (chunks <= 1 || thread_count() <= 1) {
+        for (std::size_t chunk = 0; chunk < chunks; ++chunk) run_chunk(chunk);
+        return;
+    }
+#if defined(ALEPH_STD_THREADS)
+    std::atomic<std::size_t> next{0};
+    std::exception_ptr failure;
+    std::mutex failure_mutex;
+    const auto work = [&] {
+        for (std::size_t chunk = next++; chunk < chunks; chunk = next++) {
+            try {
+                run_chunk(chunk);
+            } catch (...) {
+                const std::lock_guard lock(failure_mutex);
+                if (!failure) failure = std::current_exception();
+                next = chunks;
+            }
+        }
+    };
+    std::vector<std::thread> threads;
+    for (int i = 1; i < thread_count(); ++i) threads.emplace_back(work);
+    work();
+    for (std::thread& thread : threads) thread.join();
+    if (failure) std::rethrow_exception(failure);
+#else
+    tbb::parallel_for(std::size_t{0}, chunks, run_chunk);
+#endif
+}
+
+}  // namespace aleph

@@ -1,0 +1,75 @@
+#pragma once
+// Random numbers that depend on where they are used, never on which thread asks first; warps and their pdfs.
+
+#include <cstdint>
+#include <glm/geometric.hpp>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+
+namespace aleph {
+
+/// Mixes 64 bits (splitmix64's finaliser, Steele et al. 2014).
+constexpr std::uint64_t mix_bits(std::uint64_t x) {
+    x ^= x >> 30;
+    x *= 0xbf58476d1ce4e5b9ull;
+    x ^= x >> 27;
+    x *= 0x94d049bb133111ebull;
+    x ^= x >> 31;
+    return x;
+}
+
+/// Uniform in [0, 1), 24 bits: never 1 (HARD_CASES MC-05).
+constexpr float unit_float(std::uint32_t bits) { return static_cast<float>(bits >> 8) * 0x1p-24f; }
+
+/// What a stream of random numbers is for. Streams with different keys are independent.
+struct RandomKey {
+    std::uint32_t seed = 0, frame = 0, pixel = 0, sample = 0;
+};
+
+/// Numbers for dimensions 0, 1, 2, ... of one key. Cheap to make, nothing shared.
+class RandomStream {
+  public:
+    explicit RandomStream(const RandomKey& key)
+        : state_(mix_bits(mix_bits((std::uint64_t{key.seed} << 32 | key.frame) + 0x9e3779b97f4a7c15ull) ^
+                          (std::uint64_t{key.pixel} << 32 | key.sample))) {}
+
+    /// The number of one dimension; does not move the stream.
+    float at(std::uint32_t dimension) const { return unit_float(static_cast<std::uint32_t>(bits(dimension) >> 32)); }
+    /// The next dimension's number.
+    float next() { return at(dimension_++); }
+    glm::vec2 next_2d() {
+        const std::uint64_t b = bits(dimension_++);
+        return {unit_float(static_cast<std::uint32_t>(b >> 32)), unit_float(static_cast<std::uint32_t>(b))};
+    }
+
+  private:
+    std::uint64_t bits(std::uint32_t dimension) const {
+        return mix_bits(state_ + (std::uint64_t{dimension} + 1) * 0x9e3779b97f4a7c15ull);
+    }
+    std::uint64_t state_;
+    std::uint32_t dimension_ = 0;
+};
+
+/// Two unit vectors that make a right-handed orthonormal basis with n.
+struct Basis {
+    glm::vec3 tangent, bitangent, normal;
+    glm::vec3 to_world(const glm::vec3& v) const { return tangent * v.x + bitangent * v.y + normal * v.z; }
+    glm::vec3 to_local(const glm::vec3& v) const {
+        return {glm::dot(v, tangent), glm::dot(v, bitangent), glm::dot(v, normal)};
+    }
+};
+
+/// Duff et al. 2017, "Building an Orthonormal Basis, Revisited", JCGT 6(1). n must be unit.
+Basis make_basis(const glm::vec3& n);
+
+/// Direction about +z with density cos/pi; u in [0,1)^2. z comes from u, not from x and y (HARD_CASES MC-06).
+glm::vec3 sample_cosine_hemisphere(const glm::vec2& u);
+float pdf_cosine_hemisphere(float cos_theta);
+
+/// Barycentric (b1, b2) of a uniform point of a triangle.
+glm::vec2 sample_triangle(const glm::vec2& u);
+
+/// Weight of strategy a against b, exponent 2 (Veach 1997); 0 when a cannot have made the sample (HARD_CASES MC-12).
+float power_heuristic(float pdf_a, float pdf_b);
+
+}  // namespace aleph

@@ -1,0 +1,62 @@
+#pragma once
+// Keyed values: a property's samples under a time sampling, and one answer for every time.
+
+#include <glm/gtc/quaternion.hpp>
+#include <glm/mat4x4.hpp>
+#include <glm/vec3.hpp>
+#include <vector>
+
+#include "engine/time_sampling.h"
+
+namespace aleph {
+
+enum class Interpolation {
+    step,    ///< the sample at or before the time
+    linear,  ///< quaternions: slerp, the short way; matrices: polar decomposition, slerp and lerp
+    cubic,   ///< glTF's CUBICSPLINE: values hold in-tangent, value, out-tangent per key
+};
+
+/// A constant has one value and any sampling. Values are never empty in a valid scene.
+template <class T>
+struct Track {
+    TimeSampling sampling;
+    Interpolation interpolation = Interpolation::linear;
+    std::vector<T> values;
+
+    Track() = default;
+    Track(const T& constant) : values{constant} {}  // implicit: `node.scale = dvec3(2)` reads as it should
+
+    /// Keys, not values: a cubic key has three values.
+    std::size_t key_count() const { return interpolation == Interpolation::cubic ? values.size() / 3 : values.size(); }
+    bool operator==(const Track&) const = default;
+};
+
+/// The value at a time: exactly the key's on a key, the first's before and the last's after. Equal neighbours give
+/// exactly that value, so what does not move is bit for bit the same at every time.
+/// Quaternions come back unit. Instantiated for double, dvec3, dquat, dmat4.
+template <class T>
+T evaluate(const Track<T>& track, double seconds);
+
+/// False only where evaluate gives the same value at every time (one key, or all keys and tangents alike).
+template <class T>
+bool is_animated(const Track<T>& track);
+
+/// Time of the first and of the last key, s.
+template <class T>
+double first_time(const Track<T>& track) {
+    return sample_time(track.sampling, 0);
+}
+template <class T>
+double last_time(const Track<T>& track) {
+    return sample_time(track.sampling, track.key_count() - 1);
+}
+
+/// The shorter great arc from a to b, in double; a tie (exactly 180 degrees) keeps the sign of b.
+/// Accurate for every angle: theta = 2 atan2(|a - b|, |a + b|) (HARD_CASES KF-01 to KF-03).
+glm::dquat slerp_short(const glm::dquat& a, const glm::dquat& b, double fraction);
+
+/// Between two affine matrices: M = R S each (polar), R by slerp, S and translation by lerp; exact at the ends.
+/// A reflection is factored out once, with the sign of both determinants (HARD_CASES KF-21 to KF-23).
+glm::dmat4 interpolate_matrix(const glm::dmat4& a, const glm::dmat4& b, double fraction);
+
+}  // namespace aleph

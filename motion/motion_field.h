@@ -1,0 +1,31 @@
+#pragma once
+// Where every pixel's surface point goes from one frame to the next. Plain data, double precision.
+
+#include <cstdint>
+#include <glm/vec2.hpp>
+
+#include "engine/base/image.h"
+
+namespace aleph {
+
+/// motion.valid; the first that applies of: no counterpart, behind the camera, leaves the screen, hidden.
+enum class MotionValidity : std::int8_t {
+    valid = 1,
+    background = 0,       ///< nothing was hit: camera rotation alone moves it
+    behind_camera = -1,   ///< at or behind the other frame's near plane; displacement 0
+    leaves_screen = -2,   ///< displacement kept
+    no_counterpart = -3,  ///< object not visible in the other frame, topology change, camera cut; displacement 0
+    hidden = -4,          ///< something stands before it in frame N+1; displacement kept
+};
+
+struct MotionField {
+    /// P' - P in pixels, x right, y down, frame N to N+1 (a displacement of projections, never from the pixel centre;
+    /// MODEL.md 5.1). Length at most the image diagonal.
+    Image<glm::dvec2> displacement;
+    /// Length of the path in pixels: |displacement|, or the sum over sub-frame steps where something turns more than
+    /// 20 degrees in the frame. Not negative.
+    Image<double> path_length;
+    Image<MotionValidity> validity;
+};
+
+}  // namespace aleph

@@ -1,0 +1,1 @@
+#include "motion/velocity.h"

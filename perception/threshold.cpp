@@ -1,0 +1,1 @@
+#include "perception/threshold.h"

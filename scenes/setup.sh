@@ -1,0 +1,46 @@
+#!/usr/bin/env bash
+# Installs what aleph is built from. On Debian 12 (or a derivative) missing packages come through apt;
+# elsewhere it says what to install and stops. Safe to run again: it does nothing when all is there.
+set -euo pipefail
+
+packages=(
+  g++ cmake ninja-build pkg-config
+  libembree-dev        # rays
+  libopenexr-dev       # EXR files
+  libopenimageio-dev   # every other image file, comparisons
+  libtinygltf-dev nlohmann-json3-dev libvalijson-dev   # scenes
+  libglm-dev libtbb-dev libcli11-dev libfmt-dev
+  libgtest-dev libbenchmark-dev                        # tests, benchmarks
+  locales              # the tests check that a comma locale changes nothing
+)
+
+if ! command -v dpkg-query >/dev/null 2>&1; then
+  cat >&2 <<TEXT
+This is not a Debian system, so nothing was installed. Please install, with your own package manager:
+  a C++20 compiler, CMake 3.25, Ninja, Embree 3.13, OpenEXR 3.1, OpenImageIO 2.4, tinygltf 2.7, nlohmann-json 3.11,
+  valijson 1.0, GLM .9.9.8, oneTBB 2021, CLI11 2.1, fmt 9, GoogleTest 1.12 and Google Benchmark 1.7,
+then configure by hand: cmake -S . -B build -G Ninja && ninja -C build
+TEXT
+  if command -v cmake >/dev/null 2>&1 && command -v ninja >/dev/null 2>&1; then exit 0; fi
+  exit 1
+fi
+
+missing=()
+for package in "${packages[@]}"; do
+  status=$(dpkg-query -W -f '${Status}' "$package" 2>/dev/null || true)
+  [ "$status" = "install ok installed" ] || missing+=("$package")
+done
+[ ${#missing[@]} -gt 0 ] || exit 0
+
+echo "aleph set-up: installing ${missing[*]}"
+as_root=()
+if [ "$(id -u)" != 0 ]; then
+  if ! command -v sudo >/dev/null 2>&1; then
+    echo "Installing needs root. Please run: apt-get install ${missing[*]}" >&2
+    exit 1
+  fi
+  as_root=(sudo)
+fi
+export DEBIAN_FRONTEND=noninteractive
+"${as_root[@]}" apt-get update -q
+"${as_root[@]}" apt-get install -y -q --no-install-recommends "${missing[@]}"
