@@ -1,0 +1,19 @@
+#pragma once
+// Reader of glTF 2.0 files (.gltf, .glb), through a validator of our own and tinygltf.
+
+#include <filesystem>
+
+#include "engine/scene.h"
+
+namespace aleph {
+
+/// Appends a glTF file's nodes, meshes (one per primitive; a mesh used by several nodes is stored once), materials,
+/// images, lights, cameras and warnings to a scene. All animations of the file apply at once; times are seconds.
+/// Either everything is appended or the scene stays as it was.
+/// @param parent_node    node under which the file's roots hang, or no_index to append them as roots
+/// @param include_index  becomes `include` of every element that is appended
+/// @throws InputError naming file, place ("node 3", "accessor 7", a JSON pointer) and the rule that is broken, or the
+/// feature that is not supported
+void append_gltf(const std::filesystem::path& file, Scene& scene, int parent_node, int include_index);
+
+}  // namespace aleph
