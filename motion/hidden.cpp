@@ -1,0 +1,81 @@
+// What frame N sees and frame N+1 no longer does: one ray each from the other camera to where the point went.
+
+#include <fmt/format.h>
+#include <array>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <numeric>
+#include <vector>
+
+#include "engine/base/errors.h"
+#include "engine/base/parallel.h"
+#include "motion/model_motion.h"
+#include "motion/reprojection.h"
+
+namespace aleph {
+namespace {
+
+/// A ray that ends clearly before the point, so that the point's own surface does not count: m, relative to the anchor.
+Ray make_visibility_ray(const CameraView& view, const glm::dvec3& anchor, const glm::dvec3& in_camera) {
+    constexpr double clearly_before = 1.0 - 1e-3;
+    const glm::dvec3 start = view.orthographic ? glm::dvec3(in_camera.x, in_camera.y, 0.0) : glm::dvec3(0.0);
+    const glm::dvec3 way = in_camera - start;
+    const double distance = glm::length(way);
+    Ray ray;
+    ray.origin = glm::vec3((view.position - anchor) + view.axes * start);
+    ray.direction = glm::vec3(view.axes * (way / distance));
+    ray.far = static_cast<float>(distance * clearly_before);
+    return ray;
+}
+
+}  // namespace
+
+std::uint64_t mark_hidden(MotionField& field, const Scene& scene, const MotionMoment& other, const Image<Hit>& hits,
+                          const RayScene& other_rays) {
+    ALEPH_CHECK(same_size(field.validity, hits), fmt::format("{}x{} motion, {}x{} hits", field.validity.width,
+                                                             field.validity.height, hits.width, hits.height));
+    const std::vector<Instance>& instances = other.frame->instances;
+    std::vector<CameraFromObject> maps(instances.size());
+    for (std::size_t i = 0; i < maps.size(); ++i) {
+        maps[i] = make_camera_from_object(*other.view, other.frame->world[static_cast<std::size_t>(instances[i].node)]);
+    }
+
+    // Blocks of neighbouring pixels: their points lie close together, so do the rays.
+    constexpr int block = 8;
+    const int columns = (hits.width + block - 1) / block, rows = (hits.height + block - 1) / block;
+    std::vector<std::uint64_t> rays_of_row(static_cast<std::size_t>(rows), 0);
+    const auto mark_block = [&](Tracer& tracer, int left, int top) -> std::size_t {
+        std::array<Ray, block * block> rays;
+        std::array<std::size_t, block * block> pixels;
+        std::size_t count = 0;
+        for (int y = top; y < std::min(top + block, hits.height); ++y) {
+            for (int x = left; x < std::min(left + block, hits.width); ++x) {
+                const std::size_t pixel = hits.index(x, y);
+                if (field.validity.pixels[pixel] != MotionValidity::valid) continue;
+                const Hit& hit = hits.pixels[pixel];
+                const auto instance = static_cast<std::size_t>(hit.instance);
+                const Mesh& mesh = scene.meshes[static_cast<std::size_t>(instances[instance].mesh)];
+                rays[count] =
+                    make_visibility_ray(*other.view, other_rays.anchor(), maps[instance](surface_point(mesh, hit)));
+                pixels[count++] = pixel;
+            }
+        }
+        std::array<std::uint8_t, block * block> blocked{};
+        tracer.occluded(std::span(rays).first(count), std::span(blocked).first(count), true);
+        for (std::size_t i = 0; i < count; ++i) {
+            if (blocked[i] != 0) field.validity.pixels[pixels[i]] = MotionValidity::hidden;
+        }
+        return count;
+    };
+    parallel_for(static_cast<std::size_t>(rows), 1, [&](std::size_t begin, std::size_t end) {
+        Tracer tracer(other_rays);
+        for (std::size_t row = begin; row < end; ++row) {
+            for (int column = 0; column < columns; ++column) {
+                rays_of_row[row] += mark_block(tracer, column * block, static_cast<int>(row) * block);
+            }
+        }
+    });
+    return std::accumulate(rays_of_row.begin(), rays_of_row.end(), std::uint64_t{0});
+}
+
+}  // namespace aleph
