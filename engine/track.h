@@ -4,6 +4,7 @@
 #include <glm/gtc/quaternion.hpp>
 #include <glm/mat4x4.hpp>
 #include <glm/vec3.hpp>
+#include <string>
 #include <vector>
 
 #include "engine/time_sampling.h"
@@ -50,6 +51,24 @@ template <class T>
 double last_time(const Track<T>& track) {
     return sample_time(track.sampling, track.key_count() - 1);
 }
+
+/// Value of a key: the middle one of a cubic key's three.
+template <class T>
+const T& key_value(const Track<T>& track, std::size_t key) {
+    return track.values[track.interpolation == Interpolation::cubic ? 3 * key + 1 : key];
+}
+
+/// What every reader checks before it hands a track on: there are keys, a cubic track has three values each, values
+/// are finite, no rotation is zero, matrices are affine (last row 0 0 0 1), and times lie as validate(TimeSampling)
+/// wants them (one key: any sampling without times will do). Negative times are fine here.
+/// @throws InputError with the index of the first bad key in its reason. Same types as evaluate.
+template <class T>
+void validate(const Track<T>& track, const std::string& file, const std::string& place);
+
+/// The largest turn between two neighbouring keys, degrees, as the signs of the keys tell it: 0 to 270 degrees is
+/// 270, although slerp_short will take the 90 back (HARD_CASES RP-08: readers warn above 170). Keys within 20 degrees
+/// of each other count as that near: their signs are an exporter's habit, not a turn.
+double largest_turn_degrees(const Track<glm::dquat>& track);
 
 /// The shorter great arc from a to b, in double; a tie (exactly 180 degrees) keeps the sign of b.
 /// Accurate for every angle: theta = 2 atan2(|a - b|, |a + b|) (HARD_CASES KF-01 to KF-03).

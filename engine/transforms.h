@@ -1,0 +1,54 @@
+#pragma once
+// Small exact tools for vectors, rotations and affine matrices that GLM leaves to luck: nothing here divides by a
+// length of zero, underflows for tiny or overflows for huge scales (HARD_CASES KF-17 to KF-19, KF-27, KF-28).
+
+#include <glm/gtc/quaternion.hpp>
+#include <glm/mat3x3.hpp>
+#include <glm/mat4x4.hpp>
+#include <glm/vec3.hpp>
+
+namespace aleph {
+
+/// v at length 1, whatever its length; the zero vector where v is zero or not finite.
+glm::dvec3 safe_normalize(const glm::dvec3& v);
+inline glm::vec3 safe_normalize(const glm::vec3& v) {
+    return glm::vec3(safe_normalize(glm::dvec3(v)));
+}
+
+/// q at length 1; unit already (within rounding): the same bits. Identity where q is zero or not finite.
+glm::dquat safe_normalize(const glm::dquat& q);
+
+/// -1 where the matrix mirrors, so that a triangle's geometric orientation must be flipped; else 1.
+double orientation_sign(const glm::dmat4& world);
+
+/// Takes object-space normals to world-space ones (normalise the result). The cofactor matrix with the sign of
+/// the determinant, largest element 1: proportional to the inverse transpose, so an outward normal stays outward in
+/// a mirror, where cross(edge, edge) of the transformed triangle must be turned by orientation_sign. It is finite for
+/// singular matrices too, and zero where their rank is below 2.
+glm::dmat3 normal_matrix(const glm::dmat4& world);
+
+/// M = U diag(sigma) V^T. U and V are orthogonal (either may mirror), sigma >= 0 in no particular order. Where a sigma
+/// is zero its column of U is zero too.
+struct SingularValues {
+    glm::dmat3 u{1.0};
+    glm::dvec3 sigma{1.0};
+    glm::dmat3 v{1.0};
+};
+
+/// By one-sided Jacobi rotations, which keep small singular values accurate: Demmel and Veselic 1992,
+/// SIAM J. Matrix Anal. Appl. 13(4). The matrix must be finite.
+SingularValues decompose_singular(const glm::dmat3& m);
+
+/// False where the matrix flattens: its smallest singular value is at most 1e-6 of the largest, or it is not finite.
+/// Judges scales from 1e-30 to 1e30 alike.
+bool has_full_rank(const glm::dmat4& world);
+
+/// Right, up and back of a camera or light with this matrix, orthonormal and right-handed: what it looks along
+/// (-z) is kept, then up; scale, shear and mirroring are taken out. Identity where nothing can be told.
+glm::dmat3 orthonormal_axes(const glm::dmat4& world);
+
+/// World from camera, looking from eye to target. Where up is parallel to the view or zero another axis stands in for
+/// it; where eye and target coincide the camera looks along -z.
+glm::dmat4 look_at(const glm::dvec3& eye, const glm::dvec3& target, const glm::dvec3& up);
+
+}  // namespace aleph
