@@ -2,12 +2,14 @@
 // Pictures in files: named channels and metadata, written whole or not at all.
 
 #include <array>
+#include <cstdint>
 #include <filesystem>
 #include <map>
 #include <string>
 #include <variant>
 #include <vector>
 
+#include "engine/atomic_file.h"
 #include "engine/base/color.h"
 #include "engine/base/image.h"
 
@@ -42,7 +44,8 @@ void write_png(const std::filesystem::path& path, const Image<Rgb>& linear);
 /// @throws InputError
 ChannelImage read_image(const std::filesystem::path& path);
 
-/// A texture from memory or from a file. One of the two images of the pair is filled: 8 bits for PNG and JPEG, float else.
+/// A texture from memory or from a file. One of the two images of the pair is filled: 8 bits for PNG and JPEG, float
+/// else.
 struct DecodedTexture {
     Image<std::array<std::uint8_t, 4>> bytes;
     Image<std::array<float, 4>> floats;
@@ -51,10 +54,5 @@ struct DecodedTexture {
 /// @param name  what messages call it
 /// @throws InputError (file = name) if the bytes are not one of the allowed formats or do not decode
 DecodedTexture decode_texture(const std::vector<std::uint8_t>& encoded, const std::string& name);
-
-/// Runs write(temporary path), then renames to `path`; the temporary goes if anything throws. Used by all writers.
-/// @throws OutputError
-template <class Write>
-void write_atomically(const std::filesystem::path& path, const Write& write);
 
 }  // namespace aleph
