@@ -21,7 +21,8 @@ constexpr double snap_fraction = 1e-9;  // of the distance between two samples
 void validate_times(const std::vector<double>& times, std::size_t count, const std::string& file,
                     const std::string& place) {
     for (std::size_t i = 0; i < count; ++i) {
-        if (!std::isfinite(times[i])) refuse_key(file, place, i, fmt::format("its time is {}, not a number", times[i]));
+        if (!std::isfinite(times[i]))
+            refuse_key(file, place, i, fmt::format("its time is {}; it must be finite", times[i]));
         if (i == 0 || times[i] > times[i - 1]) continue;
         const char* fault = times[i] == times[i - 1] ? "has the same time as" : "lies before";
         refuse_key(file, place, i,
@@ -72,7 +73,7 @@ void validate(const TimeSampling& sampling, std::size_t count, const std::string
     using Kind = TimeSampling::Kind;
     if (count == 0) throw InputError(file, place, "it has no keys");
     if (sampling.kind == Kind::uniform && !std::isfinite(sampling.start))
-        throw InputError(file, place, fmt::format("its start time is {}, not a number", sampling.start));
+        throw InputError(file, place, fmt::format("its start time is {}; it must be finite", sampling.start));
     if (sampling.kind != Kind::acyclic && !(sampling.period > 0.0 && std::isfinite(sampling.period)))
         throw InputError(file, place, fmt::format("its period is {} s; it must be positive", sampling.period));
 

@@ -34,7 +34,7 @@ struct Track {
 
 /// The value at a time: exactly the key's on a key, the first's before and the last's after. Equal neighbours give
 /// exactly that value, so what does not move is bit for bit the same at every time.
-/// Quaternions come back unit. Instantiated for double, dvec3, dquat, dmat4.
+/// Quaternions come back unit; NaN counts as before the first key. Instantiated for double, dvec3, dquat, dmat4.
 template <class T>
 T evaluate(const Track<T>& track, double seconds);
 
