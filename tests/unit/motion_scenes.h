@@ -1,6 +1,7 @@
 #pragma once
 // Small moving scenes made in code, and hits on them made by hand, for the tests of motion.
 
+#include <cmath>
 #include <numbers>
 #include <random>
 #include <string>
@@ -133,6 +134,25 @@ inline PointMotion point_motion(const Scene& scene, double now, double other, co
     const MotionField field = compute_model_motion(scene, moments.now(), moments.other(), hits, settings);
     return {field.displacement(width / 2, height / 2), field.path_length(width / 2, height / 2),
             field.validity(width / 2, height / 2)};
+}
+
+/// Vertical field of view that gives this focal length in pixels.
+inline double fov_of(double focal_length, int height) {
+    return 2.0 * std::atan(0.5 * height / focal_length);
+}
+
+/// One point before a camera of 1000 px focal length, 1000x1000. Node 0 holds the point, node 1 the camera.
+inline Scene make_point_scene(const glm::vec3& point, double focal_length = 1000.0) {
+    Scene scene;
+    Node node;
+    node.meshes = {add_point(scene, point)};
+    add_node(scene, node);
+    add_camera(scene, no_index, fov_of(focal_length, 1000));
+    return scene;
+}
+inline PointMotion motion_of_point(const Scene& scene, double now = 0.0, double other = 1.0,
+                                   const ModelMotionSettings& settings = {}) {
+    return point_motion(scene, now, other, {.instance = 0, .primitive = 0}, 1000, 1000, settings);
 }
 
 }  // namespace aleph
