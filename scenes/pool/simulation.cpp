@@ -1,0 +1,183 @@
+#include "scenes/pool/simulation.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+
+#include "engine/base/errors.h"
+
+namespace aleph {
+
+namespace {
+
+const glm::dvec3 cushion_normals[] = {{1.0, 0.0, 0.0}, {-1.0, 0.0, 0.0}, {0.0, 0.0, 1.0}, {0.0, 0.0, -1.0}};
+
+// m/s; below it an approach is rounding, not motion: in a minute it adds up to less than a tenth of a micrometre.
+constexpr double still_speed = 1e-10;
+// Far above what a rack needs; reached only if contacts would not come to an end.
+constexpr int most_events_per_step = 100000;
+constexpr int no_ball = -1;
+
+void move_freely(PoolBall& ball, double seconds) {
+    ball.position += ball.velocity * seconds;
+    const double rate = glm::length(ball.angular_velocity);
+    if (rate == 0.0) return;
+    const double half = 0.5 * rate * seconds;
+    const glm::dvec3 v = ball.angular_velocity * (std::sin(half) / rate);
+    ball.orientation = glm::normalize(glm::dquat(std::cos(half), v.x, v.y, v.z) * ball.orientation);
+}
+
+/// The earliest collision within a time; first = -1 if there is none.
+struct Contact {
+    double seconds = 0.0;
+    int first = -1, second = no_ball;
+    glm::dvec3 normal{0.0};  ///< of the cushion
+};
+
+void find_cushion_contact(const std::vector<PoolBall>& balls, int i, const PoolSettings& settings, Contact& best) {
+    const PoolBall& ball = balls[static_cast<std::size_t>(i)];
+    const glm::dvec3 half(0.5 * settings.length, 0.0, 0.5 * settings.width);
+    for (const glm::dvec3& normal : cushion_normals) {
+        const double approach = -glm::dot(ball.velocity, normal);
+        if (approach <= still_speed) continue;
+        const double gap = glm::dot(half, glm::abs(normal)) - settings.radius + glm::dot(ball.position, normal);
+        const double seconds = std::max(0.0, gap / approach);
+        if (seconds < best.seconds) best = {seconds, i, no_ball, normal};
+    }
+}
+
+void find_ball_contact(const std::vector<PoolBall>& balls, int i, int j, const PoolSettings& settings, Contact& best) {
+    const PoolBall& a = balls[static_cast<std::size_t>(i)];
+    const PoolBall& b = balls[static_cast<std::size_t>(j)];
+    const glm::dvec3 apart = b.position - a.position;
+    const glm::dvec3 relative = b.velocity - a.velocity;
+    const double towards = -glm::dot(apart, relative);
+    if (towards <= still_speed * glm::length(apart)) return;
+    const double gap = glm::dot(apart, apart) - 4.0 * settings.radius * settings.radius;
+    const double discriminant = towards * towards - glm::dot(relative, relative) * gap;
+    if (discriminant < 0.0) return;
+    const double seconds = std::max(0.0, gap / (towards + std::sqrt(discriminant)));
+    if (seconds < best.seconds) best = {seconds, i, j, {}};
+}
+
+Contact find_contact(const std::vector<PoolBall>& balls, double within, const PoolSettings& settings) {
+    Contact best;
+    best.seconds = within;
+    const int count = static_cast<int>(balls.size());
+    for (int i = 0; i < count; ++i) {
+        find_cushion_contact(balls, i, settings, best);
+        for (int j = i + 1; j < count; ++j) find_ball_contact(balls, i, j, settings, best);
+    }
+    return best;
+}
+
+/// The ball hit and all that touch it, directly or through others, in order of index.
+std::vector<int> find_touching(const std::vector<PoolBall>& balls, int start, const PoolSettings& settings) {
+    std::vector<int> members = {start};
+    const double reach = 2.0 * settings.radius + settings.touching_gap;
+    for (std::size_t next = 0; next < members.size(); ++next) {
+        const glm::dvec3& position = balls[static_cast<std::size_t>(members[next])].position;
+        for (int i = 0; i < static_cast<int>(balls.size()); ++i) {
+            if (glm::distance(position, balls[static_cast<std::size_t>(i)].position) > reach) continue;
+            if (std::find(members.begin(), members.end(), i) == members.end()) members.push_back(i);
+        }
+    }
+    std::sort(members.begin(), members.end());
+    return members;
+}
+
+PoolEvent resolve(std::vector<PoolBall>& balls, const Contact& contact, double now, const PoolSettings& settings) {
+    PoolEvent event;
+    event.seconds = now;
+    event.cushion = contact.second == no_ball;
+    event.balls = event.cushion ? std::vector<int>{contact.first} : find_touching(balls, contact.first, settings);
+    const auto sum_up = [&](glm::dvec3& momentum, double& energy) {
+        for (const int i : event.balls) {
+            const PoolBall& ball = balls[static_cast<std::size_t>(i)];
+            momentum += settings.mass * ball.velocity;
+            energy += kinetic_energy(ball, settings);
+        }
+    };
+    sum_up(event.momentum_before, event.energy_before);
+    if (event.cushion) {
+        collide_cushion(balls[static_cast<std::size_t>(contact.first)], contact.normal, settings);
+    } else {
+        collide_balls(balls, event.balls, settings);
+    }
+    sum_up(event.momentum_after, event.energy_after);
+    return event;
+}
+
+void advance(std::vector<PoolBall>& balls, double start, double step, const PoolSettings& settings,
+             std::vector<PoolEvent>& events) {
+    for (PoolBall& ball : balls) apply_cloth_friction(ball, step, settings);
+    double done = 0.0;
+    for (int count = 0;; ++count) {
+        ALEPH_CHECK(count < most_events_per_step, fmt::format("{} collisions at {} s", count, start));
+        const Contact contact = find_contact(balls, step - done, settings);
+        for (PoolBall& ball : balls) move_freely(ball, contact.seconds);
+        if (contact.first < 0) return;
+        done += contact.seconds;
+        events.push_back(resolve(balls, contact, start + done, settings));
+    }
+}
+
+bool is_finite(const glm::dvec3& v) {
+    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+}
+
+void check_input(const std::vector<PoolBall>& balls, const PoolSettings& settings, double duration, double rate) {
+    const auto require = [](bool good, const std::string& place, const char* reason) {
+        if (!good) throw InputError("", place, reason);
+    };
+    const PoolSettings& s = settings;
+    for (const double positive : {s.length, s.width, s.radius, s.mass, s.gravity, s.step, rate})
+        require(std::isfinite(positive) && positive > 0.0, "pool settings",
+                "sizes, mass, gravity and steps must be positive");
+    for (const double friction : {s.sliding_friction, s.rolling_friction, s.spin_deceleration, s.ball_friction,
+                                  s.cushion_friction, s.soft_speed, duration})
+        require(std::isfinite(friction) && friction >= 0.0, "pool settings",
+                "frictions and times must not be negative");
+    for (const double restitution : {s.ball_restitution, s.cushion_restitution})
+        require(restitution >= 0.0 && restitution <= 1.0, "pool settings", "restitution must lie between 0 and 1");
+    const double tolerance = 1e-9;  // m
+    for (std::size_t i = 0; i < balls.size(); ++i) {
+        const PoolBall& ball = balls[i];
+        const std::string place = fmt::format("ball {}", i);
+        require(is_finite(ball.position) && is_finite(ball.velocity) && is_finite(ball.angular_velocity), place,
+                "position and velocities must be finite");
+        require(ball.velocity.y == 0.0, place, "velocity must be horizontal");
+        require(std::abs(ball.position.x) <= 0.5 * s.length - s.radius + tolerance &&
+                    std::abs(ball.position.z) <= 0.5 * s.width - s.radius + tolerance,
+                place, "stands outside the cushions");
+        for (std::size_t j = 0; j < i; ++j)
+            require(glm::distance(ball.position, balls[j].position) >= 2.0 * s.radius - tolerance, place,
+                    "overlaps another ball");
+    }
+}
+
+}  // namespace
+
+PoolRun simulate_pool(std::vector<PoolBall> balls, const PoolSettings& settings, double duration,
+                      double samples_per_second) {
+    check_input(balls, settings, duration, samples_per_second);
+    PoolRun run;
+    run.samples_per_second = samples_per_second;
+    run.samples.push_back(balls);
+    // Whole sub-steps between samples, so that a sample is a state and not an interpolation.
+    const auto steps = static_cast<int>(std::ceil(1.0 / (samples_per_second * settings.step) - 1e-6));
+    const double step = 1.0 / (samples_per_second * steps);
+    const auto count = static_cast<int>(std::floor(duration * samples_per_second + 1e-6));
+    for (int i = 0; i < count; ++i) {
+        for (int k = 0; k < steps; ++k) {
+            const double start = static_cast<double>(i) / samples_per_second + k * step;
+            advance(balls, start, step, settings, run.events);
+        }
+        run.samples.push_back(balls);
+    }
+    return run;
+}
+
+}  // namespace aleph

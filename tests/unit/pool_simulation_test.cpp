@@ -1,0 +1,308 @@
+// The pool break's physics: what must be conserved, what must fall, and motions known in closed form.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <limits>
+
+#include "engine/base/errors.h"
+#include "scenes/pool/break.h"
+#include "scenes/pool/simulation.h"
+
+namespace aleph {
+namespace {
+
+/// The break that the scene `pool` shows.
+const PoolRun& break_run() {
+    static const PoolRun run = simulate_pool(make_rack(PoolSettings{}), PoolSettings{}, 3.0, 120.0);
+    return run;
+}
+
+PoolBall resting(double x, double z) {
+    PoolBall ball;
+    ball.position = {x, PoolSettings{}.radius, z};
+    return ball;
+}
+
+PoolBall rolling(double x, double z, const glm::dvec3& velocity) {
+    PoolBall ball = resting(x, z);
+    ball.velocity = velocity;
+    ball.angular_velocity = glm::cross(glm::dvec3(0.0, 1.0, 0.0), velocity) / PoolSettings{}.radius;
+    return ball;
+}
+
+void collide_pair(PoolBall& a, PoolBall& b, const PoolSettings& settings) {
+    std::vector<PoolBall> balls = {a, b};
+    collide_balls(balls, {0, 1}, settings);
+    a = balls[0];
+    b = balls[1];
+}
+
+PoolSettings without_friction() {
+    PoolSettings settings;
+    settings.sliding_friction = settings.rolling_friction = settings.ball_friction = settings.cushion_friction = 0.0;
+    settings.spin_deceleration = 0.0;
+    settings.ball_restitution = settings.cushion_restitution = 1.0;
+    settings.soft_speed = 0.0;
+    return settings;
+}
+
+TEST(PoolBreak, HasARackAndACueBallAndManyCollisions) {
+    const PoolRun& run = break_run();
+    EXPECT_EQ(run.samples.size(), 361u);
+    EXPECT_EQ(run.samples.front().size(), 16u);
+    const auto cushions =
+        std::count_if(run.events.begin(), run.events.end(), [](auto& event) { return event.cushion; });
+    EXPECT_GT(cushions, 12);
+    EXPECT_GT(static_cast<long>(run.events.size()) - cushions, 6);
+    EXPECT_EQ(run.events.front().balls.size(), 16u);  // the rack shares the first impact
+    // Everybody gets to move: each ball is at least one radius from where it stood.
+    for (std::size_t i = 0; i < 16; ++i)
+        EXPECT_GT(glm::distance(run.samples.front()[i].position, run.samples.back()[i].position), 0.028575) << i;
+}
+
+TEST(PoolBreak, MomentumIsConservedInEveryBallCollision) {
+    for (const PoolEvent& event : break_run().events) {
+        if (event.cushion) continue;
+        const double size = std::max(glm::length(event.momentum_before), 1e-3);
+        EXPECT_LE(glm::length(event.momentum_after - event.momentum_before), 1e-15 * size)
+            << event.balls.size() << " balls at " << event.seconds;
+    }
+}
+
+TEST(PoolBreak, EnergyNeverRises) {
+    const PoolSettings settings;
+    const PoolRun& run = break_run();
+    for (const PoolEvent& event : run.events)
+        EXPECT_LE(event.energy_after, event.energy_before * (1.0 + 4e-16)) << event.seconds;
+    double before = std::numeric_limits<double>::infinity();
+    for (const auto& balls : run.samples) {
+        const double now = kinetic_energy(balls, settings);
+        EXPECT_LE(now, before);
+        before = now;
+    }
+    EXPECT_LT(before, 0.5 * kinetic_energy(run.samples.front(), settings));
+    EXPECT_GT(before, 0.0);
+}
+
+TEST(PoolBreak, BallsNeverOverlapAndStayOnTheTable) {
+    const PoolSettings settings;
+    double nearest = 1.0;
+    for (const auto& balls : break_run().samples) {
+        for (std::size_t i = 0; i < balls.size(); ++i) {
+            EXPECT_EQ(balls[i].position.y, settings.radius);
+            EXPECT_LE(std::abs(balls[i].position.x), 0.5 * settings.length - settings.radius + 1e-9);
+            EXPECT_LE(std::abs(balls[i].position.z), 0.5 * settings.width - settings.radius + 1e-9);
+            for (std::size_t j = 0; j < i; ++j)
+                nearest = std::min(nearest, glm::distance(balls[i].position, balls[j].position));
+        }
+    }
+    EXPECT_GE(nearest, 2.0 * settings.radius - 1e-9);
+    EXPECT_LT(nearest, 2.0 * settings.radius + 1e-3);  // the test saw balls that touch
+}
+
+TEST(PoolBreak, SpinIsExchanged) {
+    // The rack starts without any spin about y; friction between balls and cushions makes some.
+    double most = 0.0;
+    for (const auto& balls : break_run().samples)
+        for (std::size_t i = 0; i + 1 < balls.size(); ++i) most = std::max(most, std::abs(balls[i].angular_velocity.y));
+    EXPECT_GT(most, 1.0);
+}
+
+TEST(PoolBreak, SameArgumentsGiveTheSameBits) {
+    const PoolRun again = simulate_pool(make_rack(PoolSettings{}), PoolSettings{}, 3.0, 120.0);
+    const PoolRun& run = break_run();
+    ASSERT_EQ(again.events.size(), run.events.size());
+    for (std::size_t i = 0; i < run.samples.back().size(); ++i) {
+        EXPECT_EQ(again.samples.back()[i].position, run.samples.back()[i].position);
+        EXPECT_EQ(again.samples.back()[i].orientation, run.samples.back()[i].orientation);
+    }
+}
+
+TEST(PoolSimulation, BallAtRestStaysAtRest) {
+    const PoolRun run = simulate_pool({resting(0.3, -0.2), resting(0.3 + 2 * 0.028575, -0.2)}, {}, 1.0, 60.0);
+    EXPECT_TRUE(run.events.empty());
+    for (const auto& balls : run.samples) {
+        EXPECT_EQ(balls[0].position, run.samples[0][0].position);
+        EXPECT_EQ(balls[1].position, run.samples[0][1].position);
+        EXPECT_EQ(balls[0].orientation, glm::dquat(1.0, 0.0, 0.0, 0.0));
+    }
+}
+
+TEST(PoolSimulation, HeadOnElasticCollisionSwapsVelocities) {
+    const PoolSettings settings = without_friction();
+    PoolBall a = resting(-0.3, 0.1), b = resting(0.2, 0.1);
+    a.velocity = {1.5, 0.0, 0.0};
+    b.velocity = {-0.5, 0.0, 0.0};
+    const PoolRun run = simulate_pool({a, b}, settings, 0.3, 100.0);
+    ASSERT_EQ(run.events.size(), 1u);
+    EXPECT_NEAR(run.events[0].seconds, (0.5 - 2 * settings.radius) / 2.0, 1e-12);
+    EXPECT_NEAR(run.samples.back()[0].velocity.x, -0.5, 1e-14);
+    EXPECT_NEAR(run.samples.back()[1].velocity.x, 1.5, 1e-14);
+}
+
+TEST(PoolSimulation, ElasticObliqueCollisionPartsAtARightAngle) {
+    // Equal masses, one at rest: the velocities afterwards are orthogonal and their squares sum to the first one's.
+    const PoolSettings settings = without_friction();
+    PoolBall a = resting(0.0, 0.0),
+             b = resting(2 * settings.radius * std::cos(0.6), 2 * settings.radius * std::sin(0.6));
+    a.velocity = {2.0, 0.0, 0.0};
+    collide_pair(a, b, settings);
+    EXPECT_NEAR(glm::dot(a.velocity, b.velocity), 0.0, 1e-14);
+    EXPECT_NEAR(glm::length(b.velocity), 2.0 * std::cos(0.6), 1e-14);
+    EXPECT_NEAR(glm::length(a.velocity), 2.0 * std::sin(0.6), 1e-14);
+}
+
+TEST(PoolSimulation, RestitutionSetsTheSpeedOfParting) {
+    PoolSettings settings;
+    PoolBall a = resting(0.0, 0.0), b = resting(2 * settings.radius, 0.0);
+    a.velocity = {2.0, 0.0, 0.0};
+    collide_pair(a, b, settings);
+    EXPECT_NEAR(b.velocity.x - a.velocity.x, 2.0 * settings.ball_restitution, 1e-14);
+    PoolBall c = rolling(1.0, 0.0, {2.0, 0.0, 0.0});
+    collide_cushion(c, {-1.0, 0.0, 0.0}, settings);
+    EXPECT_NEAR(c.velocity.x, -2.0 * settings.cushion_restitution, 1e-14);
+}
+
+TEST(PoolSimulation, TwoBallsStruckAtOncePartAsMomentumAndEnergyDemand) {
+    // Elastic, without friction, symmetric: 2 u cos(30) = v - v', 2 u^2 = v^2 - v'^2, so u = .4 sqrt(3) v and v' = -v
+    // / 5.
+    const PoolSettings settings = without_friction();
+    const double pitch = 2.0 * settings.radius;
+    std::vector<PoolBall> balls = {resting(0.0, 0.0), resting(pitch * std::sqrt(0.75), 0.5 * pitch),
+                                   resting(pitch * std::sqrt(0.75), -0.5 * pitch)};
+    balls[0].velocity = {3.0, 0.0, 0.0};
+    collide_balls(balls, {0, 1, 2}, settings);
+    EXPECT_NEAR(balls[0].velocity.x, -0.6, 1e-4);
+    EXPECT_NEAR(balls[0].velocity.z, 0.0, 1e-14);
+    for (const int i : {1, 2}) EXPECT_NEAR(glm::length(balls[i].velocity), 1.2 * std::sqrt(3.0), 1e-4);
+    EXPECT_NEAR(balls[1].velocity.z, -balls[2].velocity.z, 1e-14);
+    EXPECT_NEAR(balls[0].velocity.x + balls[1].velocity.x + balls[2].velocity.x, 3.0, 1e-14);
+}
+
+TEST(PoolSimulation, RowOfTouchingBallsPassesTheImpactOn) {
+    // Hertz's contacts in a row: nearly all goes to the last ball, a little stays, nobody overtakes anybody.
+    const PoolSettings settings = without_friction();
+    std::vector<PoolBall> balls;
+    for (int i = 0; i < 5; ++i) balls.push_back(resting(i * 2.0 * settings.radius, 0.0));
+    balls[0].velocity = {2.0, 0.0, 0.0};
+    const double energy = kinetic_energy(balls, settings);
+    collide_balls(balls, {0, 1, 2, 3, 4}, settings);
+    double sum = 0.0;
+    for (std::size_t i = 0; i < balls.size(); ++i) {
+        sum += balls[i].velocity.x;
+        EXPECT_GE(balls[i].velocity.x, balls[i > 0 ? i - 1 : 0].velocity.x - 1e-12);
+    }
+    EXPECT_NEAR(sum, 2.0, 1e-14);
+    EXPECT_GT(balls[4].velocity.x, 1.8);
+    EXPECT_LT(balls[4].velocity.x, 2.0);
+    EXPECT_NEAR(kinetic_energy(balls, settings), energy, 1e-4 * energy);
+}
+
+TEST(PoolSimulation, ContactFrictionTurnsTheOtherBall) {
+    // Side spin on a: its surface slides along b at 1.143 m/s, the friction impulse is mu times the normal one.
+    const PoolSettings settings;
+    PoolBall a = resting(0.0, 0.0), b = resting(2 * settings.radius, 0.0);
+    a.velocity = {2.0, 0.0, 0.0};
+    a.angular_velocity = {0.0, 40.0, 0.0};
+    collide_pair(a, b, settings);
+    const double push = 0.5 * (1.0 + settings.ball_restitution) * 2.0;
+    const double sideways = settings.ball_friction * push;
+    EXPECT_NEAR(b.velocity.z, -sideways, 1e-14);
+    EXPECT_NEAR(a.velocity.z, sideways, 1e-14);
+    const double turn = 2.5 * sideways / settings.radius;
+    EXPECT_NEAR(a.angular_velocity.y, 40.0 - turn, 1e-12);
+    EXPECT_NEAR(b.angular_velocity.y, -turn, 1e-12);
+}
+
+TEST(PoolSimulation, StruckBallEndsRollingWithFiveSeventhsOfItsSpeed) {
+    PoolSettings settings;
+    settings.rolling_friction = 0.0;
+    PoolBall ball = resting(-1.0, 0.0);
+    ball.velocity = {2.0, 0.0, 0.0};
+    // It slides for 2/7 v / (mu g) = .2913 s.
+    const double sliding = 2.0 / 7.0 * 2.0 / (settings.sliding_friction * settings.gravity);
+    const PoolRun run = simulate_pool({ball}, settings, 0.5, 120.0);
+    const PoolBall& end = run.samples.back()[0];
+    EXPECT_NEAR(end.velocity.x, 10.0 / 7.0, 1e-12);
+    EXPECT_NEAR(-end.angular_velocity.z * settings.radius, end.velocity.x, 1e-12);  // v = omega r
+    EXPECT_LT(glm::length(cloth_slip(end, settings)), 1e-12);
+    for (std::size_t i = 0; i < run.samples.size(); ++i) {
+        const double t = static_cast<double>(i) / 120.0;
+        const double slip = glm::length(cloth_slip(run.samples[i][0], settings));
+        EXPECT_NEAR(slip, std::max(0.0, 2.0 * (1.0 - t / sliding)), 1e-10) << t;
+    }
+}
+
+TEST(PoolSimulation, RollingBallTurnsByDistanceOverRadius) {
+    const PoolSettings settings;
+    const glm::dvec3 velocity(0.9, 0.0, 0.3);
+    const PoolRun run = simulate_pool({rolling(-1.0, -0.4, velocity)}, settings, 1.5, 120.0);
+    const glm::dvec3 axis = glm::normalize(glm::cross(glm::dvec3(0.0, 1.0, 0.0), velocity));
+    for (const auto& sample : run.samples) {
+        const PoolBall& ball = sample[0];
+        const double distance = glm::distance(ball.position, run.samples[0][0].position);
+        const glm::dquat expected = glm::angleAxis(distance / settings.radius, axis);
+        EXPECT_NEAR(std::abs(glm::dot(ball.orientation, expected)), 1.0, 1e-12);
+        EXPECT_NEAR(glm::length(ball.velocity), settings.radius * glm::length(ball.angular_velocity), 1e-12);
+    }
+    EXPECT_GT(glm::distance(run.samples.back()[0].position, run.samples[0][0].position), 1.0);
+}
+
+TEST(PoolSimulation, RollingBallStopsAfterVSquaredOverTwoMuG) {
+    const PoolSettings settings;
+    const double speed = 0.4;
+    const double deceleration = settings.rolling_friction * settings.gravity;
+    const PoolRun run = simulate_pool({rolling(-1.0, 0.0, {speed, 0.0, 0.0})}, settings, 5.0, 10.0);
+    EXPECT_NEAR(run.samples.back()[0].position.x, -1.0 + speed * speed / (2.0 * deceleration), 1e-4);
+    EXPECT_EQ(run.samples.back()[0].velocity, glm::dvec3(0.0));
+    EXPECT_EQ(run.samples.back()[0].position, run.samples[run.samples.size() - 5][0].position);
+    // Half way in time, s = v t - a t^2 / 2. The sub-steps' error is of first order, a v dt / 2.
+    EXPECT_NEAR(run.samples[20][0].position.x, -1.0 + speed * 2.0 - 0.5 * deceleration * 4.0, 1e-4);
+}
+
+TEST(PoolSimulation, SpinAboutTheVerticalDiesAwayWhereItStands) {
+    const PoolSettings settings;
+    PoolBall ball = resting(0.0, 0.0);
+    ball.angular_velocity = {0.0, 12.0, 0.0};
+    const PoolRun run = simulate_pool({ball}, settings, 2.0, 100.0);
+    EXPECT_NEAR(run.samples[50][0].angular_velocity.y, 12.0 - 0.5 * settings.spin_deceleration, 1e-9);
+    EXPECT_EQ(run.samples.back()[0].angular_velocity.y, 0.0);
+    EXPECT_EQ(run.samples.back()[0].position, ball.position);
+}
+
+TEST(PoolSimulation, MirroredBreakRunsMirrored) {
+    std::vector<PoolBall> balls = {rolling(-0.5, 0.013, {2.0, 0.0, -0.05}), resting(0.1, 0.0), resting(0.3, 0.05)};
+    const PoolRun run = simulate_pool(balls, {}, 1.0, 60.0);
+    for (PoolBall& ball : balls) {
+        ball.position.z = -ball.position.z;
+        ball.velocity.z = -ball.velocity.z;
+        ball.angular_velocity.x = -ball.angular_velocity.x;
+        ball.angular_velocity.y = -ball.angular_velocity.y;
+    }
+    const PoolRun mirrored = simulate_pool(balls, {}, 1.0, 60.0);
+    ASSERT_GT(run.events.size(), 1u);
+    ASSERT_EQ(run.events.size(), mirrored.events.size());
+    for (std::size_t i = 0; i < balls.size(); ++i) {
+        EXPECT_NEAR(run.samples.back()[i].position.x, mirrored.samples.back()[i].position.x, 1e-9);
+        EXPECT_NEAR(run.samples.back()[i].position.z, -mirrored.samples.back()[i].position.z, 1e-9);
+    }
+}
+
+TEST(PoolSimulation, RefusesBadInput) {
+    const PoolBall good = resting(0.0, 0.0);
+    PoolBall broken = good;
+    broken.velocity.x = std::numeric_limits<double>::quiet_NaN();
+    EXPECT_THROW(simulate_pool({broken}, {}, 1.0, 60.0), InputError);
+    EXPECT_THROW(simulate_pool({good, resting(0.01, 0.0)}, {}, 1.0, 60.0), InputError);
+    EXPECT_THROW(simulate_pool({resting(2.0, 0.0)}, {}, 1.0, 60.0), InputError);
+    EXPECT_THROW(simulate_pool({good}, {}, 1.0, 0.0), InputError);
+    PoolSettings settings;
+    settings.ball_restitution = 1.5;
+    EXPECT_THROW(simulate_pool({good}, settings, 1.0, 60.0), InputError);
+}
+
+}  // namespace
+}  // namespace aleph
