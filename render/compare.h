@@ -1,0 +1,78 @@
+#pragma once
+// How far one picture is from another: the numbers behind golden images, studies and `aleph compare`.
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "engine/image_io.h"
+
+namespace aleph {
+
+struct CompareSettings {
+    double tolerance = 0.0;             ///< largest allowed |a - b|, in the channel's unit
+    double relative = 0.0;              ///< allowed on top, times |b|
+    double share = 0.0;                 ///< percent of pixels that may lie beyond
+    std::vector<std::string> channels;  ///< channels ("Z") or layers ("forward"); empty: all
+};
+
+/// Errors over a set of values; pairs with a NaN or an infinity are counted elsewhere and left out here.
+struct Difference {
+    double max_abs = 0.0;
+    double rms = 0.0;           ///< root of the mean squared difference
+    double relative_mse = 0.0;  ///< mean of (a-b)^2 / (b^2 + e^2), e = 1 % of the mean of |b|
+};
+
+struct ChannelDifference {
+    std::string name;
+    Difference difference;
+    int x = 0, y = 0;        ///< the first pixel of the largest difference
+    std::size_t beyond = 0;  ///< pixels beyond the tolerance
+};
+
+/// Against an Aleph map: pixels whose luminance differs by more than a viewer tolerates there.
+struct ThresholdDifference {
+    std::size_t beyond = 0;      ///< pixels with display_white |Y_a - Y_b| > threshold.Y, or without a finite threshold
+    double display_white = 100;  ///< cd/m2 of Y = 1: `whiteLuminance` of b, else of a, else 100
+    double worst = 0.0;          ///< the largest difference over its threshold
+};
+
+/// How many values of a picture are no numbers.
+struct NonFinite {
+    std::size_t nan = 0, inf = 0;
+    bool any() const { return nan + inf > 0; }
+};
+
+struct CompareResult {
+    int width = 0, height = 0;
+    std::vector<ChannelDifference> channels;       ///< in the order of b
+    Difference all;                                ///< over all compared channels
+    std::optional<Difference> colour;              ///< over R, G and B, where they are compared
+    NonFinite a, b;                                ///< over the compared channels
+    std::size_t beyond = 0;                        ///< pixels beyond the tolerance in any channel
+    std::optional<std::size_t> yee;                ///< pixels that fail Yee's metric; none without finite R, G, B
+    std::optional<ThresholdDifference> threshold;  ///< if a map was given
+    bool same = false;
+
+    std::size_t pixels() const { return static_cast<std::size_t>(width) * static_cast<std::size_t>(height); }
+    double percent(std::size_t count) const {
+        return 100.0 * static_cast<double>(count) / static_cast<double>(pixels());
+    }
+};
+
+/// Compares `a` with the reference `b`. The same: no NaN or infinity in either (not even in both), and at most
+/// `share` percent of the pixels beyond the tolerance or, where an Aleph map is given, beyond its threshold.
+/// Yee's metric is taken at 31 pixels per degree (thesis 5.1.3). 8-bit pictures count as sRGB for
+/// luminance and for Yee's metric.
+/// @param aleph_map  holds `threshold.Y` in cd/m2, or null
+/// @throws InputError if sizes or channels differ, or a named channel is missing
+CompareResult compare_images(const ChannelImage& a, const ChannelImage& b, const CompareSettings& settings = {},
+                             const ChannelImage* aleph_map = nullptr);
+
+/// The difference as a picture: |R|, |G|, |B| where both have them, else the largest of any channel as grey; the
+/// largest difference is white; magenta where a value is no number.
+/// @throws InputError as compare_images
+Image<Rgb> difference_picture(const ChannelImage& a, const ChannelImage& b, const CompareSettings& settings = {});
+
+}  // namespace aleph

@@ -1,0 +1,235 @@
+// The numbers of compare_images against values worked out by hand.
+
+#include "render/compare.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "engine/base/errors.h"
+
+namespace aleph {
+namespace {
+
+constexpr float nan_value = std::numeric_limits<float>::quiet_NaN();
+constexpr float infinity = std::numeric_limits<float>::infinity();
+
+ChannelImage grey_image(int width, int height, float value) {
+    ChannelImage image;
+    for (const char* name : {"R", "G", "B"}) image.channels.push_back({name, Image<float>(width, height, value)});
+    return image;
+}
+
+ChannelImage one_channel(const std::string& name, std::vector<float> values) {
+    Image<float> row(static_cast<int>(values.size()), 1);
+    row.pixels = std::move(values);
+    return {{{name, row}}, {}};
+}
+
+ChannelImage threshold_map(int width, int height, float value) {
+    return {{{"threshold.Y", Image<float>(width, height, value)}}, {}};
+}
+
+TEST(Compare, EqualPicturesAreTheSame) {
+    const ChannelImage image = grey_image(8, 6, 0.5f);
+    const CompareResult result = compare_images(image, image);
+    EXPECT_TRUE(result.same);
+    EXPECT_EQ(result.all.max_abs, 0.0);
+    EXPECT_EQ(result.all.rms, 0.0);
+    EXPECT_EQ(result.all.relative_mse, 0.0);
+    EXPECT_EQ(result.beyond, 0u);
+    EXPECT_EQ(result.yee, 0u);
+}
+
+TEST(Compare, NumbersByHand) {
+    // b = 1 2 4 1: mean 2, e = .02. Differences 0 .5 -2 0.
+    const auto a = one_channel("Z", {1.0f, 2.5f, 2.0f, 1.0f}), b = one_channel("Z", {1.0f, 2.0f, 4.0f, 1.0f});
+    const CompareResult result = compare_images(a, b);
+    EXPECT_FALSE(result.same);
+    EXPECT_DOUBLE_EQ(result.all.max_abs, 2.0);
+    EXPECT_DOUBLE_EQ(result.all.rms, std::sqrt((0.25 + 4.0) / 4.0));
+    EXPECT_NEAR(result.all.relative_mse, (0.25 / 4.0004 + 4.0 / 16.0004) / 4.0, 1e-15);
+    EXPECT_EQ(result.beyond, 2u);
+    ASSERT_EQ(result.channels.size(), 1u);
+    EXPECT_EQ(result.channels[0].x, 2);
+    EXPECT_FALSE(result.colour.has_value());
+    EXPECT_FALSE(result.yee.has_value());
+}
+
+TEST(Compare, ToleranceRelativeAndShare) {
+    const auto a = one_channel("Z", {1.0f, 2.5f, 2.0f, 1.0f}), b = one_channel("Z", {1.0f, 2.0f, 4.0f, 1.0f});
+    const auto beyond = [&](double tolerance, double relative) {
+        return compare_images(a, b, {tolerance, relative, 0.0, {}}).beyond;
+    };
+    EXPECT_EQ(beyond(0.5, 0.0), 1u);
+    EXPECT_EQ(beyond(2.0, 0.0), 0u);
+    EXPECT_EQ(beyond(0.0, 0.25), 1u);
+    EXPECT_EQ(beyond(1.0, 0.25), 0u);
+    EXPECT_FALSE(compare_images(a, b, {0.5, 0.0, 24.9, {}}).same);
+    EXPECT_TRUE(compare_images(a, b, {0.5, 0.0, 25.0, {}}).same);
+}
+
+TEST(Compare, ReferenceZeroEverywhereIsInfinitelyFar) {
+    const auto zero = one_channel("Z", {0.0f, 0.0f}), one = one_channel("Z", {0.0f, 1.0f});
+    EXPECT_EQ(compare_images(one, zero).all.relative_mse, std::numeric_limits<double>::infinity());
+    EXPECT_EQ(compare_images(zero, zero).all.relative_mse, 0.0);
+}
+
+TEST(Compare, NanAndInfinityAreNeverTheSame) {
+    const ChannelImage clean = grey_image(4, 4, 0.5f);
+    for (const float bad : {nan_value, infinity, -infinity}) {
+        ChannelImage damaged = clean;
+        damaged.channels[1].values(2, 3) = bad;
+        const CompareSettings lenient{1e30, 0.0, 100.0, {}};
+        EXPECT_FALSE(compare_images(damaged, clean, lenient).same);
+        EXPECT_FALSE(compare_images(clean, damaged, lenient).same);
+        EXPECT_FALSE(compare_images(damaged, damaged, lenient).same);
+        const CompareResult result = compare_images(damaged, clean, lenient);
+        EXPECT_EQ(result.a.nan, std::isnan(bad) ? 1u : 0u);
+        EXPECT_EQ(result.a.inf, std::isnan(bad) ? 0u : 1u);
+        EXPECT_FALSE(result.b.any());
+        EXPECT_EQ(result.all.max_abs, 0.0);
+        EXPECT_FALSE(result.yee.has_value());
+    }
+}
+
+TEST(Compare, OtherShapesAreErrors) {
+    EXPECT_THROW(compare_images(grey_image(4, 4, 0.0f), grey_image(4, 5, 0.0f)), InputError);
+    EXPECT_THROW(compare_images(grey_image(4, 4, 0.0f), {}), InputError);
+    ChannelImage more = grey_image(4, 4, 0.0f);
+    more.channels.push_back({"Z", Image<float>(4, 4)});
+    try {
+        compare_images(grey_image(4, 4, 0.0f), more);
+        FAIL();
+    } catch (const InputError& e) {
+        EXPECT_NE(std::string(e.what()).find("only the second [Z]"), std::string::npos) << e.what();
+    }
+    EXPECT_TRUE(compare_images(grey_image(4, 4, 0.0f), more, {0.0, 0.0, 0.0, {"R", "G"}}).same);
+    EXPECT_THROW(compare_images(more, more, {0.0, 0.0, 0.0, {"N"}}), InputError);
+}
+
+TEST(Compare, LayersNameTheirChannels) {
+    ChannelImage a = one_channel("forward.u", {0.0f});
+    a.channels.push_back({"forward.v", Image<float>(1, 1, 0.0f)});
+    a.channels.push_back({"forwardness", Image<float>(1, 1, 0.0f)});
+    const auto result = compare_images(a, a, {0.0, 0.0, 0.0, {"forward", "forward.u"}});
+    ASSERT_EQ(result.channels.size(), 2u);
+    EXPECT_EQ(result.channels[0].name, "forward.u");
+    EXPECT_EQ(result.channels[1].name, "forward.v");
+}
+
+TEST(Compare, ChannelOrderDoesNotMatter) {
+    ChannelImage a = grey_image(2, 2, 0.25f);
+    a.channels[0].values(1, 1) = 0.5f;
+    ChannelImage b = a;
+    std::swap(b.channels[0], b.channels[2]);
+    EXPECT_TRUE(compare_images(a, b).same);
+}
+
+TEST(Compare, ThresholdMapDecidesWhatCounts) {
+    const ChannelImage b = grey_image(4, 1, 0.5f);
+    ChannelImage a = b;
+    // Green carries .7152 of luminance: 100 * .7152 * .01 = .7152 cd/m2, three times that at x = 3.
+    a.channels[1].values(1, 0) += 0.01f;
+    a.channels[1].values(3, 0) += 0.03f;
+    const auto map = threshold_map(4, 1, 1.0f);
+    const CompareResult result = compare_images(a, b, {}, &map);
+    ASSERT_TRUE(result.threshold.has_value());
+    EXPECT_EQ(result.threshold->beyond, 1u);
+    EXPECT_NEAR(result.threshold->worst, 2.1456, 1e-4);
+    EXPECT_EQ(result.beyond, 2u);
+    EXPECT_FALSE(result.same);
+    EXPECT_TRUE(compare_images(a, b, {0.0, 0.0, 25.0, {}}, &map).same);
+    const auto loose = threshold_map(4, 1, 3.0f);
+    EXPECT_TRUE(compare_images(a, b, {}, &loose).same);
+}
+
+TEST(Compare, ThresholdUsesTheFilesWhiteLuminance) {
+    ChannelImage b = grey_image(1, 1, 0.5f);
+    const ChannelImage a = grey_image(1, 1, 0.52f);
+    const auto map = threshold_map(1, 1, 3.0f);
+    EXPECT_EQ(compare_images(a, b, {}, &map).threshold->beyond, 0u);  // 2 cd/m2
+    b.metadata["whiteLuminance"] = 200.0;
+    const auto brighter = compare_images(a, b, {}, &map);  // 4 cd/m2
+    EXPECT_EQ(brighter.threshold->display_white, 200.0);
+    EXPECT_EQ(brighter.threshold->beyond, 1u);
+}
+
+TEST(Compare, BrokenThresholdsCount) {
+    const ChannelImage image = grey_image(3, 1, 0.5f);
+    auto map = threshold_map(3, 1, 1.0f);
+    map.channels[0].values(1, 0) = nan_value;
+    map.channels[0].values(2, 0) = infinity;
+    EXPECT_EQ(compare_images(image, image, {}, &map).threshold->beyond, 2u);
+    const auto other_size = threshold_map(2, 1, 1.0f);
+    EXPECT_THROW(compare_images(image, image, {}, &other_size), InputError);
+    const auto no_threshold = one_channel("aleph.Y", {1.0f, 1.0f, 1.0f});
+    EXPECT_THROW(compare_images(image, image, {}, &no_threshold), InputError);
+}
+
+TEST(Compare, YeeCountsWhatAViewerWouldSee) {
+    const auto failing = [](float value, float reference) {
+        return *compare_images(grey_image(64, 48, value), grey_image(64, 48, reference)).yee;
+    };
+    // A flat field has no masking: the limit is TVI at the mean of both, 50 cd/m2: log10 = (.249 1.699 + .65)^2.7 - .72
+    // = .4897, so 3.088 cd/m2.
+    EXPECT_EQ(failing(0.5154f, 0.4846f), 0u);
+    EXPECT_EQ(failing(0.5155f, 0.4845f), 64u * 48u);
+    EXPECT_EQ(failing(0.0f, 1.0f), 64u * 48u);  // OpenImageIO 2.4.7 passes this
+    EXPECT_EQ(compare_images(grey_image(1, 1, 0.5f), grey_image(1, 1, 0.5f)).yee, 0u);
+}
+
+TEST(Compare, YeeForgivesMoreInTexture) {
+    ChannelImage flat = grey_image(64, 64, 0.5f), texture = flat;
+    for (Channel& channel : texture.channels) {
+        for (int y = 0; y < 64; ++y) {
+            for (int x = 0; x < 64; ++x) channel.values(x, y) += (x + y) % 2 ? 0.25f : -0.25f;
+        }
+    }
+    const auto brighter = [](ChannelImage image) {
+        for (Channel& channel : image.channels) {
+            for (float& v : channel.values.pixels) v += 0.04f;
+        }
+        return image;
+    };
+    EXPECT_EQ(compare_images(brighter(flat), flat).yee, 64u * 64u);
+    EXPECT_EQ(compare_images(brighter(texture), texture).yee, 0u);
+}
+
+TEST(Compare, YeeSeesColourAtEqualLuminance) {
+    const auto with_colour = [](float r, float g, float b) {
+        ChannelImage image = grey_image(16, 16, 0.0f);
+        image.channels[0].values = Image<float>(16, 16, r);
+        image.channels[1].values = Image<float>(16, 16, g);
+        image.channels[2].values = Image<float>(16, 16, b);
+        return image;
+    };
+    const float green = (0.5f - 0.2126f * 0.8f - 0.0722f * 0.5f) / 0.7152f;
+    EXPECT_EQ(compare_images(with_colour(0.8f, green, 0.5f), with_colour(0.5f, 0.5f, 0.5f)).yee, 256u);
+    EXPECT_EQ(compare_images(with_colour(0.5001f, 0.5f, 0.5f), with_colour(0.5f, 0.5f, 0.5f)).yee, 0u);
+}
+
+TEST(Compare, EncodedPicturesAreMadeLinearForLuminance) {
+    ChannelImage a = grey_image(1, 1, 188.0f / 255.0f), b = grey_image(1, 1, 0.0f);
+    a.metadata["encoding"] = b.metadata["encoding"] = std::string("sRGB");
+    const auto map = threshold_map(1, 1, 1.0f);
+    EXPECT_NEAR(compare_images(a, b, {}, &map).threshold->worst, 50.289, 0.01);  // sRGB 188 is .50289 linear
+}
+
+TEST(Compare, DifferencePictureShowsWhereAndMarksNan) {
+    ChannelImage b = grey_image(3, 1, 0.5f), a = b;
+    a.channels[0].values(0, 0) = 0.75f;
+    a.channels[2].values(1, 0) = 0.375f;
+    a.channels[1].values(2, 0) = nan_value;
+    const Image<Rgb> picture = difference_picture(a, b);
+    EXPECT_EQ(picture(0, 0), Rgb(1.0f, 0.0f, 0.0f));
+    EXPECT_EQ(picture(1, 0), Rgb(0.0f, 0.0f, 0.5f));
+    EXPECT_EQ(picture(2, 0), Rgb(1.0f, 0.0f, 1.0f));
+    const Image<Rgb> grey = difference_picture(one_channel("Z", {1.0f, 3.0f}), one_channel("Z", {0.0f, 1.0f}));
+    EXPECT_EQ(grey(0, 0), Rgb(0.5f));
+    EXPECT_EQ(grey(1, 0), Rgb(1.0f));
+}
+
+}  // namespace
+}  // namespace aleph
