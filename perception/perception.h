@@ -17,8 +17,8 @@ struct PerceptionMaps {
     Image<float> saliency;          ///< [0,1]; filled with guide `saliency`
     /// N-weighted sums per channel before their own N(.); filled with guide `saliency`, on request
     Image<float> conspicuity_intensity, conspicuity_color, conspicuity_orientation, conspicuity_motion;
-    bool fallback = false;         ///< nothing stood out, or everything did: S = .82 everywhere (thesis 7.2)
-    std::uint64_t clamped = 0;     ///< aleph values that left [1, 250.76] before the final clamp; 0 in valid scenes
+    bool fallback = false;      ///< nothing stood out, or everything did: S = .82 everywhere (thesis 7.2)
+    std::uint64_t clamped = 0;  ///< aleph values that left [1, 250.76] before the final clamp; 0 in valid scenes
 };
 
 /// Which of the maps beyond `aleph` are wanted: each costs memory traffic.

@@ -1,0 +1,217 @@
+#include "engine/base/pyramid.h"
+
+#include <algorithm>
+
+#include "engine/base/parallel.h"
+
+namespace aleph {
+
+namespace {
+
+constexpr float kernel_center = 0.4f;
+constexpr float kernel_near = 0.25f;
+constexpr float kernel_far = 0.05f;
+constexpr int padding = 2;  // the kernel's reach
+constexpr std::size_t rows_per_chunk = 32;
+
+int half_size(int n) {
+    return (n + 1) / 2;
+}
+
+/// The kernel down the columns at row y, into `out` (padded on both sides for the pass along the row).
+void filter_columns(const Image<float>& image, int y, float* out) {
+    const int w = image.width;
+    const float* const center = image.row(y);
+    if (image.height == 1) {
+        std::copy_n(center, w, out);
+    } else {
+        const float* const up = image.row(reflect_101(y - 1, image.height));
+        const float* const up2 = image.row(reflect_101(y - 2, image.height));
+        const float* const down = image.row(reflect_101(y + 1, image.height));
+        const float* const down2 = image.row(reflect_101(y + 2, image.height));
+        for (int x = 0; x < w; ++x) {
+            out[x] = kernel_far * (up2[x] + down2[x]) + kernel_near * (up[x] + down[x]) + kernel_center * center[x];
+        }
+    }
+    for (int i = 1; i <= padding; ++i) {
+        out[-i] = out[reflect_101(-i, w)];
+        out[w - 1 + i] = out[reflect_101(w - 1 + i, w)];
+    }
+}
+
+float filter_at(const float* row, int x) {
+    return kernel_far * (row[x - 2] + row[x + 2]) + kernel_near * (row[x - 1] + row[x + 1]) + kernel_center * row[x];
+}
+
+/// Index of the coarse sample i under the finer axis' reflection: fine positions 2i keep their parity.
+int reflect_coarse(int i, int fine) {
+    return reflect_101(2 * i, fine) / 2;
+}
+
+/// One coarse axis step along a row: `coarse` has a pad of one float on both sides, filled here.
+void expand_along_row(float* coarse, int coarse_width, float* out, int fine_width) {
+    if (coarse_width == 1) {
+        std::fill_n(out, fine_width, coarse[0]);
+        return;
+    }
+    coarse[-1] = coarse[reflect_coarse(-1, fine_width)];
+    coarse[coarse_width] = coarse[reflect_coarse(coarse_width, fine_width)];
+    const int pairs = fine_width / 2;
+    for (int i = 0; i < pairs; ++i) {
+        out[2 * i] = 2 * kernel_far * (coarse[i - 1] + coarse[i + 1]) + 2 * kernel_center * coarse[i];
+        out[2 * i + 1] = 2 * kernel_near * (coarse[i] + coarse[i + 1]);
+    }
+    if (fine_width % 2 != 0) {
+        const int i = pairs;
+        out[2 * i] = 2 * kernel_far * (coarse[i - 1] + coarse[i + 1]) + 2 * kernel_center * coarse[i];
+    }
+}
+
+/// Some rows of a level: row y lies at data + (y - first) * width.
+struct RowWindow {
+    const float* data;
+    int first;
+};
+
+/// Fine rows [begin, end) from a window that holds every coarse row they need. `column_sums`: coarse width + 2 floats.
+void expand_window(RowWindow coarse, LevelSize coarse_size, LevelSize fine_size, int begin, int end, float* out,
+                   float* column_sums) {
+    const int w = coarse_size.width;
+    const auto row = [&](int i) {
+        const int y = reflect_coarse(i, fine_size.height) - coarse.first;
+        return coarse.data + static_cast<std::ptrdiff_t>(y) * w;
+    };
+    float* const sums = column_sums + 1;
+    for (int y = begin; y < end; ++y, out += fine_size.width) {
+        const int i = y / 2;
+        const float* const center = row(i);
+        if (coarse_size.height == 1) {
+            std::copy_n(center, w, sums);
+        } else if (y % 2 == 0) {
+            const float* const up = row(i - 1);
+            const float* const down = row(i + 1);
+            for (int x = 0; x < w; ++x) {
+                sums[x] = 2 * kernel_far * (up[x] + down[x]) + 2 * kernel_center * center[x];
+            }
+        } else {
+            const float* const down = row(i + 1);
+            for (int x = 0; x < w; ++x) sums[x] = 2 * kernel_near * (center[x] + down[x]);
+        }
+        expand_along_row(sums, w, out, fine_size.width);
+    }
+}
+
+}  // namespace
+
+int reflect_101(int i, int n) {
+    if (n == 1) return 0;
+    const int period = 2 * (n - 1);
+    i %= period;
+    if (i < 0) i += period;
+    return i < n ? i : period - i;
+}
+
+std::vector<LevelSize> pyramid_sizes(int width, int height, int count) {
+    std::vector<LevelSize> sizes;
+    LevelSize size{width, height};
+    for (int level = 0; level < count; ++level) {
+        sizes.push_back(size);
+        size = {half_size(size.width), half_size(size.height)};
+    }
+    return sizes;
+}
+
+Image<float> low_pass(const Image<float>& image) {
+    Image<float> out(image.width, image.height);
+    parallel_for(static_cast<std::size_t>(out.height), rows_per_chunk, [&](std::size_t begin, std::size_t end) {
+        std::vector<float> columns(static_cast<std::size_t>(image.width + 2 * padding));
+        float* const filtered = columns.data() + padding;
+        for (int y = static_cast<int>(begin); y < static_cast<int>(end); ++y) {
+            filter_columns(image, y, filtered);
+            float* const row = out.row(y);
+            if (image.width == 1) {
+                row[0] = filtered[0];
+                continue;
+            }
+            for (int x = 0; x < out.width; ++x) row[x] = filter_at(filtered, x);
+        }
+    });
+    return out;
+}
+
+Image<float> reduce(const Image<float>& image) {
+    Image<float> out(half_size(image.width), half_size(image.height));
+    parallel_for(static_cast<std::size_t>(out.height), rows_per_chunk, [&](std::size_t begin, std::size_t end) {
+        std::vector<float> columns(static_cast<std::size_t>(image.width + 2 * padding));
+        float* const filtered = columns.data() + padding;
+        for (int y = static_cast<int>(begin); y < static_cast<int>(end); ++y) {
+            filter_columns(image, 2 * y, filtered);
+            float* const row = out.row(y);
+            if (image.width == 1) {
+                row[0] = filtered[0];
+                continue;
+            }
+            for (int x = 0; x < out.width; ++x) row[x] = filter_at(filtered, 2 * x);
+        }
+    });
+    return out;
+}
+
+Image<float> expand(const Image<float>& image, LevelSize fine) {
+    Image<float> out(fine.width, fine.height);
+    const LevelSize coarse{image.width, image.height};
+    parallel_for(static_cast<std::size_t>(fine.height), rows_per_chunk, [&](std::size_t begin, std::size_t end) {
+        std::vector<float> sums(static_cast<std::size_t>(image.width) + 2);
+        const int first = static_cast<int>(begin);
+        expand_window({image.pixels.data(), 0}, coarse, fine, first, static_cast<int>(end), out.row(first),
+                      sums.data());
+    });
+    return out;
+}
+
+std::vector<Image<float>> make_gaussian_pyramid(Image<float> image, int count) {
+    std::vector<Image<float>> levels;
+    levels.reserve(static_cast<std::size_t>(count));
+    levels.push_back(std::move(image));
+    while (static_cast<int>(levels.size()) < count) levels.push_back(reduce(levels.back()));
+    return levels;
+}
+
+Image<float> expand_to_level(const Image<float>& image, const std::vector<LevelSize>& sizes, int from, int to) {
+    Image<float> out = image;
+    for (int level = from - 1; level >= to; --level) out = expand(out, sizes[static_cast<std::size_t>(level)]);
+    return out;
+}
+
+const float* RowExpander::expand_rows(const Image<float>& image, int level, int begin, int end) {
+    if (level == 0) return image.row(begin);
+    // Which rows every level must give, from fine to coarse.
+    struct Range {
+        int begin, end;
+    };
+    std::vector<Range> ranges(static_cast<std::size_t>(level));
+    ranges[0] = {begin, end};
+    for (int l = 1; l < level; ++l) {
+        const Range fine = ranges[static_cast<std::size_t>(l - 1)];
+        ranges[static_cast<std::size_t>(l)] = {
+            std::max(0, fine.begin / 2 - 1),
+            std::min((*sizes_)[static_cast<std::size_t>(l)].height, (fine.end - 1) / 2 + 2)};
+    }
+    column_sums_.resize(static_cast<std::size_t>(image.width) + 2);
+    RowWindow window{image.pixels.data(), 0};
+    for (int l = level - 1; l >= 0; --l) {
+        const auto index = static_cast<std::size_t>(l);
+        const LevelSize fine = (*sizes_)[index];
+        const LevelSize coarse = (*sizes_)[index + 1];
+        column_sums_.resize(std::max(column_sums_.size(), static_cast<std::size_t>(coarse.width) + 2));
+        std::vector<float>& buffer = buffers_[index];
+        const auto needed =
+            static_cast<std::size_t>(ranges[index].end - ranges[index].begin) * static_cast<std::size_t>(fine.width);
+        if (buffer.size() < needed) buffer.resize(needed);
+        expand_window(window, coarse, fine, ranges[index].begin, ranges[index].end, buffer.data(), column_sums_.data());
+        window = {buffer.data(), ranges[index].begin};
+    }
+    return window.data;
+}
+
+}  // namespace aleph

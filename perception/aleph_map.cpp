@@ -1,0 +1,167 @@
+#include "perception/aleph_map.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "engine/base/parallel.h"
+#include "perception/fast_math.h"
+#include "perception/sensitivity_model.h"
+
+namespace aleph {
+
+namespace {
+
+constexpr std::size_t rows_per_band = 32;
+constexpr float largest_aleph = 250.76f;        // the supremum of CSF_max is 250.751
+constexpr float largest_velocity = 1e30f;       // deg/s
+constexpr float largest_model_velocity = 1e6f;  // deg/s; beyond 1.8e5 no contrast is seen and every f is 1
+constexpr float log2_e = static_cast<float>(std::numbers::log2e);
+constexpr float log10_2 = 0.30102999566398120f;
+
+/// What one row of the pass works on.
+struct RowBuffers {
+    explicit RowBuffers(std::size_t width)
+        : saliency(width), velocity(width), elevation(width), sum(width), above(width) {}
+    std::vector<float> saliency, velocity, elevation;
+    std::vector<float> sum;    ///< sum of L_i
+    std::vector<float> above;  ///< sum of L_i (f_i - 1)
+};
+
+/// Adds one band to the sums. f - 1 is summed, so that rounding cannot bring aleph below 1.
+void add_band(const float* band, const float* elevation, std::size_t width, float* sum, float* above) {
+    for (std::size_t x = 0; x < width; ++x) {
+        const float l = std::abs(band[x]);
+        sum[x] += l;
+        above[x] += l * (elevation[x] - 1.0f);
+    }
+}
+
+/// (5.11) from the sums; `flat`: f_6, for pixels without contrast.
+void divide_sums(const RowBuffers& b, const float* finest, const float* coarsest, const float* flat, float* out) {
+    const float* const sum = b.sum.data();
+    const float* const above = b.above.data();
+    const std::size_t width = b.sum.size();
+    for (std::size_t x = 0; x < width; ++x) {
+        const float fine = std::abs(finest[x]);
+        const float coarse = std::abs(coarsest[x]);
+        const float threshold = band_noise * (fine > coarse ? fine : coarse);
+        const bool has_contrast = sum[x] > threshold;
+        const float divisor = has_contrast ? sum[x] : 1.0f;
+        const float aleph = 1.0f + above[x] / divisor;
+        out[x] = has_contrast ? aleph : flat[x];
+    }
+}
+
+std::uint64_t clamp_row(float* row, std::size_t width) {
+    int outside = 0;
+    for (std::size_t x = 0; x < width; ++x) {
+        outside += static_cast<int>(!(row[x] >= 1.0f)) | static_cast<int>(!(row[x] <= largest_aleph));
+    }
+    if (outside == 0) return 0;
+    for (std::size_t x = 0; x < width; ++x) row[x] = row[x] >= 1.0f ? std::min(row[x], largest_aleph) : 1.0f;
+    return static_cast<std::uint64_t>(outside);
+}
+
+}  // namespace
+
+ElevationRow::ElevationRow(const std::array<double, band_count>& rho, int width)
+    : spread_(static_cast<std::size_t>(width)), peak_(static_cast<std::size_t>(width)) {
+    for (std::size_t i = 0; i < slope_.size(); ++i) {
+        slope_[i] = static_cast<float>(rho[i] * csf_angular / csf_rho_numerator);
+    }
+}
+
+void ElevationRow::load(const float* velocity) {
+    // CSF_max = k c0 c2 v rho_max^2 e^-2
+    const auto peak_factor =
+        static_cast<float>(csf_c0 * csf_c2 * csf_rho_numerator * csf_rho_numerator * std::exp(-2.0));
+    const auto log_offset = static_cast<float>(std::log10(csf_c2 / csf_k_velocity));
+    const std::size_t width = spread_.size();
+    float* const spread = spread_.data();
+    float* const peak = peak_.data();
+    for (std::size_t x = 0; x < width; ++x) {
+        const float v = velocity[x] < largest_model_velocity ? velocity[x] : largest_model_velocity;
+        const float s = static_cast<float>(csf_c2) * v + static_cast<float>(csf_rho_offset);
+        const float l = std::abs(log10_2 * fast_log2(v) + log_offset);
+        const float k = static_cast<float>(csf_k_offset) + static_cast<float>(csf_k_slope) * (l * l * l);
+        spread[x] = s;
+        peak[x] = peak_factor * k * v / (s * s);
+    }
+}
+
+void ElevationRow::elevations(int band, float* out) const {
+    // k, c0 and c2 v cancel: CSF_max / CSF = e^(2x-2) / x^2 with x = rho / rho_peak, and CSF < 1 means CSF_max.
+    const float slope = slope_[static_cast<std::size_t>(band)];
+    const std::size_t width = spread_.size();
+    const float* const spread = spread_.data();
+    const float* const peak = peak_.data();
+    for (std::size_t x = 0; x < width; ++x) {
+        const float ratio = slope * spread[x];
+        const float f = fast_exp2(2.0f * log2_e * (ratio - 1.0f)) / (ratio * ratio);
+        const float clamped = f < peak[x] ? f : peak[x];
+        const float at_least_one = clamped > 1.0f ? clamped : 1.0f;
+        out[x] = ratio > 1.0f ? at_least_one : 1.0f;
+    }
+}
+
+void retinal_velocity_row(const float* velocity, const float* saliency, int count, float* out) {
+    constexpr auto drift = static_cast<float>(drift_velocity);
+    for (int x = 0; x < count; ++x) {
+        const float positive = velocity[x] > 0.0f ? velocity[x] : 0.0f;
+        const float v = positive < largest_velocity ? positive : largest_velocity;
+        const float tracked = v * (1.0f - saliency[x]) - drift;
+        const float limited = v - static_cast<float>(pursuit_limit);
+        const float slip = tracked > limited ? tracked : limited;
+        out[x] = slip > drift ? slip : drift;
+    }
+}
+
+AlephImages compute_aleph(const AlephPass& pass, bool with_retinal_velocity) {
+    const LevelSize size = pass.bands.sizes.front();
+    AlephImages out;
+    out.aleph = Image<float>(size.width, size.height);
+    if (with_retinal_velocity) out.retinal_velocity = Image<float>(size.width, size.height);
+    if (pass.saliency != nullptr) out.saliency = Image<float>(size.width, size.height);
+
+    const auto height = static_cast<std::size_t>(size.height);
+    const auto width = static_cast<std::size_t>(size.width);
+    std::vector<std::uint64_t> clamped((height + rows_per_band - 1) / rows_per_band);
+    parallel_for(height, rows_per_band, [&](std::size_t begin, std::size_t end) {
+        BandRows bands(pass.bands);
+        bands.load(static_cast<int>(begin), static_cast<int>(end));
+        ElevationRow elevation(pass.rho, size.width);
+        RowBuffers b(width);
+        std::fill(b.saliency.begin(), b.saliency.end(), static_cast<float>(tracking_efficiency));
+        std::fill(b.velocity.begin(), b.velocity.end(), static_cast<float>(drift_velocity));
+        for (int y = static_cast<int>(begin); y < static_cast<int>(end); ++y) {
+            const float* saliency = b.saliency.data();
+            if (pass.saliency != nullptr) {
+                float* const scaled = out.saliency.row(y);
+                const float* const raw = pass.saliency->raw.row(y);
+                const Saliency& s = *pass.saliency;
+                for (std::size_t x = 0; x < width; ++x) scaled[x] = s.scaled(raw[x]);
+                saliency = scaled;
+            }
+            if (pass.velocity != nullptr) {
+                retinal_velocity_row(pass.velocity->row(y), saliency, size.width, b.velocity.data());
+            }
+            if (with_retinal_velocity) std::copy(b.velocity.begin(), b.velocity.end(), out.retinal_velocity.row(y));
+
+            elevation.load(b.velocity.data());
+            std::fill(b.sum.begin(), b.sum.end(), 0.0f);
+            std::fill(b.above.begin(), b.above.end(), 0.0f);
+            for (int i = 0; i < band_count; ++i) {
+                elevation.elevations(i, b.elevation.data());
+                add_band(bands.row(i, y), b.elevation.data(), width, b.sum.data(), b.above.data());
+            }
+            // The last band's elevation is still in place: what a pixel without contrast gets.
+            divide_sums(b, pass.bands.finest.row(y), bands.coarsest_row(y), b.elevation.data(), out.aleph.row(y));
+            clamped[begin / rows_per_band] += clamp_row(out.aleph.row(y), width);
+        }
+    });
+    for (const std::uint64_t c : clamped) out.clamped += c;
+    return out;
+}
+
+}  // namespace aleph

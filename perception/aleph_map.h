@@ -1,0 +1,51 @@
+#pragma once
+// The last pass of the model: bands, retinal velocity, elevation and (5.11), row by row; nothing in between is stored.
+
+#include <array>
+#include <cstdint>
+
+#include "engine/base/image.h"
+#include "perception/band_response.h"
+#include "perception/saliency.h"
+
+namespace aleph {
+
+/// f_i of a row of retinal velocities (5.9), in float: within 1e-5 of elevation().
+class ElevationRow {
+  public:
+    /// @param rho  band frequencies, cycles per degree
+    ElevationRow(const std::array<double, band_count>& rho, int width);
+
+    /// @param velocity  deg/s, `width` values, each finite and at least the drift
+    void load(const float* velocity);
+
+    /// out[x] = f_band
+    void elevations(int band, float* out) const;
+
+  private:
+    std::array<float, band_count> slope_;  ///< rho / rho_peak = slope * (c2 v + 2)
+    std::vector<float> spread_;            ///< c2 v + 2
+    std::vector<float> peak_;              ///< CSF_max
+};
+
+/// (5.5) of a row, in float. Velocities that are NaN or negative count as 0, above 1e30 as 1e30.
+/// @param saliency  [0,1], `count` values
+void retinal_velocity_row(const float* velocity, const float* saliency, int count, float* out);
+
+struct AlephPass {
+    const BandLevels& bands;
+    const Image<float>* velocity;  ///< deg/s; null: nothing moves
+    const Saliency* saliency;      ///< null: S = tracking_efficiency
+    std::array<double, band_count> rho;
+};
+
+struct AlephImages {
+    Image<float> aleph;
+    Image<float> retinal_velocity, saliency;  ///< as asked for
+    std::uint64_t clamped = 0;                ///< values of aleph that left [1, 250.76]
+};
+
+/// (5.11).
+AlephImages compute_aleph(const AlephPass& pass, bool with_retinal_velocity);
+
+}  // namespace aleph

@@ -1,0 +1,95 @@
+#include "perception/band_response.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/base/parallel.h"
+
+namespace aleph {
+
+namespace {
+constexpr std::size_t rows_per_band = 32;
+}
+
+BandLevels make_band_levels(const std::vector<Image<float>>& a, float grey) {
+    BandLevels out;
+    out.sizes = pyramid_sizes(a.front().width, a.front().height, band_count + 1);
+    parallel_for(band_count, 1, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) {
+            Image<float> difference = expand(a[i + 1], out.sizes[i]);
+            for (std::size_t p = 0; p < difference.size(); ++p) {
+                difference.pixels[p] = a[i].pixels[p] - difference.pixels[p];
+            }
+            out.differences[i] = std::move(difference);
+        }
+    });
+    out.finest = a.front();
+    out.coarsest = a[band_count];
+    for (float& v : out.finest.pixels) v += grey;
+    for (float& v : out.coarsest.pixels) v += grey;
+    return out;
+}
+
+BandRows::BandRows(const BandLevels& levels)
+    : levels_(levels), width_(levels.sizes.front().width), expanders_(band_count + 1, RowExpander(levels.sizes)) {}
+
+void BandRows::load(int begin, int end) {
+    begin_ = begin;
+    for (int i = 0; i < band_count; ++i) {
+        const auto index = static_cast<std::size_t>(i);
+        bands_[index] = expanders_[index].expand_rows(levels_.differences[index], i, begin, end);
+    }
+    coarsest_ = expanders_[band_count].expand_rows(levels_.coarsest, band_count, begin, end);
+}
+
+std::array<Image<float>, band_count> compute_band_response(const Image<float>& achromatic) {
+    const float grey = mean_grey(achromatic);
+    Image<float> shifted = achromatic;
+    for (float& v : shifted.pixels) v -= grey;
+    const BandLevels levels = make_band_levels(make_gaussian_pyramid(std::move(shifted), band_count + 1), grey);
+
+    std::array<Image<float>, band_count> out;
+    for (Image<float>& image : out) image = Image<float>(achromatic.width, achromatic.height);
+    parallel_for(static_cast<std::size_t>(achromatic.height), rows_per_band, [&](std::size_t begin, std::size_t end) {
+        BandRows rows(levels);
+        rows.load(static_cast<int>(begin), static_cast<int>(end));
+        for (int y = static_cast<int>(begin); y < static_cast<int>(end); ++y) {
+            for (int x = 0; x < achromatic.width; ++x) {
+                double sum = 0.0;
+                for (int i = 0; i < band_count; ++i) sum += std::abs(rows.row(i, y)[x]);
+                const double size = std::max(std::abs(achromatic(x, y)), std::abs(rows.coarsest_row(y)[x]));
+                const bool noise = !(sum > band_noise * size);
+                for (int i = 0; i < band_count; ++i) {
+                    const double flat = i == band_count - 1 ? 1.0 : 0.0;
+                    out[static_cast<std::size_t>(i)](x, y) =
+                        static_cast<float>(noise ? flat : std::abs(rows.row(i, y)[x]) / sum);
+                }
+            }
+        }
+    });
+    return out;
+}
+
+float mean_grey(const Image<float>& image) {
+    const auto height = static_cast<std::size_t>(image.height);
+    std::vector<double> sums(height);
+    parallel_for(height, rows_per_band, [&](std::size_t begin, std::size_t end) {
+        constexpr std::size_t lanes = 8;  // independent sums, so that additions overlap
+        for (std::size_t y = begin; y < end; ++y) {
+            const float* const row = image.row(static_cast<int>(y));
+            double partial[lanes] = {};
+            const auto width = static_cast<std::size_t>(image.width);
+            std::size_t x = 0;
+            for (; x + lanes <= width; x += lanes) {
+                for (std::size_t lane = 0; lane < lanes; ++lane) partial[lane] += row[x + lane];
+            }
+            for (; x < width; ++x) partial[0] += row[x];
+            for (const double p : partial) sums[y] += p;
+        }
+    });
+    double sum = 0.0;
+    for (const double s : sums) sum += s;
+    return static_cast<float>(sum / static_cast<double>(image.size()));
+}
+
+}  // namespace aleph

@@ -1,0 +1,35 @@
+#pragma once
+// The 48 feature maps of thesis 5.3: differences of centre and surround levels, kept small at the centre's own size.
+// Expansion is linear, so |expand(difference)| is the difference of both levels expanded to full size.
+
+#include <array>
+#include <vector>
+
+#include "engine/base/image.h"
+#include "engine/base/pyramid.h"
+
+namespace aleph {
+
+inline constexpr int saliency_levels = 9;  ///< Gaussian levels 0..8; a level of 1x1 stays 1x1
+
+/// The four channels whose conspicuity is summed apart.
+enum class Channel { intensity, color, orientation, motion };
+inline constexpr int channel_count = 4;
+
+struct FeatureMap {
+    Channel channel;
+    int level;                ///< centre: 2, 3 or 4
+    Image<float> difference;  ///< centre - expanded surround, signed, at the centre's size
+};
+
+/// Gaussian pyramids of what the channels are made from, levels 0..8 each; |C1| and |C2| share a channel.
+struct ChannelPyramids {
+    std::vector<Image<float>> a, c1, c2;
+    std::vector<Image<float>> velocity;  ///< deg/s
+};
+
+/// (5.4) for (centre, surround) in (2,5) (2,6) (3,6) (3,7) (4,7) (4,8): 6 intensity, 12 colour, 24 orientation and 6
+/// motion maps, in a fixed order.
+std::vector<FeatureMap> make_feature_maps(const ChannelPyramids& pyramids);
+
+}  // namespace aleph
