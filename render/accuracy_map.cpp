@@ -1,0 +1,33 @@
+#include "render/accuracy_map.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace aleph {
+
+double compress_accuracy(double accuracy, double aleph) {
+    if (!(accuracy > 0.0)) return 0.0;
+    const double n = std::max(aleph, 1.0);  // also for NaN
+    if (std::isinf(n)) return 1.0;
+    return std::min(1.0, accuracy * n / (1.0 + accuracy * (n - 1.0)));
+}
+
+double scale_add_accuracy(double accuracy, double aleph, double k) {
+    if (!(accuracy > 0.0)) return 0.0;
+    const double n = std::max(aleph, 1.0);
+    return std::min(1.0, accuracy + n / k);
+}
+
+Image<float> compute_accuracy_map(const Image<float>& aleph, const RenderSettings& settings) {
+    Image<float> alpha(aleph.width, aleph.height, static_cast<float>(settings.accuracy));
+    if (settings.perception.guide == Guide::none) return alpha;
+    for (std::size_t i = 0; i < alpha.size(); ++i) {
+        const double n = aleph.pixels[i];
+        alpha.pixels[i] = static_cast<float>(settings.adapter == Adapter::compress
+                                                 ? compress_accuracy(settings.accuracy, n)
+                                                 : scale_add_accuracy(settings.accuracy, n, settings.adapter_k));
+    }
+    return alpha;
+}
+
+}  // namespace aleph

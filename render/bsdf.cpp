@@ -1,0 +1,125 @@
+#include "render/bsdf.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <numbers>
+
+#include "render/texture.h"
+
+namespace aleph {
+
+namespace {
+
+constexpr float pi = std::numbers::pi_v<float>;
+
+/// Below this a lobe is a mirror to single precision (HARD_CASES MC-07).
+constexpr float smallest_alpha = 1e-3f;
+
+float schlick_power(float cosine) {
+    const float m = std::clamp(1.0f - cosine, 0.0f, 1.0f);
+    return (m * m) * (m * m) * m;
+}
+
+/// sin^2 from |h x n|^2 instead of 1 - cos^2, which cancels for narrow lobes (HARD_CASES MC-07).
+float ggx_d(float alpha, const glm::vec3& h) {
+    const float a2 = alpha * alpha;
+    const float sin2 = h.x * h.x + h.y * h.y;
+    const float s = a2 * h.z * h.z + sin2;
+    return a2 / (pi * s * s);
+}
+
+float smith_lambda(float alpha, const glm::vec3& v) {
+    const float tan2 = (v.x * v.x + v.y * v.y) / (v.z * v.z);
+    return 0.5f * (std::sqrt(1.0f + alpha * alpha * tan2) - 1.0f);
+}
+
+}  // namespace
+
+SurfaceMaterial evaluate_material(const ShadingScene& shading, const SurfacePoint& point) {
+    const ShadingMaterial& entry = shading.materials[static_cast<std::size_t>(point.material)];
+    const MaterialValues& values = entry.values;
+    Rgb base = values.base_color * Rgb(point.color);
+    float metallic = values.metallic, roughness = values.roughness, specular = values.specular;
+    Rgb emission = values.emission, specular_color = values.specular_color;
+    if (entry.material != nullptr) {
+        const Material& m = *entry.material;
+        const auto look_up = [&](const TextureRef& texture, TextureSpace space) {
+            return sample_texture(*shading.scene, texture, point.uv[texture.uv_set == 1 ? 1 : 0], space);
+        };
+        if (m.base_color_texture.image != no_index) base *= Rgb(look_up(m.base_color_texture, TextureSpace::srgb));
+        if (m.metallic_roughness_texture.image != no_index) {
+            const glm::vec4 t = look_up(m.metallic_roughness_texture, TextureSpace::linear);
+            roughness *= t.y;
+            metallic *= t.z;
+        }
+        if (entry.emits && m.emission_texture.image != no_index) {
+            emission *= Rgb(look_up(m.emission_texture, TextureSpace::srgb));
+        }
+        if (m.specular_texture.image != no_index) specular *= look_up(m.specular_texture, TextureSpace::linear).w;
+        if (m.specular_color_texture.image != no_index) {
+            specular_color *= Rgb(look_up(m.specular_color_texture, TextureSpace::srgb));
+        }
+    }
+    SurfaceMaterial surface;
+    const float ior_reflectance = (values.ior - 1.0f) / (values.ior + 1.0f);
+    const Rgb dielectric_f0 = glm::min(ior_reflectance * ior_reflectance * specular_color, Rgb(1.0f)) * specular;
+    surface.diffuse = base * (1.0f - metallic);
+    surface.f0 = dielectric_f0 * (1.0f - metallic) + base * metallic;
+    surface.f90 = specular * (1.0f - metallic) + metallic;
+    surface.f0_max = std::max({dielectric_f0.x, dielectric_f0.y, dielectric_f0.z});
+    surface.alpha = std::max(roughness * roughness, smallest_alpha);
+    if (entry.emits && (point.front || entry.double_sided)) surface.emission = emission;
+    return surface;
+}
+
+float diffuse_transmission(const SurfaceMaterial& material, float cosine) {
+    return 1.0f - (material.f0_max + (material.f90 - material.f0_max) * schlick_power(cosine));
+}
+
+float mean_diffuse_transmission(const SurfaceMaterial& material) {
+    return 1.0f - (material.f0_max + (material.f90 - material.f0_max) / 21.0f);
+}
+
+Rgb evaluate_diffuse(const SurfaceMaterial& material, float cos_view, float cos_light) {
+    return material.diffuse *
+           (diffuse_transmission(material, cos_view) * diffuse_transmission(material, cos_light) / pi);
+}
+
+Rgb diffuse_radiance(const SurfaceMaterial& material, float cos_view, const Rgb& irradiance) {
+    return material.diffuse * irradiance *
+           (diffuse_transmission(material, cos_view) * mean_diffuse_transmission(material) / pi);
+}
+
+Rgb evaluate_glossy(const SurfaceMaterial& material, const glm::vec3& view, const glm::vec3& light) {
+    if (!(view.z > 0.0f && light.z > 0.0f)) return Rgb(0.0f);
+    const glm::vec3 h = glm::normalize(view + light);
+    const Rgb fresnel = material.f0 + (Rgb(material.f90) - material.f0) * schlick_power(glm::dot(view, h));
+    const float g2 = 1.0f / (1.0f + smith_lambda(material.alpha, view) + smith_lambda(material.alpha, light));
+    return fresnel * (ggx_d(material.alpha, h) * g2 / (4.0f * view.z * light.z));
+}
+
+glm::vec3 sample_glossy(const SurfaceMaterial& material, const glm::vec3& view, const glm::vec2& u) {
+    const float alpha = material.alpha;
+    const glm::vec3 stretched = glm::normalize(glm::vec3(alpha * view.x, alpha * view.y, view.z));
+    const float planar = stretched.x * stretched.x + stretched.y * stretched.y;
+    const glm::vec3 t1 =
+        planar > 0.0f ? glm::vec3(-stretched.y, stretched.x, 0.0f) / std::sqrt(planar) : glm::vec3(1.0f, 0.0f, 0.0f);
+    const glm::vec3 t2 = glm::cross(stretched, t1);
+    const float r = std::sqrt(u.x), phi = 2.0f * pi * u.y;
+    const float p1 = r * std::cos(phi);
+    const float s = 0.5f * (1.0f + stretched.z);
+    const float p2 = (1.0f - s) * std::sqrt(std::max(0.0f, 1.0f - p1 * p1)) + s * r * std::sin(phi);
+    const glm::vec3 n = t1 * p1 + t2 * p2 + stretched * std::sqrt(std::max(0.0f, 1.0f - p1 * p1 - p2 * p2));
+    const glm::vec3 h = glm::normalize(glm::vec3(alpha * n.x, alpha * n.y, std::max(1e-6f, n.z)));
+    return 2.0f * glm::dot(view, h) * h - view;
+}
+
+float pdf_glossy(const SurfaceMaterial& material, const glm::vec3& view, const glm::vec3& light) {
+    if (!(view.z > 0.0f && light.z > 0.0f)) return 0.0f;
+    const glm::vec3 h = glm::normalize(view + light);
+    const float g1 = 1.0f / (1.0f + smith_lambda(material.alpha, view));
+    return g1 * ggx_d(material.alpha, h) / (4.0f * view.z);
+}
+
+}  // namespace aleph

@@ -1,0 +1,47 @@
+#pragma once
+// glTF's metallic-roughness surface as a Lambert layer under a GGX layer, split so that the Lambert part can be cached:
+//   f = f_diffuse + f_glossy
+//   f_diffuse = c/pi (1 - F(n.v)) (1 - F(n.l))   reciprocal; pure Lambert where KHR_materials_specular is 0
+//   f_glossy  = F(v.h) D G2 / (4 n.v n.l)        GGX (Walter et al. 2007), height-correlated Smith (Heitz 2014)
+
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+
+#include "engine/base/color.h"
+#include "render/shading_scene.h"
+
+namespace aleph {
+
+/// A material at one surface point, textures looked up.
+struct SurfaceMaterial {
+    Rgb diffuse{0.0f};     ///< albedo of the Lambert layer
+    Rgb f0{0.0f};          ///< reflectance of the glossy layer at normal incidence
+    float f90 = 0.0f;      ///< at grazing incidence
+    float f0_max = 0.0f;   ///< what the Lambert layer loses light by
+    float alpha = 1.0f;    ///< GGX width, roughness squared, at least 1e-3
+    Rgb emission{0.0f};    ///< radiance leaving the side that is seen
+    bool has_diffuse() const { return diffuse != Rgb(0.0f); }
+    bool has_glossy() const { return f90 > 0.0f || f0 != Rgb(0.0f); }
+};
+
+SurfaceMaterial evaluate_material(const ShadingScene& shading, const SurfacePoint& point);
+
+/// Share of light that passes into the Lambert layer at a cosine: 1 - F (Schlick 1994).
+float diffuse_transmission(const SurfaceMaterial& material, float cosine);
+/// Its cosine-weighted mean over the hemisphere: 1 - f0 - (f90 - f0) / 21.
+float mean_diffuse_transmission(const SurfaceMaterial& material);
+
+/// f_diffuse for two cosines with the shading normal.
+Rgb evaluate_diffuse(const SurfaceMaterial& material, float cos_view, float cos_light);
+
+/// Radiance that leaves towards `view` for an irradiance E: exact where the incoming light is uniform.
+Rgb diffuse_radiance(const SurfaceMaterial& material, float cos_view, const Rgb& irradiance);
+
+/// The glossy lobe in the shading frame (z the normal), view and light unit and above the surface.
+Rgb evaluate_glossy(const SurfaceMaterial& material, const glm::vec3& view, const glm::vec3& light);
+/// Visible-normal sampling (Heitz 2018): a direction for u in [0,1)^2; z may come out negative (no contribution).
+glm::vec3 sample_glossy(const SurfaceMaterial& material, const glm::vec3& view, const glm::vec2& u);
+/// Its density per solid angle.
+float pdf_glossy(const SurfaceMaterial& material, const glm::vec3& view, const glm::vec3& light);
+
+}  // namespace aleph

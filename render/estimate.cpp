@@ -1,0 +1,61 @@
+#include "render/estimate.h"
+
+#include <algorithm>
+#include <cmath>
+#include <mutex>
+
+#include "engine/base/parallel.h"
+
+namespace aleph {
+
+namespace {
+
+/// Points per light: few where there are many lights, so that the estimate stays quick.
+int points_per_light(const LightSet& lights) { return std::max(1, 4 / std::max(1, lights.count())); }
+
+}  // namespace
+
+Image<Rgb> compute_estimate(const LightingContext& context, const CameraView& view, const SampleHits& centers,
+                            EstimateKind kind, double exposure, RayCounts& counts) {
+    Image<Rgb> estimate(view.width, view.height);
+    const float scale = static_cast<float>(exposure);
+    const int points = points_per_light(context.lights);
+    std::mutex counts_mutex;
+    parallel_for(static_cast<std::size_t>(view.height), 4, [&](std::size_t begin, std::size_t end) {
+        Tracer tracer(context.rays);
+        RayCounts local;
+        for (int y = static_cast<int>(begin); y < static_cast<int>(end); ++y) {
+            for (int x = 0; x < view.width; ++x) {
+                Rgb radiance = kind == EstimateKind::flat ? Rgb(1.0f) : context.shading.environment;
+                if (centers.hits(x, y).instance != no_index) {
+                    const PixelSurface s = make_pixel_surface(context.shading, view, centers, x, y);
+                    radiance = s.material.emission;
+                    if (kind == EstimateKind::flat) {
+                        radiance += s.material.diffuse + s.material.f0;
+                    } else {
+                        radiance +=
+                            estimate_direct_light(context, tracer, s.point, s.material, s.view, points, local);
+                    }
+                }
+                estimate(x, y) = radiance * scale;
+            }
+        }
+        const std::lock_guard lock(counts_mutex);
+        counts += local;
+    });
+    return estimate;
+}
+
+double compute_exposure(const Image<Rgb>& estimate) {
+    double sum = 0.0;
+    std::size_t count = 0;
+    for (const Rgb& pixel : estimate.pixels) {
+        const double y = luminance(pixel);
+        if (!(y > 0.0) || !std::isfinite(y)) continue;
+        sum += std::log(y);
+        ++count;
+    }
+    return count == 0 ? 1.0 : 0.18 / std::exp(sum / static_cast<double>(count));
+}
+
+}  // namespace aleph

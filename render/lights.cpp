@@ -1,0 +1,143 @@
+#include "render/lights.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "engine/base/sampling.h"
+#include "render/bsdf.h"
+#include "render/texture.h"
+
+namespace aleph {
+
+namespace {
+
+/// Shadow rays stop this share of the distance before the light, so that they do not meet it.
+constexpr float shadow_end = 1.0f - 1e-4f;
+
+Emitter make_emitter(const PosedInstance& instance, const ShadingMaterial& material, int index) {
+    Emitter emitter;
+    emitter.instance = index;
+    emitter.double_sided = material.double_sided;
+    emitter.textured = material.material != nullptr && material.material->emission_texture.image != no_index;
+    emitter.radiance = material.values.emission;
+    const Mesh& mesh = *instance.mesh;
+    std::vector<double> cumulative;
+    double area = 0.0;
+    for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+        const glm::uvec3 t = mesh.triangles[i];
+        const glm::vec3 p0 = mesh.positions[t.x], e1 = mesh.positions[t.y] - p0, e2 = mesh.positions[t.z] - p0;
+        const glm::vec3 edge1 = instance.linear * e1, edge2 = instance.linear * e2;
+        const glm::vec3 normal = instance.normals * glm::cross(e1, e2);
+        const double twice_area = glm::length(glm::dvec3(glm::cross(edge1, edge2)));
+        const float length = glm::length(normal);
+        if (!(twice_area > 0.0) || !(length > 0.0f)) continue;
+        area += 0.5 * twice_area;
+        cumulative.push_back(area);
+        emitter.triangles.push_back({instance.linear * p0 + instance.translation, edge1, edge2, normal / length,
+                                     static_cast<int>(i)});
+    }
+    emitter.area = static_cast<float>(area);
+    for (const double a : cumulative) emitter.cumulative_area.push_back(static_cast<float>(a / area));
+    return emitter;
+}
+
+LightSample sample_emitter(const ShadingScene& shading, const Emitter& emitter, const glm::vec3& position,
+                           const glm::vec2& u) {
+    const auto found = std::upper_bound(emitter.cumulative_area.begin(), emitter.cumulative_area.end(), u.x);
+    const std::size_t i = std::min(static_cast<std::size_t>(found - emitter.cumulative_area.begin()),
+                                   emitter.triangles.size() - 1);
+    const float low = i == 0 ? 0.0f : emitter.cumulative_area[i - 1];
+    const float width = emitter.cumulative_area[i] - low;
+    const float reused = width > 0.0f ? std::clamp((u.x - low) / width, 0.0f, 0x1.fffffep-1f) : 0.0f;
+    const glm::vec2 b = sample_triangle({reused, u.y});
+    const Emitter::Triangle& triangle = emitter.triangles[i];
+    const glm::vec3 to_light = triangle.corner + triangle.edge1 * b.x + triangle.edge2 * b.y - position;
+    const float distance2 = glm::dot(to_light, to_light);
+    LightSample sample;
+    if (!(distance2 > 0.0f)) return sample;
+    const float distance = std::sqrt(distance2);
+    sample.direction = to_light / distance;
+    float cosine = -glm::dot(sample.direction, triangle.normal);
+    if (emitter.double_sided) cosine = std::abs(cosine);
+    if (!(cosine > 0.0f)) return sample;
+    sample.distance = distance * shadow_end;
+    sample.pdf = pdf_emitter(emitter, cosine, distance);
+    Rgb radiance = emitter.radiance;
+    if (emitter.textured) {
+        const Hit hit{emitter.instance, triangle.primitive, b.x, b.y, distance};
+        radiance = evaluate_material(shading, make_surface_point(shading, hit, sample.direction)).emission;
+    }
+    sample.incoming = radiance / sample.pdf;
+    return sample;
+}
+
+LightSample sample_punctual(const PunctualLight& light, const glm::vec3& position) {
+    LightSample sample;
+    if (light.directional) {
+        sample.direction = -light.direction;
+        sample.distance = std::numeric_limits<float>::infinity();
+        sample.incoming = light.intensity;
+        return sample;
+    }
+    const glm::vec3 to_light = light.position - position;
+    const float distance2 = glm::dot(to_light, to_light);
+    if (!(distance2 > 0.0f)) return sample;
+    const float distance = std::sqrt(distance2);
+    sample.direction = to_light / distance;
+    sample.distance = distance * shadow_end;
+    float window = 1.0f;  // KHR_lights_punctual: max(min(1 - (d/range)^4, 1), 0)
+    if (light.range > 0.0f) {
+        const float ratio2 = distance2 / (light.range * light.range);
+        window = std::clamp(1.0f - ratio2 * ratio2, 0.0f, 1.0f);
+    }
+    sample.incoming = light.intensity * (window / distance2);
+    return sample;
+}
+
+}  // namespace
+
+float pdf_emitter(const Emitter& emitter, float cos_at_light, float distance) {
+    return cos_at_light > 0.0f ? distance * distance / (cos_at_light * emitter.area) : 0.0f;
+}
+
+LightSet make_light_set(const ShadingScene& shading) {
+    LightSet lights;
+    lights.emitter_of_instance.assign(shading.instances.size(), no_index);
+    for (std::size_t i = 0; i < shading.instances.size(); ++i) {
+        const PosedInstance& instance = shading.instances[i];
+        const ShadingMaterial& material = shading.materials[static_cast<std::size_t>(instance.material)];
+        if (!instance.visible || !material.emits) continue;
+        Emitter emitter = make_emitter(instance, material, static_cast<int>(i));
+        if (emitter.triangles.empty()) continue;
+        lights.emitter_of_instance[i] = static_cast<int>(lights.emitters.size());
+        lights.emitters.push_back(std::move(emitter));
+    }
+    for (const LightValues& light : shading.frame->lights) {
+        if (light.intensity == Rgb(0.0f)) continue;
+        lights.punctual.push_back({light.kind == Light::Kind::directional,
+                                   glm::vec3(light.position - shading.anchor), glm::vec3(light.direction),
+                                   light.intensity, static_cast<float>(light.range)});
+    }
+    lights.environment = shading.environment;
+    lights.has_environment = shading.environment != Rgb(0.0f);
+    return lights;
+}
+
+LightSample sample_light(const ShadingScene& shading, const LightSet& lights, int light, const glm::vec3& position,
+                         const glm::vec3& normal, const glm::vec2& u) {
+    std::size_t i = static_cast<std::size_t>(light);
+    if (i < lights.emitters.size()) return sample_emitter(shading, lights.emitters[i], position, u);
+    i -= lights.emitters.size();
+    if (i < lights.punctual.size()) return sample_punctual(lights.punctual[i], position);
+    LightSample sample;
+    const glm::vec3 local = sample_cosine_hemisphere(u);
+    sample.direction = make_basis(normal).to_world(local);
+    sample.distance = std::numeric_limits<float>::infinity();
+    sample.pdf = pdf_cosine_hemisphere(local.z);
+    if (sample.pdf > 0.0f) sample.incoming = lights.environment / sample.pdf;
+    return sample;
+}
+
+}  // namespace aleph

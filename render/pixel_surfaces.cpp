@@ -1,0 +1,31 @@
+#include "render/pixel_surfaces.h"
+
+#include "render/direct_light.h"
+
+namespace aleph {
+
+PixelSurface make_pixel_surface(const ShadingScene& shading, const CameraView& view, const SampleHits& sample, int x,
+                                int y) {
+    const Hit& hit = sample.hits(x, y);
+    const glm::vec3 direction(make_camera_ray(view, x + sample.offset_x, y + sample.offset_y).direction);
+    PixelSurface surface;
+    surface.point = make_surface_point(shading, hit, direction);
+    surface.material = evaluate_material(shading, surface.point);
+    surface.view = -direction;
+    const float distance = view.orthographic ? 1.0f : hit.distance;
+    surface.footprint = distance / static_cast<float>(view.pixels_per_unit);
+    return surface;
+}
+
+SampleHits cast_sample(const RayScene& rays, const CameraView& view, int i, int n, std::uint64_t* rays_cast) {
+    SampleHits sample;
+    if (n > 1) {
+        const glm::vec2 offset = lattice_point(i, n, {0.0f, 0.5f});
+        sample.offset_x = offset.x;
+        sample.offset_y = offset.y;
+    }
+    sample.hits = cast_first_hits(rays, view, sample.offset_x, sample.offset_y, rays_cast);
+    return sample;
+}
+
+}  // namespace aleph

@@ -1,0 +1,234 @@
+#include "render/sequence.h"
+
+#include <sys/resource.h>
+
+#include <algorithm>
+#include <chrono>
+
+#include "engine/base/errors.h"
+#include "engine/base/parallel.h"
+#include "motion/model_motion.h"
+#include "motion/velocity.h"
+#include "perception/sanitize.h"
+#include "perception/threshold.h"
+#include "render/accuracy_map.h"
+#include "render/estimate.h"
+
+namespace aleph {
+
+namespace {
+
+constexpr int exposure_columns = 160;
+constexpr float background_depth = 1e30f;
+
+/// Adds the time since the last call to a stage.
+class StageClock {
+  public:
+    void add_to(double& stage) {
+        const auto now = std::chrono::steady_clock::now();
+        stage += std::chrono::duration<double>(now - last_).count();
+        last_ = now;
+    }
+
+  private:
+    std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
+};
+
+double peak_memory_mib() {
+    rusage usage{};
+    getrusage(RUSAGE_SELF, &usage);
+    return static_cast<double>(usage.ru_maxrss) / 1024.0;
+}
+
+/// A frame's moment: posed, placed for rays, seen by the camera.
+struct Moment {
+    SceneFrame frame;
+    CameraView view;
+};
+
+Moment make_moment(const Scene& scene, std::int64_t frame, int camera, int width, int height) {
+    Moment moment;
+    moment.frame = pose(scene, scene.frame_rate.seconds_of(frame));
+    moment.view = make_camera_view(moment.frame.cameras[static_cast<std::size_t>(camera)], width, height);
+    return moment;
+}
+
+void refuse_later_effects(const Scene& scene, const CameraValues& camera) {
+    const std::string name = scene.nodes[static_cast<std::size_t>(camera.node)].name;
+    if (camera.shutter.x != camera.shutter.y) {
+        throw InputError(scene.file, "camera of node " + printable(name), "motion blur (an open shutter) is not in this version");
+    }
+    if (camera.aperture > 0.0) {
+        throw InputError(scene.file, "camera of node " + printable(name), "depth of field (an aperture) is not in this version");
+    }
+}
+
+bool is_cut(const Scene& scene, std::int64_t frame) {
+    return std::find(scene.cuts.begin(), scene.cuts.end(), frame) != scene.cuts.end();
+}
+
+}  // namespace
+
+std::array<std::pair<const char*, double>, 10> list_stages(const StageSeconds& s) {
+    return {{{"pose", s.pose}, {"update", s.update}, {"first_hits", s.first_hits}, {"estimate", s.estimate},
+             {"motion", s.motion}, {"perception", s.perception}, {"fill", s.fill}, {"shade", s.shade},
+             {"write", s.write}, {"total", s.total}}};
+}
+
+struct Sequence::State {
+    const Scene& scene;
+    RenderSettings settings;
+    int camera;
+    FrameRange range;
+    ViewingConditions viewing;
+    RayScene rays;
+    std::unique_ptr<RayScene> other_rays;  ///< for visibility in the other frame
+    double exposure = 1.0;
+};
+
+Sequence::Sequence(const Scene& scene, const RenderSettings& settings, const std::string& camera) {
+    validate(settings);
+    state_.reset(new State{scene, settings, find_camera(scene, camera), frame_range(scene), scene.viewing,
+                           RayScene(scene), nullptr, 1.0});
+    State& s = *state_;
+    s.viewing.frames_per_second = scene.frame_rate.per_second();
+    if (scene.exposure) {
+        s.exposure = *scene.exposure;
+        return;
+    }
+    const int height = std::max(1, exposure_columns * settings.height / settings.width);
+    const Moment moment = make_moment(scene, s.range.first, s.camera, exposure_columns, height);
+    const glm::dvec3 anchor = compute_anchor(moment.view);
+    s.rays.update(moment.frame, anchor);
+    const ShadingScene shading = make_shading_scene(scene, moment.frame, anchor);
+    const LightSet lights = make_light_set(shading);
+    RayCounts counts;
+    const SampleHits centers = cast_sample(s.rays, moment.view, 0, 1, &counts.primary);
+    s.exposure = compute_exposure(
+        compute_estimate({shading, lights, s.rays}, moment.view, centers, EstimateKind::direct, 1.0, counts));
+}
+
+Sequence::~Sequence() = default;
+Sequence::Sequence(Sequence&&) noexcept = default;
+double Sequence::exposure() const { return state_->exposure; }
+FrameRange Sequence::range() const { return state_->range; }
+
+namespace {
+
+/// Motion to the next frame; from the one before at the scene's last frame; none across a cut.
+struct MotionPlan {
+    bool needed = false;
+    bool cut = false;
+    bool backward = false;
+    std::int64_t other = 0;
+};
+
+MotionPlan plan_motion(const Scene& scene, const FrameRange& range, std::int64_t frame, bool needed) {
+    MotionPlan plan;
+    plan.needed = needed;
+    plan.backward = frame == range.last && range.last > range.first;
+    plan.other = plan.backward ? frame - 1 : frame + 1;
+    plan.cut = is_cut(scene, plan.backward ? frame : frame + 1);
+    return plan;
+}
+
+void fill_geometry_maps(const ShadingScene& shading, const SampleHits& centers, FrameOutput& out) {
+    const CameraView& view = out.view;
+    out.depth = Image<float>(view.width, view.height, background_depth);
+    out.normal = Image<glm::vec3>(view.width, view.height, glm::vec3(0.0f));
+    const glm::vec3 origin(view.position - shading.anchor);
+    const glm::vec3 forward(-view.axes[2]);
+    parallel_for(static_cast<std::size_t>(view.height), 16, [&](std::size_t begin, std::size_t end) {
+        for (int y = static_cast<int>(begin); y < static_cast<int>(end); ++y) {
+            for (int x = 0; x < view.width; ++x) {
+                if (centers.hits(x, y).instance == no_index) continue;
+                const PixelSurface surface = make_pixel_surface(shading, view, centers, x, y);
+                out.depth(x, y) = glm::dot(surface.point.position - origin, forward);
+                out.normal(x, y) = surface.point.normal;
+            }
+        }
+    });
+}
+
+}  // namespace
+
+FrameOutput Sequence::render(std::int64_t frame, const FrameRequest& request) {
+    State& s = *state_;
+    const RenderSettings& settings = s.settings;
+    const bool guided = settings.perception.guide != Guide::none;
+    const bool perceive = guided || request.maps;
+    const MotionPlan plan = plan_motion(s.scene, s.range, frame, perceive);
+    FrameOutput out;
+    FrameStatistics& stats = out.statistics;
+    stats.frame = frame;
+    const std::uint64_t traced_before = s.rays.rays_traced(), invalid_before = s.rays.invalid_rays();
+    StageClock clock, total;
+
+    const Moment now = make_moment(s.scene, frame, s.camera, settings.width, settings.height);
+    if (request.frame) refuse_later_effects(s.scene, now.frame.cameras[static_cast<std::size_t>(s.camera)]);
+    Moment other;
+    if (plan.needed) other = make_moment(s.scene, plan.other, s.camera, settings.width, settings.height);
+    out.view = now.view;
+    clock.add_to(stats.seconds.pose);
+
+    const glm::dvec3 anchor = compute_anchor(now.view);
+    stats.instances_touched = s.rays.update(now.frame, anchor);
+    const ShadingScene shading = make_shading_scene(s.scene, now.frame, anchor);
+    const LightSet lights = make_light_set(shading);
+    const LightingContext lighting{shading, lights, s.rays};
+    clock.add_to(stats.seconds.update);
+
+    const SampleHits centers = cast_sample(s.rays, now.view, 0, 1, &stats.rays.primary);
+    clock.add_to(stats.seconds.first_hits);
+
+    if (perceive) {
+        out.estimate = compute_estimate(lighting, now.view, centers, settings.estimate, s.exposure, stats.rays);
+        const SanitizeCounts sanitized = sanitize_estimate(out.estimate);
+        stats.replaced = sanitized.replaced;
+        stats.clamped = sanitized.clamped;
+        clock.add_to(stats.seconds.estimate);
+
+        out.motion = compute_model_motion(s.scene, {&now.frame, &now.view}, {&other.frame, &other.view}, centers.hits,
+                                          {.backward = plan.backward, .cut = plan.cut});
+        if (request.maps && !plan.cut) {
+            if (!s.other_rays) s.other_rays = std::make_unique<RayScene>(s.rays.share_meshes());
+            const std::uint64_t before = s.other_rays->rays_traced();
+            s.other_rays->update(other.frame, compute_anchor(other.view));
+            stats.rays.primary += mark_hidden(out.motion, s.scene, {&other.frame, &other.view}, centers.hits, *s.other_rays);
+            stats.traced_rays += s.other_rays->rays_traced() - before;
+        }
+        out.velocity = compute_image_velocity(out.motion, s.viewing);
+        clock.add_to(stats.seconds.motion);
+
+        out.perception = compute_perception(out.estimate, out.velocity, s.viewing, settings.perception,
+                                            {.retinal_velocity = request.maps, .conspicuity = request.maps});
+        stats.saliency_fallback = out.perception.fallback;
+        out.threshold = compute_threshold(out.perception.aleph, compute_adaptation_luminance(out.estimate, s.viewing));
+        clock.add_to(stats.seconds.perception);
+    } else {
+        out.perception.aleph = Image<float>(settings.width, settings.height, 1.0f);
+    }
+    out.alpha = compute_accuracy_map(out.perception.aleph, settings);
+
+    if (request.frame) {
+        const IndirectContext indirect{lighting,  now.view, settings, out.alpha, static_cast<std::uint32_t>(frame),
+                                       scene_radius(shading)};
+        out.shaded = shade_frame(indirect, centers, s.exposure);
+        stats.seconds.fill = out.shaded.fill_seconds;
+        stats.seconds.shade = out.shaded.shade_seconds;
+        stats.rays += out.shaded.rays;
+        stats.records = out.shaded.record_count;
+        stats.cache = out.shaded.cache;
+        stats.samples = centers.hits.size() * static_cast<std::uint64_t>(settings.spp);
+        stats.nan_count = out.shaded.invalid_count;
+    }
+    if (request.maps) fill_geometry_maps(shading, centers, out);
+    out.hits = centers.hits;
+    stats.traced_rays += s.rays.rays_traced() - traced_before;
+    stats.invalid_rays = s.rays.invalid_rays() - invalid_before;
+    stats.peak_memory_mib = peak_memory_mib();
+    total.add_to(stats.seconds.total);
+    return out;
+}
+
+}  // namespace aleph

@@ -1,0 +1,61 @@
+#pragma once
+// A posed scene made ready for shading: single precision, relative to the anchor, one entry per instance.
+
+#include <glm/mat3x3.hpp>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <vector>
+
+#include "engine/pose.h"
+#include "engine/ray_scene.h"
+
+namespace aleph {
+
+struct PosedInstance {
+    const Mesh* mesh = nullptr;
+    int material = no_index;      ///< into ShadingScene::materials; the default material is its last entry
+    glm::mat3 linear{1.0f};       ///< object to world
+    glm::vec3 translation{0.0f};  ///< m, relative to the anchor
+    glm::mat3 normals{1.0f};      ///< object to world for normals (cofactors), not normalised
+    bool visible = false;
+};
+
+/// Material numbers of this frame beside its textures.
+struct ShadingMaterial {
+    MaterialValues values;
+    const Material* material = nullptr;  ///< null: glTF's default
+    bool double_sided = false;
+    bool emits = false;
+};
+
+struct ShadingScene {
+    const Scene* scene = nullptr;
+    const SceneFrame* frame = nullptr;
+    glm::dvec3 anchor{0.0};
+    std::vector<PosedInstance> instances;  ///< as SceneFrame::instances
+    std::vector<ShadingMaterial> materials;
+    Rgb environment{0.0f};
+};
+
+/// Keeps pointers into scene and frame: both must outlive it.
+ShadingScene make_shading_scene(const Scene& scene, const SceneFrame& frame, const glm::dvec3& anchor);
+
+/// A point of a surface, seen from a direction.
+struct SurfacePoint {
+    glm::vec3 position{0.0f};   ///< m, relative to the anchor; from barycentrics (HARD_CASES RP-19)
+    glm::vec3 geometric{0.0f};  ///< unit, towards the viewer
+    glm::vec3 normal{0.0f};     ///< shading normal, unit, never facing away from the viewer's side of `geometric`
+    glm::vec2 uv[2]{};
+    glm::vec4 color{1.0f};      ///< vertex colour
+    int material = no_index;
+    float offset = 0.0f;        ///< m along `geometric` that clears rounding of the position (HARD_CASES RC-04)
+    bool front = true;          ///< seen from the side its winding faces
+
+    /// Where rays that leave on the viewer's side start.
+    glm::vec3 ray_origin() const { return position + geometric * offset; }
+};
+
+/// @param direction  of the ray that met it; need not be unit
+SurfacePoint make_surface_point(const ShadingScene& shading, const Hit& hit, const glm::vec3& direction);
+
+}  // namespace aleph
