@@ -107,6 +107,13 @@ TEST(Transforms, KF19_TinyAndHugeScalesAreJudgedAlike) {
     }
 }
 
+TEST(Transforms, KF19_NormalsOfScalesBeyondTheSquareOfADouble) {
+    for (const double s : {1e-300, 1e-200, 1e200, 1e300})
+        EXPECT_LT(glm::length(safe_normalize(normal_matrix(scaling(s, 2 * s, s)) * glm::dvec3(0.6, 1.6, 0)) -
+                              safe_normalize(glm::dvec3(0.6, 0.8, 0))),
+                  4.0 * double_unit);
+}
+
 TEST(Transforms, SingularValuesAreThoseOfTheProduct) {
     for (const glm::dvec3 sigma : {glm::dvec3(3, 2, 1), glm::dvec3(1, 1, 1), glm::dvec3(1, 1e-9, 1e-12),
                                    glm::dvec3(2, 2, 0), glm::dvec3(5, 0, 0)}) {
@@ -136,9 +143,17 @@ TEST(Transforms, KF20_ScaleThroughZero) {
     EXPECT_EQ(middle, scaling(0, 1, 1));
     EXPECT_FALSE(has_full_rank(middle));
     EXPECT_EQ(safe_normalize(normal_matrix(middle) * glm::dvec3(1, 1, 1)), glm::dvec3(1, 0, 0));
+    // A camera flattened along one axis still knows its axes.
+    const glm::dmat4 turn = turning(70, {1, -2, 3});
+    for (const glm::dmat4& flat : {scaling(0, 1, 1), scaling(1, 0, 1), scaling(2, 3, 0)})
+        EXPECT_LT(largest_element(orthonormal_axes(turn * flat) - glm::dmat3(turn)), 1e-15 * 4.0);
     // As matrices: by element, without a turn.
     EXPECT_EQ(interpolate_matrix(scaling(1, 1, 1), scaling(-1, 1, 1), 0.25), scaling(0.5, 1, 1));
     EXPECT_EQ(interpolate_matrix(scaling(1, 1, 1), scaling(0, 0, 0), 0.25), scaling(0.75, 0.75, 0.75));
+    for (const glm::dmat4& flat : {scaling(1, 0, 1), scaling(0, 0, 2), scaling(1, 1e-14, 1)}) {
+        const glm::dmat4 key = turning(160, {1, 0, 1}) * flat;
+        EXPECT_LT(distance(interpolate_matrix(turn, key, 0.25), turn * 0.75 + key * 0.25), 1e-15);
+    }
 }
 
 TEST(Transforms, KF21_ShearedKeysComeBackAsTheyWere) {
@@ -260,6 +275,10 @@ TEST(Transforms, KF27_LookAtStraightDownAndAtItself) {
             const glm::dvec3 forward = target == glm::dvec3(0.0) ? glm::dvec3(0, 0, -1) : safe_normalize(target);
             EXPECT_LT(glm::length(-glm::dvec3(world[2]) - forward), 4.0 * double_unit);
         }
+    // Up nearly along the view: its product with the view is all rounding beyond the eighth digit.
+    const glm::dvec3 view = glm::normalize(glm::dvec3(3.0, -7.0, 2.0));
+    for (const double lean : {1e-3, 1e-7, 2e-9, 1e-10, 1e-16})
+        expect_orthonormal(glm::dmat3(look_at(glm::dvec3(0.0), view, view + glm::dvec3(lean, 0.0, -lean))), 1e-15);
     const glm::dmat4 level = look_at({1, 2, 3}, {1, 2, -7}, y);
     EXPECT_EQ(glm::dmat3(level), glm::dmat3(1.0));
     EXPECT_EQ(level[3], glm::dvec4(1, 2, 3, 1));
