@@ -31,8 +31,8 @@ struct SampleSpan {
 /// Time of sample i, s.
 double sample_time(const TimeSampling& sampling, std::size_t i);
 
-/// The samples around a time. Times before the first (and NaN) and after the last sample hold. A time on one, or within a
-/// relative 1e-9 of one frame of it (exported times carry float noise), is that sample.
+/// The samples around a time. Times before the first (and NaN) and after the last sample hold. A time on one, or within
+/// a relative 1e-9 of one frame of it (exported times carry float noise), is that sample.
 /// @param count  samples that the property has; at least 1
 SampleSpan find_samples(const TimeSampling& sampling, std::size_t count, double seconds);
 
