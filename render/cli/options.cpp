@@ -1,0 +1,103 @@
+#include "render/cli/options.h"
+
+#include <fmt/format.h>
+
+#include <charconv>
+#include <cmath>
+#include <cstdint>
+#include <cstdio>
+#include <ostream>
+
+#include "engine/base/errors.h"
+
+namespace aleph {
+
+namespace {
+
+/// One line, safe to print, in the form of all our errors.
+void report(std::ostream& errors, const std::string& message) {
+    errors << "aleph: error: " << printable(message, 4000) << "\n" << std::flush;
+}
+
+template <class T>
+const char* kind_of() {
+    if constexpr (std::is_floating_point_v<T>) return "a number";
+    if constexpr (std::is_unsigned_v<T>) return "a whole number from 0";
+    return "a whole number";
+}
+
+}  // namespace
+
+template <class T>
+T parse_value(std::string_view text, const std::string& option) {
+    T value{};
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    bool good = error == std::errc{} && end == text.data() + text.size();
+    if constexpr (std::is_floating_point_v<T>) good = good && std::isfinite(value);
+    if (!good) {
+        const char* reason = error == std::errc::result_out_of_range ? " in range" : "";
+        throw CLI::ConversionError(fmt::format("{}: '{}' is not {}{}", option, printable(text), kind_of<T>(), reason));
+    }
+    return value;
+}
+
+template int parse_value<int>(std::string_view, const std::string&);
+template std::uint32_t parse_value<std::uint32_t>(std::string_view, const std::string&);
+template double parse_value<double>(std::string_view, const std::string&);
+
+template <class T>
+CLI::Option* add_value(CLI::App& app, const std::string& option, T& value, const std::string& help) {
+    const auto read = [&value, option](const std::string& text) { value = parse_value<T>(text, option); };
+    return app.add_option_function<std::string>(option, read, help)
+        ->type_name(std::is_floating_point_v<T> ? "NUMBER" : "N")
+        ->default_str(fmt::format("{}", value));
+}
+
+template CLI::Option* add_value<int>(CLI::App&, const std::string&, int&, const std::string&);
+template CLI::Option* add_value<std::uint32_t>(CLI::App&, const std::string&, std::uint32_t&, const std::string&);
+template CLI::Option* add_value<double>(CLI::App&, const std::string&, double&, const std::string&);
+
+void parse_size(std::string_view text, const std::string& option, int& width, int& height) {
+    const std::size_t x = text.find('x');
+    if (x == std::string_view::npos) {
+        throw CLI::ConversionError(fmt::format("{}: '{}' is not a size such as 640x480", option, printable(text)));
+    }
+    width = parse_value<int>(text.substr(0, x), option);
+    height = parse_value<int>(text.substr(x + 1), option);
+}
+
+int run_command(const Command& command, std::ostream& errors) {
+    try {
+        const int code = command();
+        if (std::fflush(stdout) != 0) throw OutputError("standard output", "cannot write the results");
+        return code;
+    } catch (const InputError& e) {
+        report(errors, e.what());
+        return exit_bad_input;
+    } catch (const CLI::Error& e) {
+        report(errors, e.what());
+        return exit_bad_input;
+    } catch (const std::bad_alloc&) {
+        report(errors, "out of memory");
+        return exit_failed;
+    } catch (const std::exception& e) {
+        report(errors, e.what());
+        return exit_failed;
+    }
+}
+
+int run_program(CLI::App& app, const Command& command, int argc, const char* const* argv, std::ostream& errors) {
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::Success& e) {  // --help, --version
+        return app.exit(e);
+    } catch (const CLI::ParseError& e) {
+        const auto chosen = app.get_subcommands();
+        const std::string name = chosen.empty() ? "aleph" : "aleph " + chosen.front()->get_name();
+        report(errors, fmt::format("{} ({} --help shows what there is)", e.what(), name));
+        return exit_bad_input;
+    }
+    return run_command(command, errors);
+}
+
+}  // namespace aleph

@@ -1,0 +1,106 @@
+#include "render/cli/progress.h"
+
+#include <fmt/format.h>
+#include <sys/ioctl.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstdlib>
+#include <string_view>
+
+namespace aleph {
+
+namespace {
+
+constexpr double redraw_interval = 0.1;      ///< seconds between two drawings of the bar
+constexpr double longest_line_interval = 5;  ///< seconds between two plain lines, at most; they start at a quarter
+
+double steady_seconds() {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+}  // namespace
+
+ProgressLook progress_look(bool quiet) {
+    if (quiet) return {};
+    const char* terminal = std::getenv("TERM");
+    if (!::isatty(STDERR_FILENO) || !terminal || std::string_view(terminal) == "dumb") {
+        return {ProgressStyle::lines, false, 80};
+    }
+    winsize size{};
+    const bool known = ::ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0;
+    const char* no_colour = std::getenv("NO_COLOR");  // no-color.org: set and not empty
+    return {ProgressStyle::bar, !no_colour || !*no_colour, known ? size.ws_col : 80};
+}
+
+std::string format_duration(double seconds) {
+    if (!(seconds >= 0.0)) return "?";
+    if (seconds < 59.95) return fmt::format("{:.1f}s", seconds);
+    const auto whole = static_cast<long long>(std::min(seconds, 1e12) + 0.5);
+    if (whole < 3600) return fmt::format("{}m{:02}s", whole / 60, whole % 60);
+    return fmt::format("{}h{:02}m", whole / 3600, whole % 3600 / 60);
+}
+
+Progress::Progress(std::string title, double total, const ProgressLook& look, std::FILE* out,
+                   std::function<double()> clock)
+    : title_(std::move(title)),
+      total_(std::max(total, 1e-9)),
+      look_(look),
+      out_(out),
+      clock_(clock ? std::move(clock) : steady_seconds),
+      start_(clock_()),
+      last_shown_(start_) {}
+
+Progress::~Progress() {
+    const std::lock_guard lock(mutex_);
+    if (pending_) show();
+    if (shown_ && look_.style == ProgressStyle::bar) std::fputc('\n', out_);
+}
+
+void Progress::update(double done, const std::string& what) {
+    if (look_.style == ProgressStyle::none) return;
+    const std::lock_guard lock(mutex_);
+    done_ = std::clamp(done, 0.0, total_);
+    what_ = what;
+    pending_ = true;
+    const double now = clock_();
+    const bool bar = look_.style == ProgressStyle::bar;
+    if (now - last_shown_ < (bar ? redraw_interval : interval_) && (shown_ || !bar)) return;
+    last_shown_ = now;
+    interval_ = std::min(longest_line_interval, interval_ * 2.0);
+    show();
+}
+
+std::string Progress::times() const {
+    const double elapsed = clock_() - start_;
+    const double remaining = done_ > 0.0 ? elapsed * (total_ - done_) / done_ : -1.0;
+    return fmt::format("({}|{})", format_duration(elapsed), format_duration(remaining));
+}
+
+void Progress::show() {
+    shown_ = true;
+    pending_ = false;
+    const double share = done_ / total_;
+    if (look_.style == ProgressStyle::lines) {
+        fmt::print(out_, "{} {:3.0f}% {} {}\n", title_, 100.0 * share, times(), what_);
+        std::fflush(out_);
+        return;
+    }
+    const std::string tail = fmt::format(" {:3.0f}% {} {}", 100.0 * share, times(), what_);
+    const int room = look_.columns - static_cast<int>(title_.size() + tail.size()) - 5;
+    const int width = std::clamp(room, 0, 40), filled = static_cast<int>(share * width);
+    std::string line = title_ + " ";
+    if (width >= 5) {
+        line += fmt::format("[{}{}{}{}]", look_.colour ? "\x1b[32m" : "",
+                            std::string(static_cast<std::size_t>(filled), '='), look_.colour ? "\x1b[0m" : "",
+                            std::string(static_cast<std::size_t>(width - filled), ' '));
+        line += tail;
+    } else {
+        line = (line + tail).substr(0, static_cast<std::size_t>(std::max(1, look_.columns - 1)));
+    }
+    fmt::print(out_, "\r{}\x1b[K", line);
+    std::fflush(out_);
+}
+
+}  // namespace aleph

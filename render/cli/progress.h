@@ -1,0 +1,63 @@
+#pragma once
+// How far a command is, and how long it will still take; on standard error, so that results can be piped.
+
+#include <cstdio>
+#include <functional>
+#include <mutex>
+#include <string>
+
+namespace aleph {
+
+enum class ProgressStyle {
+    none,
+    lines,  ///< plain lines at growing intervals: logs, pipes
+    bar,    ///< one line that is drawn again: terminals
+};
+
+/// How the bar looks; a test sets these by hand.
+struct ProgressLook {
+    ProgressStyle style = ProgressStyle::none;
+    bool colour = false;
+    int columns = 80;
+};
+
+/// What suits standard error: nothing if quiet, a bar on a terminal (without colour under NO_COLOR), lines elsewhere.
+ProgressLook progress_look(bool quiet);
+
+/// "3.2s", "1m05s", "2h03m".
+std::string format_duration(double seconds);
+
+/// Shows progress while it lives. May be called from any thread.
+class Progress {
+  public:
+    /// @param title  what is being done: "maps"
+    /// @param total  the amount of work, in the caller's unit, such as frames
+    /// @param clock  seconds since any moment; for tests
+    Progress(std::string title, double total, const ProgressLook& look, std::FILE* out = stderr,
+             std::function<double()> clock = {});
+    /// Shows the last state and ends the line.
+    ~Progress();
+    Progress(const Progress&) = delete;
+    Progress& operator=(const Progress&) = delete;
+
+    /// @param done  of `total`; fractions are fine
+    /// @param what  what is going on now: "frame 12: shade"
+    void update(double done, const std::string& what = {});
+
+  private:
+    void show();
+    std::string times() const;
+
+    const std::string title_;
+    const double total_;
+    const ProgressLook look_;
+    std::FILE* const out_;
+    const std::function<double()> clock_;
+    const double start_;
+    std::mutex mutex_;
+    double done_ = 0.0, last_shown_, interval_ = 0.25;
+    bool shown_ = false, pending_ = false;
+    std::string what_;
+};
+
+}  // namespace aleph
