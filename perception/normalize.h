@@ -2,10 +2,8 @@
 // N(.), the global non-linear normalization of Itti, Koch and Niebur 1998 (thesis 5.3, MODEL 5.3): promotes maps with
 // one outstanding peak, suppresses maps with many alike.
 
-#include <vector>
-
 #include "engine/base/image.h"
-#include "engine/base/pyramid.h"
+#include "perception/local_maxima.h"
 
 namespace aleph {
 
@@ -18,15 +16,11 @@ struct Normalization {
     double scale() const { return empty ? 0.0 : weight / (maximum - minimum); }
 };
 
-/// N(.) of the map |expansion of `level_image` to level 0|, which is never stored.
-/// Local maxima are 8-connected plateaus of the map quantised to 16 bits that are higher than all their neighbours;
-/// those under .1 are dropped; m = 0 where only the global maximum is left.
-/// @param level_image  raster of level `level` of `sizes`; level 0: the map itself
-/// @param floor        smallest range that is not noise, in the map's unit
-Normalization compute_normalization(const Image<float>& level_image, int level, const std::vector<LevelSize>& sizes,
-                                    double floor);
+/// N(.) of |map|; m = 0 where only the global maximum is left.
+/// @param floor  smallest range that is not noise, in the map's unit
+Normalization compute_normalization(const ExpandedMap& map, double floor);
 
-/// The same of a whole map.
+/// The same of a raster.
 Normalization compute_normalization(const Image<float>& map, double floor);
 
 }  // namespace aleph

@@ -29,9 +29,10 @@ std::vector<WeightedMap> weigh_maps(const std::vector<FeatureMap>& maps, const s
     parallel_for(maps.size(), 1, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
             const double floor = maps[i].channel == Channel::motion ? motion_floor : feature_floor * largest_a;
-            weighted[i] = {&maps[i], grid == SaliencyGrid::full
-                                         ? compute_normalization(maps[i].difference, maps[i].level, sizes, floor)
-                                         : compute_normalization(maps[i].difference, floor)};
+            const FeatureMap& map = maps[i];
+            weighted[i] = {&map, grid == SaliencyGrid::full
+                                     ? compute_normalization({&map.difference, map.level, &sizes}, floor)
+                                     : compute_normalization(map.difference, floor)};
         }
     });
     // A map that N(.) made 0 adds nothing; dropping it here saves its second expansion.
