@@ -1,0 +1,212 @@
+#include "engine/json_text.h"
+
+#include <fmt/format.h>
+#include <locale.h>
+
+#include <cmath>
+#include <unordered_set>
+
+#include "engine/base/errors.h"
+#include "engine/gltf_json.h"
+
+namespace aleph {
+
+namespace {
+
+using nlohmann::json;
+
+/// The parser reads numbers through strtod; while this lives the calling thread has the classic locale (HARD_CASES
+/// DT-09).
+class ClassicLocale {
+  public:
+    ClassicLocale() : classic_(newlocale(LC_ALL_MASK, "C", nullptr)), before_(uselocale(classic_)) {}
+    ~ClassicLocale() {
+        uselocale(before_);
+        freelocale(classic_);
+    }
+    ClassicLocale(const ClassicLocale&) = delete;
+    ClassicLocale& operator=(const ClassicLocale&) = delete;
+
+  private:
+    locale_t classic_, before_;
+};
+
+std::string line_and_column(std::string_view text, std::size_t offset) {
+    std::size_t line = 1, column = 1;
+    for (const char c : text.substr(0, offset)) {
+        if (c == '\n') {
+            ++line;
+            column = 1;
+        } else if ((static_cast<unsigned char>(c) & 0xc0) !=
+                   0x80) {  // the bytes that continue a character count no column
+            ++column;
+        }
+    }
+    return fmt::format("line {}, column {}", line, column);
+}
+
+/// "[json.exception.parse_error.101] parse error at line 1, column 5: syntax error while ..." to what follows the
+/// place.
+std::string parser_reason(const std::string& what) {
+    const auto column = what.find(", column ");
+    const auto colon = what.find(": ", column == std::string::npos ? 0 : column);
+    const std::string reason = colon == std::string::npos ? what : what.substr(colon + 2);
+    return "not valid JSON: " + printable(reason, 300);
+}
+
+/// Builds the value. nlohmann's own builder keeps the last of two equal keys and is silent about it.
+class Builder {
+  public:
+    Builder(std::string_view text, const std::string& file) : text_(text), file_(file) {}
+
+    bool null() { return add(nullptr); }
+    bool boolean(bool value) { return add(value); }
+    bool number_integer(json::number_integer_t value) { return add(value); }
+    bool number_unsigned(json::number_unsigned_t value) { return add(value); }
+    bool number_float(json::number_float_t value, const std::string&) { return add(value); }
+    bool string(std::string& value) { return add(std::move(value)); }
+    bool binary(json::binary_t&) { return false; }
+    bool start_object(std::size_t) { return open(json::object()); }
+    bool start_array(std::size_t) { return open(json::array()); }
+    bool end_object() { return close(); }
+    bool end_array() { return close(); }
+
+    bool key(std::string& name) {
+        Level& level = levels_.back();
+        level.key = std::move(name);
+        if (!level.keys.insert(level.key).second) throw InputError(file_, pointer(), "this key stands here twice");
+        if (levels_.size() == 2) result_.key_order[levels_.front().key].push_back(level.key);
+        return true;
+    }
+
+    bool parse_error(std::size_t position, const std::string&, const json::exception& error) {
+        if (error.id == 406) {
+            throw InputError(file_, line_and_column(text_, position - 1), "this number is too large for a double");
+        }
+        throw InputError(file_, line_and_column(text_, position == 0 ? 0 : position - 1), parser_reason(error.what()));
+    }
+
+    JsonText take() { return std::move(result_); }
+
+  private:
+    struct Level {
+        json* container = nullptr;
+        std::string key;
+        std::unordered_set<std::string> keys;
+    };
+
+    bool add(json&& value) {
+        insert(std::move(value));
+        return true;
+    }
+
+    json* insert(json&& value) {
+        if (levels_.empty()) {
+            result_.root = std::move(value);
+            return &result_.root;
+        }
+        Level& level = levels_.back();
+        if (level.container->is_array()) {
+            level.container->push_back(std::move(value));
+            return &level.container->back();
+        }
+        return &((*level.container)[level.key] = std::move(value));
+    }
+
+    bool open(json&& container) {
+        json* inserted = insert(std::move(container));
+        levels_.push_back({inserted, {}, {}});
+        if (levels_.size() > static_cast<std::size_t>(max_json_depth)) {
+            throw InputError(file_, "", fmt::format("nested more than {} deep", max_json_depth));
+        }
+        return true;
+    }
+
+    bool close() {
+        levels_.pop_back();
+        return true;
+    }
+
+    std::string pointer() const {
+        json::json_pointer path;
+        for (const Level& level : levels_) {
+            if (level.container->is_array()) {
+                path /= level.container->size() - 1;
+            } else {
+                path /= printable(level.key);
+            }
+        }
+        return path.to_string();
+    }
+
+    std::string_view text_;
+    const std::string& file_;
+    JsonText result_;
+    std::vector<Level> levels_;
+};
+
+std::string format_number(double value) {
+    if (value == 0.0 && std::signbit(value)) return "-0.0";  // "-0" would be read as an integer and lose its sign
+    return fmt::format("{}", value);
+}
+
+constexpr std::size_t line_width = 110;
+
+std::string format_line(const nlohmann::ordered_json& value) {
+    if (value.is_number_float()) return format_number(value.get<double>());
+    if (!value.is_structured()) return value.dump();
+    std::string out(1, value.is_array() ? '[' : '{');
+    for (const auto& item : value.items()) {
+        if (out.size() > 1) out += ", ";
+        if (value.is_object()) out += nlohmann::ordered_json(item.key()).dump() + ": ";
+        out += format_line(item.value());
+    }
+    return out + (value.is_array() ? ']' : '}');
+}
+
+void append_json(std::string& out, const nlohmann::ordered_json& value, std::size_t indent) {
+    if (!value.is_structured() || value.empty()) {
+        out += format_line(value);
+        return;
+    }
+    const bool is_array = value.is_array();
+    out += is_array ? '[' : '{';
+    const std::string margin(indent + 2, ' ');
+    const char* separator = "\n";
+    for (const auto& item : value.items()) {
+        out += separator + margin;
+        separator = ",\n";
+        if (!is_array) out += nlohmann::ordered_json(item.key()).dump() + ": ";
+        const std::string line = format_line(item.value());
+        if (indent + line.size() <= line_width) {
+            out += line;
+        } else {
+            append_json(out, item.value(), indent + 2);
+        }
+    }
+    out += '\n' + std::string(indent, ' ') + (is_array ? ']' : '}');
+}
+
+}  // namespace
+
+JsonText parse_json_text(std::string_view text, const std::string& file) {
+    if (text.size() > max_json_bytes) {
+        throw InputError(file, "", fmt::format("the text has {} bytes, more than {}", text.size(), max_json_bytes));
+    }
+    const ClassicLocale classic;
+    Builder builder(text, file);
+    json::sax_parse(text, &builder, json::input_format_t::json, true, true);
+    return builder.take();
+}
+
+std::string format_json(const nlohmann::ordered_json& value, const std::string& file) {
+    try {
+        std::string out;
+        append_json(out, value, 0);
+        return out + '\n';
+    } catch (const json::type_error& error) {
+        throw InputError(file, "", "a name or a path is not UTF-8: " + printable(error.what(), 300));
+    }
+}
+
+}  // namespace aleph

@@ -1,0 +1,29 @@
+#pragma once
+// JSON text as people write it: comments allowed, no key twice, no number that is lost, errors with line and column.
+
+#include <map>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace aleph {
+
+struct JsonText {
+    nlohmann::json root;  ///< objects sorted by key
+    /// Keys of the root's own objects as they stand in the file, by the object's name: where order counts.
+    std::map<std::string, std::vector<std::string>> key_order;
+};
+
+/// Parses the text of a file, whatever the process's locale. Size and nesting are limited (gltf_json.h names the
+/// limits).
+/// @throws InputError with place "line L, column C" for a syntax error or a number too large for a double, else a JSON
+/// pointer
+JsonText parse_json_text(std::string_view text, const std::string& file);
+
+/// The value as text: a list or an object stands on one line where that fits 110 columns, else one element a line,
+/// indented by 2. Numbers are the shortest that give back the same bits, whatever the locale. Ends with a newline.
+/// @throws InputError (file as given) for text that is not UTF-8
+std::string format_json(const nlohmann::ordered_json& value, const std::string& file);
+
+}  // namespace aleph

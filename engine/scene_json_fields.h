@@ -1,0 +1,77 @@
+#pragma once
+// What scene files call the members of materials, lights and cameras, with limits and with the values that stand for
+// absent keys: one table for the reader and the writer.
+
+#include <array>
+#include <limits>
+
+#include "engine/scene.h"
+
+namespace aleph {
+
+/// Limits of a value. `open`: the limits themselves are excluded.
+struct ValueRange {
+    double low = -std::numeric_limits<double>::infinity();
+    double high = std::numeric_limits<double>::infinity();
+    bool open = false;
+};
+
+inline constexpr ValueRange any_value{};
+inline constexpr ValueRange zero_to_one{0.0, 1.0, false};
+inline constexpr ValueRange not_negative{0.0, std::numeric_limits<double>::infinity(), false};
+inline constexpr ValueRange at_least_one{1.0, std::numeric_limits<double>::infinity(), false};
+inline constexpr ValueRange above_zero{0.0, std::numeric_limits<double>::infinity(), true};
+inline constexpr ValueRange field_of_view_degrees{0.0, 180.0, true};
+
+template <class Element, class T>
+struct TrackField {
+    const char* key;
+    Track<T> Element::*member;
+    ValueRange range;
+};
+
+inline constexpr std::array material_numbers{
+    TrackField<Material, double>{"alpha", &Material::alpha, zero_to_one},
+    TrackField<Material, double>{"metallic", &Material::metallic, zero_to_one},
+    TrackField<Material, double>{"roughness", &Material::roughness, zero_to_one},
+    TrackField<Material, double>{"specular", &Material::specular, zero_to_one},
+    TrackField<Material, double>{"ior", &Material::ior, at_least_one},
+    TrackField<Material, double>{"emission_strength", &Material::emission_strength, not_negative},
+};
+inline constexpr std::array material_colors{
+    TrackField<Material, glm::dvec3>{"base_color", &Material::base_color, zero_to_one},
+    TrackField<Material, glm::dvec3>{"specular_color", &Material::specular_color, not_negative},
+    TrackField<Material, glm::dvec3>{"emission", &Material::emission, not_negative},
+};
+struct TextureField {
+    const char* key;
+    TextureRef Material::*member;
+};
+inline constexpr std::array material_textures{
+    TextureField{"base_color_texture", &Material::base_color_texture},
+    TextureField{"metallic_roughness_texture", &Material::metallic_roughness_texture},
+    TextureField{"emission_texture", &Material::emission_texture},
+    TextureField{"specular_texture", &Material::specular_texture},
+    TextureField{"specular_color_texture", &Material::specular_color_texture},
+};
+
+inline constexpr std::array camera_numbers{
+    TrackField<Camera, double>{"half_height", &Camera::half_height, above_zero},
+    TrackField<Camera, double>{"aperture", &Camera::aperture, not_negative},
+    TrackField<Camera, double>{"focus", &Camera::focus_distance, above_zero},
+};
+
+/// Nobody who writes a colour by hand expects metal: unlike in glTF an absent `metallic` is 0.
+inline Material absent_material() {
+    Material material;
+    material.metallic = 0.0;
+    return material;
+}
+
+// Words of enumerations, in the order of their values.
+inline constexpr std::array interpolation_words{"step", "linear", "cubic"};
+inline constexpr std::array wrap_words{"repeat", "clamp", "mirror"};
+inline constexpr std::array shape_words{"quad", "box", "sphere", "cylinder"};
+inline constexpr std::array light_words{"point", "directional"};
+
+}  // namespace aleph
