@@ -37,16 +37,18 @@ void add_band(const float* band, const float* elevation, std::size_t width, floa
     }
 }
 
+/// A band whose elevation is 1 everywhere.
+void add_flat_band(const float* band, std::size_t width, float* sum) {
+    for (std::size_t x = 0; x < width; ++x) sum[x] += std::abs(band[x]);
+}
+
 /// (5.11) from the sums; `flat`: f_6, for pixels without contrast.
-void divide_sums(const RowBuffers& b, const float* finest, const float* coarsest, const float* flat, float* out) {
+void divide_sums(const RowBuffers& b, const float* noise, const float* flat, float* out) {
     const float* const sum = b.sum.data();
     const float* const above = b.above.data();
     const std::size_t width = b.sum.size();
     for (std::size_t x = 0; x < width; ++x) {
-        const float fine = std::abs(finest[x]);
-        const float coarse = std::abs(coarsest[x]);
-        const float threshold = band_noise * (fine > coarse ? fine : coarse);
-        const bool has_contrast = sum[x] > threshold;
+        const bool has_contrast = sum[x] > noise[x];
         const float divisor = has_contrast ? sum[x] : 1.0f;
         const float aleph = 1.0f + above[x] / divisor;
         out[x] = has_contrast ? aleph : flat[x];
@@ -80,14 +82,22 @@ void ElevationRow::load(const float* velocity) {
     const std::size_t width = spread_.size();
     float* const spread = spread_.data();
     float* const peak = peak_.data();
+    float largest = 0.0f;
+#pragma omp simd reduction(max : largest)
     for (std::size_t x = 0; x < width; ++x) {
         const float v = velocity[x] < largest_model_velocity ? velocity[x] : largest_model_velocity;
         const float s = static_cast<float>(csf_c2) * v + static_cast<float>(csf_rho_offset);
         const float l = std::abs(log10_2 * fast_log2(v) + log_offset);
         const float k = static_cast<float>(csf_k_offset) + static_cast<float>(csf_k_slope) * (l * l * l);
         spread[x] = s;
+        largest = s > largest ? s : largest;
         peak[x] = peak_factor * k * v / (s * s);
     }
+    largest_spread_ = largest;
+}
+
+bool ElevationRow::is_one(int band) const {
+    return !(slope_[static_cast<std::size_t>(band)] * largest_spread_ > 1.0f);
 }
 
 void ElevationRow::elevations(int band, float* out) const {
@@ -122,7 +132,6 @@ AlephImages compute_aleph(const AlephPass& pass, bool with_retinal_velocity) {
     AlephImages out;
     out.aleph = Image<float>(size.width, size.height);
     if (with_retinal_velocity) out.retinal_velocity = Image<float>(size.width, size.height);
-    if (pass.saliency != nullptr) out.saliency = Image<float>(size.width, size.height);
 
     const auto height = static_cast<std::size_t>(size.height);
     const auto width = static_cast<std::size_t>(size.width);
@@ -137,11 +146,8 @@ AlephImages compute_aleph(const AlephPass& pass, bool with_retinal_velocity) {
         for (int y = static_cast<int>(begin); y < static_cast<int>(end); ++y) {
             const float* saliency = b.saliency.data();
             if (pass.saliency != nullptr) {
-                float* const scaled = out.saliency.row(y);
-                const float* const raw = pass.saliency->raw.row(y);
-                const Saliency& s = *pass.saliency;
-                for (std::size_t x = 0; x < width; ++x) scaled[x] = s.scaled(raw[x]);
-                saliency = scaled;
+                scale_saliency_row(*pass.saliency, y);
+                saliency = pass.saliency->map.row(y);
             }
             if (pass.velocity != nullptr) {
                 retinal_velocity_row(pass.velocity->row(y), saliency, size.width, b.velocity.data());
@@ -151,12 +157,18 @@ AlephImages compute_aleph(const AlephPass& pass, bool with_retinal_velocity) {
             elevation.load(b.velocity.data());
             std::fill(b.sum.begin(), b.sum.end(), 0.0f);
             std::fill(b.above.begin(), b.above.end(), 0.0f);
+            bands.expand_row(y);
             for (int i = 0; i < band_count; ++i) {
-                elevation.elevations(i, b.elevation.data());
-                add_band(bands.row(i, y), b.elevation.data(), width, b.sum.data(), b.above.data());
+                if (elevation.is_one(i)) {
+                    add_flat_band(bands.band(i), width, b.sum.data());
+                } else {
+                    elevation.elevations(i, b.elevation.data());
+                    add_band(bands.band(i), b.elevation.data(), width, b.sum.data(), b.above.data());
+                }
             }
-            // The last band's elevation is still in place: what a pixel without contrast gets.
-            divide_sums(b, pass.bands.finest.row(y), bands.coarsest_row(y), b.elevation.data(), out.aleph.row(y));
+            if (elevation.is_one(band_count - 1)) std::fill(b.elevation.begin(), b.elevation.end(), 1.0f);
+            // The last band's elevation is what a pixel without contrast gets.
+            divide_sums(b, bands.noise(), b.elevation.data(), out.aleph.row(y));
             clamped[begin / rows_per_band] += clamp_row(out.aleph.row(y), width);
         }
     });

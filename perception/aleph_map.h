@@ -19,13 +19,17 @@ class ElevationRow {
     /// @param velocity  deg/s, `width` values, each finite and at least the drift
     void load(const float* velocity);
 
+    /// Whether f_band is 1 in the whole row: every rho_peak is above the band.
+    bool is_one(int band) const;
+
     /// out[x] = f_band
     void elevations(int band, float* out) const;
 
   private:
     std::array<float, band_count> slope_;  ///< rho / rho_peak = slope * (c2 v + 2)
     std::vector<float> spread_;            ///< c2 v + 2
-    std::vector<float> peak_;              ///< CSF_max
+    float largest_spread_ = 0.0f;
+    std::vector<float> peak_;  ///< CSF_max
 };
 
 /// (5.5) of a row, in float. Velocities that are NaN or negative count as 0, above 1e30 as 1e30.
@@ -35,14 +39,14 @@ void retinal_velocity_row(const float* velocity, const float* saliency, int coun
 struct AlephPass {
     const BandLevels& bands;
     const Image<float>* velocity;  ///< deg/s; null: nothing moves
-    const Saliency* saliency;      ///< null: S = tracking_efficiency
+    Saliency* saliency;            ///< its map becomes S; null: S = tracking_efficiency
     std::array<double, band_count> rho;
 };
 
 struct AlephImages {
     Image<float> aleph;
-    Image<float> retinal_velocity, saliency;  ///< as asked for
-    std::uint64_t clamped = 0;                ///< values of aleph that left [1, 250.76]
+    Image<float> retinal_velocity;  ///< if asked for
+    std::uint64_t clamped = 0;      ///< values of aleph that left [1, 250.76]
 };
 
 /// (5.11).

@@ -11,11 +11,12 @@ namespace {
 constexpr std::size_t rows_per_band = 32;
 }
 
-BandLevels make_band_levels(const std::vector<Image<float>>& a, float grey) {
+BandLevels take_band_levels(std::vector<Image<float>>& a, float grey) {
     BandLevels out;
     out.sizes = pyramid_sizes(a.front().width, a.front().height, band_count + 1);
-    parallel_for(band_count, 1, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t i = begin; i < end; ++i) {
+    out.grey = grey;
+    parallel_for(band_count - 1, 1, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin + 1; i < end + 1; ++i) {
             Image<float> difference = expand(a[i + 1], out.sizes[i]);
             for (std::size_t p = 0; p < difference.size(); ++p) {
                 difference.pixels[p] = a[i].pixels[p] - difference.pixels[p];
@@ -23,30 +24,49 @@ BandLevels make_band_levels(const std::vector<Image<float>>& a, float grey) {
             out.differences[i] = std::move(difference);
         }
     });
-    out.finest = a.front();
     out.coarsest = a[band_count];
-    for (float& v : out.finest.pixels) v += grey;
-    for (float& v : out.coarsest.pixels) v += grey;
+    out.finest = std::move(a[0]);
+    out.second = std::move(a[1]);
     return out;
 }
 
 BandRows::BandRows(const BandLevels& levels)
-    : levels_(levels), width_(levels.sizes.front().width), expanders_(band_count + 1, RowExpander(levels.sizes)) {}
+    : levels_(levels),
+      expanders_(band_count + 1, RowExpander(levels.sizes)),
+      noise_(static_cast<std::size_t>(levels.sizes.front().width)) {
+    for (std::vector<float>& row : rows_) row.resize(noise_.size());
+}
 
 void BandRows::load(int begin, int end) {
-    begin_ = begin;
-    for (int i = 0; i < band_count; ++i) {
+    expanders_[0].load(levels_.second, 1, begin, end);
+    for (int i = 1; i < band_count; ++i) {
         const auto index = static_cast<std::size_t>(i);
-        bands_[index] = expanders_[index].expand_rows(levels_.differences[index], i, begin, end);
+        expanders_[index].load(levels_.differences[index], i, begin, end);
     }
-    coarsest_ = expanders_[band_count].expand_rows(levels_.coarsest, band_count, begin, end);
+    expanders_[band_count].load(levels_.coarsest, band_count, begin, end);
+}
+
+void BandRows::expand_row(int y) {
+    for (std::size_t i = 0; i < rows_.size(); ++i) expanders_[i].expand_row(y, rows_[i].data());
+    expanders_[band_count].expand_row(y, noise_.data());
+    const float* const finest = levels_.finest.row(y);
+    float* const band_0 = rows_[0].data();
+    float* const noise = noise_.data();
+    const float grey = levels_.grey;
+    for (std::size_t x = 0; x < noise_.size(); ++x) {
+        band_0[x] = finest[x] - band_0[x];
+        const float fine = std::abs(finest[x] + grey);
+        const float coarse = std::abs(noise[x] + grey);
+        noise[x] = band_noise * (fine > coarse ? fine : coarse);
+    }
 }
 
 std::array<Image<float>, band_count> compute_band_response(const Image<float>& achromatic) {
     const float grey = mean_grey(achromatic);
     Image<float> shifted = achromatic;
     for (float& v : shifted.pixels) v -= grey;
-    const BandLevels levels = make_band_levels(make_gaussian_pyramid(std::move(shifted), band_count + 1), grey);
+    std::vector<Image<float>> pyramid = make_gaussian_pyramid(std::move(shifted), band_count + 1);
+    const BandLevels levels = take_band_levels(pyramid, grey);
 
     std::array<Image<float>, band_count> out;
     for (Image<float>& image : out) image = Image<float>(achromatic.width, achromatic.height);
@@ -54,15 +74,15 @@ std::array<Image<float>, band_count> compute_band_response(const Image<float>& a
         BandRows rows(levels);
         rows.load(static_cast<int>(begin), static_cast<int>(end));
         for (int y = static_cast<int>(begin); y < static_cast<int>(end); ++y) {
+            rows.expand_row(y);
             for (int x = 0; x < achromatic.width; ++x) {
                 double sum = 0.0;
-                for (int i = 0; i < band_count; ++i) sum += std::abs(rows.row(i, y)[x]);
-                const double size = std::max(std::abs(achromatic(x, y)), std::abs(rows.coarsest_row(y)[x]));
-                const bool noise = !(sum > band_noise * size);
+                for (int i = 0; i < band_count; ++i) sum += std::abs(rows.band(i)[x]);
+                const bool noise = !(sum > rows.noise()[x]);
                 for (int i = 0; i < band_count; ++i) {
                     const double flat = i == band_count - 1 ? 1.0 : 0.0;
                     out[static_cast<std::size_t>(i)](x, y) =
-                        static_cast<float>(noise ? flat : std::abs(rows.row(i, y)[x]) / sum);
+                        static_cast<float>(noise ? flat : std::abs(rows.band(i)[x]) / sum);
                 }
             }
         }

@@ -10,41 +10,42 @@
 
 namespace aleph {
 
-/// L(i) = |A(i) - A(i+1)| of full-size levels, kept as signed differences at level i's own size (expansion is linear).
+/// What L(i) = |A(i) - A(i+1)| of full-size levels is made from. Expansion is linear, so signed differences of levels
+/// are kept at level i's own size; those of band 0, at full size, are not kept at all.
 struct BandLevels {
     std::vector<LevelSize> sizes;                      ///< of levels 0..7
-    std::array<Image<float>, band_count> differences;  ///< A(i) - expanded A(i+1)
-    Image<float> finest, coarsest;                     ///< A(0), A(7), grey included
+    float grey = 0.0f;                                 ///< subtracted from A: weak bands keep more digits without it
+    Image<float> finest, second, coarsest;             ///< A(0), A(1), A(7), minus grey
+    std::array<Image<float>, band_count> differences;  ///< A(i) - expanded A(i+1), i >= 1
 };
 
 /// Where the sum of the bands is at most this part of max(|A0|, |A7|) it is rounding: R_6 = 1, the others 0.
 inline constexpr float band_noise = 1e-5f;
 
-/// @param a     Gaussian levels 0..7 at least, of A - grey: without its grey, weak bands keep more digits
-/// @param grey  what was subtracted
-BandLevels make_band_levels(const std::vector<Image<float>>& a, float grey);
+/// @param a     Gaussian levels 0..7 at least, of A - grey; levels 0 and 1 are taken away
+BandLevels take_band_levels(std::vector<Image<float>>& a, float grey);
 
-/// The bands of some rows at full size. One per thread.
+/// The bands of one row at a time, at full size. One per thread.
 class BandRows {
   public:
     explicit BandRows(const BandLevels& levels);
 
-    /// Prepares rows [begin, end); row() is valid until the next call.
+    /// Prepares rows [begin, end).
     void load(int begin, int end);
 
-    /// L(band) of row y, signed: its absolute value is L.
-    const float* row(int band, int y) const { return bands_[static_cast<std::size_t>(band)] + offset(y); }
-    const float* coarsest_row(int y) const { return coarsest_ + offset(y); }
+    /// Row y of every band; what the functions below return holds until the next call.
+    void expand_row(int y);
+
+    /// L(band), signed: its absolute value is L.
+    const float* band(int i) const { return rows_[static_cast<std::size_t>(i)].data(); }
+    /// What the sum of the bands must exceed: band_noise * max(|A0|, |A7|).
+    const float* noise() const { return noise_.data(); }
 
   private:
-    std::ptrdiff_t offset(int y) const { return static_cast<std::ptrdiff_t>(y - begin_) * width_; }
-
     const BandLevels& levels_;
-    std::ptrdiff_t width_;
-    int begin_ = 0;
-    std::vector<RowExpander> expanders_;  ///< one per band and one for A(7): their rows live side by side
-    std::array<const float*, band_count> bands_{};
-    const float* coarsest_ = nullptr;
+    std::vector<RowExpander> expanders_;  ///< by level: differences of bands 1..6; 0: A(1); 7: A(7)
+    std::array<std::vector<float>, band_count> rows_;
+    std::vector<float> noise_;
 };
 
 /// (5.3) R_i at full size; they sum to 1 everywhere. The Aleph pass works row by row and does not store them.

@@ -11,9 +11,8 @@ struct LevelPair {
     int center, surround;
 };
 constexpr std::array<LevelPair, 6> level_pairs = {{{2, 5}, {2, 6}, {3, 6}, {3, 7}, {4, 7}, {4, 8}}};
-constexpr int finest_center = 2;
 
-/// One of the pyramids that feature maps are taken from: levels 0 and 1 are not used and may be empty.
+/// One of the pyramids that feature maps are taken from.
 struct Source {
     Channel channel;
     const std::vector<Image<float>>* levels;
@@ -32,8 +31,7 @@ FeatureMap make_feature_map(const Source& source, LevelPair pair, const std::vec
 }  // namespace
 
 std::vector<FeatureMap> make_feature_maps(const ChannelPyramids& pyramids) {
-    const Image<float>& base = pyramids.a.front();
-    const std::vector<LevelSize> sizes = pyramid_sizes(base.width, base.height, saliency_levels);
+    const std::vector<LevelSize> sizes = pyramid_sizes(pyramids.size.width, pyramids.size.height, saliency_levels);
 
     std::array<std::vector<Image<float>>, orientation_count> oriented;
     for (auto& levels : oriented) levels.resize(saliency_levels);

@@ -22,8 +22,11 @@ struct FeatureMap {
     Image<float> difference;  ///< centre - expanded surround, signed, at the centre's size
 };
 
-/// Gaussian pyramids of what the channels are made from, levels 0..8 each; |C1| and |C2| share a channel.
+inline constexpr int finest_center = 2;  ///< levels 0 and 1 enter no feature map and may be empty
+
+/// Gaussian pyramids of what the channels are made from, levels 0..8 each; C1 and C2 share a channel.
 struct ChannelPyramids {
+    LevelSize size;  ///< of level 0
     std::vector<Image<float>> a, c1, c2;
     std::vector<Image<float>> velocity;  ///< deg/s
 };

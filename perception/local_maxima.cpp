@@ -11,39 +11,36 @@ namespace aleph {
 
 namespace {
 
-constexpr int rows_per_band = 32;
 constexpr int reach = Candidate::reach;
 constexpr float outside = -1.0f;  // lower than any value of a map
 constexpr double quantisation_steps = 65535.0;
 constexpr double lowest_maximum = 0.1;  // local maxima below it are dropped (MODEL 5.3)
 
-/// Rows of |map| with a rim of `outside` that is `reach` wide, so that no pixel is a special case.
-class PaddedRows {
+/// The last few rows of |map|, in a ring, with a rim of `outside` that is `reach` wide: no pixel is a special case.
+class RowRing {
   public:
-    PaddedRows(int width, int rows)
-        : stride_(width + 2 * reach), values_(static_cast<std::size_t>(stride_) * static_cast<std::size_t>(rows)) {}
+    static constexpr int rows = 8;  // at least Candidate::side, a power of two
 
-    /// Pixel 0 of row y >= -reach.
-    float* row(int y) { return values_.data() + static_cast<std::ptrdiff_t>(y + reach) * stride_ + reach; }
-    const float* row(int y) const { return const_cast<PaddedRows*>(this)->row(y); }
-    void clear_row(int y) { std::fill_n(row(y) - reach, stride_, outside); }
-    void clear_rim(int y, int width) {
-        std::fill_n(row(y) - reach, reach, outside);
-        std::fill_n(row(y) + width, reach, outside);
-    }
+    explicit RowRing(int width)
+        : width_(width), stride_(width + 2 * reach), values_(static_cast<std::size_t>(stride_ * rows), outside) {}
+
+    /// Pixel 0 of row y >= -rows.
+    float* row(int y) { return values_.data() + ((y + rows) % rows) * stride_ + reach; }
+    void clear_row(int y) { std::fill_n(row(y), width_, outside); }
 
   private:
+    int width_;
     std::ptrdiff_t stride_;
     std::vector<float> values_;
 };
 
-/// |source| into `out`; widens the range.
-void take_row(const float* source, int width, float* out, float& minimum, float& maximum) {
+/// Makes a row absolute; widens the range.
+void take_row(float* row, int width, float& minimum, float& maximum) {
     float low = minimum, high = maximum;
 #pragma omp simd reduction(min : low) reduction(max : high)
     for (int x = 0; x < width; ++x) {
-        const float v = std::abs(source[x]);
-        out[x] = v;
+        const float v = std::abs(row[x]);
+        row[x] = v;
         low = v < low ? v : low;
         high = v > high ? v : high;
     }
@@ -59,51 +56,51 @@ void max_along_row(const float* row, int width, float* out) {
     }
 }
 
-/// Walks a map in bands of rows and keeps what may be a local maximum.
+/// Walks a map row by row and keeps what may be a local maximum.
 class MapScanner {
   public:
     explicit MapScanner(const ExpandedMap& map)
-        : map_(map),
-          width_(map.size().width),
+        : width_(map.size().width),
           height_(map.size().height),
           expander_(*map.sizes),
-          rows_(width_, rows_per_band + 2 * reach),
-          row_maxima_(static_cast<std::size_t>(width_) * (rows_per_band + 2)) {}
+          rows_(width_),
+          row_maxima_(static_cast<std::size_t>(width_) * RowRing::rows, outside) {
+        expander_.load(*map.image, map.level, 0, height_);
+    }
 
     MapScan run() {
         scan_.minimum = std::numeric_limits<float>::infinity();
-        for (int begin = 0; begin < height_; begin += rows_per_band) {
-            scan_band(begin, std::min(begin + rows_per_band, height_));
+        // Row y is looked at when the `reach` rows below it are there.
+        for (int y = 0; y < height_ + reach; ++y) {
+            add_row(y);
+            if (y >= reach) scan_row(y - reach);
         }
         return std::move(scan_);
     }
 
   private:
-    void scan_band(int begin, int end) {
-        const int first = std::max(0, begin - reach);
-        const int last = std::min(height_, end + reach);
-        const float* source = expander_.expand_rows(*map_.image, map_.level, first, last);
-        for (int y = begin - reach; y < end + reach; ++y) {
-            if (y < first || y >= last) {
-                rows_.clear_row(y - begin);
-                continue;
-            }
-            take_row(source, width_, rows_.row(y - begin), scan_.minimum, scan_.maximum);
-            rows_.clear_rim(y - begin, width_);
-            source += width_;
+    void add_row(int y) {
+        float* const row = rows_.row(y);
+        if (y < height_) {
+            expander_.expand_row(y, row);
+            take_row(row, width_, scan_.minimum, scan_.maximum);
+        } else {
+            rows_.clear_row(y);
         }
-        for (int r = -1; r <= end - begin; ++r) max_along_row(rows_.row(r), width_, maxima(r));
-        for (int y = begin; y < end; ++y) scan_row(y, y - begin);
+        max_along_row(row, width_, maxima(y));
     }
 
-    float* maxima(int r) { return row_maxima_.data() + static_cast<std::ptrdiff_t>(r + 1) * width_; }
+    float* maxima(int y) {
+        return row_maxima_.data() +
+               static_cast<std::ptrdiff_t>((y + RowRing::rows) % RowRing::rows) * static_cast<std::ptrdiff_t>(width_);
+    }
 
-    void scan_row(int y, int r) {
+    void scan_row(int y) {
         constexpr int block = 64;
-        const float* const row = rows_.row(r);
-        const float* const above = maxima(r - 1);
-        const float* const here = maxima(r);
-        const float* const below = maxima(r + 1);
+        const float* const row = rows_.row(y);
+        const float* const above = maxima(y - 1);
+        const float* const here = maxima(y);
+        const float* const below = maxima(y + 1);
         const auto highest = [&](int x) {
             const float higher = above[x] > below[x] ? above[x] : below[x];
             return higher > here[x] ? higher : here[x];
@@ -118,24 +115,23 @@ class MapScanner {
             }
             if (found == 0) continue;
             for (int x = x0; x < x1; ++x) {
-                if (row[x] > threshold && row[x] >= highest(x)) add_candidate(x, y, r);
+                if (row[x] > threshold && row[x] >= highest(x)) add_candidate(x, y);
             }
         }
     }
 
-    void add_candidate(int x, int y, int r) {
+    void add_candidate(int x, int y) {
         Candidate& c = scan_.candidates.emplace_back();
         c.x = x, c.y = y;
         auto out = c.values.begin();
         for (int dy = -reach; dy <= reach; ++dy) {
-            out = std::copy_n(rows_.row(r + dy) + (x - reach), Candidate::side, out);
+            out = std::copy_n(rows_.row(y + dy) + (x - reach), Candidate::side, out);
         }
     }
 
-    ExpandedMap map_;
     int width_, height_;
     RowExpander expander_;
-    PaddedRows rows_;
+    RowRing rows_;
     std::vector<float> row_maxima_;
     MapScan scan_;
 };
@@ -201,9 +197,12 @@ class LargePlateaus {
     LargePlateaus(const ExpandedMap& map, const Quantiser& quantise)
         : size_(map.size()),
           quantise_(quantise),
-          expander_(*map.sizes),
-          values_(expander_.expand_rows(*map.image, map.level, 0, size_.height)),
-          visited_(static_cast<std::size_t>(size_.width) * static_cast<std::size_t>(size_.height)) {}
+          values_(static_cast<std::size_t>(size_.width) * static_cast<std::size_t>(size_.height)),
+          visited_(values_.size()) {
+        RowExpander expander(*map.sizes);
+        expander.load(*map.image, map.level, 0, size_.height);
+        for (int y = 0; y < size_.height; ++y) expander.expand_row(y, values_.data() + index(0, y));
+    }
 
     /// Nothing if the plateau was found before.
     std::optional<Plateau> find(const Candidate& c) {
@@ -223,8 +222,7 @@ class LargePlateaus {
 
     LevelSize size_;
     Quantiser quantise_;
-    RowExpander expander_;
-    const float* values_;
+    std::vector<float> values_;
     std::vector<std::uint8_t> visited_;
 };
 

@@ -50,13 +50,9 @@ void subtract(Image<float>& image, float value) {
     for (float& v : image.pixels) v -= value;
 }
 
-ChannelPyramids make_channel_pyramids(OpponentImages opponent, std::vector<Image<float>> a, Image<float> motion) {
-    ChannelPyramids out;
-    out.a = std::move(a);
-    out.c1 = make_gaussian_pyramid(std::move(opponent.c1), saliency_levels);
-    out.c2 = make_gaussian_pyramid(std::move(opponent.c2), saliency_levels);
-    out.velocity = make_gaussian_pyramid(std::move(motion), saliency_levels);
-    return out;
+/// What saliency needs of a channel; level 0, at full size, is let go.
+std::vector<Image<float>> make_feature_pyramid(Image<float> channel) {
+    return make_gaussian_pyramid(std::move(channel), saliency_levels, finest_center);
 }
 
 }  // namespace
@@ -87,13 +83,16 @@ PerceptionMaps compute_perception(const Image<Rgb>& estimate, const Image<float>
     subtract(opponent.a, grey);
     std::vector<Image<float>> a =
         make_gaussian_pyramid(std::move(opponent.a), salient ? saliency_levels : band_count + 1);
-    const BandLevels bands = make_band_levels(a, grey);
+    const BandLevels bands = take_band_levels(a, grey);
 
     Saliency saliency;
     if (salient) {
-        saliency = compute_saliency(
-            make_channel_pyramids(std::move(opponent), std::move(a), make_motion_channel(velocity, viewing)), largest_a,
-            settings.grid);
+        const ChannelPyramids pyramids{.size = bands.sizes.front(),
+                                       .a = std::move(a),
+                                       .c1 = make_feature_pyramid(std::move(opponent.c1)),
+                                       .c2 = make_feature_pyramid(std::move(opponent.c2)),
+                                       .velocity = make_feature_pyramid(make_motion_channel(velocity, viewing))};
+        saliency = compute_saliency(pyramids, largest_a, settings.grid);
     }
     AlephImages images = compute_aleph({.bands = bands,
                                         .velocity = settings.guide == Guide::spatial ? nullptr : &velocity,
@@ -102,7 +101,7 @@ PerceptionMaps compute_perception(const Image<Rgb>& estimate, const Image<float>
                                        outputs.retinal_velocity);
     maps.aleph = std::move(images.aleph);
     maps.retinal_velocity = std::move(images.retinal_velocity);
-    maps.saliency = std::move(images.saliency);
+    maps.saliency = std::move(saliency.map);
     maps.clamped = images.clamped;
     maps.fallback = saliency.fallback;
     if (salient && outputs.conspicuity) {

@@ -50,14 +50,17 @@ void add_normalized(const float* row, std::size_t count, const Normalization& n,
 /// Sums at full size, in bands of rows: every map is expanded again instead of being kept.
 void sum_full(const std::vector<WeightedMap>& maps, const std::vector<LevelSize>& sizes, Saliency& out) {
     const LevelSize size = sizes.front();
+    for (Image<float>& c : out.conspicuity) c = Image<float>(size.width, size.height);
     parallel_for(static_cast<std::size_t>(size.height), rows_per_band, [&](std::size_t begin, std::size_t end) {
         RowExpander expander(sizes);
-        const int first = static_cast<int>(begin), last = static_cast<int>(end);
-        const std::size_t count = (end - begin) * static_cast<std::size_t>(size.width);
+        std::vector<float> row(static_cast<std::size_t>(size.width));
         for (const WeightedMap& w : maps) {
-            float* const sum = out.conspicuity[static_cast<std::size_t>(w.map->channel)].row(first);
-            add_normalized(expander.expand_rows(w.map->difference, w.map->level, first, last), count, w.normalization,
-                           sum);
+            Image<float>& sum = out.conspicuity[static_cast<std::size_t>(w.map->channel)];
+            expander.load(w.map->difference, w.map->level, static_cast<int>(begin), static_cast<int>(end));
+            for (int y = static_cast<int>(begin); y < static_cast<int>(end); ++y) {
+                expander.expand_row(y, row.data());
+                add_normalized(row.data(), row.size(), w.normalization, sum.row(y));
+            }
         }
     });
 }
@@ -85,7 +88,17 @@ struct Range {
     float maximum = -std::numeric_limits<float>::infinity();
 };
 
-/// raw = sum of N(conspicuity); its range.
+Range find_range(const float* values, std::size_t count) {
+    float low = values[0], high = values[0];
+#pragma omp simd reduction(min : low) reduction(max : high)
+    for (std::size_t i = 0; i < count; ++i) {
+        low = values[i] < low ? values[i] : low;
+        high = values[i] > high ? values[i] : high;
+    }
+    return {low, high};
+}
+
+/// map = sum of N(conspicuity); its range.
 void sum_channels(Saliency& out) {
     std::array<Normalization, channel_count> normalization;
     parallel_for(normalization.size(), 1, [&](std::size_t begin, std::size_t end) {
@@ -93,18 +106,16 @@ void sum_channels(Saliency& out) {
             normalization[c] = compute_normalization(out.conspicuity[c], summed_floor);
         }
     });
-    const auto height = static_cast<std::size_t>(out.raw.height);
+    const auto height = static_cast<std::size_t>(out.map.height);
     std::vector<Range> ranges((height + rows_per_band - 1) / rows_per_band);
     parallel_for(height, rows_per_band, [&](std::size_t begin, std::size_t end) {
-        const std::size_t count = (end - begin) * static_cast<std::size_t>(out.raw.width);
-        float* const raw = out.raw.row(static_cast<int>(begin));
+        const std::size_t count = (end - begin) * static_cast<std::size_t>(out.map.width);
+        float* const sum = out.map.row(static_cast<int>(begin));
         for (std::size_t c = 0; c < normalization.size(); ++c) {
             if (normalization[c].scale() == 0.0) continue;
-            add_normalized(out.conspicuity[c].row(static_cast<int>(begin)), count, normalization[c], raw);
+            add_normalized(out.conspicuity[c].row(static_cast<int>(begin)), count, normalization[c], sum);
         }
-        Range& range = ranges[begin / rows_per_band];
-        const auto [low, high] = std::minmax_element(raw, raw + count);
-        range = {*low, *high};
+        ranges[begin / rows_per_band] = find_range(sum, count);
     });
     Range total;
     for (const Range& r : ranges) total = {std::min(total.minimum, r.minimum), std::max(total.maximum, r.maximum)};
@@ -115,26 +126,35 @@ void sum_channels(Saliency& out) {
 
 }  // namespace
 
-float Saliency::scaled(float value) const {
-    if (fallback) return static_cast<float>(tracking_efficiency);
-    const float s = (value - minimum) / (maximum - minimum);
-    return s > 0.0f ? (s < 1.0f ? s : 1.0f) : 0.0f;
+void scale_saliency_row(Saliency& saliency, int y) {
+    const auto width = static_cast<std::size_t>(saliency.map.width);
+    float* const row = saliency.map.row(y);
+    if (saliency.fallback) {
+        std::fill_n(row, width, static_cast<float>(tracking_efficiency));
+        return;
+    }
+    const float minimum = saliency.minimum;
+    const float range = saliency.maximum - saliency.minimum;
+    for (std::size_t x = 0; x < width; ++x) {
+        const float s = (row[x] - minimum) / range;
+        const float positive = s > 0.0f ? s : 0.0f;
+        row[x] = positive < 1.0f ? positive : 1.0f;
+    }
 }
 
 Saliency compute_saliency(const ChannelPyramids& pyramids, double largest_a, SaliencyGrid grid) {
-    const Image<float>& base = pyramids.a.front();
-    const std::vector<LevelSize> sizes = pyramid_sizes(base.width, base.height, saliency_levels);
+    const LevelSize size = pyramids.size;
+    const std::vector<LevelSize> sizes = pyramid_sizes(size.width, size.height, saliency_levels);
     const std::vector<FeatureMap> maps = make_feature_maps(pyramids);
     const std::vector<WeightedMap> weighted = weigh_maps(maps, sizes, largest_a, grid);
 
     Saliency out;
-    out.raw = Image<float>(base.width, base.height);
     if (grid == SaliencyGrid::full) {
-        for (Image<float>& c : out.conspicuity) c = Image<float>(base.width, base.height);
         sum_full(weighted, sizes, out);
     } else {
         sum_center(weighted, sizes, out);
     }
+    out.map = Image<float>(size.width, size.height);
     sum_channels(out);
     return out;
 }

@@ -9,16 +9,17 @@
 
 namespace aleph {
 
-/// What S is made from. S itself is `scaled(raw)`: kept raw so that the Aleph pass scales it on the way.
+/// S before its last step, which scale_saliency_row does: it needs one pass less when the Aleph pass does it on the
+/// way.
 struct Saliency {
     std::array<Image<float>, channel_count> conspicuity;  ///< by Channel: sums of N(feature), before their own N(.)
-    Image<float> raw;                                     ///< sum of N(conspicuity)
-    float minimum = 0.0f, maximum = 0.0f;                 ///< of raw
+    Image<float> map;                                     ///< sum of N(conspicuity)
+    float minimum = 0.0f, maximum = 0.0f;                 ///< of the sum
     bool fallback = false;  ///< nothing stood out, or everything did: S = tracking_efficiency everywhere
-
-    /// Min-max of raw, [0,1] exactly.
-    float scaled(float value) const;
 };
+
+/// Turns row y of the map into S: min-max to [0,1] exactly.
+void scale_saliency_row(Saliency& saliency, int y);
 
 /// @param largest_a  max |A| of the frame: feature maps of A, C1, C2 and orientation with a range of 1e-6 of it are 0
 Saliency compute_saliency(const ChannelPyramids& pyramids, double largest_a, SaliencyGrid grid);

@@ -169,11 +169,15 @@ Image<float> expand(const Image<float>& image, LevelSize fine) {
     return out;
 }
 
-std::vector<Image<float>> make_gaussian_pyramid(Image<float> image, int count) {
+std::vector<Image<float>> make_gaussian_pyramid(Image<float> image, int count, int first_kept) {
     std::vector<Image<float>> levels;
     levels.reserve(static_cast<std::size_t>(count));
     levels.push_back(std::move(image));
-    while (static_cast<int>(levels.size()) < count) levels.push_back(reduce(levels.back()));
+    while (static_cast<int>(levels.size()) < count) {
+        levels.push_back(reduce(levels.back()));
+        const std::size_t above = levels.size() - 2;
+        if (static_cast<int>(above) < first_kept) levels[above] = {};
+    }
     return levels;
 }
 
@@ -183,35 +187,42 @@ Image<float> expand_to_level(const Image<float>& image, const std::vector<LevelS
     return out;
 }
 
-const float* RowExpander::expand_rows(const Image<float>& image, int level, int begin, int end) {
-    if (level == 0) return image.row(begin);
-    // Which rows every level must give, from fine to coarse.
+void RowExpander::load(const Image<float>& image, int level, int begin, int end) {
     struct Range {
         int begin, end;
     };
-    std::vector<Range> ranges(static_cast<std::size_t>(level));
-    ranges[0] = {begin, end};
+    // Which rows every level must give, from fine to coarse.
+    std::vector<Range> ranges = {{begin, end}};
     for (int l = 1; l < level; ++l) {
-        const Range fine = ranges[static_cast<std::size_t>(l - 1)];
-        ranges[static_cast<std::size_t>(l)] = {
-            std::max(0, fine.begin / 2 - 1),
-            std::min((*sizes_)[static_cast<std::size_t>(l)].height, (fine.end - 1) / 2 + 2)};
+        const Range fine = ranges.back();
+        const int height = (*sizes_)[static_cast<std::size_t>(l)].height;
+        ranges.push_back({std::max(0, fine.begin / 2 - 1), std::min(height, (fine.end - 1) / 2 + 2)});
     }
-    column_sums_.resize(static_cast<std::size_t>(image.width) + 2);
     RowWindow window{image.pixels.data(), 0};
-    for (int l = level - 1; l >= 0; --l) {
+    for (int l = level - 1; l >= 1; --l) {
         const auto index = static_cast<std::size_t>(l);
         const LevelSize fine = (*sizes_)[index];
         const LevelSize coarse = (*sizes_)[index + 1];
-        column_sums_.resize(std::max(column_sums_.size(), static_cast<std::size_t>(coarse.width) + 2));
+        const Range rows = ranges[index];
         std::vector<float>& buffer = buffers_[index];
-        const auto needed =
-            static_cast<std::size_t>(ranges[index].end - ranges[index].begin) * static_cast<std::size_t>(fine.width);
-        if (buffer.size() < needed) buffer.resize(needed);
-        expand_window(window, coarse, fine, ranges[index].begin, ranges[index].end, buffer.data(), column_sums_.data());
-        window = {buffer.data(), ranges[index].begin};
+        buffer.resize(static_cast<std::size_t>(rows.end - rows.begin) * static_cast<std::size_t>(fine.width));
+        column_sums_.resize(static_cast<std::size_t>(coarse.width) + 2);
+        expand_window(window, coarse, fine, rows.begin, rows.end, buffer.data(), column_sums_.data());
+        window = {buffer.data(), rows.begin};
     }
-    return window.data;
+    expands_ = level > 0;
+    rows_ = window.data;
+    first_row_ = window.first;
+    if (expands_) column_sums_.resize(static_cast<std::size_t>((*sizes_)[1].width) + 2);
+}
+
+void RowExpander::expand_row(int y, float* out) {
+    if (expands_) {
+        expand_window({rows_, first_row_}, (*sizes_)[1], sizes_->front(), y, y + 1, out, column_sums_.data());
+    } else {
+        const auto width = static_cast<std::size_t>(sizes_->front().width);
+        std::copy_n(rows_ + static_cast<std::size_t>(y - first_row_) * width, width, out);
+    }
 }
 
 }  // namespace aleph

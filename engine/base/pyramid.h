@@ -29,27 +29,32 @@ Image<float> reduce(const Image<float>& image);
 /// An axis of size 1 is copied.
 Image<float> expand(const Image<float>& image, LevelSize fine);
 
-/// Levels 0 .. count-1; level 0 is the image itself.
-std::vector<Image<float>> make_gaussian_pyramid(Image<float> image, int count);
+/// Levels 0 .. count-1; level 0 is the image itself. Levels under `first_kept` are left empty.
+std::vector<Image<float>> make_gaussian_pyramid(Image<float> image, int count, int first_kept = 0);
 
 /// Expands level `from` of a pyramid to the size of level `to` <= from, step by step.
 Image<float> expand_to_level(const Image<float>& image, const std::vector<LevelSize>& sizes, int from, int to);
 
-/// Expands rows of a level all the way to level 0, step by step, without ever holding more than those rows: the same
-/// bits as expand_to_level. Keeps its buffers between calls; one per thread.
+/// Gives rows of a level expanded to level 0 step by step, one at a time: the same bits as expand_to_level, without
+/// ever holding a whole fine level. Keeps its buffers from one map to the next; one per thread.
 class RowExpander {
   public:
     /// @param sizes  of all levels; must outlive the expander
     explicit RowExpander(const std::vector<LevelSize>& sizes) : sizes_(&sizes), buffers_(sizes.size()) {}
 
-    /// Rows [begin, end) of level 0, `sizes[0].width` floats each, valid until the next call. `image` is a level's
-    /// raster; level 0 is returned as it is.
-    const float* expand_rows(const Image<float>& image, int level, int begin, int end);
+    /// Prepares rows [begin, end) of level 0. `image` is a level's raster and must outlive their use.
+    void load(const Image<float>& image, int level, int begin, int end);
+
+    /// Row y of level 0: sizes[0].width floats.
+    void expand_row(int y, float* out);
 
   private:
     const std::vector<LevelSize>* sizes_;
-    std::vector<std::vector<float>> buffers_;
+    std::vector<std::vector<float>> buffers_;  ///< rows of levels between the raster's and 0
     std::vector<float> column_sums_;
+    const float* rows_ = nullptr;  ///< of level 1, or of level 0 if the raster is that
+    int first_row_ = 0;
+    bool expands_ = false;
 };
 
 }  // namespace aleph
