@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "engine/base/parallel.h"
 
@@ -11,9 +12,9 @@ namespace {
 constexpr std::size_t rows_per_band = 32;
 }
 
-BandLevels take_band_levels(std::vector<Image<float>>& a, float grey) {
+BandLevels make_band_levels(LevelSize size, RowSource finest, const std::vector<Image<float>>& a, float grey) {
     BandLevels out;
-    out.sizes = pyramid_sizes(a.front().width, a.front().height, band_count + 1);
+    out.sizes = pyramid_sizes(size.width, size.height, band_count + 1);
     out.grey = grey;
     parallel_for(band_count - 1, 1, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin + 1; i < end + 1; ++i) {
@@ -24,17 +25,18 @@ BandLevels take_band_levels(std::vector<Image<float>>& a, float grey) {
             out.differences[i] = std::move(difference);
         }
     });
+    out.finest = std::move(finest);
+    out.second = a[1];
     out.coarsest = a[band_count];
-    out.finest = std::move(a[0]);
-    out.second = std::move(a[1]);
     return out;
 }
 
 BandRows::BandRows(const BandLevels& levels)
     : levels_(levels),
       expanders_(band_count + 1, RowExpander(levels.sizes)),
-      noise_(static_cast<std::size_t>(levels.sizes.front().width)) {
-    for (std::vector<float>& row : rows_) row.resize(noise_.size());
+      finest_(static_cast<std::size_t>(levels.sizes.front().width)),
+      noise_(finest_.size()) {
+    for (std::vector<float>& row : rows_) row.resize(finest_.size());
 }
 
 void BandRows::load(int begin, int end) {
@@ -49,7 +51,8 @@ void BandRows::load(int begin, int end) {
 void BandRows::expand_row(int y) {
     for (std::size_t i = 0; i < rows_.size(); ++i) expanders_[i].expand_row(y, rows_[i].data());
     expanders_[band_count].expand_row(y, noise_.data());
-    const float* const finest = levels_.finest.row(y);
+    levels_.finest(y, finest_.data());
+    const float* const finest = finest_.data();
     float* const band_0 = rows_[0].data();
     float* const noise = noise_.data();
     const float grey = levels_.grey;
@@ -62,11 +65,14 @@ void BandRows::expand_row(int y) {
 }
 
 std::array<Image<float>, band_count> compute_band_response(const Image<float>& achromatic) {
-    const float grey = mean_grey(achromatic);
-    Image<float> shifted = achromatic;
-    for (float& v : shifted.pixels) v -= grey;
-    std::vector<Image<float>> pyramid = make_gaussian_pyramid(std::move(shifted), band_count + 1);
-    const BandLevels levels = take_band_levels(pyramid, grey);
+    const LevelSize size{achromatic.width, achromatic.height};
+    const auto width = static_cast<std::size_t>(size.width);
+    const float grey = summarize(size, [&](int y, float* row) { std::copy_n(achromatic.row(y), width, row); }).mean;
+    const RowSource shifted = [&](int y, float* row) {
+        for (std::size_t x = 0; x < width; ++x) row[x] = achromatic.row(y)[x] - grey;
+    };
+    const BandLevels levels =
+        make_band_levels(size, shifted, make_gaussian_pyramid(size, shifted, band_count + 1), grey);
 
     std::array<Image<float>, band_count> out;
     for (Image<float>& image : out) image = Image<float>(achromatic.width, achromatic.height);
@@ -90,26 +96,30 @@ std::array<Image<float>, band_count> compute_band_response(const Image<float>& a
     return out;
 }
 
-float mean_grey(const Image<float>& image) {
-    const auto height = static_cast<std::size_t>(image.height);
+ChannelSummary summarize(LevelSize size, const RowSource& source) {
+    const auto height = static_cast<std::size_t>(size.height);
+    const auto width = static_cast<std::size_t>(size.width);
     std::vector<double> sums(height);
+    std::vector<float> largest(height);
     parallel_for(height, rows_per_band, [&](std::size_t begin, std::size_t end) {
-        constexpr std::size_t lanes = 8;  // independent sums, so that additions overlap
+        std::vector<float> row(width);
         for (std::size_t y = begin; y < end; ++y) {
-            const float* const row = image.row(static_cast<int>(y));
-            double partial[lanes] = {};
-            const auto width = static_cast<std::size_t>(image.width);
-            std::size_t x = 0;
-            for (; x + lanes <= width; x += lanes) {
-                for (std::size_t lane = 0; lane < lanes; ++lane) partial[lane] += row[x + lane];
+            source(static_cast<int>(y), row.data());
+            const float* const values = row.data();
+            double sum = 0.0;
+            float highest = values[0];
+#pragma omp simd reduction(+ : sum) reduction(max : highest)
+            for (std::size_t x = 0; x < width; ++x) {
+                sum += values[x];
+                highest = values[x] > highest ? values[x] : highest;
             }
-            for (; x < width; ++x) partial[0] += row[x];
-            for (const double p : partial) sums[y] += p;
+            sums[y] = sum;
+            largest[y] = highest;
         }
     });
-    double sum = 0.0;
-    for (const double s : sums) sum += s;
-    return static_cast<float>(sum / static_cast<double>(image.size()));
+    const double sum = std::accumulate(sums.begin(), sums.end(), 0.0);
+    return {static_cast<float>(sum / (static_cast<double>(width) * static_cast<double>(height))),
+            *std::max_element(largest.begin(), largest.end())};
 }
 
 }  // namespace aleph

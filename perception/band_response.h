@@ -15,15 +15,17 @@ namespace aleph {
 struct BandLevels {
     std::vector<LevelSize> sizes;                      ///< of levels 0..7
     float grey = 0.0f;                                 ///< subtracted from A: weak bands keep more digits without it
-    Image<float> finest, second, coarsest;             ///< A(0), A(1), A(7), minus grey
+    RowSource finest;                                  ///< A(0) - grey
+    Image<float> second, coarsest;                     ///< A(1), A(7), minus grey
     std::array<Image<float>, band_count> differences;  ///< A(i) - expanded A(i+1), i >= 1
 };
 
 /// Where the sum of the bands is at most this part of max(|A0|, |A7|) it is rounding: R_6 = 1, the others 0.
 inline constexpr float band_noise = 1e-5f;
 
-/// @param a     Gaussian levels 0..7 at least, of A - grey; levels 0 and 1 are taken away
-BandLevels take_band_levels(std::vector<Image<float>>& a, float grey);
+/// @param finest  A - grey; must outlive the result, like what it reads from
+/// @param a       its Gaussian levels, 1..7 at least; level 0 is not looked at
+BandLevels make_band_levels(LevelSize size, RowSource finest, const std::vector<Image<float>>& a, float grey);
 
 /// The bands of one row at a time, at full size. One per thread.
 class BandRows {
@@ -45,13 +47,19 @@ class BandRows {
     const BandLevels& levels_;
     std::vector<RowExpander> expanders_;  ///< by level: differences of bands 1..6; 0: A(1); 7: A(7)
     std::array<std::vector<float>, band_count> rows_;
-    std::vector<float> noise_;
+    std::vector<float> finest_, noise_;
 };
 
 /// (5.3) R_i at full size; they sum to 1 everywhere. The Aleph pass works row by row and does not store them.
 std::array<Image<float>, band_count> compute_band_response(const Image<float>& achromatic);
 
-/// The mean of a frame, in double, summed in rows.
-float mean_grey(const Image<float>& image);
+/// What perception asks of a whole channel first.
+struct ChannelSummary {
+    float mean = 0.0f;
+    float largest = 0.0f;
+};
+
+/// The mean in double, summed row by row: the same for any number of threads.
+ChannelSummary summarize(LevelSize size, const RowSource& source);
 
 }  // namespace aleph

@@ -23,6 +23,7 @@ struct FeatureMap {
 };
 
 inline constexpr int finest_center = 2;  ///< levels 0 and 1 enter no feature map and may be empty
+inline constexpr int coarsest_center = 4;
 
 /// Gaussian pyramids of what the channels are made from, levels 0..8 each; C1 and C2 share a channel.
 struct ChannelPyramids {

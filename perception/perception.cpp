@@ -29,30 +29,26 @@ void check_input(const Image<Rgb>& estimate, const Image<float>& velocity, const
     if (!positive(viewing.display_white)) throw InputError("", "display white", "must be positive and finite");
 }
 
-float largest_value(const Image<float>& image) {
-    return *std::max_element(image.pixels.begin(), image.pixels.end());
-}
-
 /// The velocity that stands out: rounding counts as rest, and nothing moves further than the image is wide in a frame.
-Image<float> make_motion_channel(const Image<float>& velocity, const ViewingConditions& viewing) {
+RowSource make_motion_rows(const Image<float>& velocity, const ViewingConditions& viewing) {
     const double per_pixel = viewing.frames_per_second / viewing.pixels_per_degree;  // deg/s of 1 px a frame
     const auto smallest = static_cast<float>(smallest_displacement * per_pixel);
     const auto largest = static_cast<float>(std::min(std::hypot(velocity.width, velocity.height) * per_pixel, 1e15));
-    Image<float> out(velocity.width, velocity.height);
-    for (std::size_t i = 0; i < out.size(); ++i) {
-        const float v = velocity.pixels[i] < largest ? velocity.pixels[i] : largest;
-        out.pixels[i] = velocity.pixels[i] >= smallest ? v : 0.0f;
-    }
-    return out;
+    return [&velocity, smallest, largest](int y, float* out) {
+        const float* const v = velocity.row(y);
+        for (int x = 0; x < velocity.width; ++x) {
+            const float capped = v[x] < largest ? v[x] : largest;
+            out[x] = v[x] >= smallest ? capped : 0.0f;
+        }
+    };
 }
 
-void subtract(Image<float>& image, float value) {
-    for (float& v : image.pixels) v -= value;
-}
-
-/// What saliency needs of a channel; level 0, at full size, is let go.
-std::vector<Image<float>> make_feature_pyramid(Image<float> channel) {
-    return make_gaussian_pyramid(std::move(channel), saliency_levels, finest_center);
+/// A channel of the estimate, less a constant.
+RowSource make_opponent_rows(const Image<Rgb>& estimate, OpponentChannel channel, bool neutral, float less) {
+    return [&estimate, weights = opponent_weights(channel, neutral), less](int y, float* out) {
+        opponent_row(estimate.row(y), estimate.width, weights, out);
+        for (int x = 0; x < estimate.width; ++x) out[x] -= less;
+    };
 }
 
 }  // namespace
@@ -72,27 +68,26 @@ PerceptionMaps compute_perception(const Image<Rgb>& estimate, const Image<float>
 
     const FlushDenormals flush;
     const bool salient = settings.guide == Guide::saliency;
-    OpponentImages opponent;
-    if (salient) {
-        opponent = compute_opponent(estimate, settings.neutral_opponent);
-    } else {
-        opponent.a = compute_achromatic(estimate);
-    }
-    const double largest_a = largest_value(opponent.a);  // A of a clamped pixel is not negative
-    const float grey = mean_grey(opponent.a);
-    subtract(opponent.a, grey);
-    std::vector<Image<float>> a =
-        make_gaussian_pyramid(std::move(opponent.a), salient ? saliency_levels : band_count + 1);
-    const BandLevels bands = take_band_levels(a, grey);
+    const LevelSize size{estimate.width, estimate.height};
+    const ChannelSummary a_summary = summarize(size, make_opponent_rows(estimate, OpponentChannel::a, false, 0.0f));
+    const RowSource a_rows = make_opponent_rows(estimate, OpponentChannel::a, false, a_summary.mean);
+    std::vector<Image<float>> a = make_gaussian_pyramid(size, a_rows, salient ? saliency_levels : band_count + 1);
+    const BandLevels bands = make_band_levels(size, a_rows, a, a_summary.mean);
 
     Saliency saliency;
     if (salient) {
-        const ChannelPyramids pyramids{.size = bands.sizes.front(),
+        const auto feature_pyramid = [&](const RowSource& rows) {
+            return make_gaussian_pyramid(size, rows, saliency_levels);
+        };
+        const auto opponent_rows = [&](OpponentChannel channel) {
+            return make_opponent_rows(estimate, channel, settings.neutral_opponent, 0.0f);
+        };
+        const ChannelPyramids pyramids{.size = size,
                                        .a = std::move(a),
-                                       .c1 = make_feature_pyramid(std::move(opponent.c1)),
-                                       .c2 = make_feature_pyramid(std::move(opponent.c2)),
-                                       .velocity = make_feature_pyramid(make_motion_channel(velocity, viewing))};
-        saliency = compute_saliency(pyramids, largest_a, settings.grid);
+                                       .c1 = feature_pyramid(opponent_rows(OpponentChannel::c1)),
+                                       .c2 = feature_pyramid(opponent_rows(OpponentChannel::c2)),
+                                       .velocity = feature_pyramid(make_motion_rows(velocity, viewing))};
+        saliency = compute_saliency(pyramids, a_summary.largest, settings.grid);
     }
     AlephImages images = compute_aleph({.bands = bands,
                                         .velocity = settings.guide == Guide::spatial ? nullptr : &velocity,
@@ -105,10 +100,10 @@ PerceptionMaps compute_perception(const Image<Rgb>& estimate, const Image<float>
     maps.clamped = images.clamped;
     maps.fallback = saliency.fallback;
     if (salient && outputs.conspicuity) {
-        maps.conspicuity_intensity = std::move(saliency.conspicuity[static_cast<std::size_t>(Channel::intensity)]);
-        maps.conspicuity_color = std::move(saliency.conspicuity[static_cast<std::size_t>(Channel::color)]);
-        maps.conspicuity_orientation = std::move(saliency.conspicuity[static_cast<std::size_t>(Channel::orientation)]);
-        maps.conspicuity_motion = std::move(saliency.conspicuity[static_cast<std::size_t>(Channel::motion)]);
+        maps.conspicuity_intensity = full_conspicuity(saliency, Channel::intensity);
+        maps.conspicuity_color = full_conspicuity(saliency, Channel::color);
+        maps.conspicuity_orientation = full_conspicuity(saliency, Channel::orientation);
+        maps.conspicuity_motion = full_conspicuity(saliency, Channel::motion);
     }
     return maps;
 }

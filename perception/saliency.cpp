@@ -65,14 +65,14 @@ void sum_full(const std::vector<WeightedMap>& maps, const std::vector<LevelSize>
     });
 }
 
-/// Sums per centre level on its own grid, coarse to fine, then one expansion per channel.
+/// Sums per centre level on its own grid, from the coarsest centre to the finest.
 void sum_center(const std::vector<WeightedMap>& maps, const std::vector<LevelSize>& sizes, Saliency& out) {
     parallel_for(out.conspicuity.size(), 1, [&](std::size_t begin, std::size_t end) {
         for (std::size_t channel = begin; channel < end; ++channel) {
-            Image<float> sum(sizes.back().width, sizes.back().height);
-            for (int level = saliency_levels - 2; level >= 0; --level) {
+            Image<float> sum;
+            for (int level = coarsest_center; level >= finest_center; --level) {
                 const LevelSize size = sizes[static_cast<std::size_t>(level)];
-                sum = expand(sum, size);
+                sum = sum.empty() ? Image<float>(size.width, size.height) : expand(sum, size);
                 for (const WeightedMap& w : maps) {
                     if (w.map->level != level || static_cast<std::size_t>(w.map->channel) != channel) continue;
                     add_normalized(w.map->difference.row(0), sum.size(), w.normalization, sum.row(0));
@@ -103,19 +103,24 @@ void sum_channels(Saliency& out) {
     std::array<Normalization, channel_count> normalization;
     parallel_for(normalization.size(), 1, [&](std::size_t begin, std::size_t end) {
         for (std::size_t c = begin; c < end; ++c) {
-            normalization[c] = compute_normalization(out.conspicuity[c], summed_floor);
+            normalization[c] =
+                compute_normalization({&out.conspicuity[c], out.conspicuity_level, &out.sizes}, summed_floor);
         }
     });
     const auto height = static_cast<std::size_t>(out.map.height);
     std::vector<Range> ranges((height + rows_per_band - 1) / rows_per_band);
     parallel_for(height, rows_per_band, [&](std::size_t begin, std::size_t end) {
-        const std::size_t count = (end - begin) * static_cast<std::size_t>(out.map.width);
-        float* const sum = out.map.row(static_cast<int>(begin));
+        RowExpander expander(out.sizes);
+        std::vector<float> row(static_cast<std::size_t>(out.map.width));
         for (std::size_t c = 0; c < normalization.size(); ++c) {
             if (normalization[c].scale() == 0.0) continue;
-            add_normalized(out.conspicuity[c].row(static_cast<int>(begin)), count, normalization[c], sum);
+            expander.load(out.conspicuity[c], out.conspicuity_level, static_cast<int>(begin), static_cast<int>(end));
+            for (int y = static_cast<int>(begin); y < static_cast<int>(end); ++y) {
+                expander.expand_row(y, row.data());
+                add_normalized(row.data(), row.size(), normalization[c], out.map.row(y));
+            }
         }
-        ranges[begin / rows_per_band] = find_range(sum, count);
+        ranges[begin / rows_per_band] = find_range(out.map.row(static_cast<int>(begin)), (end - begin) * row.size());
     });
     Range total;
     for (const Range& r : ranges) total = {std::min(total.minimum, r.minimum), std::max(total.maximum, r.maximum)};
@@ -142,19 +147,23 @@ void scale_saliency_row(Saliency& saliency, int y) {
     }
 }
 
-Saliency compute_saliency(const ChannelPyramids& pyramids, double largest_a, SaliencyGrid grid) {
-    const LevelSize size = pyramids.size;
-    const std::vector<LevelSize> sizes = pyramid_sizes(size.width, size.height, saliency_levels);
-    const std::vector<FeatureMap> maps = make_feature_maps(pyramids);
-    const std::vector<WeightedMap> weighted = weigh_maps(maps, sizes, largest_a, grid);
+Image<float> full_conspicuity(const Saliency& saliency, Channel channel) {
+    return expand_to_level(saliency.conspicuity[static_cast<std::size_t>(channel)], saliency.sizes,
+                           saliency.conspicuity_level, 0);
+}
 
+Saliency compute_saliency(const ChannelPyramids& pyramids, double largest_a, SaliencyGrid grid) {
     Saliency out;
+    out.sizes = pyramid_sizes(pyramids.size.width, pyramids.size.height, saliency_levels);
+    const std::vector<FeatureMap> maps = make_feature_maps(pyramids);
+    const std::vector<WeightedMap> weighted = weigh_maps(maps, out.sizes, largest_a, grid);
     if (grid == SaliencyGrid::full) {
-        sum_full(weighted, sizes, out);
+        sum_full(weighted, out.sizes, out);
     } else {
-        sum_center(weighted, sizes, out);
+        sum_center(weighted, out.sizes, out);
+        out.conspicuity_level = finest_center;
     }
-    out.map = Image<float>(size.width, size.height);
+    out.map = Image<float>(pyramids.size.width, pyramids.size.height);
     sum_channels(out);
     return out;
 }

@@ -11,7 +11,7 @@ namespace aleph {
 
 namespace {
 
-constexpr std::size_t pixels_per_chunk = 1u << 14;
+constexpr std::size_t rows_per_chunk = 32;
 constexpr float largest_component = 1e15f;
 
 /// glm takes columns; the tables are printed by rows.
@@ -44,19 +44,6 @@ float clamp_component(float c) {
     return c > 0.0f ? (c < largest_component ? c : largest_component) : 0.0f;
 }
 
-/// One channel: the weights of R, G and B.
-struct ChannelWeights {
-    float r, g, b;
-};
-
-ChannelWeights channel_weights(const glm::dmat3& m, int channel) {
-    return {static_cast<float>(m[0][channel]), static_cast<float>(m[1][channel]), static_cast<float>(m[2][channel])};
-}
-
-float dot(const ChannelWeights& w, float r, float g, float b) {
-    return w.r * r + w.g * g + w.b * b;
-}
-
 }  // namespace
 
 glm::dvec3 to_opponent(const glm::dvec3& rgb) {
@@ -67,34 +54,28 @@ glm::dvec3 from_opponent(const glm::dvec3& opponent) {
     return glm::inverse(opponent_from_rgb(false)) * opponent;
 }
 
-Rgb clamp_for_opponent(const Rgb& rgb) {
-    return {clamp_component(rgb.x), clamp_component(rgb.y), clamp_component(rgb.z)};
+ChannelWeights opponent_weights(OpponentChannel channel, bool neutral) {
+    const glm::dmat3 m = opponent_from_rgb(neutral);
+    const int row = static_cast<int>(channel);
+    return {static_cast<float>(m[0][row]), static_cast<float>(m[1][row]), static_cast<float>(m[2][row])};
 }
 
-namespace {
+void opponent_row(const Rgb* rgb, int count, const ChannelWeights& weights, float* out) {
+    const ChannelWeights w = weights;
+    for (int x = 0; x < count; ++x) {
+        out[x] = w.r * clamp_component(rgb[x].x) + w.g * clamp_component(rgb[x].y) + w.b * clamp_component(rgb[x].z);
+    }
+}
 
-/// One channel of the clamped pixels: three inputs, one output, as compilers vectorise it best.
-Image<float> compute_channel(const Image<Rgb>& rgb, const ChannelWeights& weights) {
+Image<float> compute_opponent(const Image<Rgb>& rgb, OpponentChannel channel, bool neutral) {
+    const ChannelWeights weights = opponent_weights(channel, neutral);
     Image<float> out(rgb.width, rgb.height);
-    parallel_for(rgb.size(), pixels_per_chunk, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t i = begin; i < end; ++i) {
-            const Rgb& c = rgb.pixels[i];
-            out.pixels[i] = dot(weights, clamp_component(c.x), clamp_component(c.y), clamp_component(c.z));
+    parallel_for(static_cast<std::size_t>(rgb.height), rows_per_chunk, [&](std::size_t begin, std::size_t end) {
+        for (int y = static_cast<int>(begin); y < static_cast<int>(end); ++y) {
+            opponent_row(rgb.row(y), rgb.width, weights, out.row(y));
         }
     });
     return out;
-}
-
-}  // namespace
-
-OpponentImages compute_opponent(const Image<Rgb>& rgb, bool neutral) {
-    const glm::dmat3 m = opponent_from_rgb(neutral);
-    return {compute_channel(rgb, channel_weights(m, 0)), compute_channel(rgb, channel_weights(m, 1)),
-            compute_channel(rgb, channel_weights(m, 2))};
-}
-
-Image<float> compute_achromatic(const Image<Rgb>& rgb) {
-    return compute_channel(rgb, channel_weights(opponent_from_rgb(false), 0));
 }
 
 }  // namespace aleph

@@ -15,18 +15,19 @@ glm::dvec3 to_opponent(const glm::dvec3& rgb);
 /// The inverse of to_opponent.
 glm::dvec3 from_opponent(const glm::dvec3& opponent);
 
-/// What a pixel enters the model with: components below 0 and NaN are 0, above 1e15 are 1e15 (squares stay finite).
-Rgb clamp_for_opponent(const Rgb& rgb);
+enum class OpponentChannel { a, c1, c2 };
 
-/// One raster per channel of the clamped pixels; floats over weights built in double.
-struct OpponentImages {
-    Image<float> a, c1, c2;
+/// A channel as a weighted sum of R, G and B: floats of weights built in double.
+struct ChannelWeights {
+    float r, g, b;
 };
 
-/// @param neutral  subtract what grey of the same luminance gives, so that grey has C1 = C2 = 0
-OpponentImages compute_opponent(const Image<Rgb>& rgb, bool neutral);
+/// @param neutral  subtract from C1 and C2 what grey of the same luminance gives, so that grey has C1 = C2 = 0
+ChannelWeights opponent_weights(OpponentChannel channel, bool neutral);
 
-/// A alone.
-Image<float> compute_achromatic(const Image<Rgb>& rgb);
+/// A channel of `count` pixels. Components below 0 and NaN count as 0, above 1e15 as 1e15: squares stay finite.
+void opponent_row(const Rgb* rgb, int count, const ChannelWeights& weights, float* out);
+
+Image<float> compute_opponent(const Image<Rgb>& rgb, OpponentChannel channel, bool neutral);
 
 }  // namespace aleph

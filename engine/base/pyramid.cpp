@@ -19,16 +19,18 @@ int half_size(int n) {
 }
 
 /// The kernel down the columns at row y, into `out` (padded on both sides for the pass along the row).
-void filter_columns(const Image<float>& image, int y, float* out) {
-    const int w = image.width;
-    const float* const center = image.row(y);
-    if (image.height == 1) {
+/// @param row  (y) -> const float*, the image's row
+template <class Row>
+void filter_columns(const Row& row, LevelSize size, int y, float* out) {
+    const int w = size.width;
+    const float* const center = row(y);
+    if (size.height == 1) {
         std::copy_n(center, w, out);
     } else {
-        const float* const up = image.row(reflect_101(y - 1, image.height));
-        const float* const up2 = image.row(reflect_101(y - 2, image.height));
-        const float* const down = image.row(reflect_101(y + 1, image.height));
-        const float* const down2 = image.row(reflect_101(y + 2, image.height));
+        const float* const up = row(reflect_101(y - 1, size.height));
+        const float* const up2 = row(reflect_101(y - 2, size.height));
+        const float* const down = row(reflect_101(y + 1, size.height));
+        const float* const down2 = row(reflect_101(y + 2, size.height));
         for (int x = 0; x < w; ++x) {
             out[x] = kernel_far * (up2[x] + down2[x]) + kernel_near * (up[x] + down[x]) + kernel_center * center[x];
         }
@@ -42,6 +44,41 @@ void filter_columns(const Image<float>& image, int y, float* out) {
 float filter_at(const float* row, int x) {
     return kernel_far * (row[x - 2] + row[x + 2]) + kernel_near * (row[x - 1] + row[x + 1]) + kernel_center * row[x];
 }
+
+/// The even samples of a filtered row.
+void take_even_samples(const float* filtered, int width, float* out) {
+    if (width == 1) {
+        out[0] = filtered[0];
+        return;
+    }
+    const int count = half_size(width);
+    for (int x = 0; x < count; ++x) out[x] = filter_at(filtered, 2 * x);
+}
+
+/// The few rows around one that moves down an image, each fetched once.
+class RowCache {
+  public:
+    RowCache(LevelSize size, const RowSource& source)
+        : width_(static_cast<std::size_t>(size.width)), source_(source), values_(width_ * rows), held_(rows, -1) {}
+
+    const float* operator()(int y) {
+        const auto slot = static_cast<std::size_t>(y) % rows;
+        float* const row = values_.data() + slot * width_;
+        if (held_[slot] != y) {
+            source_(y, row);
+            held_[slot] = y;
+        }
+        return row;
+    }
+
+  private:
+    static constexpr std::size_t rows = 8;  // more than the kernel spans: neighbours never share a slot
+
+    std::size_t width_;
+    const RowSource& source_;
+    std::vector<float> values_;
+    std::vector<int> held_;
+};
 
 /// Index of the coarse sample i under the finer axis' reflection: fine positions 2i keep their parity.
 int reflect_coarse(int i, int fine) {
@@ -123,11 +160,12 @@ std::vector<LevelSize> pyramid_sizes(int width, int height, int count) {
 
 Image<float> low_pass(const Image<float>& image) {
     Image<float> out(image.width, image.height);
+    const LevelSize size{image.width, image.height};
     parallel_for(static_cast<std::size_t>(out.height), rows_per_chunk, [&](std::size_t begin, std::size_t end) {
         std::vector<float> columns(static_cast<std::size_t>(image.width + 2 * padding));
         float* const filtered = columns.data() + padding;
         for (int y = static_cast<int>(begin); y < static_cast<int>(end); ++y) {
-            filter_columns(image, y, filtered);
+            filter_columns([&](int row) { return image.row(row); }, size, y, filtered);
             float* const row = out.row(y);
             if (image.width == 1) {
                 row[0] = filtered[0];
@@ -141,17 +179,27 @@ Image<float> low_pass(const Image<float>& image) {
 
 Image<float> reduce(const Image<float>& image) {
     Image<float> out(half_size(image.width), half_size(image.height));
+    const LevelSize size{image.width, image.height};
     parallel_for(static_cast<std::size_t>(out.height), rows_per_chunk, [&](std::size_t begin, std::size_t end) {
         std::vector<float> columns(static_cast<std::size_t>(image.width + 2 * padding));
         float* const filtered = columns.data() + padding;
         for (int y = static_cast<int>(begin); y < static_cast<int>(end); ++y) {
-            filter_columns(image, 2 * y, filtered);
-            float* const row = out.row(y);
-            if (image.width == 1) {
-                row[0] = filtered[0];
-                continue;
-            }
-            for (int x = 0; x < out.width; ++x) row[x] = filter_at(filtered, 2 * x);
+            filter_columns([&](int row) { return image.row(row); }, size, 2 * y, filtered);
+            take_even_samples(filtered, size.width, out.row(y));
+        }
+    });
+    return out;
+}
+
+Image<float> reduce(LevelSize size, const RowSource& source) {
+    Image<float> out(half_size(size.width), half_size(size.height));
+    parallel_for(static_cast<std::size_t>(out.height), rows_per_chunk, [&](std::size_t begin, std::size_t end) {
+        RowCache rows(size, source);
+        std::vector<float> columns(static_cast<std::size_t>(size.width + 2 * padding));
+        float* const filtered = columns.data() + padding;
+        for (int y = static_cast<int>(begin); y < static_cast<int>(end); ++y) {
+            filter_columns(std::ref(rows), size, 2 * y, filtered);
+            take_even_samples(filtered, size.width, out.row(y));
         }
     });
     return out;
@@ -169,15 +217,16 @@ Image<float> expand(const Image<float>& image, LevelSize fine) {
     return out;
 }
 
-std::vector<Image<float>> make_gaussian_pyramid(Image<float> image, int count, int first_kept) {
-    std::vector<Image<float>> levels;
-    levels.reserve(static_cast<std::size_t>(count));
-    levels.push_back(std::move(image));
-    while (static_cast<int>(levels.size()) < count) {
-        levels.push_back(reduce(levels.back()));
-        const std::size_t above = levels.size() - 2;
-        if (static_cast<int>(above) < first_kept) levels[above] = {};
-    }
+std::vector<Image<float>> make_gaussian_pyramid(Image<float> image, int count) {
+    std::vector<Image<float>> levels = {std::move(image)};
+    while (static_cast<int>(levels.size()) < count) levels.push_back(reduce(levels.back()));
+    return levels;
+}
+
+std::vector<Image<float>> make_gaussian_pyramid(LevelSize size, const RowSource& source, int count) {
+    std::vector<Image<float>> levels(1);
+    levels.push_back(reduce(size, source));
+    while (static_cast<int>(levels.size()) < count) levels.push_back(reduce(levels.back()));
     return levels;
 }
 
