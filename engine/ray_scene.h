@@ -76,7 +76,7 @@ class Tracer {
 
     /// As many rays as there are hits, in packets; say coherent where neighbours start and point alike.
     void intersect(std::span<const Ray> rays, std::span<Hit> hits, bool coherent);
-    void occluded(std::span<const Ray> rays, std::span<std::uint8_t> blocked, bool coherent);
+    void occluded(std::span<const Ray> rays, std::span<std::uint8_t> blocked);
 
   private:
     RayScene::State& state_;

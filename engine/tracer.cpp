@@ -114,9 +114,10 @@ PacketCounts intersect_packets(const RayScene::State& state, std::span<const Ray
 
 template <int Width>
 PacketCounts occluded_packets(const RayScene::State& state, std::span<const Ray> rays,
-                              std::span<std::uint8_t> blocked, bool coherent) {
+                              std::span<std::uint8_t> blocked) {
     PacketCounts counts;
-    RTCIntersectContext context = make_context(coherent);
+    // Never "coherent": with that flag this Embree's occlusion packets can loop for ever over instances.
+    RTCIntersectContext context = make_context(false);
     alignas(64) int valid[Width];
     alignas(64) typename Packet<Width>::Rays packet;
     for (std::size_t begin = 0; begin < rays.size(); begin += Width) {
@@ -180,11 +181,11 @@ void Tracer::intersect(std::span<const Ray> rays, std::span<Hit> hits, bool cohe
     invalid_ += counts.invalid;
 }
 
-void Tracer::occluded(std::span<const Ray> rays, std::span<std::uint8_t> blocked, bool coherent) {
+void Tracer::occluded(std::span<const Ray> rays, std::span<std::uint8_t> blocked) {
     ALEPH_CHECK(rays.size() == blocked.size(), std::to_string(rays.size()) + " rays, " + std::to_string(blocked.size()));
     const PacketCounts counts = state_.meshes->packet_width == 16
-                                    ? occluded_packets<16>(state_, rays, blocked, coherent)
-                                    : occluded_packets<8>(state_, rays, blocked, coherent);
+                                    ? occluded_packets<16>(state_, rays, blocked)
+                                    : occluded_packets<8>(state_, rays, blocked);
     traced_ += counts.traced;
     invalid_ += counts.invalid;
 }

@@ -61,7 +61,7 @@ std::uint64_t mark_hidden(MotionField& field, const Scene& scene, const MotionMo
             }
         }
         std::array<std::uint8_t, block * block> blocked{};
-        tracer.occluded(std::span(rays).first(count), std::span(blocked).first(count), true);
+        tracer.occluded(std::span(rays).first(count), std::span(blocked).first(count));
         for (std::size_t i = 0; i < count; ++i) {
             if (blocked[i] != 0) field.validity.pixels[pixels[i]] = MotionValidity::hidden;
         }

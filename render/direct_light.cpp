@@ -27,7 +27,7 @@ class ShadowBatch {
 
     void flush() {
         std::array<std::uint8_t, batch> blocked;
-        tracer_.occluded(std::span(rays_.data(), size_), std::span(blocked.data(), size_), true);
+        tracer_.occluded(std::span(rays_.data(), size_), std::span(blocked.data(), size_));
         counts_.shadow += size_;
         for (std::size_t i = 0; i < size_; ++i) {
             if (!blocked[i]) sum_ += contributions_[i];

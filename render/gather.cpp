@@ -193,7 +193,7 @@ IrradianceSample gather_irradiance(const LightingContext& context, Tracer& trace
         scratch.shadow_owner.push_back(static_cast<int>(i));
     }
     scratch.blocked.resize(scratch.shadow_rays.size());
-    tracer.occluded(scratch.shadow_rays, scratch.blocked, false);
+    tracer.occluded(scratch.shadow_rays, scratch.blocked);
     counts.shadow += scratch.shadow_rays.size();
     for (std::size_t s = 0; s < scratch.shadow_rays.size(); ++s) {
         if (scratch.blocked[s]) scratch.radiance[static_cast<std::size_t>(scratch.shadow_owner[s])] = Rgb(0.0f);
