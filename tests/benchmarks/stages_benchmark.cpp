@@ -1,0 +1,253 @@
+// Motion and perception, one thread, 640x480, measured in one run against the unit of both: casting the frame's first
+// hits in packets. Beside each stage a plain copy of what it reads and writes. Ends with a table of ratios.
+// Uses scenes/pool/scene.json where it exists, else a scene made here.
+
+#include <benchmark/benchmark.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <filesystem>
+#include <functional>
+#include <map>
+#include <string>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include "engine/archive.h"
+#include "engine/base/parallel.h"
+#include "engine/first_hits.h"
+#include "engine/shapes.h"
+#include "motion/model_motion.h"
+#include "motion/reprojection.h"
+#include "motion/velocity.h"
+#include "perception/perception.h"
+
+namespace aleph {
+namespace {
+
+constexpr int width = 640, height = 480;
+
+/// A dozen balls of 9,000 triangles that roll over a floor, under a camera that pans; some background in view.
+Scene make_balls() {
+    Scene scene;
+    scene.meshes.push_back(make_shape_mesh({.kind = Shape::Kind::sphere, .radius = 0.5, .segments = 96}));
+    scene.meshes.push_back(make_shape_mesh({.kind = Shape::Kind::quad, .size = {12.0, 12.0, 0.0}}));
+    const auto moving = [](auto from, auto to) {
+        Track<decltype(from)> track(from);
+        track.sampling.kind = TimeSampling::Kind::acyclic;
+        track.sampling.times = {0.0, 1.0};
+        track.values.push_back(to);
+        return track;
+    };
+    for (int i = 0; i < 12; ++i) {
+        Node ball;
+        ball.meshes = {0};
+        const glm::dvec3 at(1.4 * (i % 4) - 2.1, 0.5, -1.4 * (i / 4) - 1.0);
+        ball.translation = moving(at, at + glm::dvec3(0.3 * i, 0.0, 0.5));
+        ball.axis_rotation = AxisRotation{{0.0, 0.0, 1.0}, moving(0.0, 0.8 * i)};
+        scene.nodes.push_back(ball);
+    }
+    Node floor;
+    floor.meshes = {1};
+    floor.axis_rotation = AxisRotation{{1.0, 0.0, 0.0}, Track<double>(-1.5707963267948966)};
+    scene.nodes.push_back(floor);
+    scene.cameras.emplace_back();
+    Node camera;
+    camera.camera = 0;
+    camera.translation = glm::dvec3(0.0, 2.0, 5.0);
+    camera.axis_rotation = AxisRotation{{0.8, 0.6, 0.0}, moving(-0.2, -0.3)};
+    scene.nodes.push_back(camera);
+    return scene;
+}
+
+/// Everything that the stages read, made once.
+struct Inputs {
+    std::string name;
+    Scene scene;
+    std::int64_t frame_number = 0;
+    SceneFrame frames[2];
+    CameraView views[2];
+    RayScene rays, other_rays;
+    Image<Hit> hits;
+    MotionField motion;
+    Image<float> velocity;
+    Image<Rgb> estimate;
+
+    explicit Inputs(const std::string& scene_name, Scene from)
+        : name(scene_name), scene(std::move(from)), rays(scene), other_rays(rays.share_meshes()) {
+        const FrameRange range = frame_range(scene);
+        frame_number = range.first + (range.last - range.first) / 4;
+        const auto camera = static_cast<std::size_t>(find_camera(scene, ""));
+        for (int i : {0, 1}) {
+            frames[i] = pose(scene, scene.frame_rate.seconds_of(frame_number + i));
+            views[i] = make_camera_view(frames[i].cameras[camera], width, height);
+        }
+        rays.update(frames[0], compute_anchor(views[0]));
+        other_rays.update(frames[1], compute_anchor(views[1]));
+        hits = cast_first_hits(rays, views[0]);
+        motion = compute_motion();
+        velocity = compute_image_velocity(motion, {});
+        estimate = compute_estimate();
+    }
+    MotionField compute_motion() const {
+        return compute_model_motion(scene, {&frames[0], &views[0]}, {&frames[1], &views[1]}, hits, {});
+    }
+    /// A checker on every surface, a gradient behind: edges and texture enough for the maps of perception.
+    Image<Rgb> compute_estimate() const {
+        Image<Rgb> image(width, height);
+        for (int y = 0; y < height; ++y) {
+            for (int x = 0; x < width; ++x) {
+                const Hit& hit = hits(x, y);
+                if (hit.instance == no_index) {
+                    image(x, y) = Rgb(0.3f, 0.4f, 0.6f) * (1.0f - 0.5f * static_cast<float>(y) / height);
+                    continue;
+                }
+                const Instance& instance = frames[0].instances[static_cast<std::size_t>(hit.instance)];
+                const glm::dvec3 p = surface_point(scene.meshes[static_cast<std::size_t>(instance.mesh)], hit);
+                const glm::dvec3 cell = glm::floor(8.0 * p + 0.5);
+                const bool odd = std::fmod(std::abs(cell.x + cell.y + cell.z), 2.0) > 0.5;
+                const float hue = 0.37f * static_cast<float>(hit.instance);
+                image(x, y) = (odd ? 0.7f : 0.2f) * Rgb(0.6f + 0.4f * std::sin(hue), 0.6f + 0.4f * std::cos(hue), 0.5f);
+            }
+        }
+        return image;
+    }
+};
+
+const Inputs& inputs() {
+    static const Inputs made = [] {
+        const std::filesystem::path pool = std::filesystem::path(ALEPH_SOURCE_DIR) / "scenes/pool/scene.json";
+        return std::filesystem::exists(pool) ? Inputs("pool", load_scene(pool)) : Inputs("balls", make_balls());
+    }();
+    return made;
+}
+
+void first_hits(benchmark::State& state) {
+    for (auto _ : state) benchmark::DoNotOptimize(cast_first_hits(inputs().rays, inputs().views[0]).pixels.data());
+}
+
+void motion(benchmark::State& state) {
+    for (auto _ : state) {
+        const MotionField field = inputs().compute_motion();
+        benchmark::DoNotOptimize(compute_image_velocity(field, {}).pixels.data());
+    }
+}
+
+void motion_hidden(benchmark::State& state) {
+    for (auto _ : state) {
+        state.PauseTiming();
+        MotionField field = inputs().motion;
+        state.ResumeTiming();
+        const MotionMoment other{&inputs().frames[1], &inputs().views[1]};
+        benchmark::DoNotOptimize(mark_hidden(field, inputs().scene, other, inputs().hits, inputs().other_rays));
+    }
+}
+
+void perception(benchmark::State& state, const PerceptionSettings& settings) {
+    for (auto _ : state) {
+        benchmark::DoNotOptimize(
+            compute_perception(inputs().estimate, inputs().velocity, {}, settings).aleph.pixels.data());
+    }
+}
+
+/// Copies each image once: what a stage reads and writes, without its arithmetic.
+template <class... Images>
+void copy_all(benchmark::State& state, const Images&... images) {
+    std::tuple<Images...> targets(images...);
+    for (auto _ : state) {
+        std::apply(
+            [&](Images&... target) {
+                (std::memcpy(target.pixels.data(), images.pixels.data(), images.size() * sizeof(images.pixels[0])),
+                 ...);
+            },
+            targets);
+        benchmark::ClobberMemory();
+    }
+}
+
+void copy_motion(benchmark::State& state) {
+    const Inputs& in = inputs();
+    copy_all(state, in.hits, in.motion.displacement, in.motion.path_length, in.motion.validity, in.velocity);
+}
+
+void copy_perception(benchmark::State& state) {
+    const Inputs& in = inputs();
+    // In: estimate and velocity; out: Aleph map and saliency, floats like the velocity.
+    copy_all(state, in.estimate, in.velocity, in.velocity, in.velocity);
+}
+
+/// Prints as usual and keeps each benchmark's best time: CPU time, since others may share the machine.
+class BestTimes : public benchmark::ConsoleReporter {
+  public:
+    void ReportRuns(const std::vector<Run>& runs) override {
+        for (const Run& run : runs) {
+            if (run.run_type != Run::RT_Iteration) continue;
+            const auto [place, is_new] = milliseconds_.try_emplace(run.run_name.function_name, 1e30);
+            place->second = std::min(place->second, run.GetAdjustedCPUTime());
+        }
+        ConsoleReporter::ReportRuns(runs);
+    }
+    /// Best of all repetitions, ms; 0 where it did not run.
+    double operator()(const std::string& name) const {
+        const auto found = milliseconds_.find(name);
+        return found == milliseconds_.end() ? 0.0 : found->second;
+    }
+
+  private:
+    std::map<std::string, double> milliseconds_;
+};
+
+void print_ratios(const BestTimes& best) {
+    const struct {
+        const char *stage, *copy;
+        double demand;  ///< times first hits; 0: none
+    } rows[] = {{"first_hits", nullptr, 0.0},
+                {"motion", "copy_motion", 1.0},
+                {"motion_hidden", nullptr, 0.0},
+                {"perception_full", "copy_perception", 8.0},
+                {"perception_center", "copy_perception", 2.0},
+                {"perception_spatial", "copy_perception", 0.0}};
+    fmt::print("\nscene {}, frame {}, {}x{}, one thread, best CPU time of the repetitions\n", inputs().name,
+               inputs().frame_number, width, height);
+    fmt::print("{:<20}{:>8}{:>14}{:>10}{:>10}\n", "stage", "ms", "x first hits", "at most", "x memcpy");
+    const auto ratio = [](double a, double b) { return a > 0.0 && b > 0.0 ? fmt::format("{:.2f}", a / b) : "-"; };
+    for (const auto& row : rows) {
+        const double ms = best(row.stage);
+        fmt::print("{:<20}{:>8.2f}{:>14}{:>10}{:>10}\n", row.stage, ms, ratio(ms, best("first_hits")),
+                   row.demand > 0.0 ? fmt::format("{:g}", row.demand) : "-",
+                   row.copy != nullptr ? ratio(ms, best(row.copy)) : "-");
+    }
+}
+
+void add(const char* name, const std::function<void(benchmark::State&)>& run) {
+    benchmark::RegisterBenchmark(name, run)->Unit(benchmark::kMillisecond)->Repetitions(9)->Iterations(5);
+}
+
+}  // namespace
+}  // namespace aleph
+
+int main(int argc, char** argv) {
+    using namespace aleph;
+    const ThreadLimit one(1);
+    // Repetitions of different stages take turns, so that a disturbance does not hit one stage alone.
+    std::vector<char*> arguments(argv, argv + argc);
+    std::string interleaving = "--benchmark_enable_random_interleaving=true";
+    arguments.insert(arguments.begin() + 1, interleaving.data());
+    int count = static_cast<int>(arguments.size());
+    benchmark::Initialize(&count, arguments.data());
+
+    add("first_hits", first_hits);
+    add("motion", motion);
+    add("motion_hidden", motion_hidden);
+    add("perception_full", [](auto& state) { perception(state, {.grid = SaliencyGrid::full}); });
+    add("perception_center", [](auto& state) { perception(state, {.grid = SaliencyGrid::center}); });
+    add("perception_spatial", [](auto& state) { perception(state, {.guide = Guide::spatial}); });
+    add("copy_motion", copy_motion);
+    add("copy_perception", copy_perception);
+    BestTimes best;
+    benchmark::RunSpecifiedBenchmarks(&best);
+    print_ratios(best);
+}
