@@ -1,0 +1,61 @@
+#pragma once
+// Short ways to say what a scene consists of. Everything goes through the public structures of engine/scene.h.
+
+#include <string>
+
+#include "engine/scene.h"
+#include "engine/shapes.h"
+
+namespace aleph {
+
+inline int add_node(Scene& scene, const std::string& name, int parent = no_index,
+                    const glm::dvec3& translation = glm::dvec3(0.0),
+                    const glm::dquat& rotation = glm::dquat(1.0, 0.0, 0.0, 0.0)) {
+    Node node;
+    node.name = name;
+    node.parent = parent;
+    node.translation = translation;
+    node.rotation = rotation;
+    scene.nodes.push_back(node);
+    return static_cast<int>(scene.nodes.size()) - 1;
+}
+
+/// A node that shows one shape.
+inline int add_shape(Scene& scene, const std::string& name, int parent, const Shape& shape, int material,
+                     const glm::dvec3& translation, const glm::dquat& rotation = glm::dquat(1.0, 0.0, 0.0, 0.0)) {
+    scene.meshes.push_back(make_shape_mesh(shape, material, name));
+    const int node = add_node(scene, name, parent, translation, rotation);
+    scene.nodes.back().meshes = {static_cast<int>(scene.meshes.size()) - 1};
+    return node;
+}
+
+inline Shape quad(double width, double height, const glm::dvec2& uv_scale = glm::dvec2(1.0)) {
+    return {.kind = Shape::Kind::quad, .size = {width, height, 1.0}, .uv_scale = uv_scale};
+}
+inline Shape box(const glm::dvec3& size, const glm::dvec2& uv_scale = glm::dvec2(1.0)) {
+    return {.kind = Shape::Kind::box, .size = size, .uv_scale = uv_scale};
+}
+inline Shape sphere(double radius) {
+    return {.kind = Shape::Kind::sphere, .radius = radius};
+}
+inline Shape cylinder(double radius, double height, int segments = 24) {
+    return {.kind = Shape::Kind::cylinder, .radius = radius, .height = height, .segments = segments};
+}
+
+/// Turns that send a quad's +z, or a cylinder's y, where its name says. Constants, so that no rounding of sines shows.
+inline constexpr double half_root = 0.70710678118654752440;
+inline const glm::dquat z_to_up(half_root, -half_root, 0.0, 0.0);
+inline const glm::dquat z_to_down(half_root, half_root, 0.0, 0.0);
+inline const glm::dquat z_to_plus_x(half_root, 0.0, half_root, 0.0);
+inline const glm::dquat z_to_minus_x(half_root, 0.0, -half_root, 0.0);
+inline const glm::dquat z_to_minus_z(0.0, 0.0, 1.0, 0.0);
+
+/// A Lambert surface; sRGB colours 0..255 are what one picks by eye.
+int add_lambert(Scene& scene, const std::string& name, const glm::dvec3& srgb);
+/// Base colour from one of the scene's images, by its name.
+int add_textured(Scene& scene, const std::string& name, const std::string& image);
+int add_emitter(Scene& scene, const std::string& name, const glm::dvec3& color, double radiance);
+/// Gives the last material a highlight.
+void add_gloss(Scene& scene, double roughness);
+
+}  // namespace aleph

@@ -1,0 +1,99 @@
+#include <fmt/format.h>
+#include <cmath>
+#include <glm/geometric.hpp>
+
+#include "scenes/pool/break.h"
+#include "scenes/pool/build.h"
+#include "scenes/pool/pool_scene.h"
+
+namespace aleph {
+
+namespace {
+
+/// To a micrometre (a millionth of a turn of a quaternion): what a viewer could see, in few characters.
+double rounded(double value) {
+    return std::round(value * 1e6) / 1e6;
+}
+glm::dvec3 rounded(const glm::dvec3& v) {
+    return {rounded(v.x), rounded(v.y), rounded(v.z)};
+}
+glm::dquat rounded(const glm::dquat& q) {
+    return {rounded(q.w), rounded(q.x), rounded(q.y), rounded(q.z)};
+}
+
+double smooth(double from, double to, double t) {
+    const double f = glm::clamp((t - from) / (to - from), 0.0, 1.0);
+    return f * f * (3.0 - 2.0 * f);
+}
+
+/// The turn that sends +y to a unit direction.
+glm::dquat y_to(const glm::dvec3& direction) {
+    const glm::dvec3 up(0.0, 1.0, 0.0);
+    return glm::normalize(glm::dquat(1.0 + glm::dot(up, direction), glm::cross(up, direction)));
+}
+
+}  // namespace
+
+void add_balls(Scene& scene, const PoolSettings& settings, const PoolRun& run) {
+    const int balls = add_node(scene, "balls", no_index, {0.0, cloth_height, 0.0});
+    const auto wait = static_cast<std::size_t>(std::lround(strike_time * run.samples_per_second));
+    const std::size_t count = wait + run.samples.size();
+    for (std::size_t i = 0; i < run.samples.front().size(); ++i) {
+        const std::string name = fmt::format("ball_{:02}", i);
+        const int material = add_textured(scene, name, name);
+        add_gloss(scene, 0.15);
+        const int index = add_shape(scene, name, balls, sphere(settings.radius), material, glm::dvec3(0.0));
+        Node& node = scene.nodes[static_cast<std::size_t>(index)];
+        node.translation.sampling.period = node.rotation.sampling.period = 1.0 / run.samples_per_second;
+        node.translation.values.clear();
+        node.rotation.values.clear();
+        for (std::size_t k = 0; k < count; ++k) {
+            const PoolBall& ball = run.samples[k < wait ? 0 : k - wait][i];
+            node.translation.values.push_back(rounded(ball.position));
+            node.rotation.values.push_back(rounded(ball.orientation));
+        }
+    }
+}
+
+void add_cue(Scene& scene, const PoolSettings& settings, const PoolBall& struck) {
+    const int maple = add_lambert(scene, "cue_shaft", {226, 192, 138});
+    add_gloss(scene, 0.3);
+    const int ebony = add_lambert(scene, "cue_butt", {52, 28, 22});
+    add_gloss(scene, 0.3);
+    const int white = add_lambert(scene, "cue_ferrule", {238, 234, 224});
+    const int chalk = add_lambert(scene, "cue_tip", {52, 104, 168});
+
+    // Origin at the tip, the butt along +y.
+    const int cue = add_node(scene, "cue", no_index);
+    add_shape(scene, "tip", cue, cylinder(0.006, 0.01, 24), chalk, {0.0, 0.005, 0.0});
+    add_shape(scene, "ferrule", cue, cylinder(0.0062, 0.025, 24), white, {0.0, 0.0225, 0.0});
+    add_shape(scene, "shaft", cue, cylinder(0.008, 0.7, 24), maple, {0.0, 0.385, 0.0});
+    add_shape(scene, "butt", cue, cylinder(0.0125, 0.72, 24), ebony, {0.0, 1.095, 0.0});
+
+    // Raised by 4 degrees to clear the rail. After the strike it leans at the far wall.
+    const double raise = glm::radians(4.0);
+    const glm::dvec3 back = -std::cos(raise) * glm::normalize(struck.velocity) + glm::dvec3(0.0, std::sin(raise), 0.0);
+    const glm::dvec3 contact = struck.position + glm::dvec3(0.0, cloth_height, 0.0) + back * settings.radius;
+    const glm::dquat aim = y_to(back);
+    const glm::dvec3 rest(room_low.x + 0.075, 1.44, 0.06);
+    const glm::dvec3 foot(room_low.x + 0.36, 0.012, 0.06);
+    const glm::dquat lean = y_to(glm::normalize(foot - rest));
+
+    Node& node = scene.nodes[static_cast<std::size_t>(cue)];
+    const double rate = 60.0;
+    node.translation.sampling.period = node.rotation.sampling.period = 1.0 / rate;
+    node.translation.values.clear();
+    node.rotation.values.clear();
+    for (int i = 0; i <= static_cast<int>(last_frame / 30.0 * rate + 0.5); ++i) {
+        const double t = i / rate;
+        // Swings in with growing speed, meets the ball at strike_time, follows through by a hand's breadth.
+        const double swing = t < strike_time ? 0.3 * (1.0 - std::pow(t / strike_time, 2.5))
+                                             : -0.11 * (1.0 - std::exp((strike_time - t) / 0.035));
+        const double away = smooth(0.4, 1.7, t);
+        const glm::dvec3 lift(0.0, 0.35 * smooth(0.3, 0.8, t) * (1.0 - smooth(1.1, 1.7, t)), 0.0);
+        node.translation.values.push_back(rounded(glm::mix(contact + back * swing, rest, away) + lift));
+        node.rotation.values.push_back(rounded(slerp_short(aim, lean, smooth(0.6, 1.6, t))));
+    }
+}
+
+}  // namespace aleph

@@ -1,0 +1,154 @@
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "scenes/pool/build.h"
+#include "scenes/pool/pool_scene.h"
+
+namespace aleph {
+
+namespace {
+
+constexpr double wainscot_height = 0.95;  // m
+constexpr double paper_tile = 0.6;        // m, one repeat of the wallpaper
+
+/// One wall, seen from inside: wainscot below, wallpaper above, rails between.
+struct Wall {
+    const char* name;
+    glm::dvec3 middle;  ///< on the floor
+    double length;
+    glm::dquat facing;
+};
+
+struct WallMaterials {
+    int paper, panel, trim;
+};
+
+void add_wall(Scene& scene, int room, const Wall& wall, const WallMaterials& materials) {
+    const int node = add_node(scene, wall.name, room, wall.middle, wall.facing);
+    const auto name = [&](const char* part) { return fmt::format("{}_{}", wall.name, part); };
+    const double paper = room_high.y - wainscot_height;
+    add_shape(scene, name("paper"), node, quad(wall.length, paper, {wall.length / paper_tile, paper / paper_tile}),
+              materials.paper, {0.0, wainscot_height + 0.5 * paper, 0.0});
+    add_shape(scene, name("wainscot"), node,
+              box({wall.length, wainscot_height - 0.12, 0.03}, {std::round(wall.length / 0.7), 1.0}), materials.panel,
+              {0.0, 0.12 + 0.5 * (wainscot_height - 0.12), 0.015});
+    add_shape(scene, name("skirting"), node, box({wall.length, 0.12, 0.04}), materials.trim, {0.0, 0.06, 0.02});
+    add_shape(scene, name("chair_rail"), node, box({wall.length, 0.06, 0.06}), materials.trim,
+              {0.0, wainscot_height + 0.03, 0.03});
+    add_shape(scene, name("cornice"), node, box({wall.length, 0.1, 0.09}), materials.trim,
+              {0.0, room_high.y - 0.05, 0.045});
+}
+
+/// A picture in a frame; `middle` is a point of the wall.
+void add_painting(Scene& scene, int room, const std::string& image, const glm::dvec3& middle, const glm::dvec2& size,
+                  const glm::dquat& facing, int frame, int mount) {
+    const int picture = add_textured(scene, image, image);
+    const int node = add_node(scene, "painting_" + image, room, middle, facing);
+    add_shape(scene, image + "_frame", node, box({size.x + 0.14, size.y + 0.14, 0.04}), frame, {0.0, 0.0, 0.02});
+    add_shape(scene, image + "_mount", node, box({size.x + 0.06, size.y + 0.06, 0.01}), mount, {0.0, 0.0, 0.045});
+    add_shape(scene, image + "_picture", node, quad(size.x, size.y), picture, {0.0, 0.0, 0.051});
+}
+
+/// Spare cues in a rack on the wall at z = room_high.z.
+void add_cue_rack(Scene& scene, int room, double x, int wood, int ivory) {
+    const int node = add_node(scene, "cue_rack", room, {x, 0.0, room_high.z}, z_to_minus_z);
+    add_shape(scene, "rack_top", node, box({0.72, 0.1, 0.05}), wood, {0.0, 1.75, 0.025});
+    add_shape(scene, "rack_shelf", node, box({0.72, 0.05, 0.12}), wood, {0.0, 1.04, 0.09});
+    for (int i = 0; i < 5; ++i) {
+        const double place = -0.28 + 0.14 * i;
+        add_shape(scene, fmt::format("spare_butt_{}", i), node, cylinder(0.014, 0.6, 16), wood, {place, 1.365, 0.1});
+        add_shape(scene, fmt::format("spare_shaft_{}", i), node, cylinder(0.009, 0.62, 16), ivory, {place, 1.975, 0.1});
+    }
+}
+
+/// A bar stool with a round seat.
+void add_stool(Scene& scene, int room, const std::string& name, const glm::dvec3& place, int leather, int wood) {
+    const int node = add_node(scene, name, room, place);
+    add_shape(scene, name + "_seat", node, cylinder(0.19, 0.07, 48), leather, {0.0, 0.74, 0.0});
+    add_shape(scene, name + "_disc", node, cylinder(0.17, 0.025, 48), wood, {0.0, 0.69, 0.0});
+    add_shape(scene, name + "_column", node, cylinder(0.03, 0.66, 24), wood, {0.0, 0.3475, 0.0});
+    add_shape(scene, name + "_foot", node, cylinder(0.2, 0.035, 48), wood, {0.0, 0.0175, 0.0});
+}
+
+}  // namespace
+
+void add_room(Scene& scene) {
+    const WallMaterials materials{add_textured(scene, "wallpaper", "wallpaper"),
+                                  add_textured(scene, "wainscot", "wainscot"),
+                                  add_lambert(scene, "trim", {120, 78, 48})};
+    const int floor = add_textured(scene, "floor", "floor");
+    const int ceiling = add_lambert(scene, "ceiling", {232, 226, 212});
+    const int gilt = add_lambert(scene, "gilt", {196, 156, 84});
+    const int mount = add_lambert(scene, "mount", {238, 232, 220});
+    const int dark = add_lambert(scene, "dark_wood", {92, 52, 30});
+    const int ivory = add_lambert(scene, "maple", {222, 190, 140});
+    const int leather = add_lambert(scene, "leather", {140, 42, 34});
+
+    const int room = add_node(scene, "room");
+    const glm::dvec3 size = room_high - room_low, middle = 0.5 * (room_low + room_high);
+    add_shape(scene, "floor", room, quad(size.x, size.z, {size.x / 1.2, size.z / 1.2}), floor,
+              {middle.x, 0.0, middle.z}, z_to_up);
+    add_shape(scene, "ceiling", room, quad(size.x, size.z), ceiling, {middle.x, room_high.y, middle.z}, z_to_down);
+    add_wall(scene, room, {"wall_far", {room_low.x, 0.0, middle.z}, size.z, z_to_plus_x}, materials);
+    add_wall(scene, room, {"wall_near", {room_high.x, 0.0, middle.z}, size.z, z_to_minus_x}, materials);
+    add_wall(scene, room, {"wall_right", {middle.x, 0.0, room_low.z}, size.x, {1.0, 0.0, 0.0, 0.0}}, materials);
+    add_wall(scene, room, {"wall_left", {middle.x, 0.0, room_high.z}, size.x, z_to_minus_z}, materials);
+
+    add_painting(scene, room, "sunset", {room_low.x, 1.55, 0.75}, {1.05, 0.7}, z_to_plus_x, gilt, mount);
+    add_painting(scene, room, "blocks", {room_low.x, 1.55, -0.85}, {0.54, 0.72}, z_to_plus_x, dark, mount);
+    add_painting(scene, room, "circles", {-2.75, 1.55, room_high.z}, {0.66, 0.66}, z_to_minus_z, gilt, mount);
+    add_cue_rack(scene, room, -1.35, dark, ivory);
+    add_stool(scene, room, "stool_a", {-3.05, 0.0, -1.9}, leather, dark);
+    add_stool(scene, room, "stool_b", {-2.35, 0.0, -2.25}, leather, dark);
+}
+
+void add_lights(Scene& scene) {
+    // Over the table: a shade open below, the glowing panel a little inside it.
+    const int shade = add_lambert(scene, "shade", {34, 92, 70});
+    const int inside = add_lambert(scene, "shade_inside", {240, 236, 226});
+    const int brass = add_lambert(scene, "brass", {190, 148, 74});
+    const int glow = add_emitter(scene, "lamp_glow", {1.0, 0.87, 0.66}, 14.0);
+    const glm::dvec3 size(1.7, 0.2, 0.5);
+    const double wall = 0.015;
+    const int lamp = add_node(scene, "lamp", no_index, {0.0, cloth_height + 0.86 + 0.5 * size.y, 0.0});
+    add_shape(scene, "shade_top", lamp, box({size.x, wall, size.z}), shade, {0.0, 0.5 * (size.y - wall), 0.0});
+    for (const double side : {-1.0, 1.0}) {
+        const char* which = side < 0.0 ? "a" : "b";
+        const double height = size.y - wall;
+        add_shape(scene, fmt::format("shade_long_{}", which), lamp, box({size.x, height, wall}), shade,
+                  {0.0, -0.5 * wall, side * 0.5 * (size.z - wall)});
+        add_shape(scene, fmt::format("shade_short_{}", which), lamp, box({wall, height, size.z - 2.0 * wall}), shade,
+                  {side * 0.5 * (size.x - wall), -0.5 * wall, 0.0});
+        add_shape(scene, fmt::format("cord_{}", which), lamp,
+                  cylinder(0.006, room_high.y - cloth_height - 0.86 - size.y, 12), brass,
+                  {side * 0.6, 0.5 * size.y + 0.5 * (room_high.y - cloth_height - 0.86 - size.y), 0.0});
+        add_shape(scene, fmt::format("trim_{}", which), lamp, box({size.x + 0.02, 0.02, 0.01}), brass,
+                  {0.0, -0.5 * size.y + 0.01, side * (0.5 * size.z + 0.005)});
+    }
+    add_shape(scene, "lamp_inside", lamp, box({size.x - 2.0 * wall, 0.01, size.z - 2.0 * wall}), inside,
+              {0.0, -0.03, 0.0});
+    add_shape(scene, "lamp_panel", lamp, quad(size.x - 0.1, size.z - 0.1), glow, {0.0, -0.04, 0.0}, z_to_down);
+
+    // A soft ceiling light over the sitting corner, so that the walls do not drown.
+    const int soft = add_emitter(scene, "ceiling_glow", {1.0, 0.9, 0.76}, 5.0);
+    const int panel = add_node(scene, "ceiling_light", no_index, {-2.1, room_high.y, 0.2});
+    add_shape(scene, "ceiling_light_frame", panel, box({1.5, 0.04, 1.5}), inside, {0.0, -0.02, 0.0});
+    add_shape(scene, "ceiling_light_panel", panel, quad(1.4, 1.4), soft, {0.0, -0.041, 0.0}, z_to_down);
+
+    // A tall window in the evening: cool light from the side.
+    const int sky = add_emitter(scene, "evening_sky", {0.4, 0.62, 1.0}, 0.7);
+    const int frame = add_lambert(scene, "window_frame", {226, 220, 206});
+    const int window = add_node(scene, "window", no_index, {-1.9, 1.75, room_low.z});
+    const double width = 1.5, height = 1.4;
+    add_shape(scene, "window_sky", window, quad(width, height), sky, {0.0, 0.0, 0.01});
+    for (const double side : {-1.0, 0.0, 1.0}) {
+        const int i = static_cast<int>(side) + 1;
+        add_shape(scene, fmt::format("window_post_{}", i), window, box({0.06, height, 0.05}), frame,
+                  {side * 0.5 * (width - 0.06), 0.0, 0.035});
+        add_shape(scene, fmt::format("window_bar_{}", i), window, box({width + 0.1, 0.06, 0.07}), frame,
+                  {0.0, side * 0.5 * (height + 0.06), 0.045});
+    }
+}
+
+}  // namespace aleph

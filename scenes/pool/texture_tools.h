@@ -1,0 +1,62 @@
+#pragma once
+// Noise and small helpers for drawing textures. Colours are sRGB, 0..255, as doubles.
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <glm/common.hpp>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+
+#include "engine/base/sampling.h"
+#include "scenes/pool/textures.h"
+
+namespace aleph {
+
+/// A fixed number in [0, 1) for a lattice point.
+inline double lattice_value(std::int64_t x, std::int64_t y, std::uint32_t seed) {
+    return RandomStream(RandomKey{seed, 0, static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y)}).at(0);
+}
+
+/// Smooth value noise in [0, 1) that repeats every `cells`; x and y in cells.
+inline double noise(const glm::dvec2& at, const glm::i64vec2& cells, std::uint32_t seed) {
+    const glm::dvec2 low = glm::floor(at), t = glm::smoothstep(glm::dvec2(0.0), glm::dvec2(1.0), at - low);
+    const auto value = [&](int dx, int dy) {
+        const auto wrap = [](std::int64_t v, std::int64_t n) { return (v % n + n) % n; };
+        return lattice_value(wrap(static_cast<std::int64_t>(low.x) + dx, cells.x),
+                             wrap(static_cast<std::int64_t>(low.y) + dy, cells.y), seed);
+    };
+    return glm::mix(glm::mix(value(0, 0), value(1, 0), t.x), glm::mix(value(0, 1), value(1, 1), t.x), t.y);
+}
+
+/// Sum of `octaves` of noise, each twice as fine and half as strong; [0, 1). uv in [0, 1) repeats.
+inline double fractal_noise(const glm::dvec2& uv, glm::i64vec2 cells, int octaves, std::uint32_t seed) {
+    double sum = 0.0, weight = 0.5, total = 0.0;
+    for (int i = 0; i < octaves; ++i) {
+        sum += weight * noise(uv * glm::dvec2(cells), cells, seed + static_cast<std::uint32_t>(i));
+        total += weight;
+        weight *= 0.5;
+        cells *= 2;
+    }
+    return sum / total;
+}
+
+/// Calls color(uv) for `samples` x `samples` points of every pixel and rounds their mean; uv in [0, 1).
+template <class Color>
+PoolTexture draw_texture(const char* name, int width, int height, int samples, const Color& color) {
+    PoolTexture texture{name, Image<glm::u8vec3>(width, height)};
+    for (int y = 0; y < height; ++y) {
+        for (int x = 0; x < width; ++x) {
+            glm::dvec3 sum(0.0);
+            for (int i = 0; i < samples * samples; ++i) {
+                const glm::dvec2 offset = (glm::dvec2(i % samples, i / samples) + 0.5) / static_cast<double>(samples);
+                sum += color((glm::dvec2(x, y) + offset) / glm::dvec2(width, height));
+            }
+            const glm::dvec3 mean = glm::clamp(sum / static_cast<double>(samples * samples), 0.0, 255.0);
+            texture.srgb(x, y) = glm::u8vec3(glm::floor(mean + 0.5));
+        }
+    }
+    return texture;
+}
+
+}  // namespace aleph
