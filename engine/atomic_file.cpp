@@ -57,7 +57,9 @@ fs::path checked_target(const fs::path& path) {
         if (error) fail(path, "cannot follow the link", error.value());
     }
     const fs::path folder = target.has_parent_path() ? target.parent_path() : fs::path(".");
-    if (!fs::is_directory(folder, error)) {
+    const bool is_folder = fs::is_directory(folder, error);
+    if (error && error != std::errc::no_such_file_or_directory) fail(path, "cannot use its folder", error.value());
+    if (!is_folder) {
         throw OutputError(printable(path.string(), 4096),
                           fmt::format("the folder '{}' does not exist", printable(folder.string(), 4096)));
     }
@@ -67,7 +69,8 @@ fs::path checked_target(const fs::path& path) {
         if (!fs::is_regular_file(status)) {
             throw OutputError(printable(path.string(), 4096), "exists and is not a regular file");
         }
-        if (::access(target.c_str(), W_OK) != 0) fail(path, "cannot replace the existing file", errno);
+        if (::faccessat(AT_FDCWD, target.c_str(), W_OK, AT_EACCESS) != 0)
+            fail(path, "cannot replace the existing file", errno);
     }
     return target;
 }

@@ -12,7 +12,9 @@ int main(int argc, char** argv) {
         "aleph renders animations with global illumination, and spends its effort where a viewer would notice."};
     aleph::Command command;
     app.set_version_flag("--version", "aleph " ALEPH_VERSION);
-    app.require_subcommand(1);
+    app.require_subcommand(0, 1);
+    aleph::add_render_command(app, command);
+    aleph::add_maps_command(app, command);
     aleph::add_compare_command(app, command);
     app.footer("`aleph COMMAND --help` shows a command's options, with examples.");
     return aleph::run_program(app, command, argc, argv, std::cerr);

@@ -19,6 +19,17 @@ void report(std::ostream& errors, const std::string& message) {
     errors << "aleph: error: " << printable(message, 4000) << "\n" << std::flush;
 }
 
+/// The end of a message about bad usage.
+std::string where_to_look(const CLI::App& app) {
+    const auto chosen = app.get_subcommands();
+    if (!chosen.empty()) return fmt::format("aleph {} --help shows what there is", chosen.front()->get_name());
+    std::string names;
+    for (const CLI::App* subcommand : app.get_subcommands([](const CLI::App*) { return true; })) {
+        names += (names.empty() ? "" : ", ") + subcommand->get_name();
+    }
+    return fmt::format("commands: {}; aleph --help shows more", names);
+}
+
 template <class T>
 const char* kind_of() {
     if constexpr (std::is_floating_point_v<T>) return "a number";
@@ -92,9 +103,11 @@ int run_program(CLI::App& app, const Command& command, int argc, const char* con
     } catch (const CLI::Success& e) {  // --help, --version
         return app.exit(e);
     } catch (const CLI::ParseError& e) {
-        const auto chosen = app.get_subcommands();
-        const std::string name = chosen.empty() ? "aleph" : "aleph " + chosen.front()->get_name();
-        report(errors, fmt::format("{} ({} --help shows what there is)", e.what(), name));
+        report(errors, fmt::format("{} ({})", e.what(), where_to_look(app)));
+        return exit_bad_input;
+    }
+    if (!command) {
+        report(errors, fmt::format("what is to be done? ({})", where_to_look(app)));
         return exit_bad_input;
     }
     return run_command(command, errors);
