@@ -4,6 +4,8 @@
 // proposal inside the expected reach of one accepted before it waits for the next round; gathers run in parallel;
 // records are inserted in tile order. So the result is close to a sequential coarse-to-fine fill (PERFORMANCE.md).
 
+#include <functional>
+
 #include "render/irradiance_cache.h"
 #include "render/pixel_surfaces.h"
 #include "render/settings.h"
@@ -15,6 +17,9 @@ struct FillStatistics {
     std::uint64_t lookups = 0, hits = 0;
 };
 
+/// Told how far a frame is, 0 to 1, and in which stage; may be called from any thread.
+using FrameProgress = std::function<void(double fraction, const char* stage)>;
+
 /// What a frame's indirect light is computed from.
 struct IndirectContext {
     const LightingContext& lighting;
@@ -23,6 +28,7 @@ struct IndirectContext {
     const Image<float>& accuracy;  ///< alpha per pixel
     std::uint32_t frame = 0;       ///< random numbers depend on it
     float largest_radius = 1.0f;   ///< m, from the scene's size
+    FrameProgress progress;        ///< may be empty
 };
 
 /// The irradiance at one pixel sample, gathered anew.

@@ -15,6 +15,8 @@ double seconds_since(std::chrono::steady_clock::time_point start) {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
+constexpr double fill_share = 0.6;  // of a frame's time, for progress only
+
 bool is_finite(const Rgb& c) { return std::isfinite(c.x) && std::isfinite(c.y) && std::isfinite(c.z); }
 
 /// What one row adds up by itself.
@@ -82,6 +84,7 @@ ShadedFrame shade_frame(const IndirectContext& context, const SampleHits& center
     IrradianceCache cache = make_cache(context.lighting.shading);
     const auto fill_start = std::chrono::steady_clock::now();
     for (int i = 0; cached && i < spp; ++i) {
+        if (context.progress) context.progress(fill_share * i / spp, "fill");
         fill_cache(cache, context, sample_hits(i), i, out.records, out.rays, out.cache);
     }
     out.fill_seconds = seconds_since(fill_start);
@@ -89,6 +92,7 @@ ShadedFrame shade_frame(const IndirectContext& context, const SampleHits& center
     const int light_samples = (context.settings.light_samples + spp - 1) / spp;
     Shading shading{context, cached ? &cache : nullptr, light_samples, out};
     std::mutex counts_mutex;
+    std::size_t rows_done = 0;
     for (int i = 0; i < spp; ++i) {
         const SampleHits sample = sample_hits(i);
         parallel_for(static_cast<std::size_t>(height), 1, [&](std::size_t begin, std::size_t end) {
@@ -113,6 +117,11 @@ ShadedFrame shade_frame(const IndirectContext& context, const SampleHits& center
             out.cache.lookups += local.lookups;
             out.cache.hits += local.hits;
             out.record_count += local.computed;
+            ++rows_done;
+            if (context.progress && rows_done % 16 == 0) {
+                const double shaded = static_cast<double>(rows_done) / (static_cast<double>(height) * spp);
+                context.progress(fill_share + (1.0 - fill_share) * shaded, "shade");
+            }
         });
     }
     const float scale = static_cast<float>(exposure);

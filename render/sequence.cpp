@@ -212,7 +212,7 @@ FrameOutput Sequence::render(std::int64_t frame, const FrameRequest& request) {
 
     if (request.frame) {
         const IndirectContext indirect{lighting,  now.view, settings, out.alpha, static_cast<std::uint32_t>(frame),
-                                       scene_radius(shading)};
+                                       scene_radius(shading), request.progress};
         out.shaded = shade_frame(indirect, centers, s.exposure);
         stats.seconds.fill = out.shaded.fill_seconds;
         stats.seconds.shade = out.shaded.shade_seconds;

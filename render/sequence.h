@@ -41,6 +41,7 @@ struct FrameStatistics {
 struct FrameRequest {
     bool frame = true;       ///< the rendered picture
     bool maps = false;       ///< every map of perception and motion, and the visibility that motion.valid needs
+    FrameProgress progress;  ///< may be empty
 };
 
 struct FrameOutput {

@@ -1,0 +1,142 @@
+#include "render/cli/scene_options.h"
+
+#include <fmt/format.h>
+
+#include <charconv>
+#include <chrono>
+#include <filesystem>
+#include <iostream>
+
+#include "engine/archive.h"
+#include "engine/base/errors.h"
+#include "render/cli/frame_list.h"
+#include "render/cli/output_path.h"
+#include "render/cli/progress.h"
+#include "render/frame_files.h"
+
+namespace aleph {
+
+namespace {
+
+/// "30", "29.97" or "30000/1001".
+FrameRate parse_fps(const std::string& text) {
+    const std::size_t slash = text.find('/');
+    if (slash != std::string::npos) {
+        const FrameRate rate{parse_value<int>(text.substr(0, slash), "--fps"),
+                             parse_value<int>(text.substr(slash + 1), "--fps")};
+        if (rate.numerator > 0 && rate.denominator > 0) return rate;
+    } else {
+        const double fps = parse_value<double>(text, "--fps");
+        if (fps > 0.0 && fps <= 1e6 && fps == static_cast<double>(static_cast<std::int64_t>(fps))) {
+            return {static_cast<std::int64_t>(fps), 1};
+        }
+        if (fps > 1e-3 && fps <= 1e6) return {static_cast<std::int64_t>(fps * 1000.0 + 0.5), 1000};
+    }
+    throw InputError("--fps", printable(text), "expected frames per second, such as 30 or 30000/1001");
+}
+
+std::string option_name(std::string key) {
+    for (char& c : key) c = c == '_' ? '-' : c;
+    return "--" + key;
+}
+
+/// PNG for people, EXR for everything else; by the pattern's ending.
+bool is_png(const std::filesystem::path& path) { return path.extension() == ".png"; }
+
+}  // namespace
+
+void add_scene_options(CLI::App& app, SceneOptions& options) {
+    app.add_option("scene", options.scene, "a scene file (.json), .gltf or .glb")->required()->type_name("SCENE");
+    app.add_option("--frames", options.frames, "frames, such as 1-10,20-40x2 (default: the scene's range)")
+        ->type_name("LIST");
+    app.add_option("--fps", options.fps, "frames per second in place of the scene's: 30, 30000/1001")->type_name("N");
+    app.add_option("-o,--output", options.output,
+                   "name.####.exr, name.####.png or a folder (default: SCENE.####.exr here)")
+        ->type_name("PATTERN");
+    app.add_option("--camera", options.camera, "name of a camera or of its node")->type_name("NAME");
+    app.add_option("--stats", options.stats, "write counts and times of every frame")->type_name("FILE.json");
+    add_value(app, "-t,--threads", options.threads, "threads; 0: all");
+    app.add_flag("-q,--quiet", options.quiet, "no progress, no warnings");
+    for (const SettingKey& key : setting_keys()) {
+        app.add_option_function<std::string>(
+               option_name(key.name),
+               [&options, name = key.name](const std::string& value) { parse_setting(name + "=" + value, options.settings); },
+               key.help)
+            ->type_name("VALUE")
+            ->group("Settings (the scene file's \"settings\" have the same names)");
+    }
+    app.add_option_function<std::vector<std::string>>(
+           "--set",
+           [&options](const std::vector<std::string>& texts) {
+               for (const std::string& text : texts) parse_setting(text, options.settings);
+           },
+           "any setting of the scene file")
+        ->type_name("KEY=VALUE")
+        ->allow_extra_args(false);
+}
+
+PreparedScene prepare_scene(const SceneOptions& options) {
+    PreparedScene prepared;
+    prepared.scene = load_scene(options.scene);
+    Scene& scene = prepared.scene;
+    if (!options.fps.empty()) scene.frame_rate = parse_fps(options.fps);
+    apply_settings(prepared.settings, scene.settings, options.scene);
+    apply_settings(prepared.settings, options.settings, "");
+    if (!options.quiet) {
+        for (const std::string& warning : scene.warnings) {
+            std::cerr << "aleph: warning: " << printable(warning, 400) << "\n";
+        }
+    }
+    if (options.frames.empty()) {
+        const FrameRange range = frame_range(scene);
+        if (range.last - range.first >= 10000000) {
+            throw InputError(options.scene, "frames", "more than 10 million frames; choose some with --frames");
+        }
+        for (std::int64_t f = range.first; f <= range.last; ++f) prepared.frames.push_back(static_cast<int>(f));
+    } else {
+        prepared.frames = parse_frame_list(options.frames);
+    }
+    prepared.name = std::filesystem::path(options.scene).stem().string();
+    if (prepared.name == "scene") {
+        prepared.name = std::filesystem::absolute(options.scene).parent_path().filename().string();
+    }
+    return prepared;
+}
+
+void write_frames(const PreparedScene& prepared, const SceneOptions& options, const FrameRequest& request, bool maps,
+                  const std::string& title) {
+    prepare_output(options.output, prepared.name, prepared.frames.size());
+    if (maps && is_png(output_path(options.output, prepared.name, prepared.frames.front()))) {
+        throw InputError("--output", printable(options.output), "maps need channels: write .exr, not .png");
+    }
+    const ThreadLimit limit(options.threads);
+    Sequence sequence(prepared.scene, prepared.settings, options.camera);
+    std::vector<FrameStatistics> statistics;
+    Progress progress(title, static_cast<double>(prepared.frames.size()), progress_look(options.quiet));
+    for (std::size_t i = 0; i < prepared.frames.size(); ++i) {
+        const int frame = prepared.frames[i];
+        FrameRequest asked = request;
+        asked.progress = [&](double fraction, const char* stage) {
+            progress.update(static_cast<double>(i) + fraction, fmt::format("frame {}: {}", frame, stage));
+        };
+        FrameOutput output = sequence.render(frame, asked);
+        const auto start = std::chrono::steady_clock::now();
+        const std::filesystem::path path = output_path(options.output, prepared.name, frame);
+        if (is_png(path)) {
+            write_png(path, output.shaded.color);
+        } else {
+            write_exr(path, make_frame_image(output, maps, prepared.scene, prepared.settings, sequence.exposure()));
+        }
+        StageSeconds& seconds = output.statistics.seconds;
+        seconds.write = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+        seconds.total += seconds.write;
+        statistics.push_back(output.statistics);
+        progress.update(static_cast<double>(i + 1), fmt::format("frame {}", frame));
+    }
+    if (!options.stats.empty()) {
+        write_file(options.stats,
+                   format_statistics(statistics, prepared.scene, prepared.settings, sequence.exposure()));
+    }
+}
+
+}  // namespace aleph

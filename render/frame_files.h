@@ -1,0 +1,18 @@
+#pragma once
+// A frame as files: channels and metadata (DESIGN "Command line", CONVENTIONS 2).
+
+#include "engine/image_io.h"
+#include "render/sequence.h"
+
+namespace aleph {
+
+/// R, G, B, A of the picture where it was rendered; with `maps` every map's channels as well.
+/// forward.u and forward.v are y up; the C++ MotionField is y down.
+ChannelImage make_frame_image(const FrameOutput& output, bool maps, const Scene& scene, const RenderSettings& settings,
+                              double exposure);
+
+/// {"frames": [...], "settings": {...}, ...} as text. Times, host and threads stand here and nowhere else.
+std::string format_statistics(const std::vector<FrameStatistics>& frames, const Scene& scene,
+                              const RenderSettings& settings, double exposure);
+
+}  // namespace aleph
