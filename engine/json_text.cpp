@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <locale.h>
 
+#include <algorithm>
 #include <cmath>
 #include <unordered_set>
 
@@ -150,6 +151,11 @@ std::string format_number(double value) {
     return fmt::format("{}", value);
 }
 
+bool is_finite(const nlohmann::ordered_json& value) {
+    if (value.is_number_float()) return std::isfinite(value.get<double>());
+    return !value.is_structured() || std::all_of(value.begin(), value.end(), is_finite);
+}
+
 constexpr std::size_t line_width = 110;
 
 std::string format_line(const nlohmann::ordered_json& value) {
@@ -200,6 +206,7 @@ JsonText parse_json_text(std::string_view text, const std::string& file) {
 }
 
 std::string format_json(const nlohmann::ordered_json& value, const std::string& file) {
+    if (!is_finite(value)) throw InputError(file, "", "a number that should be written is not finite");
     try {
         std::string out;
         append_json(out, value, 0);

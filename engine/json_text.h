@@ -23,7 +23,7 @@ JsonText parse_json_text(std::string_view text, const std::string& file);
 
 /// The value as text: a list or an object stands on one line where that fits 110 columns, else one element a line,
 /// indented by 2. Numbers are the shortest that give back the same bits, whatever the locale. Ends with a newline.
-/// @throws InputError (file as given) for text that is not UTF-8
+/// @throws InputError (file as given) for text that is not UTF-8 and numbers that are not finite
 std::string format_json(const nlohmann::ordered_json& value, const std::string& file);
 
 }  // namespace aleph

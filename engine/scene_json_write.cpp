@@ -8,6 +8,7 @@
 #include "engine/json_text.h"
 #include "engine/scene_json.h"
 #include "engine/scene_json_tracks.h"
+#include "engine/shapes.h"
 
 namespace aleph {
 
@@ -177,6 +178,7 @@ class Writer {
 
     ordered_json write_mesh(const Mesh& mesh) const {
         if (!mesh.shape) refuse("its triangles come from no shape: a scene file holds shapes and includes only");
+        validate(*mesh.shape, file_, place_);
         ordered_json out = {{"shape", write_shape(*mesh.shape)}};
         if (mesh.material != no_index) out["material"] = name_in(scene_.materials, mesh.material);
         return out;

@@ -126,25 +126,30 @@ class Walk {
 
     Mismatch check_alternatives(const json& schema, const json& value, const json::json_pointer& place,
                                 int depth) const {
-        Mismatch deepest;
-        int same_depth = 0;
+        Mismatch deepest, only;
+        int of_this_type = 0;
         for (const json& alternative : schema["anyOf"]) {
             Mismatch mismatch = check(alternative, value, place, depth);
             if (!mismatch) return std::nullopt;
-            if (deepest && mismatch->depth <= deepest->depth) {
-                if (mismatch->depth == deepest->depth) ++same_depth;
-                continue;
+            if (may_have_type(alternative, value)) {
+                ++of_this_type;
+                only = mismatch;
             }
-            deepest = std::move(mismatch);
-            same_depth = 1;
+            if (!deepest || mismatch->depth > deepest->depth) deepest = std::move(mismatch);
         }
-        if (deepest->depth > depth || same_depth == 1) return deepest;
-        // No alternative gets inside: what they expect in all. A key that none of them knows tells more.
+        if (deepest->depth > depth) return deepest;
+        // No alternative gets inside. A single one of the right type, or a key that none of them knows, tells most.
+        if (of_this_type == 1) return only;
         if (value.is_object()) {
             if (Mismatch unknown = check_keys(schema, value, place, depth)) return unknown;
         }
         return SchemaMismatch{place.to_string(), fmt::format("expected {}, found {}", expected(schema), found(value)),
                               depth};
+    }
+
+    bool may_have_type(const json& schema_or_reference, const json& value) const {
+        const json& schema = resolve(schema_or_reference);
+        return schema.contains("type") && has_type(value, schema["type"].get_ref<const std::string&>());
     }
 
     Mismatch check_items(const json& schema, const json& value, const json::json_pointer& place, int depth) const {

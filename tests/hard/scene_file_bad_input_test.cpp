@@ -1,0 +1,388 @@
+// Broken scene files: each is refused as a whole, naming the file, the place in it and the reason.
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "engine/base/errors.h"
+#include "engine/scene_json.h"
+
+namespace aleph {
+namespace {
+
+struct Case {
+    std::string text;   ///< of the file
+    std::string place;  ///< of the error, exactly
+    std::string word;   ///< of its reason
+};
+
+void expect_refused(const Case& c) {
+    try {
+        read_scene_text(c.text, "broken.json");
+        ADD_FAILURE() << "was read: " << c.text.substr(0, 200);
+    } catch (const InputError& error) {
+        EXPECT_EQ(error.file(), "broken.json");
+        EXPECT_EQ(error.place(), c.place) << error.what() << "\n  in " << c.text.substr(0, 200);
+        EXPECT_NE(error.reason().find(c.word), std::string::npos) << error.what() << "\n  has no " << c.word;
+        EXPECT_LT(std::string(error.what()).size(), 700u);
+    }
+}
+
+void expect_all_refused(const std::vector<Case>& cases) {
+    for (const Case& c : cases) expect_refused(c);
+}
+
+Case scene(const std::string& body, const std::string& place, const std::string& word) {
+    return {"{\"aleph\": 1, " + body + "}", place, word};
+}
+
+Case node(const std::string& body, const std::string& place, const std::string& word) {
+    return scene("\"nodes\": [{" + body + "}]", "/nodes/0" + place, word);
+}
+
+Case material(const std::string& body, const std::string& place, const std::string& word) {
+    return scene("\"materials\": {\"felt\": {" + body + "}}", "/materials/felt" + place, word);
+}
+
+std::string nested(int depth, const std::string& open, const std::string& inner, const std::string& close) {
+    std::string out;
+    for (int i = 0; i < depth; ++i) out += open;
+    out += inner;
+    for (int i = 0; i < depth; ++i) out += close;
+    return out;
+}
+
+TEST(BadSceneFile, Syntax) {
+    expect_all_refused({
+        {"", "line 1, column 1", "JSON"},
+        {"  \n ", "line 2, column 2", "unexpected end"},
+        {"{", "line 1, column 2", "unexpected end"},
+        {"{\"aleph\": 1,}", "line 1, column 13", "JSON"},
+        {"{\"aleph\": 1}}", "line 1, column 13", "JSON"},
+        {"{\n  \"aleph\": 1\n  \"nodes\": []\n}", "line 3, column 9", "JSON"},
+        {"{\"aleph\": 01}", "line 1, column 12", "JSON"},
+        {"{\"aleph\": NaN}", "line 1, column 11", "JSON"},
+        {"{\"aleph\": 1 /* never closed", "line 1, column 28", "comment"},
+        {"{\"ä\": nul}", "line 1, column 10", "JSON"},
+        {"{\"aleph\": 1, \"name\": \"\xff\"}", "line 1, column 23", "UTF-8"},
+        {std::string("{\"aleph\": 1\0}", 13), "line 1, column 12", "JSON"},
+        {"\x89PNG\r\n", "line 1, column 1", "JSON"},
+    });
+}
+
+TEST(BadSceneFile, NumbersThatAreNoDoubles) {
+    expect_all_refused({
+        {"{\"aleph\": 1,\n \"exposure\": 1e999}", "line 2, column 18", "too large"},
+        {"{\"aleph\": -1e999}", "line 1, column 16", "too large"},
+        scene("\"nodes\": [{\"translation\": [0, 1e400, 0]}]", "line 1, column 48", "too large"),
+    });
+}
+
+TEST(BadSceneFile, Limits) {
+    expect_all_refused({
+        {nested(129, "[", "", "]"), "", "128 deep"},
+        {nested(100000, "[", "", ""), "", "128 deep"},
+        {nested(200, "{\"a\":", "1", "}"), "", "128 deep"},
+        scene("\"nodes\": [" + nested(70, "{\"children\": [", "", "]}") + "]", "", "128 deep"),
+        scene(R"("nodes": [{"shape": {"type": "sphere", "segments": 4096}},
+            {"shape": {"type": "sphere", "segments": 4096}}, {"shape": {"type": "sphere", "segments": 4096}},
+            {"shape": {"type": "sphere", "segments": 4096}}, {"shape": {"type": "sphere", "segments": 4096}}])",
+              "/nodes/4/shape", "triangles"),
+    });
+    expect_refused({std::string((std::size_t{256} << 20) + 1, ' '), "", "bytes"});
+    std::string many = "{\"aleph\": 1, \"nodes\": [{}";
+    for (int i = 0; i < 1000000; ++i) many += ",{}";
+    expect_refused({many + "]}", "/nodes/1000000", "more than 1000000 nodes"});
+}
+
+TEST(BadSceneFile, TopLevel) {
+    expect_all_refused({
+        {"[]", "", "expected an aleph scene"},
+        {"null", "", "found null"},
+        {"{}", "", "\"aleph\" is missing"},
+        {"{\"aleph\": 2}", "/aleph", "version 2"},
+        {"{\"aleph\": \"1\"}", "/aleph", "expected 1"},
+        {"{\"aleph\": 1, \"aleph\": 1}", "/aleph", "twice"},
+        scene("\"node\": []", "/node", "did you mean \"nodes\""),
+        scene("\"nodes\": {}", "/nodes", "expected a list of nodes"),
+        scene("\"nodes\": [7]", "/nodes/0", "expected a node, found 7"),
+        scene("\"name\": 5", "/name", "a name"),
+        scene("\"fps\": 0", "/fps", "found 0"),
+        scene("\"fps\": -30", "/fps", "found -30"),
+        scene("\"fps\": 23.976", "/fps", "30000/1001"),
+        scene("\"fps\": \"30000/0\"", "/fps", "30000/1001"),
+        scene("\"fps\": \"fast\"", "/fps", "\"fast\""),
+        scene("\"frames\": [0]", "/frames", "2 whole frame numbers, found a list of 1"),
+        scene("\"frames\": [0, 1.5]", "/frames/1", "whole frame number"),
+        scene("\"frames\": [10, 0]", "/frames", "before the first"),
+        scene("\"frames\": [0, 1e9]", "/frames/1", "whole frame number"),
+        scene("\"frames\": [0, 18446744073709551615]", "/frames/1", "must lie within"),
+        scene("\"cuts\": [5, 5]", "/cuts/1", "ascend"),
+        scene("\"viewing\": {\"pixels_per_degree\": 0}", "/viewing/pixels_per_degree", "above 0"),
+        scene("\"viewing\": {\"display_white\": -1}", "/viewing/display_white", "above 0"),
+        scene("\"viewing\": {\"display_white\": null}", "/viewing/display_white", "found null"),
+        scene("\"viewing\": {\"display_white\": 1e19}", "/viewing/display_white", "1e+18"),
+        scene("\"viewing\": {\"ppd\": 31}", "/viewing/ppd", "unknown key"),
+        scene("\"exposure\": 0", "/exposure", "above 0"),
+        scene("\"environment\": [1, 1]", "/environment", "3 numbers"),
+        scene("\"environment\": [1, -1, 1]", "/environment/1", "at least 0"),
+        scene("\"camera\": [\"main\"]", "/camera", "a name"),
+        scene("\"include\": 5", "/include", "relative path"),
+    });
+}
+
+TEST(BadSceneFile, RP21_FrameRateAndPixelsPerDegreeOfZero) {
+    expect_all_refused({
+        scene("\"fps\": 0", "/fps", "found 0"),
+        scene("\"fps\": \"0/1\"", "/fps", "found the text \"0/1\""),
+        scene("\"viewing\": {\"pixels_per_degree\": 0}", "/viewing/pixels_per_degree", "above 0"),
+        {"{\"aleph\": 1, \"viewing\": {\"pixels_per_degree\": NaN}}", "line 1, column 47", "JSON"},
+    });
+}
+
+TEST(BadSceneFile, Settings) {
+    expect_all_refused({
+        scene("\"settings\": {\"acuracy\": 0.1}", "/settings/acuracy", "did you mean \"accuracy\""),
+        scene("\"settings\": {\"accuracy\": \"high\"}", "/settings/accuracy", "a number from 0 to 1"),
+        scene("\"settings\": {\"accuracy\": -0.1}", "/settings/accuracy", "a number from 0 to 1"),
+        scene("\"settings\": {\"gather\": 10.5}", "/settings/gather", "a whole number"),
+        scene("\"settings\": {\"guide\": \"salience\"}", "/settings/guide", "\"saliency\""),
+        scene("\"settings\": {\"size\": \"640\"}", "/settings/size", "640x480"),
+        scene("\"settings\": {\"size\": \"0x0\"}", "/settings/size", "640x480"),
+        scene("\"settings\": {\"neutral_opponent\": 1}", "/settings/neutral_opponent", "true or false"),
+        scene("\"settings\": [1]", "/settings", "expected settings"),
+    });
+}
+
+TEST(BadSceneFile, Materials) {
+    expect_all_refused({
+        material("\"roughnes\": 0.5", "/roughnes", "did you mean \"roughness\""),
+        material("\"texture\": \"a.png\"", "/texture", "base_color_texture"),
+        material("\"base_color\": 0.5", "/base_color", "expected 3 numbers"),
+        material("\"base_color\": [0.5, 0.5, 1.5]", "/base_color/2", "between 0 and 1"),
+        material("\"base_color\": [0.5, \"x\", 1]", "/base_color/1", "a number, found the text \"x\""),
+        material("\"roughness\": -0.1", "/roughness", "between 0 and 1"),
+        material("\"metallic\": 1.0001", "/metallic", "between 0 and 1"),
+        material("\"alpha\": true", "/alpha", "found true"),
+        material("\"ior\": 0.9", "/ior", "at least 1"),
+        material("\"emission\": [1, 1, -1]", "/emission/2", "at least 0"),
+        material("\"emission_strength\": 1e19", "/emission_strength", "1e+18"),
+        material("\"double_sided\": \"yes\"", "/double_sided", "true or false"),
+        material("\"roughness\": {\"keys\": [[0, 0.5], [1, 2]]}", "/roughness/keys/1/1", "between 0 and 1"),
+        material("\"base_color_texture\": 5", "/base_color_texture", "an image"),
+        material("\"base_color_texture\": {\"uv_set\": 0}", "/base_color_texture", "\"image\" is missing"),
+        material("\"base_color_texture\": {\"image\": \"a.png\", \"uv_set\": 2}", "/base_color_texture/uv_set",
+                 "from 0 to 1"),
+        material("\"base_color_texture\": {\"image\": \"a.png\", \"wrap\": \"tile\"}", "/base_color_texture/wrap",
+                 "\"repeat\""),
+        material("\"base_color_texture\": \"/etc/a.png\"", "/base_color_texture", "absolute"),
+        material("\"base_color_texture\": \"http://a.b/c.png\"", "/base_color_texture", "addresses"),
+        material("\"base_color_texture\": \"file:a.png\"", "/base_color_texture", "addresses"),
+        material("\"base_color_texture\": \"C:/a.png\"", "/base_color_texture", "drives"),
+        material("\"base_color_texture\": \"a\\\\b.png\"", "/base_color_texture", "backslash"),
+        material("\"base_color_texture\": \"a\\u0000.png\"", "/base_color_texture", "control"),
+        material("\"base_color_texture\": \"\"", "/base_color_texture", "an image"),
+        scene("\"materials\": {\"a/b\": {\"x~\": 1}}", "/materials/a~1b/x~0", "unknown key"),
+        scene("\"materials\": {\"a\": {}, \"a\": {}}", "/materials/a", "twice"),
+        scene("\"images\": {\"a\": \"../../a.png\", \"b\": \"~/b.png\"}", "/images/b", "absolute"),
+    });
+}
+
+TEST(BadSceneFile, CamerasAndLights) {
+    const auto camera = [](const std::string& body, const std::string& place, const std::string& word) {
+        return scene("\"cameras\": {\"main\": {" + body + "}}", "/cameras/main" + place, word);
+    };
+    const auto light = [](const std::string& body, const std::string& place, const std::string& word) {
+        return scene("\"lights\": {\"key\": {" + body + "}}", "/lights/key" + place, word);
+    };
+    expect_all_refused({
+        camera("\"fov\": 0", "/fov", "between 0 and 180"),
+        camera("\"fov\": 180", "/fov", "between 0 and 180"),
+        camera("\"fov\": -45", "/fov", "found -45"),
+        camera("\"fov\": {\"keys\": [[0, 45], [10, 200]]}", "/fov/keys/1/1", "found 200"),
+        camera("\"fov\": 45, \"fov_radians\": 1", "/fov_radians", "not both"),
+        camera("\"fov_radians\": 3.2", "/fov_radians", "between 0 and"),
+        camera("\"near\": 0", "/near", "above 0"),
+        camera("\"half_height\": 2", "/half_height", "orthographic"),
+        camera("\"orthographic\": true, \"half_height\": 0", "/half_height", "above 0"),
+        camera("\"shutter\": [0.5, -0.5]", "/shutter", "open before"),
+        camera("\"shutter\": 0.5", "/shutter", "2 numbers"),
+        camera("\"aperture\": -1", "/aperture", "at least 0"),
+        camera("\"focus\": 0", "/focus", "above 0"),
+        camera("\"focal_length\": 35", "/focal_length", "unknown key"),
+        light("\"intensity\": 3", "", "\"type\" is missing"),
+        light("\"type\": \"spot\"", "/type", "in this version"),
+        light("\"type\": \"point\", \"color\": [1, 1]", "/color", "3 numbers"),
+        light("\"type\": \"point\", \"color\": [1, 1, -0.5]", "/color/2", "at least 0"),
+        light("\"type\": \"point\", \"intensity\": -1", "/intensity", "at least 0"),
+        light("\"type\": \"point\", \"range\": 0", "/range", "above 0"),
+        light("\"type\": \"directional\", \"range\": 3", "/range", "no range"),
+    });
+}
+
+TEST(BadSceneFile, Nodes) {
+    expect_all_refused({
+        node("\"translate\": [0, 0, 0]", "/translate", "did you mean \"translation\""),
+        node("\"translation\": [0, 0]", "/translation", "expected 3 numbers, found a list of 2"),
+        node("\"translation\": \"up\"", "/translation", "found the text \"up\""),
+        node("\"translation\": [0, null, 0]", "/translation/1", "found null"),
+        node("\"translation\": [0, 1e19, 0]", "/translation/1", "1e+18"),
+        node("\"rotation\": [0, 0, 0]", "/rotation", "4 numbers"),
+        node("\"rotation\": {\"axis\": [0, 1, 0]}", "/rotation", "degrees"),
+        node("\"rotation\": {\"axis\": [0, 1, 0], \"degrees\": 1, \"radians\": 1}", "/rotation", "either"),
+        node("\"rotation\": {\"axis\": [0, 0, 0], \"degrees\": 1}", "/rotation/axis", "zero"),
+        node("\"rotation\": {\"axis\": [0, 1, 0], \"degres\": 1}", "/rotation/degres", "did you mean \"degrees\""),
+        node("\"rotation\": {\"axis\": [0, 1, 0], \"degrees\": {\"keys\": [[0, \"x\"]]}}", "/rotation/degrees/keys/0/1",
+             "a number"),
+        node("\"scale\": \"big\"", "/scale", "a number, 3 numbers or"),
+        node("\"scale\": [1, 1, {}]", "/scale/2", "empty object"),
+        node("\"matrix\": [1, 0, 0, 0]", "/matrix", "16 numbers"),
+        node("\"matrix\": [1,0,0,0, 0,1,0,0, 0,0,1,0, 0,0,0.5,1]", "/matrix/14", "last row"),
+        node("\"matrix\": [1,0,0,0, 0,1,0,0, 0,0,1,0, 0,0,0,1], \"scale\": 2", "/scale", "not both"),
+        node("\"visible\": 1", "/visible", "true or false"),
+        node("\"visible\": {\"keys\": [[0, true]], \"interpolation\": \"linear\"}", "/visible/interpolation",
+             "\"step\""),
+        node("\"mesh\": \"ball\"", "/mesh", "no mesh called \"ball\""),
+        node("\"meshes\": [\"ball\"]", "/meshes/0", "no mesh called \"ball\""),
+        node("\"material\": \"felt\"", "/material", "goes with \"shape\""),
+        node("\"shape\": {\"type\": \"box\"}, \"material\": \"felt\"", "/material", "no material called"),
+        node("\"shape\": {\"type\": \"box\"}, \"material\": {\"rough\": 1}", "/material/rough",
+             "did you mean \"roughness\""),
+        node("\"camera\": \"main\"", "/camera", "no camera called"),
+        node("\"camera\": {\"fov\": \"wide\"}", "/camera/fov", "found the text \"wide\""),
+        node("\"light\": \"key\"", "/light", "no light called"),
+        node("\"children\": [{\"parent\": \"a\"}]", "/children/0/parent", "has a parent already"),
+        node("\"children\": [{\"children\": [{\"nam\": \"x\"}]}]", "/children/0/children/0/nam",
+             "did you mean \"name\""),
+        node("\"include\": \"/a.glb\"", "/include", "absolute"),
+        node("\"include\": [\"a.glb\", \"\"]", "/include/1", "relative path"),
+        scene(R"("nodes": [{"name": "ball"}, {"name": "ball"}])", "/nodes/1/name", "two nodes"),
+        scene(R"("nodes": [{"name": "table"}, {"parent": "tabel"}])", "/nodes/1/parent", "did you mean \"table\""),
+        scene(R"("nodes": [{"name": "a", "parent": "b"}, {"name": "b", "parent": "a"}])", "/nodes/0/parent", "before"),
+        scene(R"("nodes": [{"name": "a", "parent": "a"}])", "/nodes/0/parent", "below itself"),
+        scene(R"("nodes": [{"name": "a", "instance": "b"}, {"name": "b"}])", "/nodes/0/instance", "before"),
+        scene(R"("nodes": [{"name": "a"}, {"instance": "a"}])", "/nodes/1/instance", "no meshes"),
+        scene(R"("nodes": [{"name": "a"}, {"parent": ""}])", "/nodes/1/parent", "no node called"),
+        scene(R"("materials": {"felt": {}, "wood": {}}, "nodes": [{"shape": {"type": "box"}, "material": "flet"}])",
+              "/nodes/0/material", "did you mean \"felt\""),
+    });
+}
+
+TEST(BadSceneFile, KF05_ZeroQuaternion) {
+    expect_all_refused({
+        node("\"rotation\": [0, 0, 0, 0]", "/rotation", "zero"),
+        node("\"rotation\": {\"keys\": [[0, [0, 0, 0, 1]], [5, [0, 0, 0, 0]]]}", "/rotation", "key 1"),
+    });
+}
+
+TEST(BadSceneFile, KF10_KF11_KeyTimes) {
+    const auto keys = [](const std::string& inner, const std::string& place, const std::string& word) {
+        return node("\"scale\": {" + inner + "}", "/scale" + place, word);
+    };
+    expect_all_refused({
+        keys("\"keys\": [[0, 1], [1, 1], [1, 2]]", "/keys/2/0", "ascend"),
+        keys("\"keys\": [[0, 1], [2, 1], [1, 2]]", "/keys/2/0", "ascend"),
+        keys("\"keys\": [[0, 1], [1e19, 1]]", "/keys/1/0", "1e+18"),
+        keys("\"keys\": [[\"0\", 1]]", "/keys/0/0", "a time"),
+        keys("\"keys\": []", "/keys", "found a list of 0"),
+        keys("\"keys\": [[0]]", "/keys/0", "a key: [time, value]"),
+        keys("\"keys\": [[0, 1, 2]]", "/keys/0", "found a list of 3"),
+        keys("\"keys\": [[0, 1, 2, 3]]", "/keys/0", "cubic"),
+        keys("\"interpolation\": \"cubic\", \"keys\": [[0, 1]]", "/keys/0", "in-tangent"),
+        keys("\"interpolation\": \"cubic\", \"values\": [1]", "/values/0", "in-tangent"),
+        keys("\"interpolation\": \"smooth\", \"keys\": [[0, 1]]", "/interpolation", "\"cubic\""),
+        keys("\"unit\": \"hours\", \"keys\": [[0, 1]]", "/unit", "\"frames\""),
+        keys("\"interpolation\": \"linear\"", "", "neither"),
+        keys("\"keys\": [[0, 1]], \"values\": [1]", "", "not both"),
+        keys("\"keys\": [[0, 1]], \"start\": 3", "/start", "goes with \"values\""),
+        keys("\"values\": [1], \"period\": 0", "/period", "above 0"),
+        keys("\"values\": [1, 2], \"cycle\": [0, 0.5], \"start\": 1", "/start", "cycle"),
+        keys("\"values\": [1, 2], \"cycle\": [0.5, 0]", "/cycle/1", "ascend"),
+        keys("\"values\": [1, 2], \"cycle\": [0, 2]", "/cycle", "within one \"period\""),
+        keys("\"values\": []", "/values", "found a list of 0"),
+        keys("\"key\": [[0, 1]]", "/key", "did you mean \"keys\""),
+        keys("\"keys\": {\"0\": 1}", "/keys", "found an object"),
+    });
+}
+
+TEST(BadSceneFile, Shapes) {
+    const auto shape = [](const std::string& body, const std::string& place, const std::string& word) {
+        return node("\"shape\": {" + body + "}", "/shape" + place, word);
+    };
+    expect_all_refused({
+        shape("\"radius\": 1", "", "\"type\" is missing"),
+        shape("\"type\": \"torus\"", "/type", "in this version"),
+        shape("\"type\": \"mesh\"", "/type", "in this version"),
+        shape("\"type\": \"sphere\", \"radius\": -1", "/radius", "above 0"),
+        shape("\"type\": \"sphere\", \"radius\": 0", "/radius", "above 0"),
+        shape("\"type\": \"sphere\", \"radius\": 1e-30", "", "radius has to lie"),
+        shape("\"type\": \"sphere\", \"radius\": 1e19", "/radius", "1e+18"),
+        shape("\"type\": \"sphere\", \"segments\": 2", "/segments", "from 3 to 4096"),
+        shape("\"type\": \"sphere\", \"segments\": 4097", "/segments", "from 3 to 4096"),
+        shape("\"type\": \"sphere\", \"segments\": 12.0", "/segments", "a whole number"),
+        shape("\"type\": \"sphere\", \"size\": [1, 1, 1]", "/size", "a sphere has no \"size\""),
+        shape("\"type\": \"sphere\", \"height\": 1", "/height", "a sphere has no \"height\""),
+        shape("\"type\": \"box\", \"size\": [1, 1]", "/size", "3 numbers"),
+        shape("\"type\": \"box\", \"size\": [1, 1, -1]", "", "size z"),
+        shape("\"type\": \"box\", \"radius\": 1", "/radius", "a box has no"),
+        shape("\"type\": \"quad\", \"size\": [1, 1, 1]", "/size", "2 numbers"),
+        shape("\"type\": \"quad\", \"size\": [0, 1]", "", "size x"),
+        shape("\"type\": \"cylinder\", \"height\": 0", "/height", "above 0"),
+        shape("\"type\": \"cylinder\", \"uv_scale\": [1]", "/uv_scale", "2 numbers"),
+        scene(R"("meshes": {"a": {"positions": [0, 0, 0]}})", "/meshes/a/positions", "unknown key"),
+        scene(R"("meshes": {"a": {}})", "/meshes/a", "\"shape\" is missing"),
+    });
+}
+
+// Every place for a number, given what is no number that we can use.
+TEST(BadSceneFile, InfinityAnywhere) {
+    const std::string file = R"({"aleph": 1, "exposure": @, "viewing": {"pixels_per_degree": @, "display_white": @},
+        "environment": [@, @, @], "materials": {"m": {"base_color": [@, 0, 0], "alpha": @, "metallic": @, "roughness": @,
+        "specular": @, "specular_color": [0, @, 0], "ior": @, "emission": [0, 0, @], "emission_strength": @}},
+        "cameras": {"c": {"fov": @, "near": @, "shutter": [@, @], "aperture": @, "focus": @}},
+        "lights": {"l": {"type": "point", "color": [@, 1, 1], "intensity": @, "range": @}},
+        "nodes": [{"translation": [@, 0, 0], "rotation": [@, 0, 0, 1], "scale": [@, @, @], "shape": {"type": "box",
+        "size": [@, 1, 1], "uv_scale": [@, 1]}}, {"scale": {"keys": [[@, 1], [5, @]]}, "rotation": {"axis": [@, 1, 1],
+        "degrees": @}, "shape": {"type": "cylinder", "radius": @, "height": @}}, {"matrix": [@, 0, 0, @, 0, 1, 0, 0, 0, 0, 1, 0,
+        0, 0, 0, 1], "visible": true}, {"translation": {"values": [[@, 0, 0]], "start": @, "period": @}}],
+        "settings": {"accuracy": @, "adapter_k": @, "time_limit": @}})";
+    std::string good = file;
+    std::replace(good.begin(), good.end(), '@', '1');
+    EXPECT_EQ(read_scene_text(good, "good.json").scene.nodes.size(), 4u);
+    int places = 0;
+    for (std::size_t at = file.find('@'); at != std::string::npos; at = file.find('@', at + 1)) {
+        for (const char* bad : {"1e999", "-1e999", "1e19", "-1e19", "NaN", "\"0\""}) {
+            std::string text = file;
+            std::replace(text.begin(), text.end(), '@', '1');
+            text.replace(at, 1, bad);
+            try {
+                read_scene_text(text, "broken.json");
+                ADD_FAILURE() << bad << " was read at " << file.substr(at > 30 ? at - 30 : 0, 40);
+            } catch (const InputError& error) {
+                EXPECT_EQ(error.file(), "broken.json");
+                EXPECT_FALSE(error.place().empty());
+            }
+        }
+        ++places;
+    }
+    EXPECT_EQ(places, 45);
+}
+
+TEST(BadSceneFile, NamesAreEscapedAndShortened) {
+    try {
+        read_scene_text("{\"aleph\": 1, \"camera\": \"\", \"\\u001b[31m" + std::string(5000, 'x') + "\": 1}",
+                        "broken.json");
+        FAIL();
+    } catch (const InputError& error) {
+        const std::string what = error.what();
+        EXPECT_EQ(what.find('\x1b'), std::string::npos);
+        EXPECT_NE(what.find("\\x1b"), std::string::npos);
+        EXPECT_LT(what.size(), 500u);
+    }
+}
+
+}  // namespace
+}  // namespace aleph

@@ -1,0 +1,153 @@
+// The house: includes point one way, and nothing lies about at the top.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <regex>
+#include <set>
+#include <string>
+#include <vector>
+
+namespace aleph {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Folders from the bottom up, and which of them each may include besides itself.
+struct Layer {
+    std::string folder;
+    std::vector<std::string> may_include;
+};
+
+const std::vector<Layer>& layers() {
+    static const std::vector<Layer> all = {
+        {"engine/base", {}},
+        {"engine", {"engine/base"}},
+        {"motion", {"engine/base", "engine"}},
+        {"perception", {"engine/base"}},
+        {"render", {"engine/base", "engine", "motion", "perception"}},
+        {"render/cli", {"engine/base", "engine", "motion", "perception", "render"}},
+    };
+    return all;
+}
+
+/// The layer of a file (a path from the repository's root): the one with the longest folder. Null outside all of them.
+const Layer* layer_of(const std::string& path) {
+    const Layer* found = nullptr;
+    for (const Layer& layer : layers()) {
+        const bool inside = path.starts_with(layer.folder + "/");
+        if (inside && (found == nullptr || layer.folder.size() > found->folder.size())) found = &layer;
+    }
+    return found;
+}
+
+/// What the #include lines of a text name, in quotes or in angle brackets.
+std::vector<std::string> included_paths(const std::string& text) {
+    static const std::regex line(R"re((?:^|\n)[ \t]*#[ \t]*include[ \t]*["<]([^">\n]+)[">])re");
+    std::vector<std::string> paths;
+    for (auto it = std::sregex_iterator(text.begin(), text.end(), line); it != std::sregex_iterator(); ++it) {
+        paths.push_back(fs::path((*it)[1].str()).lexically_normal().generic_string());
+    }
+    return paths;
+}
+
+/// The includes of a file that point the wrong way, as "file includes other".
+std::vector<std::string> find_violations(const std::string& file, const std::string& text) {
+    std::vector<std::string> violations;
+    const Layer* own = layer_of(file);
+    if (own == nullptr) return violations;
+    for (const std::string& path : included_paths(text)) {
+        // Relative to the including file a path could step into another folder without its name.
+        const bool relative = path.starts_with("../") || fs::path(path).is_absolute();
+        const Layer* other = layer_of(path);
+        const bool allowed =
+            other == nullptr || other == own ||
+            std::find(own->may_include.begin(), own->may_include.end(), other->folder) != own->may_include.end();
+        const bool outside = path.starts_with("tests/") || path.starts_with("scenes/");
+        if (relative || !allowed || outside) violations.push_back(file + " includes " + path);
+    }
+    return violations;
+}
+
+std::string read_file(const fs::path& path) {
+    std::ifstream in(path, std::ios::binary);
+    return {std::istreambuf_iterator<char>(in), {}};
+}
+
+TEST(House, IncludesPointOneWay) {
+    const fs::path root = ALEPH_SOURCE_DIR;
+    int files = 0, own_includes = 0;
+    for (const char* folder : {"engine", "motion", "perception", "render"}) {
+        for (const fs::directory_entry& entry : fs::recursive_directory_iterator(root / folder)) {
+            const std::string path = fs::relative(entry.path(), root).generic_string();
+            if (path.find("node_modules") != std::string::npos) continue;
+            if (!entry.is_regular_file() || (entry.path().extension() != ".h" && entry.path().extension() != ".cpp"))
+                continue;
+            ++files;
+            const std::string text = read_file(entry.path());
+            for (const std::string& violation : find_violations(path, text)) ADD_FAILURE() << violation;
+            for (const std::string& included : included_paths(text)) own_includes += layer_of(included) != nullptr;
+        }
+    }
+    EXPECT_GT(files, 40);          // the folders were found
+    EXPECT_GT(own_includes, 100);  // and their includes understood
+}
+
+TEST(House, CheckerSeesEveryKindOfViolation) {
+    const auto count = [](const char* file, const char* text) { return find_violations(file, text).size(); };
+    EXPECT_EQ(count("perception/a.cpp", "#include \"engine/scene.h\"\n"), 1u);
+    EXPECT_EQ(count("perception/a.cpp", "#include \"motion/velocity.h\"\n"), 1u);
+    EXPECT_EQ(count("engine/a.cpp", "// c\n  #  include <motion/velocity.h>\n"), 1u);
+    EXPECT_EQ(count("engine/a.cpp", "#include \"perception/perception.h\"\n#include \"render/settings.h\"\n"), 2u);
+    EXPECT_EQ(count("engine/base/a.h", "#include \"engine/scene.h\"\n"), 1u);
+    EXPECT_EQ(count("engine/base/a.h", "#include \"engine/base/../scene.h\"\n"), 1u);
+    EXPECT_EQ(count("motion/a.cpp", "#include \"perception/perception.h\"\n"), 1u);
+    EXPECT_EQ(count("render/a.cpp", "#include \"render/cli/options.h\"\n"), 1u);
+    EXPECT_EQ(count("render/a.cpp", "#include \"../render/settings.h\"\n"), 1u);
+    EXPECT_EQ(count("render/a.cpp", "#include \"tests/unit/helper.h\"\n"), 1u);
+
+    EXPECT_EQ(
+        count("perception/a.cpp", "#include <vector>\n#include \"engine/base/image.h\"\n#include \"perception/b.h\"\n"),
+        0u);
+    EXPECT_EQ(count("engine/a.cpp", "#include \"engine/base/image.h\"\n#include \"scene_schema.inc\"\n"), 0u);
+    EXPECT_EQ(count("motion/a.cpp", "#include \"engine/scene.h\"\n"), 0u);
+    EXPECT_EQ(count("render/cli/a.cpp", "#include \"render/settings.h\"\n#include \"render/cli/b.h\"\n"), 0u);
+    EXPECT_EQ(count("render/a.cpp", "#include \"perception/perception.h\"\n#include \"motion/velocity.h\"\n"), 0u);
+}
+
+/// Visible entries of a folder that do not belong at the top of the repository.
+std::vector<std::string> find_strays(const fs::path& root) {
+    static const std::set<std::string> given = {"CMakeLists.txt", "README.md", "engine", "motion",
+                                                "perception",     "render",    "scenes", "tests"};
+    std::vector<std::string> strays;
+    for (const fs::directory_entry& entry : fs::directory_iterator(root)) {
+        const std::string name = entry.path().filename().string();
+        if (!name.starts_with(".") && !name.starts_with("build") && !given.contains(name)) strays.push_back(name);
+    }
+    return strays;
+}
+
+TEST(House, TopHoldsNothingElse) {
+    for (const std::string& name : find_strays(ALEPH_SOURCE_DIR))
+        ADD_FAILURE() << name << " does not belong at the top";
+    for (const char* name :
+         {"CMakeLists.txt", "README.md", "engine", "motion", "perception", "render", "scenes", "tests"}) {
+        EXPECT_TRUE(fs::exists(fs::path(ALEPH_SOURCE_DIR) / name)) << name;
+    }
+}
+
+TEST(House, StraysAreSeen) {
+    const fs::path folder = fs::path(testing::TempDir()) / "aleph_house_test";
+    fs::remove_all(folder);
+    fs::create_directories(folder / "docs");
+    fs::create_directories(folder / "engine");
+    fs::create_directories(folder / "build-debug");
+    std::ofstream(folder / ".clang-format") << "";
+    EXPECT_EQ(find_strays(folder), (std::vector<std::string>{"docs"}));
+    fs::remove_all(folder);
+}
+
+}  // namespace
+}  // namespace aleph
