@@ -1,0 +1,82 @@
+#include "engine/base/opponent_color.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "engine/base/sampling.h"
+
+namespace aleph {
+namespace {
+
+TEST(OpponentColor, RedWorkedOutByHand) {
+    // XYZ of Rec.709 red is (.4124, .2126, .0193).
+    const glm::dvec3 red = to_opponent({1, 0, 0});
+    EXPECT_NEAR(red.x, -0.0177 * 0.4124 + 1.0090 * 0.2126 + 0.0073 * 0.0193, 1e-12);
+    EXPECT_NEAR(red.y, -1.5370 * 0.4124 + 1.0821 * 0.2126 + 0.3209 * 0.0193, 1e-12);
+    EXPECT_NEAR(red.z, 0.1946 * 0.4124 - 0.2045 * 0.2126 + 0.5264 * 0.0193, 1e-12);
+}
+
+TEST(OpponentColor, PY15_GreyIsNotNeutral) {
+    for (const double y : {1.0, 0.18, 1e6}) {
+        const glm::dvec3 grey = to_opponent(glm::dvec3(y));
+        EXPECT_NEAR(grey.x / y, 1.0, 5e-4);
+        EXPECT_NEAR(grey.y / y, -0.029, 5e-4);
+        EXPECT_NEAR(grey.z / y, 0.554, 5e-4);
+    }
+}
+
+TEST(OpponentColor, PY15_NeutralSubtractionMakesGreyNeutral) {
+    for (const float y : {1.0f, 0.18f, 1e6f}) {
+        const Image<Rgb> grey(3, 1, Rgb(y));
+        for (const OpponentChannel channel : {OpponentChannel::c1, OpponentChannel::c2}) {
+            EXPECT_NEAR(compute_opponent(grey, channel, true)(1, 0) / y, 0.0, 1e-6);
+        }
+        EXPECT_NEAR(compute_opponent(grey, OpponentChannel::a, true)(1, 0) / y, 1.0, 5e-4);
+    }
+}
+
+TEST(OpponentColor, PY15_RoundTrip) {
+    RandomStream random({11, 0, 0, 0});
+    for (int i = 0; i < 1000; ++i) {
+        const glm::dvec3 rgb(random.next() * 4 - 1, random.next() * 4 - 1, random.next() * 4 - 1);
+        const glm::dvec3 back = from_opponent(to_opponent(rgb));
+        for (int c = 0; c < 3; ++c) EXPECT_NEAR(back[c], rgb[c], 1e-12);
+    }
+}
+
+TEST(OpponentColor, PY15_RowsAgreeWithTheDoubleMatrix) {
+    Image<Rgb> image(257, 3);
+    RandomStream random({12, 0, 0, 0});
+    for (Rgb& c : image.pixels) c = {random.next(), random.next(), random.next()};
+    const auto a = compute_opponent(image, OpponentChannel::a, false);
+    const auto c1 = compute_opponent(image, OpponentChannel::c1, false);
+    const auto c2 = compute_opponent(image, OpponentChannel::c2, false);
+    for (std::size_t i = 0; i < image.size(); ++i) {
+        const glm::dvec3 exact = to_opponent(glm::dvec3(image.pixels[i]));
+        EXPECT_NEAR(a.pixels[i], exact.x, 3e-7);
+        EXPECT_NEAR(c1.pixels[i], exact.y, 3e-7);
+        EXPECT_NEAR(c2.pixels[i], exact.z, 3e-7);
+    }
+}
+
+TEST(OpponentColor, PY15_OutOfGamutAndBrokenPixelsAreClampedFirst) {
+    constexpr float infinity = std::numeric_limits<float>::infinity();
+    Image<Rgb> image(7, 1);
+    image.pixels = {Rgb(-1, 0.5f, 0.5f), Rgb(0, 0.5f, 0.5f), Rgb(std::nanf(""), 0.5f, 0.5f),        Rgb(0.0f),
+                    Rgb(-0.0f),          Rgb(infinity),      Rgb(std::numeric_limits<float>::max())};
+    for (const OpponentChannel channel : {OpponentChannel::a, OpponentChannel::c1, OpponentChannel::c2}) {
+        const Image<float> out = compute_opponent(image, channel, false);
+        EXPECT_EQ(out(0, 0), out(1, 0));
+        EXPECT_EQ(out(2, 0), out(1, 0));
+        EXPECT_EQ(out(3, 0), 0.0f);
+        EXPECT_EQ(out(4, 0), 0.0f);
+        const double clamped = to_opponent(glm::dvec3(1e15))[static_cast<int>(channel)];
+        EXPECT_NEAR(out(5, 0) / clamped, 1.0, 1e-5);
+        EXPECT_EQ(out(6, 0), out(5, 0));
+    }
+}
+
+}  // namespace
+}  // namespace aleph
