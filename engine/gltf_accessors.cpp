@@ -51,6 +51,10 @@ T from_integer(C value, bool normalized) {
 
 }  // namespace
 
+GltfAccessors::GltfAccessors(const GltfSource& source) : source_(source) {
+    for (const Bytes& buffer : source.buffers) bytes_left_ += decoded_bytes_per_buffer_byte * buffer.size();
+}
+
 template <class T>
 std::vector<T> GltfAccessors::read(int index) {
     const tinygltf::Accessor& accessor = source_.model.accessors[static_cast<std::size_t>(index)];
@@ -133,10 +137,10 @@ int GltfAccessors::components(int accessor) const {
 }
 
 void GltfAccessors::charge(std::uint64_t bytes, const std::string& place) {
-    if (bytes > max_decoded_bytes - charged_) {
-        throw InputError(source_.file, place, fmt::format("the file decodes to more than {} bytes", max_decoded_bytes));
+    if (bytes > bytes_left_) {
+        throw InputError(source_.file, place, "the file's meshes and animations decode to too many bytes for its size");
     }
-    charged_ += bytes;
+    bytes_left_ -= bytes;
 }
 
 }  // namespace aleph

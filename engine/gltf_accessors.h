@@ -8,13 +8,15 @@
 
 namespace aleph {
 
-/// Most bytes that one file may decode to: small files can refer to the same data a million times.
-inline constexpr std::uint64_t max_decoded_bytes = std::uint64_t{2} << 30;
+/// A file may decode to so many bytes of vertices, indices and keys, and so many more per byte of its buffers: small
+/// files can refer to the same data a million times.
+inline constexpr std::uint64_t decoded_bytes_base = std::uint64_t{512} << 20;
+inline constexpr std::uint64_t decoded_bytes_per_buffer_byte = 8;
 
 class GltfAccessors {
   public:
     /// @param source  validated; must outlive this
-    explicit GltfAccessors(const GltfSource& source) : source_(source) {}
+    explicit GltfAccessors(const GltfSource& source);
 
     /// All components in order. Normalized integers become -1 (or 0) to 1, floats convert exactly.
     /// Instantiated for float and double.
@@ -28,13 +30,12 @@ class GltfAccessors {
     std::size_t count(int accessor) const;
     int components(int accessor) const;  ///< 3 for VEC3
 
-    /// Accounts for memory before it is taken.
-    /// @throws InputError beyond max_decoded_bytes
+  private:
+    /// Accounts for memory before it is taken. @throws InputError beyond the file's allowance
     void charge(std::uint64_t bytes, const std::string& place);
 
-  private:
     const GltfSource& source_;
-    std::uint64_t charged_ = 0;
+    std::uint64_t bytes_left_ = decoded_bytes_base;
 };
 
 }  // namespace aleph

@@ -63,16 +63,20 @@ void read_channel(GltfReader& reader, const tinygltf::AnimationChannel& channel,
     const std::vector<double> values = reader.accessors.read<double>(sampler.output);
     const bool step = sampler.interpolation == "STEP";
     if (channel.target_path == "rotation") {
+        const std::string who = fmt::format("node {} \"{}\"", channel.target_node, printable(node.name));
         node.rotation.values.clear();
+        std::size_t far_from_unit = 0;
         for (std::size_t i = 0; i < times.size(); ++i) {
-            node.rotation.values.push_back(read_rotation(
-                reader, &values[4 * i], fmt::format("{}: node {} key {}", place, channel.target_node, i)));
+            const UnitRotation unit =
+                read_rotation(reader, &values[4 * i], fmt::format("{}: node {} key {}", place, channel.target_node, i));
+            if (unit.was_far_from_unit()) ++far_from_unit;
+            node.rotation.values.push_back(unit.rotation);
+        }
+        if (far_from_unit > 0) {
+            reader.warn(who, fmt::format("{} rotation keys are not of length 1 and are normalized", far_from_unit));
         }
         set_timing(node.rotation, times, step);
-        if (!step) {
-            warn_of_large_steps(reader, node.rotation,
-                                fmt::format("node {} \"{}\"", channel.target_node, printable(node.name)));
-        }
+        if (!step) warn_of_large_steps(reader, node.rotation, who);
         return;
     }
     Track<glm::dvec3>& track = channel.target_path == "translation" ? node.translation : node.scale;

@@ -11,7 +11,10 @@ namespace aleph {
 
 namespace {
 
-SceneImage read_image(GltfReader& reader, std::size_t index) {
+/// Most bytes of decoded pixels in one file.
+constexpr std::uint64_t max_pixel_bytes = std::uint64_t{2} << 30;
+
+SceneImage read_image(const GltfReader& reader, std::size_t index) {
     const std::string place = fmt::format("/images/{}", index);
     EncodedImage encoded = load_encoded_image(reader.source, index);
     SceneImage image;
@@ -19,7 +22,6 @@ SceneImage read_image(GltfReader& reader, std::size_t index) {
     image.path = std::move(encoded.path);
     try {
         const DecodedTexture decoded = decode_texture(encoded.bytes, place);
-        reader.accessors.charge(decoded.bytes.size() * sizeof(glm::u8vec4), place);
         image.bytes = Image<glm::u8vec4>(decoded.bytes.width, decoded.bytes.height);
         for (std::size_t i = 0; i < decoded.bytes.size(); ++i) {
             const auto& pixel = decoded.bytes.pixels[i];
@@ -64,7 +66,8 @@ class MaterialReader {
     GltfReader& reader_;
     const tinygltf::Model& model_;
     std::vector<int> image_of_;  ///< glTF image -> scene image, no_index until needed
-    std::string place_;          ///< of the material at hand
+    std::uint64_t pixel_bytes_ = 0;
+    std::string place_;  ///< of the material at hand
 };
 
 TextureRef MaterialReader::texture(int index, int uv_set) {
@@ -74,6 +77,11 @@ TextureRef MaterialReader::texture(int index, int uv_set) {
     const auto source = static_cast<std::size_t>(texture.source);
     if (image_of_[source] == no_index) {
         SceneImage image = read_image(reader_, source);
+        pixel_bytes_ += image.bytes.size() * sizeof(glm::u8vec4);
+        if (pixel_bytes_ > max_pixel_bytes) {
+            throw InputError(reader_.source.file, fmt::format("/images/{}", source),
+                             fmt::format("the file's images decode to more than {} bytes", max_pixel_bytes));
+        }
         image_of_[source] = static_cast<int>(reader_.part.images.size());
         reader_.part.images.push_back(std::move(image));
     }

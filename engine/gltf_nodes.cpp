@@ -36,7 +36,13 @@ void read_transform(GltfReader& reader, const tinygltf::Node& source, const std:
     }
     const auto vector = [](const std::vector<double>& v) { return glm::dvec3(v[0], v[1], v[2]); };
     if (!source.translation.empty()) node.translation = vector(source.translation);
-    if (!source.rotation.empty()) node.rotation = read_rotation(reader, source.rotation.data(), place + "/rotation");
+    if (!source.rotation.empty()) {
+        const UnitRotation unit = read_rotation(reader, source.rotation.data(), place + "/rotation");
+        if (unit.was_far_from_unit()) {
+            reader.warn(place, fmt::format("the rotation quaternion has length {:.6g} and is normalized", unit.length));
+        }
+        node.rotation = unit.rotation;
+    }
     if (!source.scale.empty()) node.scale = vector(source.scale);
 }
 
@@ -81,18 +87,14 @@ Light read_light(GltfReader& reader, const tinygltf::Light& source, std::size_t 
 
 }  // namespace
 
-glm::dquat read_rotation(GltfReader& reader, const double* values, const std::string& place) {
+UnitRotation read_rotation(const GltfReader& reader, const double* values, const std::string& place) {
     // Scaled by the largest component first: squares of tiny or huge ones would under- or overflow.
     const double largest =
         std::max({std::abs(values[0]), std::abs(values[1]), std::abs(values[2]), std::abs(values[3])});
     if (largest == 0.0) throw InputError(reader.source.file, place, "the rotation quaternion is zero");
     const glm::dquat scaled(values[3] / largest, values[0] / largest, values[1] / largest, values[2] / largest);
     const double length = std::sqrt(glm::dot(scaled, scaled));
-    if (std::abs(length * largest - 1.0) > 1e-3) {
-        reader.warn(place,
-                    fmt::format("the rotation quaternion has length {:.6g} and is normalized", length * largest));
-    }
-    return scaled / length;
+    return {scaled / length, length * largest};
 }
 
 void read_cameras_and_lights(GltfReader& reader) {

@@ -31,8 +31,16 @@ void read_cameras_and_lights(GltfReader& reader);
 void read_nodes(GltfReader& reader);
 void read_animations(GltfReader& reader);
 
-/// Unit quaternion from x, y, z, w at `values`; of any length but 0, which is refused (HARD_CASES KF-04, KF-05).
-/// @param place  names node and key in errors and in the warning about a length off by more than 1e-3
-glm::dquat read_rotation(GltfReader& reader, const double* values, const std::string& place);
+/// A quaternion made unit, and the length it had.
+struct UnitRotation {
+    glm::dquat rotation;
+    double length = 1.0;
+
+    bool was_far_from_unit() const { return !(length > 1.0 - 1e-3 && length < 1.0 + 1e-3); }
+};
+
+/// From x, y, z, w at `values`; of any length but 0, which is refused (HARD_CASES KF-04, KF-05).
+/// @param place  names node and key in the error
+UnitRotation read_rotation(const GltfReader& reader, const double* values, const std::string& place);
 
 }  // namespace aleph

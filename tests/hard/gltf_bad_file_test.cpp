@@ -179,6 +179,7 @@ TEST_F(GltfBadFile, UrisStayInTheFilesFolder) {
         {"inner", "not a regular file"},
         {"pipe.bin", "not a regular file"},
         {"absent.bin", "file not found"},
+        {std::string(5000, 'a'), "cannot be resolved"},
         {"", "empty"},
     };
     for (const auto& [uri, reason] : refused) {
@@ -226,6 +227,11 @@ TEST_F(GltfBadFile, SmallFilesThatMultiply) {
     draft.json["nodes"] = nodes;
     draft.json["scenes"][0]["nodes"] = roots;
     expect_draft_refused(draft, "/nodes/1999", "more than 10000000 instances");
+
+    // The same 50,000 vertices in every primitive: three gigabytes from one megabyte.
+    const int many = draft.add_accessor(std::vector<float>(150000, 1.0f), "VEC3", 3);
+    for (Json& each : draft.json["meshes"][0]["primitives"]) each["attributes"]["POSITION"] = many;
+    expect_draft_refused(draft, "/accessors/2", "too many bytes for its size");
 }
 
 /// Every way to cut the file, and thousands of random damages: an answer each time, never a crash. The same twice.

@@ -222,6 +222,16 @@ TEST_F(Gltf, KF04_QuaternionsOfAnyLengthBecomeUnitWithAWarning) {
     EXPECT_TRUE(load(draft).warnings.empty());
 }
 
+TEST_F(Gltf, KF04_KeysOfAnyLengthGiveOneWarningPerChannel) {
+    GltfDraft draft = triangle_draft();
+    draft.animate(0, "rotation", {0, 1, 2}, {0, 0, 0, 1, 0, 0, 3e-10f, 4e-10f, 6e17f, 0, 0, 8e17f});
+    const Scene scene = load(draft);
+    EXPECT_NEAR(scene.nodes[0].rotation.values[1].z, 0.6, 1e-7);
+    EXPECT_NEAR(scene.nodes[0].rotation.values[2].x, 0.6, 1e-7);
+    EXPECT_TRUE(warns(scene, "node 0 \"node0\": 2 rotation keys are not of length 1"));
+    EXPECT_EQ(scene.warnings.size(), 1u);
+}
+
 TEST_F(Gltf, RP08_KeysFarApartAreWarnedOf) {
     const auto about_y = [](double degrees) {
         const double half = degrees / 360.0 * std::numbers::pi;
