@@ -5,6 +5,7 @@
 # On a difference, build/golden/NAME.exr is what came out and NAME.diff.png shows where (white: the largest difference).
 # BUILD is the build folder, if it is not `build`.
 set -euo pipefail
+export LC_ALL=C
 
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 root=$(cd "$here/../.." && pwd)
@@ -27,9 +28,11 @@ images=(
 )
 common=(scenes/pool/scene.json --frames 12 --size 160x120 -q)
 
-# The first number under a key of `aleph compare --json`: number FILE BLOCK KEY
+# The number under a key of one block of `aleph compare --json`: number FILE BLOCK KEY
 number() {
-  awk -v block="\"$2\":" -v key="\"$3\":" '$1 == block { inside = 1 } inside && $1 == key { sub(",", "", $2); print $2; exit }' "$1"
+  awk -v block="\"$2\":" -v key="\"$3\":" '
+    $1 == block { inside = 1 }
+    inside && $1 == key { if ($2 ~ /null/) print "infinite"; else printf "%.4g\n", $2; exit }' "$1"
 }
 
 # Renders into $out/NAME.exr. Images of the same command are rendered once.
