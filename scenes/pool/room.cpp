@@ -104,50 +104,41 @@ void add_room(Scene& scene) {
 }
 
 void add_lights(Scene& scene) {
-    // Over the table: a shade open below, the glowing panel a little inside it.
+    // Over the table: a shade whose underside glows. Flush, because walls close to an emitter only make noise.
     const int shade = add_lambert(scene, "shade", {34, 92, 70});
-    const int inside = add_lambert(scene, "shade_inside", {240, 236, 226});
     const int brass = add_lambert(scene, "brass", {190, 148, 74});
     const int glow = add_emitter(scene, "lamp_glow", {1.0, 0.87, 0.66}, 14.0);
     const glm::dvec3 size(1.7, 0.2, 0.5);
-    const double wall = 0.015;
-    const int lamp = add_node(scene, "lamp", no_index, {0.0, cloth_height + 0.86 + 0.5 * size.y, 0.0});
-    add_shape(scene, "shade_top", lamp, box({size.x, wall, size.z}), shade, {0.0, 0.5 * (size.y - wall), 0.0});
+    const double bottom = cloth_height + 0.86, cord = room_high.y - bottom - size.y;
+    const int lamp = add_node(scene, "lamp", no_index, {0.0, bottom, 0.0});
+    add_shape(scene, "lamp_shade", lamp, box(size), shade, {0.0, 0.5 * size.y, 0.0});
+    add_shape(scene, "lamp_panel", lamp, quad(size.x - 0.1, size.z - 0.1), glow, {0.0, -0.001, 0.0}, z_to_down);
     for (const double side : {-1.0, 1.0}) {
         const char* which = side < 0.0 ? "a" : "b";
-        const double height = size.y - wall;
-        add_shape(scene, fmt::format("shade_long_{}", which), lamp, box({size.x, height, wall}), shade,
-                  {0.0, -0.5 * wall, side * 0.5 * (size.z - wall)});
-        add_shape(scene, fmt::format("shade_short_{}", which), lamp, box({wall, height, size.z - 2.0 * wall}), shade,
-                  {side * 0.5 * (size.x - wall), -0.5 * wall, 0.0});
-        add_shape(scene, fmt::format("cord_{}", which), lamp,
-                  cylinder(0.006, room_high.y - cloth_height - 0.86 - size.y, 12), brass,
-                  {side * 0.6, 0.5 * size.y + 0.5 * (room_high.y - cloth_height - 0.86 - size.y), 0.0});
-        add_shape(scene, fmt::format("trim_{}", which), lamp, box({size.x + 0.02, 0.02, 0.01}), brass,
-                  {0.0, -0.5 * size.y + 0.01, side * (0.5 * size.z + 0.005)});
+        add_shape(scene, fmt::format("lamp_cord_{}", which), lamp, cylinder(0.006, cord, 12), brass,
+                  {side * 0.6, size.y + 0.5 * cord, 0.0});
+        add_shape(scene, fmt::format("lamp_trim_{}", which), lamp, box({size.x + 0.02, 0.02, 0.01}), brass,
+                  {0.0, 0.02, side * (0.5 * size.z + 0.005)});
     }
-    add_shape(scene, "lamp_inside", lamp, box({size.x - 2.0 * wall, 0.01, size.z - 2.0 * wall}), inside,
-              {0.0, -0.03, 0.0});
-    add_shape(scene, "lamp_panel", lamp, quad(size.x - 0.1, size.z - 0.1), glow, {0.0, -0.04, 0.0}, z_to_down);
 
     // A soft ceiling light over the sitting corner, so that the walls do not drown.
+    const int frame = add_lambert(scene, "light_frame", {226, 220, 206});
     const int soft = add_emitter(scene, "ceiling_glow", {1.0, 0.9, 0.76}, 5.0);
     const int panel = add_node(scene, "ceiling_light", no_index, {-2.1, room_high.y, 0.2});
-    add_shape(scene, "ceiling_light_frame", panel, box({1.5, 0.04, 1.5}), inside, {0.0, -0.02, 0.0});
+    add_shape(scene, "ceiling_light_frame", panel, box({1.5, 0.04, 1.5}), frame, {0.0, -0.02, 0.0});
     add_shape(scene, "ceiling_light_panel", panel, quad(1.4, 1.4), soft, {0.0, -0.041, 0.0}, z_to_down);
 
-    // A tall window in the evening: cool light from the side.
-    const int sky = add_emitter(scene, "evening_sky", {0.4, 0.62, 1.0}, 0.7);
-    const int frame = add_lambert(scene, "window_frame", {226, 220, 206});
+    // A tall window in the evening, its bars a little before the sky.
+    const int sky = add_emitter(scene, "evening_sky", {0.42, 0.64, 1.0}, 0.4);
     const int window = add_node(scene, "window", no_index, {-1.9, 1.75, room_low.z});
     const double width = 1.5, height = 1.4;
     add_shape(scene, "window_sky", window, quad(width, height), sky, {0.0, 0.0, 0.01});
     for (const double side : {-1.0, 0.0, 1.0}) {
         const int i = static_cast<int>(side) + 1;
         add_shape(scene, fmt::format("window_post_{}", i), window, box({0.06, height, 0.05}), frame,
-                  {side * 0.5 * (width - 0.06), 0.0, 0.035});
+                  {side * 0.5 * (width - 0.06), 0.0, 0.085});
         add_shape(scene, fmt::format("window_bar_{}", i), window, box({width + 0.1, 0.06, 0.07}), frame,
-                  {0.0, side * 0.5 * (height + 0.06), 0.045});
+                  {0.0, side * 0.5 * (height + 0.06), 0.095});
     }
 }
 
