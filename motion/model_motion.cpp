@@ -83,7 +83,7 @@ void add_moments_between(FrameMotion& motion, const Scene& scene, const MotionMo
     if (times.empty()) return;
 
     const Turns turns = compute_turns(scene, camera_node, begin, end);
-    const bool background_turns = turns.background + view_turn > limit;
+    const bool background_turns = !now.view->orthographic && turns.background + view_turn > limit;
     for (const double seconds : times) {
         const SceneFrame frame = pose(scene, seconds);
         const CameraView view =
@@ -195,7 +195,7 @@ PixelMotion compute_point_motion(const FrameMotion& frame, const ObjectMotion& o
 
 PixelMotion compute_background_motion(const FrameMotion& frame, double x, double y) {
     PixelMotion motion;
-    if (!frame.background.still) {
+    if (!frame.background.still || !frame.background.between.empty()) {
         const glm::dvec3 direction((x - 0.5 * frame.now.width) / frame.now.pixels_per_unit,
                                    (0.5 * frame.now.height - y) / frame.now.pixels_per_unit, -1.0);
         // At infinity every direction before the camera is beyond the near plane.

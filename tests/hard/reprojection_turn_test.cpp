@@ -50,6 +50,27 @@ TEST(ReprojectionTurn, RP07_TheCameraTurnsInstead) {
     EXPECT_NEAR(field.path_length(800, 500), 2.0 * std::numbers::pi * radius, 0.01 * 2.0 * std::numbers::pi * radius);
 }
 
+/// The same bits at both moments, and yet no rest.
+TEST(ReprojectionTurn, RP07_FullTurnBetweenEqualPoses) {
+    for (const bool camera_turns : {false, true}) {
+        Scene scene = make_point_scene({1.0f, 0.0f, -10.0f}, 1500.0);
+        Track<glm::dquat>& rotation = scene.nodes[camera_turns ? 1 : 0].rotation;
+        rotation.sampling.kind = TimeSampling::Kind::acyclic;
+        rotation.sampling.times = {0.0, 0.25, 0.5, 0.75, 1.0};
+        for (int i = 1; i < 4; ++i) rotation.values.push_back(glm::angleAxis(90.0 * i * degrees, glm::dvec3(0, 0, 1)));
+        rotation.values.push_back(rotation.values.front());
+        const TwoMoments moments(scene, 0.0, 1.0, 1000, 1000);
+        Image<Hit> hits(1000, 1000);
+        hits(650, 500) = {.instance = 0, .primitive = 0};
+        const MotionField field = compute_model_motion(scene, moments.now(), moments.other(), hits, {});
+        EXPECT_EQ(field.displacement(650, 500), glm::dvec2(0.0));
+        EXPECT_NEAR(field.path_length(650, 500), 942.48, 9.4);
+        const double background = camera_turns ? 2.0 * std::numbers::pi * std::hypot(300.5, 0.5) : 0.0;
+        EXPECT_NEAR(field.path_length(800, 500), background, 0.01 * background);
+        EXPECT_EQ(field.displacement(800, 500), glm::dvec2(0.0));
+    }
+}
+
 TEST(ReprojectionTurn, RP07_QuaternionKeysWithinTheFrame) {
     // A full turn in four keys of 90 degrees between two frames.
     Scene scene = make_point_scene({1.0f, 0.0f, -10.0f}, 1500.0);
@@ -64,6 +85,17 @@ TEST(ReprojectionTurn, RP07_QuaternionKeysWithinTheFrame) {
     // Held before the first and after the last key.
     EXPECT_NEAR(motion_of_point(scene, -3.0, 3.0).path_length, 942.48, 9.4);
     EXPECT_EQ(motion_of_point(scene, 1.0, 2.0).path_length, 0.0);
+}
+
+/// Quaternion keys 270 degrees apart go the short way, 90 back; motion says what the picture will show.
+TEST(ReprojectionTurn, RP08_KeysBeyondAHalfTurnGoTheShortWay) {
+    Scene scene = make_point_scene({1.0f, 0.0f, -10.0f}, 1500.0);
+    scene.nodes[0].rotation =
+        ramp(glm::angleAxis(0.0, glm::dvec3(0, 0, 1)), glm::angleAxis(270.0 * degrees, glm::dvec3(0, 0, 1)));
+    const PointMotion motion = motion_of_point(scene);
+    EXPECT_NEAR(motion.displacement.x, -150.0, 1e-9);
+    EXPECT_NEAR(motion.displacement.y, 150.0, 1e-9);  // down: clockwise
+    EXPECT_NEAR(motion.path_length, 150.0 * 90.0 * degrees, 0.01 * 235.62);
 }
 
 TEST(ReprojectionTurn, RP07_MatrixKeysWithinTheFrame) {

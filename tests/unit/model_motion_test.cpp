@@ -16,7 +16,7 @@
 namespace aleph {
 namespace {
 
-constexpr int width = 160, height = 120;
+constexpr int width = 96, height = 72;
 
 struct Moving {
     const char* name;
@@ -234,13 +234,13 @@ TEST(ModelMotion, ZoomMovesObjectsAndBackground) {
     scene.cameras[0].fov = ramp(0.6, 0.9);
     const TwoMoments moments(scene, 0.0, 1.0, width, height);
     Image<Hit> hits(width, height);
-    hits(80, 60) = {.instance = 0, .primitive = 0};
+    hits(width / 2, height / 2) = {.instance = 0, .primitive = 0};
     const MotionField field = compute_model_motion(scene, moments.now(), moments.other(), hits, {});
-    const double grown = 60.0 / std::tan(0.45) - 60.0 / std::tan(0.3);  // focal length in pixels
-    EXPECT_NEAR(field.displacement(80, 60).x, 0.1 * grown, 1e-9);
-    EXPECT_NEAR(field.displacement(80, 60).y, -0.05 * grown, 1e-9);
-    const double left_edge = -79.5 / (60.0 / std::tan(0.3));
-    EXPECT_NEAR(field.displacement(0, 60).x, left_edge * grown, 1e-9);
+    const double grown = 0.5 * height / std::tan(0.45) - 0.5 * height / std::tan(0.3);  // focal length in pixels
+    EXPECT_NEAR(field.displacement(width / 2, height / 2).x, 0.1 * grown, 1e-9);
+    EXPECT_NEAR(field.displacement(width / 2, height / 2).y, -0.05 * grown, 1e-9);
+    const double left_edge = (0.5 - 0.5 * width) / (0.5 * height / std::tan(0.3));
+    EXPECT_NEAR(field.displacement(0, height / 2).x, left_edge * grown, 1e-9);
 }
 
 TEST(ModelMotion, PathIsTheDisplacementsLengthWhereNothingTurnsFar) {
