@@ -10,6 +10,7 @@
 #include "engine/scene_json_reader.h"
 #include "engine/scene_json_tracks.h"
 #include "engine/scene_schema.h"
+#include "engine/shapes.h"
 
 namespace aleph {
 
@@ -119,6 +120,8 @@ SceneText read_scene_text(std::string_view text, const std::string& file) {
     read_nodes(reader, root);
     read_includes(reader, root, no_index);
     read_settings(reader.scene, root);
+    // Last, when all shapes are known to be few enough.
+    for (Mesh& mesh : reader.scene.meshes) mesh = make_shape_mesh(*mesh.shape, mesh.material, mesh.name);
     return std::move(reader.result);
 }
 

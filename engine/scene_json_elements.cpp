@@ -215,7 +215,11 @@ int read_shape_mesh(SceneReader& reader, const JsonRef& at, const std::optional<
     }
     const int index = static_cast<int>(reader.scene.meshes.size());
     const int used = material ? read_material_use(reader, *material, name) : no_index;
-    reader.scene.meshes.push_back(make_shape_mesh(shape, used, name));
+    Mesh mesh;
+    mesh.name = name;
+    mesh.material = used;
+    mesh.shape = shape;
+    reader.scene.meshes.push_back(std::move(mesh));
     reader.meshes.add(name, index);
     return index;
 }

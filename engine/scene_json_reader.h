@@ -47,7 +47,7 @@ int read_material_use(SceneReader& reader, const JsonRef& at, const std::string&
 int read_light_use(SceneReader& reader, const JsonRef& at, const std::string& name);
 int read_camera_use(SceneReader& reader, const JsonRef& at, const std::string& name);
 
-/// Adds a mesh. @param material  nothing: glTF's default material
+/// Adds a mesh whose triangles are made at the end. @param material  nothing: glTF's default material
 int read_shape_mesh(SceneReader& reader, const JsonRef& shape, const std::optional<JsonRef>& material,
                     const std::string& name);
 
