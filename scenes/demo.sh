@@ -1,0 +1,9 @@
+#!/usr/bin/env bash
+# The main job end to end: set-up, build, frames of `pool` guided and unguided, a table and a picture.
+set -euo pipefail
+cd "$(dirname "$0")/.."
+bash scenes/setup.sh
+cmake -S . -B build -G Ninja -DCMAKE_BUILD_TYPE=Release >/dev/null
+ninja -C build --quiet aleph study_demo
+mkdir -p build/demo
+build/study_demo scenes/pool/scene.json --frames 20,40,60 -o build/demo/demo.png
