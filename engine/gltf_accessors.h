@@ -10,7 +10,7 @@ namespace aleph {
 
 /// A file may decode to so many bytes of vertices, indices and keys, and so many more per byte of its buffers: small
 /// files can refer to the same data a million times.
-inline constexpr std::uint64_t decoded_bytes_base = std::uint64_t{512} << 20;
+inline constexpr std::uint64_t decoded_bytes_base = std::uint64_t{256} << 20;
 inline constexpr std::uint64_t decoded_bytes_per_buffer_byte = 8;
 
 class GltfAccessors {

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include <chrono>
+#include <ctime>
 #include <filesystem>
 #include <string>
 
@@ -52,12 +52,12 @@ inline GltfDraft textured_draft(const ScratchFolder& folder, bool from_file) {
     return draft;
 }
 
-/// Place and reason as told, within two seconds, the scene untouched.
+/// Place and reason as told, within two seconds of processor time, the scene untouched.
 inline void expect_refused(const std::filesystem::path& path, const std::string& place, const std::string& reason) {
     Scene scene;
     scene.nodes.resize(1);
     const Scene before = scene;
-    const auto start = std::chrono::steady_clock::now();
+    const std::clock_t start = std::clock();
     try {
         append_gltf(path, scene, 0, 0);
         FAIL() << "was loaded";
@@ -67,7 +67,7 @@ inline void expect_refused(const std::filesystem::path& path, const std::string&
         EXPECT_NE(error.reason().find(reason), std::string::npos) << error.what();
         EXPECT_LT(std::string(error.what()).size(), 1000u);
     }
-    EXPECT_LT(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(), 2.0);
+    EXPECT_LT(static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC, 2.0);
     EXPECT_EQ(scene, before);
 }
 
