@@ -1,10 +1,11 @@
 // What frame N sees and frame N+1 no longer does: one ray each from the other camera to where the point went.
 
 #include <fmt/format.h>
+#include <algorithm>
 #include <array>
-#include <cmath>
 #include <glm/geometric.hpp>
 #include <numeric>
+#include <span>
 #include <vector>
 
 #include "engine/base/errors.h"

@@ -1,6 +1,7 @@
 #include "motion/model_motion.h"
 
 #include <fmt/format.h>
+#include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>

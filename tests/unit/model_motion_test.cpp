@@ -10,8 +10,8 @@
 #include <ostream>
 
 #include "engine/base/parallel.h"
-#include "motion_scenes.h"
-#include "motion_truth.h"
+#include "tests/unit/motion_scenes.h"
+#include "tests/unit/motion_truth.h"
 
 namespace aleph {
 namespace {
