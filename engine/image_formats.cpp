@@ -1,6 +1,7 @@
 // The allow-list: which bytes are a picture of ours, how large it says it is, and which parts of it a decoder may see.
 
 #include <fmt/format.h>
+#include <zlib.h>
 
 #include <algorithm>
 #include <string_view>
@@ -51,6 +52,7 @@ std::vector<std::uint8_t> strip_png(Bytes bytes, const std::string& name) {
     // tRNS is the one other chunk that changes them.
     std::vector<std::uint8_t> kept(bytes.begin(), bytes.begin() + static_cast<std::ptrdiff_t>(png_magic.size()));
     kept.reserve(bytes.size());
+    bool has_pixels = false;
     for (std::size_t at = png_magic.size(); at < bytes.size();) {
         if (bytes.size() - at < 12) throw InputError(name, "", "the PNG ends inside a chunk");
         const std::size_t length = big_endian(bytes, at, 4);
@@ -61,8 +63,17 @@ std::vector<std::uint8_t> strip_png(Bytes bytes, const std::string& name) {
             check_size(big_endian(bytes, at + 8, 4), big_endian(bytes, at + 12, 4), name);
         }
         const auto chunk = bytes.subspan(at, length + 12);
-        if ((type[0] >= 'A' && type[0] <= 'Z') || type == "tRNS") kept.insert(kept.end(), chunk.begin(), chunk.end());
+        if ((type[0] >= 'A' && type[0] <= 'Z') || type == "tRNS") {
+            // libpng would find this out too, and print it.
+            const auto checksum = crc32(0, chunk.data() + 4, static_cast<uInt>(length + 4));
+            if (checksum != big_endian(chunk, length + 8, 4)) {
+                throw InputError(name, "", fmt::format("the PNG is damaged (wrong checksum in {})", printable(type)));
+            }
+            kept.insert(kept.end(), chunk.begin(), chunk.end());
+        }
         at += chunk.size();
+        has_pixels = has_pixels || type == "IDAT";
+        if (type == "IEND" && !has_pixels) throw InputError(name, "", "the PNG holds no pixels");
         if (type == "IEND") return kept;
     }
     throw InputError(name, "", "the PNG has no end: the file is cut");

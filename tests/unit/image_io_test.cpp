@@ -5,6 +5,7 @@
 #include <OpenImageIO/imageio.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <fstream>
@@ -175,6 +176,20 @@ TEST(ImageIo, DamagedBytesNeverCrash) {
         }
     }
     EXPECT_GT(refused, 100);
+}
+
+TEST(ImageIo, DamagedPngIsOneClearError) {
+    const ScratchFolder folder;
+    write_png(folder / "a.png", Image<Rgb>(9, 4, Rgb(0.3f)));
+    auto bytes = bytes_of(folder / "a.png");
+    const std::string type = "IDAT";
+    const auto data = std::search(bytes.begin(), bytes.end(), type.begin(), type.end());
+    ASSERT_NE(data, bytes.end());
+    data[8] ^= 0x10;
+    save_bytes(folder / "damaged.png", bytes);
+    testing::internal::CaptureStderr();
+    EXPECT_EQ(input_error(folder / "damaged.png"), "the PNG is damaged (wrong checksum in IDAT)");
+    EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
 }
 
 TEST(ImageIo, RefusesHugePicturesFromTheHeader) {
