@@ -3,28 +3,14 @@
 
 #include <cstring>
 
-#include "engine/base/errors.h"
-#include "engine/gltf.h"
 #include "engine/image_io.h"
-#include "tests/scratch_folder.h"
-#include "tests/unit/gltf_draft.h"
+#include "tests/unit/gltf_fixture.h"
 
 namespace aleph {
 namespace {
 
-class GltfSurface : public testing::Test {
+class GltfSurface : public GltfFixture {
   protected:
-    Scene load(GltfDraft draft) {
-        write_text(folder_ / "scene.gltf", draft.to_text());
-        Scene scene;
-        append_gltf(folder_ / "scene.gltf", scene, no_index, 0);
-        return scene;
-    }
-    static std::size_t count_warnings(const Scene& scene, const std::string& text) {
-        std::size_t count = 0;
-        for (const std::string& warning : scene.warnings) count += warning.find(text) != std::string::npos ? 1 : 0;
-        return count;
-    }
     /// Two pixels, red and blue.
     Bytes png() {
         Image<Rgb> image(2, 1);
@@ -33,8 +19,6 @@ class GltfSurface : public testing::Test {
         write_png(folder_ / "made.png", image);
         return read_regular_file(folder_ / "made.png", "made.png", "");
     }
-
-    ScratchFolder folder_;
 };
 
 TEST_F(GltfSurface, ColoursInAllTheirForms) {

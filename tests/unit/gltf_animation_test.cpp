@@ -1,0 +1,139 @@
+// glTF reader: keys and rotations.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "engine/pose.h"
+#include "tests/unit/gltf_fixture.h"
+
+namespace aleph {
+namespace {
+
+using GltfAnimation = GltfFixture;
+
+TEST_F(GltfAnimation, LinearAndStepAtKeysBetweenAndOutside) {
+    GltfDraft draft = triangle_draft();
+    draft.animate(0, "translation", {0.5f, 1.0f, 2.0f}, {0, 0, 0, 4, 0, 0, 4, 8, 0});
+    draft.animate(0, "scale", {0.0f, 1.0f}, {1, 1, 1, 3, 3, 3}, "STEP");
+    const Scene scene = load(draft);
+    const auto& move = scene.nodes[0].translation;
+    EXPECT_EQ(evaluate(move, 0.0), glm::dvec3(0, 0, 0));
+    EXPECT_EQ(evaluate(move, 0.5), glm::dvec3(0, 0, 0));
+    EXPECT_EQ(evaluate(move, 0.625), glm::dvec3(1, 0, 0));
+    EXPECT_EQ(evaluate(move, 1.0), glm::dvec3(4, 0, 0));
+    EXPECT_EQ(evaluate(move, 1.75), glm::dvec3(4, 6, 0));
+    EXPECT_EQ(evaluate(move, 9.0), glm::dvec3(4, 8, 0));
+    const auto& size = scene.nodes[0].scale;
+    EXPECT_EQ(size.interpolation, Interpolation::step);
+    EXPECT_EQ(evaluate(size, 0.999), glm::dvec3(1.0));
+    EXPECT_EQ(evaluate(size, 1.0), glm::dvec3(3.0));
+    EXPECT_TRUE(scene.warnings.empty());
+}
+
+TEST_F(GltfAnimation, RotationKeysTurnByTheShorterArc) {
+    GltfDraft draft = triangle_draft();
+    const float h = std::sqrt(0.5f);
+    draft.animate(0, "rotation", {0.0f, 2.0f}, {0, 0, 0, 1, 0, 0, h, h});  // 0 to 90 degrees about z
+    const SceneFrame frame = pose(load(draft), 0.5);                       // 22.5 degrees
+    const double angle = std::numbers::pi / 8.0;
+    EXPECT_NEAR(frame.world[0][0].x, std::cos(angle), 1e-7);  // the keys are floats
+    EXPECT_NEAR(frame.world[0][0].y, std::sin(angle), 1e-7);
+}
+
+TEST_F(GltfAnimation, NormalizedIntegerRotationKeys) {
+    GltfDraft draft = triangle_draft();
+    draft.animate(0, "rotation", {0.0f, 1.0f}, {0, 0, 0, 1, 0, 0, 0, 1});
+    const int keys = draft.add_accessor<std::int16_t>({0, 0, 0, 32767, -32768, 0, 0, 0}, "VEC4", 4, true);
+    draft.json["animations"][0]["samplers"][0]["output"] = keys;
+    const Scene scene = load(draft);
+    EXPECT_EQ(scene.nodes[0].rotation.values[0], glm::dquat(1, 0, 0, 0));
+    EXPECT_EQ(scene.nodes[0].rotation.values[1], glm::dquat(0, -1, 0, 0));  // -32768 counts as -1
+}
+
+TEST_F(GltfAnimation, FloatsBecomeDoublesExactly) {
+    GltfDraft draft = triangle_draft();
+    const float time = 0.1f, value = 1e-20f / 3.0f;
+    draft.animate(0, "translation", {0.0f, time}, {0, 0, 0, value, -value, 16777217.0f});
+    const Scene scene = load(draft);
+    EXPECT_EQ(last_time(scene.nodes[0].translation), static_cast<double>(time));
+    EXPECT_EQ(scene.nodes[0].translation.values[1], glm::dvec3(value, -value, 16777216.0));
+}
+
+TEST_F(GltfAnimation, AllAnimationsPlayTogether) {
+    GltfDraft draft = triangle_draft();
+    draft.json["nodes"].push_back({{"mesh", 0}});
+    draft.json["scenes"][0]["nodes"] = {0, 1};
+    draft.animate(0, "translation", {0.0f, 1.0f}, {0, 0, 0, 1, 0, 0});
+    draft.animate(1, "translation", {0.0f, 1.0f}, {0, 0, 0, 0, 1, 0});
+    const SceneFrame frame = pose(load(draft), 1.0);
+    EXPECT_EQ(frame.world[0][3], glm::dvec4(1, 0, 0, 1));
+    EXPECT_EQ(frame.world[1][3], glm::dvec4(0, 1, 0, 1));
+}
+
+TEST_F(GltfAnimation, ChannelWithoutNodeIsIgnoredWithAWarning) {
+    GltfDraft draft = triangle_draft();
+    draft.animate(0, "translation", {0.0f, 1.0f}, {0, 0, 0, 1, 0, 0});
+    Json channel = {{"sampler", 0}, {"target", {{"path", "translation"}}}};
+    draft.json["animations"][0]["channels"].insert(draft.json["animations"][0]["channels"].begin(), channel);
+    const Scene scene = load(draft);
+    EXPECT_TRUE(warns(scene, "1 channels animate no node"));
+    EXPECT_EQ(scene.nodes[0].translation.key_count(), 2u);
+}
+
+TEST_F(GltfAnimation, OptionalPointerAnimationIsIgnoredWithWarnings) {
+    GltfDraft draft = triangle_draft();
+    draft.animate(0, "translation", {0.0f, 1.0f}, {0, 0, 0, 1, 0, 0});
+    draft.json["extensionsUsed"] = {"KHR_animation_pointer"};
+    draft.json["animations"][0]["channels"][0]["target"] = {
+        {"path", "pointer"}, {"extensions", {{"KHR_animation_pointer", {{"pointer", "/nodes/0/scale"}}}}}};
+    const Scene scene = load(draft);
+    EXPECT_TRUE(warns(scene, "the extension KHR_animation_pointer is ignored"));
+    EXPECT_TRUE(warns(scene, "1 channels animate no node"));
+    EXPECT_EQ(scene.nodes[0].translation.key_count(), 1u);
+}
+
+TEST_F(GltfAnimation, KF04_QuaternionsOfAnyLengthBecomeUnitWithAWarning) {
+    for (const double length : {0.5, 2.0, 1e-20, 1e17}) {
+        GltfDraft draft = triangle_draft();
+        draft.json["nodes"][0]["rotation"] = {0.6 * length, 0, 0, 0.8 * length};
+        const Scene scene = load(draft);
+        const glm::dquat q = scene.nodes[0].rotation.values[0];
+        EXPECT_NEAR(q.x, 0.6, 1e-15);
+        EXPECT_NEAR(q.w, 0.8, 1e-15);
+        EXPECT_TRUE(warns(scene, "normalized")) << length;
+    }
+    GltfDraft draft = triangle_draft();
+    draft.json["nodes"][0]["rotation"] = {0.6f, 0.0f, 0.0f, 0.8f};  // off by float rounding only
+    EXPECT_TRUE(load(draft).warnings.empty());
+}
+
+TEST_F(GltfAnimation, KF04_KeysOfAnyLengthGiveOneWarningPerChannel) {
+    GltfDraft draft = triangle_draft();
+    draft.animate(0, "rotation", {0, 1, 2}, {0, 0, 0, 1, 0, 0, 3e-10f, 4e-10f, 6e17f, 0, 0, 8e17f});
+    const Scene scene = load(draft);
+    EXPECT_NEAR(scene.nodes[0].rotation.values[1].z, 0.6, 1e-7);
+    EXPECT_NEAR(scene.nodes[0].rotation.values[2].x, 0.6, 1e-7);
+    EXPECT_TRUE(warns(scene, "node 0 \"node0\": 2 rotation keys are not of length 1"));
+    EXPECT_EQ(scene.warnings.size(), 1u);
+}
+
+TEST_F(GltfAnimation, RP08_KeysFarApartAreWarnedOf) {
+    const auto about_y = [](double degrees) {
+        const double half = degrees / 360.0 * std::numbers::pi;
+        return std::vector<float>{
+            0, 0, 0, 1, 0, static_cast<float>(std::sin(half)), 0, static_cast<float>(std::cos(half))};
+    };
+    GltfDraft draft = triangle_draft();
+    draft.json["nodes"][0]["name"] = "fan";
+    GltfDraft far = draft, near = draft, stepped = draft;
+    far.animate(0, "rotation", {0.0f, 1.0f}, about_y(175.0));
+    near.animate(0, "rotation", {0.0f, 1.0f}, about_y(169.0));
+    stepped.animate(0, "rotation", {0.0f, 1.0f}, about_y(175.0), "STEP");
+    EXPECT_TRUE(warns(load(far), "node 0 \"fan\": rotation keys 0 and 1 are 175.0 degrees apart"));
+    EXPECT_TRUE(load(near).warnings.empty());
+    EXPECT_TRUE(load(stepped).warnings.empty());
+}
+
+}  // namespace
+}  // namespace aleph
