@@ -106,6 +106,7 @@ std::uint64_t clamp_fireflies(Image<Rgb>& estimate) {
 
 SanitizeCounts sanitize_estimate(Image<Rgb>& estimate) {
     SanitizeCounts counts;
+    if (estimate.empty()) return counts;
     Image<PixelState> state(estimate.width, estimate.height, PixelState::valid);
     for (std::size_t i = 0; i < estimate.size(); ++i) {
         Rgb& pixel = estimate.pixels[i];

@@ -45,5 +45,46 @@ INSTANTIATE_TEST_SUITE_P(Sizes, AgainstReference,
                          testing::Values(std::pair{640, 480}, std::pair{333, 211}, std::pair{96, 64},
                                          std::pair{61, 17}));
 
+double correlation(const Image<float>& a, const Image<float>& b) {
+    double sa = 0, sb = 0, saa = 0, sbb = 0, sab = 0;
+    for (std::size_t i = 0; i < a.size(); ++i) {
+        const double p = a.pixels[i], q = b.pixels[i];
+        sa += p, sb += q, saa += p * p, sbb += q * q, sab += p * q;
+    }
+    const auto n = static_cast<double>(a.size());
+    return (sab - sa * sb / n) / std::sqrt((saa - sa * sa / n) * (sbb - sb * sb / n));
+}
+
+TEST(Saliency, CenterGridIsCloseToFull) {
+    const SyntheticFrame frame = make_synthetic_frame(640, 480);
+    const auto saliency_on = [&](SaliencyGrid grid) {
+        return compute_perception(frame.estimate, frame.velocity, {}, {.grid = grid}).saliency;
+    };
+    EXPECT_GT(correlation(saliency_on(SaliencyGrid::center), saliency_on(SaliencyGrid::full)), 0.95);
+}
+
+TEST(Saliency, ALoneMovingThingOnAFlatFrameIsWhatStandsOut) {
+    const Image<Rgb> estimate(320, 240, Rgb(0.4f));
+    Image<float> velocity(320, 240);
+    for (int y = 100; y < 130; ++y) std::fill_n(velocity.row(y) + 200, 30, 8.0f);
+    for (const SaliencyGrid grid : {SaliencyGrid::full, SaliencyGrid::center}) {
+        const Image<float> s = compute_perception(estimate, velocity, {}, {.grid = grid}).saliency;
+        EXPECT_GT(s(215, 115), 0.8f);
+        EXPECT_LT(s(40, 200), 0.1f);
+    }
+}
+
+TEST(Saliency, NeutralOpponentColoursChangeOnlyTheColourChannel) {
+    const SyntheticFrame frame = make_synthetic_frame(160, 120);
+    const auto maps_with = [&](bool neutral) {
+        return compute_perception(frame.estimate, frame.velocity, {}, {.neutral_opponent = neutral}, {true, true});
+    };
+    const PerceptionMaps plain = maps_with(false), neutral = maps_with(true);
+    EXPECT_EQ(neutral.conspicuity_intensity, plain.conspicuity_intensity);
+    EXPECT_EQ(neutral.conspicuity_orientation, plain.conspicuity_orientation);
+    EXPECT_EQ(neutral.conspicuity_motion, plain.conspicuity_motion);
+    EXPECT_NE(neutral.conspicuity_color, plain.conspicuity_color);
+}
+
 }  // namespace
 }  // namespace aleph

@@ -4,15 +4,33 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace aleph {
 namespace {
 
+/// Kelly's function typed in again, in long double.
+long double csf_exact(long double rho, long double v) {
+    const long double pi = std::numbers::pi_v<long double>;
+    const long double k = 6.1L + 7.3L * std::pow(std::abs(std::log10(1.7L * v / 3.0L)), 3.0L);
+    const long double rho_max = 45.9L / (1.7L * v + 2.0L);
+    return k * 1.14L * 1.7L * v * std::pow(2 * pi * rho * 0.67L, 2.0L) * std::exp(-4 * pi * 0.67L * rho / rho_max);
+}
+
+TEST(Sensitivity, AgreesWithLongDouble) {
+    for (double v = 0.15; v < 1e4; v *= 1.3) {
+        for (double rho = 0.01; rho < 20.0; rho *= 1.5) {
+            const auto exact = static_cast<double>(csf_exact(rho, v));
+            EXPECT_NEAR(csf(rho, v), exact, 1e-12 * exact + 1e-300) << rho << " cpd, " << v << " deg/s";
+        }
+    }
+}
+
 TEST(Sensitivity, KnownPeaks) {
     EXPECT_NEAR(csf_max(0.15), 245.436, 5e-4);
     EXPECT_NEAR(csf_peak_frequency(0.15), 4.835, 5e-4);
-    EXPECT_NEAR(csf(4.835, 0.15), 245.4, 0.1);  // base 10 in (5.7): ln would give 1882
 
     double best = 0.0, at = 0.0;
     for (double v = 0.15; v < 5.0; v += 1e-4) {
@@ -22,16 +40,90 @@ TEST(Sensitivity, KnownPeaks) {
     EXPECT_NEAR(at, 0.926, 2e-3);
 }
 
-TEST(Sensitivity, KnownElevationsOf16CyclesPerDegree) {
+TEST(Sensitivity, Eq57_LogarithmIsBaseTen) {
+    EXPECT_NEAR(csf(4.835, 0.15), 245.4, 0.1);
+}  // ln: 1882
+
+TEST(Sensitivity, Eq510_PeakIsWhereGoldenSectionFindsIt) {
+    const double shrink = (std::sqrt(5.0) - 1) / 2;
+    for (const double v : {0.15, 0.926, 3.0, 20.0, 80.0, 500.0}) {
+        double low = 1e-4, high = 20.0;
+        for (int i = 0; i < 200; ++i) {
+            const double a = high - shrink * (high - low), b = low + shrink * (high - low);
+            (csf(a, v) < csf(b, v) ? low : high) = csf(a, v) < csf(b, v) ? a : b;
+        }
+        EXPECT_NEAR(csf((low + high) / 2, v) / csf_max(v), 1.0, 1e-6) << v;
+        EXPECT_NEAR((low + high) / 2 / csf_peak_frequency(v), 1.0, 1e-4) << v;
+        EXPECT_DOUBLE_EQ(csf(csf_peak_frequency(v), v), csf_max(v)) << v;
+    }
+}
+
+TEST(Elevation, KnownValuesAt16CyclesPerDegree) {
     EXPECT_NEAR(elevation(16, 1), 239, 0.5);
     EXPECT_NEAR(elevation(16, 5), 170, 0.5);
     EXPECT_NEAR(elevation(16, 20), 125, 0.5);
     EXPECT_NEAR(elevation(16, 80), 91, 0.5);
 }
 
-TEST(Sensitivity, BandFrequenciesAsPrinted) {
-    const auto rho = band_frequencies(Bands::printed, 31.0);
-    for (int i = 0; i < band_count; ++i) EXPECT_DOUBLE_EQ(rho[static_cast<std::size_t>(i)], std::ldexp(16.0, -i));
+TEST(Elevation, Eq59_ContinuousAtThePeakAndNeverBelowOne) {
+    for (double v = 0.15; v < 1e3; v *= 1.7) {
+        const double peak = csf_peak_frequency(v);
+        EXPECT_EQ(elevation(peak, v), 1.0);
+        EXPECT_NEAR(elevation(peak * (1 + 1e-6), v), 1.0, 1e-5);
+        double previous = 1.0;
+        for (double rho = peak; rho < 64; rho *= 1.02) {
+            EXPECT_GE(elevation(rho, v), previous * (1 - 1e-12)) << "rises with frequency";
+            previous = elevation(rho, v);
+        }
+    }
+}
+
+TEST(Elevation, Eq511_BoundedForEveryVelocityThoughNotMonotone) {
+    double highest = 0.0;
+    for (double v = 0.15; v < 1e30; v *= 1.01) {
+        for (const double rho : band_frequencies(Bands::printed, 31.0)) {
+            const double f = elevation(rho, v);
+            ASSERT_GE(f, 1.0) << rho << " " << v;
+            ASSERT_LE(f, 250.751) << rho << " " << v;
+            highest = std::max(highest, f);
+        }
+    }
+    // Where CSF(16) falls to 1 is past the peak of CSF_max: the supremum of the printed set.
+    EXPECT_NEAR(highest, 250.60, 0.02);
+    EXPECT_GT(elevation(16, 1), elevation(16, 20));
+    EXPECT_LT(elevation(16, 0.15), elevation(16, 1));
+    EXPECT_EQ(elevation(16, 2e5), 1.0);  // nothing is seen at all
+}
+
+TEST(RetinalVelocity, Eq55_AtLeastTheDriftAndMonotone) {
+    EXPECT_EQ(retinal_velocity(0, 0), 0.15);
+    EXPECT_EQ(retinal_velocity(0, 1), 0.15);
+    for (double s = 0.0; s <= 1.0; s += 0.05) {
+        double previous = 0.15;
+        for (double v = 0.0; v < 1e6; v = v * 1.1 + 0.01) {
+            const double r = retinal_velocity(v, s);
+            ASSERT_GE(r, 0.15);
+            ASSERT_GE(r, previous) << "rises with image velocity";
+            ASSERT_LE(r, retinal_velocity(v, std::max(0.0, s - 0.05))) << "falls with saliency";
+            previous = r;
+        }
+    }
+}
+
+TEST(RetinalVelocity, Eq55_KnownValues) {
+    EXPECT_NEAR(retinal_velocity(10, 0.82), 10 - (8.2 + 0.15), 1e-12);
+    EXPECT_NEAR(retinal_velocity(10, 0), 9.85, 1e-12);
+    EXPECT_NEAR(retinal_velocity(200, 1), 120, 1e-12);  // the eye follows 80 deg/s at most
+    EXPECT_EQ(retinal_velocity(79.85, 1), 0.15);        // as printed: -.15
+}
+
+TEST(BandFrequencies, BothSets) {
+    const auto printed = band_frequencies(Bands::printed, 31.0);
+    const double measured[] = {15.5, 3.27, 1.57, 0.79, 0.36, 0.18, 0.12};
+    for (std::size_t i = 0; i < printed.size(); ++i) {
+        EXPECT_DOUBLE_EQ(printed[i], std::ldexp(16.0, -static_cast<int>(i)));
+        EXPECT_DOUBLE_EQ(band_frequencies(Bands::measured, 31.0)[i], measured[i]);
+    }
 }
 
 }  // namespace
