@@ -135,10 +135,10 @@ void add_lights(Scene& scene) {
     add_shape(scene, "window_sky", window, quad(width, height), sky, {0.0, 0.0, 0.01});
     for (const double side : {-1.0, 0.0, 1.0}) {
         const int i = static_cast<int>(side) + 1;
-        add_shape(scene, fmt::format("window_post_{}", i), window, box({0.06, height, 0.05}), frame,
-                  {side * 0.5 * (width - 0.06), 0.0, 0.085});
-        add_shape(scene, fmt::format("window_bar_{}", i), window, box({width + 0.1, 0.06, 0.07}), frame,
-                  {0.0, side * 0.5 * (height + 0.06), 0.095});
+        add_shape(scene, fmt::format("window_post_{}", i), window, box({0.05, height, 0.02}), frame,
+                  {side * 0.5 * (width - 0.05), 0.0, 0.1});
+        add_shape(scene, fmt::format("window_bar_{}", i), window, box({width + 0.1, 0.06, 0.03}), frame,
+                  {0.0, side * 0.5 * (height + 0.06), 0.1});
     }
 }
 
