@@ -24,6 +24,7 @@
 #include "motion/reprojection.h"
 #include "motion/velocity.h"
 #include "perception/perception.h"
+#include "tests/benchmarks/raw_embree.h"
 
 namespace aleph {
 namespace {
@@ -129,6 +130,11 @@ void first_hits(benchmark::State& state) {
     for (auto _ : state) benchmark::DoNotOptimize(cast_first_hits(inputs().rays, inputs().views[0]).pixels.data());
 }
 
+void raw_embree(benchmark::State& state) {
+    static RawEmbree raw(inputs().scene, inputs().frames[0], inputs().views[0]);
+    for (auto _ : state) benchmark::DoNotOptimize(raw.trace());
+}
+
 void motion(benchmark::State& state) {
     for (auto _ : state) {
         const MotionField field = inputs().compute_motion();
@@ -204,7 +210,8 @@ void print_ratios(const BestTimes& best) {
     const struct {
         const char *stage, *copy;
         double demand;  ///< times first hits; 0: none
-    } rows[] = {{"first_hits", nullptr, 0.0},
+    } rows[] = {{"raw_embree", nullptr, 0.0},
+                {"first_hits", nullptr, 0.0},
                 {"motion", "copy_motion", 1.0},
                 {"motion_hidden", nullptr, 0.0},
                 {"perception_full", "copy_perception", 8.0},
@@ -239,6 +246,7 @@ int main(int argc, char** argv) {
     int count = static_cast<int>(arguments.size());
     benchmark::Initialize(&count, arguments.data());
 
+    add("raw_embree", raw_embree);
     add("first_hits", first_hits);
     add("motion", motion);
     add("motion_hidden", motion_hidden);

@@ -1,0 +1,102 @@
+#include "tests/benchmarks/raw_embree.h"
+
+#include <algorithm>
+#include <array>
+#include <limits>
+
+#include "engine/base/flush_denormals.h"
+
+namespace aleph {
+
+namespace {
+
+constexpr int lanes = 16;
+
+RTCScene build_mesh(RTCDevice device, const Mesh& mesh) {
+    RTCScene scene = rtcNewScene(device);
+    rtcSetSceneFlags(scene, RTC_SCENE_FLAG_ROBUST);
+    RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
+    auto* points = static_cast<glm::vec3*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
+                                                                   sizeof(glm::vec3), mesh.positions.size()));
+    auto* triangles = static_cast<glm::uvec3*>(rtcSetNewGeometryBuffer(
+        geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, sizeof(glm::uvec3), mesh.triangles.size()));
+    std::copy(mesh.positions.begin(), mesh.positions.end(), points);
+    std::copy(mesh.triangles.begin(), mesh.triangles.end(), triangles);
+    rtcCommitGeometry(geometry);
+    rtcAttachGeometry(scene, geometry);
+    rtcReleaseGeometry(geometry);
+    rtcCommitScene(scene);
+    return scene;
+}
+
+RTCRayHit16 make_packet(const CameraView& view, const glm::vec3& origin, int x0, int y0) {
+    RTCRayHit16 packet{};
+    for (int lane = 0; lane < lanes; ++lane) {
+        const glm::vec3 d(make_camera_ray(view, x0 + lane % 4 + 0.5, y0 + lane / 4 + 0.5).direction);
+        packet.ray.org_x[lane] = origin.x;
+        packet.ray.org_y[lane] = origin.y;
+        packet.ray.org_z[lane] = origin.z;
+        packet.ray.dir_x[lane] = d.x;
+        packet.ray.dir_y[lane] = d.y;
+        packet.ray.dir_z[lane] = d.z;
+        packet.ray.tfar[lane] = std::numeric_limits<float>::infinity();
+        packet.ray.mask[lane] = ~0u;
+        packet.hit.geomID[lane] = packet.hit.instID[0][lane] = RTC_INVALID_GEOMETRY_ID;
+    }
+    return packet;
+}
+
+}  // namespace
+
+RawEmbree::RawEmbree(const Scene& scene, const SceneFrame& frame, const CameraView& view) {
+    const FlushDenormals flush;
+    device_ = rtcNewDevice(nullptr);
+    top_ = rtcNewScene(device_);
+    rtcSetSceneFlags(top_, RTC_SCENE_FLAG_ROBUST);
+    const glm::dvec3 anchor = compute_anchor(view);
+    for (const Mesh& mesh : scene.meshes) meshes_.push_back(build_mesh(device_, mesh));
+    for (const Instance& instance : frame.instances) {
+        if (!frame.visible[static_cast<std::size_t>(instance.node)]) continue;
+        const glm::dmat4& world = frame.world[static_cast<std::size_t>(instance.node)];
+        std::array<float, 12> transform;
+        for (std::size_t i = 0; i < transform.size(); ++i) {
+            const int column = static_cast<int>(i / 3), row = static_cast<int>(i % 3);
+            transform[i] = static_cast<float>(world[column][row] - (column == 3 ? anchor[row] : 0.0));
+        }
+        RTCGeometry geometry = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_INSTANCE);
+        rtcSetGeometryInstancedScene(geometry, meshes_[static_cast<std::size_t>(instance.mesh)]);
+        rtcSetGeometryTransform(geometry, 0, RTC_FORMAT_FLOAT3X4_COLUMN_MAJOR, transform.data());
+        rtcCommitGeometry(geometry);
+        rtcAttachGeometry(top_, geometry);
+        rtcReleaseGeometry(geometry);
+    }
+    rtcCommitScene(top_);
+    const glm::vec3 origin(view.position - anchor);
+    for (int y = 0; y + 4 <= view.height; y += 4) {
+        for (int x = 0; x + 4 <= view.width; x += 4) prepared_.push_back(make_packet(view, origin, x, y));
+    }
+}
+
+RawEmbree::~RawEmbree() {
+    rtcReleaseScene(top_);
+    for (RTCScene mesh : meshes_) rtcReleaseScene(mesh);
+    rtcReleaseDevice(device_);
+}
+
+std::size_t RawEmbree::trace() {
+    const FlushDenormals flush;
+    packets_ = prepared_;
+    alignas(64) int valid[lanes];
+    std::fill(valid, valid + lanes, -1);
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+    std::size_t met = 0;
+    for (RTCRayHit16& packet : packets_) {
+        rtcIntersect16(valid, top_, &context, &packet);
+        for (int lane = 0; lane < lanes; ++lane) met += packet.hit.geomID[lane] != RTC_INVALID_GEOMETRY_ID;
+    }
+    return met;
+}
+
+}  // namespace aleph

@@ -1,0 +1,31 @@
+#pragma once
+// Embree alone, as the yardstick: the same rays over the same triangles, prepared beforehand, in packets of 16.
+
+#include <embree3/rtcore.h>
+
+#include <vector>
+
+#include "engine/camera_view.h"
+#include "engine/pose.h"
+
+namespace aleph {
+
+class RawEmbree {
+  public:
+    /// Instances as RayScene makes them; rays through the pixel centres in blocks of 4 x 4.
+    RawEmbree(const Scene& scene, const SceneFrame& frame, const CameraView& view);
+    ~RawEmbree();
+    RawEmbree(const RawEmbree&) = delete;
+    RawEmbree& operator=(const RawEmbree&) = delete;
+
+    /// Traces every ray once. @return how many met something
+    std::size_t trace();
+
+  private:
+    RTCDevice device_ = nullptr;
+    RTCScene top_ = nullptr;
+    std::vector<RTCScene> meshes_;
+    std::vector<RTCRayHit16> prepared_, packets_;
+};
+
+}  // namespace aleph
