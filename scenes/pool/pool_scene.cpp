@@ -72,10 +72,10 @@ void add_gloss(Scene& scene, double roughness) {
 }
 
 void add_camera(Scene& scene, bool moves) {
-    // It turns on an arm of half a metre: a pan with a little parallax. Walls move by about 3 pixels a frame at
+    // It turns on an arm of a quarter of a metre: a pan with a little parallax. Walls move by about 3 pixels a frame at
     // 640x480.
-    const double first = -20.5, last = 3.5;  // degrees about y; -x lies ahead at 0
-    const int rig = add_node(scene, "camera_rig", no_index, {1.38, 0.0, 0.16});
+    const double first = -20.0, last = 3.0;  // degrees about y; -x lies ahead at 0
+    const int rig = add_node(scene, "camera_rig", no_index, {1.625, 0.0, 0.195});
     AxisRotation turn;
     turn.angle = glm::radians(first);
     if (moves) {
@@ -85,7 +85,7 @@ void add_camera(Scene& scene, bool moves) {
     scene.nodes[static_cast<std::size_t>(rig)].axis_rotation = turn;
 
     const glm::dquat ahead = z_to_plus_x * glm::angleAxis(glm::radians(-12.5), glm::dvec3(1.0, 0.0, 0.0));
-    const int node = add_node(scene, "camera", rig, {0.5, 1.27, 0.0}, ahead);
+    const int node = add_node(scene, "camera", rig, {0.25, 1.27, 0.0}, ahead);
     Camera camera;
     camera.name = "camera";
     camera.fov = glm::radians(40.0);
