@@ -13,7 +13,6 @@
 #include <thread>
 
 #include "engine/base/parallel.h"
-#include "engine/base/sampling.h"
 #include "engine/first_hits.h"
 #include "motion/velocity.h"
 #include "perception/sanitize.h"
@@ -21,25 +20,10 @@
 #include "render/compare.h"
 #include "render/estimate.h"
 #include "tests/hard/frame_bytes.h"
-
-#if !defined(ALEPH_STD_THREADS)
-#include <tbb/task_arena.h>
-#endif
+#include "tests/hard/with_threads.h"
 
 namespace aleph {
 namespace {
-
-/// Calls work() with that many threads to share it, also where the machine has fewer cores.
-template <class Work>
-auto with_threads(int threads, const Work& work) {
-    const ThreadLimit limit(threads);
-#if defined(ALEPH_STD_THREADS)
-    return work();
-#else
-    tbb::task_arena arena(threads);
-    return arena.execute(work);
-#endif
-}
 
 bool same_bits(const Image<float>& a, const Image<float>& b) {
     return a.width == b.width && a.height == b.height &&

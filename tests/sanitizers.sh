@@ -1,0 +1,70 @@
+#!/usr/bin/env bash
+# Builds with a sanitizer into build-address/ or build-thread/ and runs the tests that could upset it.
+#   tests/sanitizers.sh address    memory and undefined behaviour; then the maps against the Release build's (DT-07)
+#   tests/sanitizers.sh thread     races: parallel_for on std::thread, since oneTBB upsets ThreadSanitizer (DT-08)
+# JOBS is the number of compilers and test programs at a time (2).
+set -euo pipefail
+
+here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
+root=$(cd "$here/.." && pwd)
+jobs=${JOBS:-2}
+source "$here/results.sh"
+
+kind=${1:-}
+case $kind in
+  address)
+    programs=(test_base test_pose test_image_io test_motion test_perception aleph)
+    filter='*'
+    ;;
+  thread)
+    programs=(test_base test_races)
+    filter='*'
+    ;;
+  *)
+    sed -n '2,5s/^# \{0,1\}//p' "${BASH_SOURCE[0]}"
+    exit 2
+    ;;
+esac
+build=$root/build-$kind
+
+# The maps of one frame, from this build and from the Release build: other optimization, other floating-point code.
+compare_maps() {
+  local release=$root/build/aleph maps=$build/maps
+  if [ ! -x "$release" ]; then
+    echo "build/aleph is not there to compare with: run tests/run.sh, or build it first." >&2
+    return 1
+  fi
+  mkdir -p "$maps"
+  local arguments=(maps "$root/scenes/pool/scene.json" --frames 12 --size 160x120 -q)
+  "$release" "${arguments[@]}" -o "$maps/release.exr" &&
+    "${launcher[@]}" "$build/aleph" "${arguments[@]}" -o "$maps/$kind.exr" &&
+    "$release" compare "$maps/$kind.exr" "$maps/release.exr" --tolerance 1e-6 --relative 1e-6
+}
+
+# GCC 12 believes that parts of std::regex are uninitialized once they are instrumented.
+cmake -S "$root" -B "$build" -G Ninja -DALEPH_SANITIZE="$kind" -DCMAKE_BUILD_TYPE=None \
+  -DCMAKE_CXX_FLAGS="-O1 -g1 -Wno-maybe-uninitialized" -DALEPH_TESTS=ON
+cmake --build "$build" --parallel "$jobs" --target "${programs[@]}"
+
+# GCC 12's sanitizers cannot start where the kernel spreads addresses over more bits than they know; where that cannot
+# be turned off for a program either, there is nothing to run.
+if setarch --addr-no-randomize true 2>/dev/null; then launcher=(setarch --addr-no-randomize); fi
+if "${launcher[@]}" "$build/test_base" --gtest_list_tests 2>&1 | grep -q "unexpected memory mapping"; then
+  echo "Skipped: this kernel's address layout keeps the $kind sanitizer from starting."
+  exit 0
+fi
+
+# Leaks are not looked for: that needs ptrace, which containers refuse.
+export ASAN_OPTIONS=detect_leaks=0:strict_string_checks=1
+export UBSAN_OPTIONS=print_stacktrace=1
+export TSAN_OPTIONS=suppressions=$here/tsan.supp
+export GTEST_FILTER=$filter
+code=0
+run_tests "$build" --tests-regex "^($(IFS='|'; echo "${programs[*]}"))\$" || code=1
+if [ "$kind" = address ]; then
+  equal=0
+  compare_maps || equal=$?
+  record "$build" DT07_maps_equal_release "$equal"
+  [ "$equal" = 0 ] || code=1
+fi
+exit "$code"
