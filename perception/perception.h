@@ -27,9 +27,9 @@ struct PerceptionOutputs {
     bool conspicuity = false;
 };
 
-/// Pure and deterministic, the same bits for any number of threads.
+/// Pure and deterministic, the same bits for any number of threads. Guide `none` asks nothing of the model: aleph is 1.
 /// @param estimate  sanitized (sanitize_estimate): linear RGB, Rec.709, white = 1 after exposure
-/// @param velocity  deg/s, not negative, same size as `estimate`
+/// @param velocity  deg/s, same size as `estimate`; negative and NaN count as 0
 /// @throws InputError if the sizes differ, are empty, or viewing is not positive and finite
 PerceptionMaps compute_perception(const Image<Rgb>& estimate, const Image<float>& velocity,
                                   const ViewingConditions& viewing, const PerceptionSettings& settings,
