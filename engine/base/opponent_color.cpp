@@ -1,9 +1,7 @@
 #include "engine/base/opponent_color.h"
 
-#include <array>
 #include <glm/mat3x3.hpp>
 #include <glm/matrix.hpp>
-#include <glm/vector_relational.hpp>
 
 #include "engine/base/parallel.h"
 
