@@ -13,9 +13,9 @@ namespace aleph {
 /// @throws InputError with file, place and reason; nothing is half loaded
 Scene load_scene(const std::filesystem::path& path);
 
-/// Writes a keyframed scene file; load_scene gives back an equal scene, apart from `file` and `warnings` (of a light or a
-/// camera that was added to the first, say: the file holds them). Includes stay includes. In another folder than that of
-/// Scene::file the paths of includes and images change accordingly. The file appears whole or not at all.
+/// Writes a keyframed scene file; load_scene gives back an equal scene, apart from `file` and `warnings` (of a light or
+/// a camera that was added to the first, say: the file holds them). Includes stay includes. In another folder than that
+/// of Scene::file the paths of includes and images change accordingly. The file appears whole or not at all.
 /// @throws InputError where the scene holds what the file format cannot say, OutputError if writing fails
 void save_scene(const Scene& scene, const std::filesystem::path& path);
 

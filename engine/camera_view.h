@@ -11,12 +11,12 @@
 namespace aleph {
 
 struct CameraView {
-    int width = 0, height = 0;   ///< pixels
+    int width = 0, height = 0;  ///< pixels
     bool orthographic = false;
-    glm::dvec3 position{0.0};    ///< world, m
-    glm::dmat3 axes{1.0};        ///< columns right, up, back
+    glm::dvec3 position{0.0};      ///< world, m
+    glm::dmat3 axes{1.0};          ///< columns right, up, back
     double pixels_per_unit = 1.0;  ///< perspective: focal length in pixels; orthographic: pixels per metre
-    double near_plane = 1e-4;    ///< m
+    double near_plane = 1e-4;      ///< m
 };
 
 /// @throws InputError where the field of view or half height is not positive and finite, or the size is not positive

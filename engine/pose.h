@@ -31,9 +31,9 @@ struct MaterialValues {
 struct LightValues {
     Light::Kind kind = Light::Kind::point;
     int node = no_index;
-    glm::dvec3 position{0.0};            ///< world, m
+    glm::dvec3 position{0.0};              ///< world, m
     glm::dvec3 direction{0.0, 0.0, -1.0};  ///< world, unit, the way the light travels
-    Rgb intensity{1.0f};                 ///< candela or lux, colour included
+    Rgb intensity{1.0f};                   ///< candela or lux, colour included
     double range = 0.0;
     bool operator==(const LightValues&) const = default;
 };
@@ -71,7 +71,8 @@ SceneFrame pose(const Scene& scene, double seconds);
 /// The scene's frames: `range` where given, else the span of all keys rounded inwards to frames.
 FrameRange frame_range(const Scene& scene);
 
-/// Index into SceneFrame::cameras (the same at every time) by node or camera name; an empty name takes the scene's choice, then the first.
+/// Index into SceneFrame::cameras (the same at every time) by node or camera name; an empty name takes the scene's
+/// choice, then the first.
 /// @throws InputError if there is none of that name, listing those that exist, or no camera at all
 int find_camera(const Scene& scene, const std::string& name);
 

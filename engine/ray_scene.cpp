@@ -128,7 +128,9 @@ RayScene::~RayScene() = default;
 RayScene::RayScene(RayScene&&) noexcept = default;
 RayScene& RayScene::operator=(RayScene&&) noexcept = default;
 
-RayScene RayScene::share_meshes() const { return RayScene(std::make_unique<State>(state_->meshes)); }
+RayScene RayScene::share_meshes() const {
+    return RayScene(std::make_unique<State>(state_->meshes));
+}
 
 std::size_t RayScene::update(const SceneFrame& frame, const glm::dvec3& anchor) {
     const FlushDenormals flush;
@@ -167,10 +169,20 @@ std::size_t RayScene::update(const SceneFrame& frame, const glm::dvec3& anchor) 
     return touched;
 }
 
-const glm::dvec3& RayScene::anchor() const { return state_->anchor; }
-std::size_t RayScene::degenerate_triangles() const { return state_->meshes->degenerate_triangles; }
-std::size_t RayScene::skipped_instances() const { return state_->skipped_instances; }
-std::uint64_t RayScene::rays_traced() const { return state_->rays_traced.load(); }
-std::uint64_t RayScene::invalid_rays() const { return state_->invalid_rays.load(); }
+const glm::dvec3& RayScene::anchor() const {
+    return state_->anchor;
+}
+std::size_t RayScene::degenerate_triangles() const {
+    return state_->meshes->degenerate_triangles;
+}
+std::size_t RayScene::skipped_instances() const {
+    return state_->skipped_instances;
+}
+std::uint64_t RayScene::rays_traced() const {
+    return state_->rays_traced.load();
+}
+std::uint64_t RayScene::invalid_rays() const {
+    return state_->invalid_rays.load();
+}
 
 }  // namespace aleph

@@ -1,7 +1,8 @@
 #pragma once
 // The animated scene: plain data, elements refer to each other by index, every property is a track over time.
 // Every reader fills this one structure; pose() (pose.h) says what it looks like at a moment.
-// Right-handed, y up, metres, seconds; angles in radians; colours linear Rec.709; light units unscaled (candela, lux, nits).
+// Right-handed, y up, metres, seconds; angles in radians; colours linear Rec.709; light units unscaled (candela, lux,
+// nits).
 
 #include <cstdint>
 #include <glm/gtc/quaternion.hpp>
@@ -69,10 +70,10 @@ struct Node {
 struct Shape {
     enum class Kind { quad, box, sphere, cylinder };
     Kind kind = Kind::quad;
-    glm::dvec3 size{1.0};  ///< quad: x, y (it faces +z); box: x, y, z; centred
-    double radius = 0.5;   ///< sphere, cylinder
-    double height = 1.0;   ///< cylinder: along y, capped, centred
-    int segments = 48;     ///< around; sphere and cylinder
+    glm::dvec3 size{1.0};      ///< quad: x, y (it faces +z); box: x, y, z; centred
+    double radius = 0.5;       ///< sphere, cylinder
+    double height = 1.0;       ///< cylinder: along y, capped, centred
+    int segments = 48;         ///< around; sphere and cylinder
     glm::dvec2 uv_scale{1.0};  ///< how often a texture repeats
 
     bool operator==(const Shape&) const = default;
@@ -133,7 +134,7 @@ struct Material {
     TextureRef emission_texture;            ///< sRGB
     TextureRef specular_texture;            ///< A, linear
     TextureRef specular_color_texture;      ///< sRGB
-    bool double_sided = false;  ///< lit and, where it emits, shining on both sides
+    bool double_sided = false;              ///< lit and, where it emits, shining on both sides
     int include = no_index;
 
     bool operator==(const Material&) const = default;
@@ -188,12 +189,12 @@ struct FrameRange {
 struct Scene {
     std::string name;
     FrameRate frame_rate;
-    std::optional<FrameRange> range;  ///< frames; unset: the keys' span (frame_range in pose.h)
-    std::vector<std::int64_t> cuts;   ///< frames that begin a new shot: no motion from the frame before
-    ViewingConditions viewing;        ///< frames_per_second follows frame_rate
-    std::optional<double> exposure;   ///< factor on radiance
+    std::optional<FrameRange> range;               ///< frames; unset: the keys' span (frame_range in pose.h)
+    std::vector<std::int64_t> cuts;                ///< frames that begin a new shot: no motion from the frame before
+    ViewingConditions viewing;                     ///< frames_per_second follows frame_rate
+    std::optional<double> exposure;                ///< factor on radiance
     std::optional<Track<glm::dvec3>> environment;  ///< constant radiance all around
-    std::string camera;               ///< name of the camera or of its node; empty: the first
+    std::string camera;                            ///< name of the camera or of its node; empty: the first
 
     std::vector<Node> nodes;  ///< a parent stands before its children
     std::vector<Mesh> meshes;

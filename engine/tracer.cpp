@@ -150,8 +150,18 @@ Hit Tracer::intersect(const Ray& ray) {
     ++traced_;
     RTCIntersectContext context = make_context(false);
     RTCRayHit query{};
-    query.ray = {ray.origin.x, ray.origin.y, ray.origin.z, ray.near, ray.direction.x, ray.direction.y, ray.direction.z,
-                 0.0f,         ray.far,      ~0u,          0,        0};
+    query.ray = {ray.origin.x,
+                 ray.origin.y,
+                 ray.origin.z,
+                 ray.near,
+                 ray.direction.x,
+                 ray.direction.y,
+                 ray.direction.z,
+                 0.0f,
+                 ray.far,
+                 ~0u,
+                 0,
+                 0};
     query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
     query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
     rtcIntersect1(state_.top, &context, &query);
@@ -166,26 +176,35 @@ bool Tracer::occluded(const Ray& ray) {
     }
     ++traced_;
     RTCIntersectContext context = make_context(false);
-    RTCRay query = {ray.origin.x, ray.origin.y, ray.origin.z, ray.near, ray.direction.x, ray.direction.y,
-                    ray.direction.z, 0.0f, ray.far, ~0u, 0, 0};
+    RTCRay query = {ray.origin.x,
+                    ray.origin.y,
+                    ray.origin.z,
+                    ray.near,
+                    ray.direction.x,
+                    ray.direction.y,
+                    ray.direction.z,
+                    0.0f,
+                    ray.far,
+                    ~0u,
+                    0,
+                    0};
     rtcOccluded1(state_.top, &context, &query);
     return query.tfar < 0.0f;
 }
 
 void Tracer::intersect(std::span<const Ray> rays, std::span<Hit> hits, bool coherent) {
     ALEPH_CHECK(rays.size() == hits.size(), std::to_string(rays.size()) + " rays, " + std::to_string(hits.size()));
-    const PacketCounts counts = state_.meshes->packet_width == 16
-                                    ? intersect_packets<16>(state_, rays, hits, coherent)
-                                    : intersect_packets<8>(state_, rays, hits, coherent);
+    const PacketCounts counts = state_.meshes->packet_width == 16 ? intersect_packets<16>(state_, rays, hits, coherent)
+                                                                  : intersect_packets<8>(state_, rays, hits, coherent);
     traced_ += counts.traced;
     invalid_ += counts.invalid;
 }
 
 void Tracer::occluded(std::span<const Ray> rays, std::span<std::uint8_t> blocked) {
-    ALEPH_CHECK(rays.size() == blocked.size(), std::to_string(rays.size()) + " rays, " + std::to_string(blocked.size()));
-    const PacketCounts counts = state_.meshes->packet_width == 16
-                                    ? occluded_packets<16>(state_, rays, blocked)
-                                    : occluded_packets<8>(state_, rays, blocked);
+    ALEPH_CHECK(rays.size() == blocked.size(),
+                std::to_string(rays.size()) + " rays, " + std::to_string(blocked.size()));
+    const PacketCounts counts = state_.meshes->packet_width == 16 ? occluded_packets<16>(state_, rays, blocked)
+                                                                  : occluded_packets<8>(state_, rays, blocked);
     traced_ += counts.traced;
     invalid_ += counts.invalid;
 }

@@ -14,12 +14,12 @@ namespace aleph {
 
 /// A material at one surface point, textures looked up.
 struct SurfaceMaterial {
-    Rgb diffuse{0.0f};     ///< albedo of the Lambert layer
-    Rgb f0{0.0f};          ///< reflectance of the glossy layer at normal incidence
-    float f90 = 0.0f;      ///< at grazing incidence
-    float f0_max = 0.0f;   ///< what the Lambert layer loses light by
-    float alpha = 1.0f;    ///< GGX width, roughness squared, at least 1e-3
-    Rgb emission{0.0f};    ///< radiance leaving the side that is seen
+    Rgb diffuse{0.0f};    ///< albedo of the Lambert layer
+    Rgb f0{0.0f};         ///< reflectance of the glossy layer at normal incidence
+    float f90 = 0.0f;     ///< at grazing incidence
+    float f0_max = 0.0f;  ///< what the Lambert layer loses light by
+    float alpha = 1.0f;   ///< GGX width, roughness squared, at least 1e-3
+    Rgb emission{0.0f};   ///< radiance leaving the side that is seen
     bool has_diffuse() const { return diffuse != Rgb(0.0f); }
     bool has_glossy() const { return f90 > 0.0f || f0 != Rgb(0.0f); }
 };

@@ -11,7 +11,7 @@ namespace aleph {
 
 namespace {
 
-constexpr int first_stride = 64;      // pixels between the samples of the first tiles
+constexpr int first_stride = 64;         // pixels between the samples of the first tiles
 constexpr std::size_t test_grain = 256;  // look-ups per parallel chunk
 
 /// A pixel whose sample nothing covers yet.
@@ -90,8 +90,8 @@ std::vector<Candidate> accept_proposals(const IrradianceCache& cache, const Indi
 
 IrradianceSample gather_at(const IndirectContext& context, Tracer& tracer, const PixelSurface& surface, int x, int y,
                            int sample, GatherScratch& scratch, RayCounts& counts) {
-    const std::uint32_t pixel = static_cast<std::uint32_t>(y) * static_cast<std::uint32_t>(context.view.width) +
-                                static_cast<std::uint32_t>(x);
+    const std::uint32_t pixel =
+        static_cast<std::uint32_t>(y) * static_cast<std::uint32_t>(context.view.width) + static_cast<std::uint32_t>(x);
     const RandomKey key{context.settings.seed ^ 0x67617468u, context.frame, pixel, static_cast<std::uint32_t>(sample)};
     return gather_irradiance(context.lighting, tracer, surface.point, choose_strata(context.settings.gather), key,
                              scratch, counts);
@@ -102,8 +102,8 @@ bool needs_irradiance(const SampleHits& sample, const PixelSurface& surface, int
 }
 
 RadiusBounds radius_bounds(const IndirectContext& context, const PixelSurface& surface, float accuracy) {
-    const float smallest = static_cast<float>(context.settings.min_radius_pixels) * surface.footprint /
-                           std::clamp(accuracy, 1e-3f, 1.0f);
+    const float smallest =
+        static_cast<float>(context.settings.min_radius_pixels) * surface.footprint / std::clamp(accuracy, 1e-3f, 1.0f);
     return {std::min(smallest, context.largest_radius), context.largest_radius};
 }
 
@@ -112,8 +112,7 @@ void fill_cache(IrradianceCache& cache, const IndirectContext& context, const Sa
     const IrradianceCache empty = make_cache(context.lighting.shading);
     std::mutex counts_mutex;
     for (int stride = sample_index == 0 ? first_stride : 1; stride >= 1; stride /= 2) {
-        std::vector<glm::ivec2> tiles =
-            list_tiles(sample.hits.width, sample.hits.height, stride, sample_index == 0);
+        std::vector<glm::ivec2> tiles = list_tiles(sample.hits.width, sample.hits.height, stride, sample_index == 0);
         while (!tiles.empty()) {
             std::vector<Candidate> waiting = find_uncovered(cache, context, sample, tiles, statistics);
             if (waiting.empty()) break;

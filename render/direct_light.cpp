@@ -9,9 +9,11 @@ namespace aleph {
 namespace {
 
 constexpr float estimate_alpha = 0.1f;  // narrowest lobe of the quick estimate
-constexpr int batch = 16;  // shadow rays from one point towards one light, in one packet
+constexpr int batch = 16;               // shadow rays from one point towards one light, in one packet
 
-float fraction(float x) { return x - std::floor(x); }
+float fraction(float x) {
+    return x - std::floor(x);
+}
 
 /// Shadow rays collected until a packet is full; what is not blocked is added up in order.
 class ShadowBatch {
@@ -85,8 +87,7 @@ Rgb sample_glossy_light(const LightingContext& context, Tracer& tracer, const Su
         light_pdf = pdf_emitter(context.lights.emitters[static_cast<std::size_t>(emitter)],
                                 std::abs(glm::dot(lamp.geometric, direction)), hit.distance);
     }
-    return evaluate_glossy(material, local_view, local) * incoming *
-           (local.z / pdf * power_heuristic(pdf, light_pdf));
+    return evaluate_glossy(material, local_view, local) * incoming * (local.z / pdf * power_heuristic(pdf, light_pdf));
 }
 
 bool has_area(const LightSet& lights, int light) {
@@ -147,9 +148,8 @@ Rgb estimate_direct_light(const LightingContext& context, Tracer& tracer, const 
     for (int light = 0; light < context.lights.count(); ++light) {
         const int light_samples = has_area(context.lights, light) ? samples : 1;
         for (int i = 0; i < light_samples; ++i) {
-            const LightSample sample =
-                sample_light(context.shading, context.lights, light, point.position, point.normal,
-                             lattice_point(i, light_samples, {0.0f, 0.25f}));
+            const LightSample sample = sample_light(context.shading, context.lights, light, point.position,
+                                                    point.normal, lattice_point(i, light_samples, {0.0f, 0.25f}));
             const float cosine = glm::dot(point.normal, sample.direction);
             if (!(cosine > 0.0f) || !(glm::dot(point.geometric, sample.direction) > 0.0f)) continue;
             Rgb f(0.0f);

@@ -18,8 +18,8 @@ struct LightingContext {
 /// Point i of n of a rank-1 lattice (golden ratio), shifted by `shift` modulo 1: even in both coordinates for any n.
 glm::vec2 lattice_point(int i, int n, const glm::vec2& shift);
 
-/// Outgoing radiance from direct light, without the surface's own emission. The Lambert layer samples lights; the glossy
-/// layer combines light and visible-normal sampling by the power heuristic (Veach 1997). Unbiased.
+/// Outgoing radiance from direct light, without the surface's own emission. The Lambert layer samples lights; the
+/// glossy layer combines light and visible-normal sampling by the power heuristic (Veach 1997). Unbiased.
 /// @param view   unit, from the point towards the viewer
 /// @param samples  per light
 /// @param random  moved on by a fixed number of dimensions per call

@@ -11,7 +11,9 @@ namespace aleph {
 namespace {
 
 /// Points per light: few where there are many lights, so that the estimate stays quick.
-int points_per_light(const LightSet& lights) { return std::max(1, 4 / std::max(1, lights.count())); }
+int points_per_light(const LightSet& lights) {
+    return std::max(1, 4 / std::max(1, lights.count()));
+}
 
 }  // namespace
 
@@ -33,8 +35,7 @@ Image<Rgb> compute_estimate(const LightingContext& context, const CameraView& vi
                     if (kind == EstimateKind::flat) {
                         radiance += s.material.diffuse + s.material.f0;
                     } else {
-                        radiance +=
-                            estimate_direct_light(context, tracer, s.point, s.material, s.view, points, local);
+                        radiance += estimate_direct_light(context, tracer, s.point, s.material, s.view, points, local);
                     }
                 }
                 estimate(x, y) = radiance * scale;

@@ -17,7 +17,9 @@ double seconds_since(std::chrono::steady_clock::time_point start) {
 
 constexpr double fill_share = 0.6;  // of a frame's time, for progress only
 
-bool is_finite(const Rgb& c) { return std::isfinite(c.x) && std::isfinite(c.y) && std::isfinite(c.z); }
+bool is_finite(const Rgb& c) {
+    return std::isfinite(c.x) && std::isfinite(c.y) && std::isfinite(c.z);
+}
 
 /// What one row adds up by itself.
 struct RowCounts {
@@ -62,8 +64,8 @@ struct Shading {
                                          light_samples, random, counts.rays);
         if (context.settings.bounces > 0 && needs_irradiance(hits_of_sample, surface, x, y)) {
             const float cos_view = std::max(glm::dot(surface.point.normal, surface.view), 0.0f);
-            radiance += diffuse_radiance(surface.material, cos_view,
-                                         indirect(tracer, surface, x, y, sample, scratch, counts));
+            radiance +=
+                diffuse_radiance(surface.material, cos_view, indirect(tracer, surface, x, y, sample, scratch, counts));
         }
         return radiance;
     }

@@ -6,11 +6,11 @@
 namespace aleph {
 
 struct ShadedFrame {
-    Image<Rgb> color;         ///< linear, exposure applied
-    Image<float> coverage;    ///< share of samples that hit something
-    Image<float> samples;     ///< pixel samples taken
-    Image<float> records;     ///< irradiance values computed in this pixel (filling included)
-    Image<float> invalid;     ///< samples thrown away for a NaN or infinity
+    Image<Rgb> color;       ///< linear, exposure applied
+    Image<float> coverage;  ///< share of samples that hit something
+    Image<float> samples;   ///< pixel samples taken
+    Image<float> records;   ///< irradiance values computed in this pixel (filling included)
+    Image<float> invalid;   ///< samples thrown away for a NaN or infinity
     RayCounts rays;
     FillStatistics cache;
     std::uint64_t record_count = 0;

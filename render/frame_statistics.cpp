@@ -16,29 +16,27 @@ using Json = nlohmann::ordered_json;
 Json frame_json(const FrameStatistics& f) {
     Json seconds = Json::object();
     for (const auto& [stage, value] : list_stages(f.seconds)) seconds[stage] = value;
-    return {{"frame", f.frame},
-            {"seconds", seconds},
-            {"rays",
-             {{"primary", f.rays.primary},
-              {"shadow", f.rays.shadow},
-              {"gather", f.rays.gather},
-              {"glossy", f.rays.glossy},
-              {"specular", f.rays.specular},
-              {"path", f.rays.path},
-              {"total", f.rays.total()},
-              {"traced", f.traced_rays},
-              {"invalid", f.invalid_rays}}},
-            {"cache",
-             {{"records", f.records},
-              {"lookups", f.cache.lookups},
-              {"hits", f.cache.hits},
-              {"rounds", f.cache.rounds}}},
-            {"samples", f.samples},
-            {"nan", f.nan_count},
-            {"estimate", {{"replaced", f.replaced}, {"clamped", f.clamped}}},
-            {"saliency_fallback", f.saliency_fallback},
-            {"instances_updated", f.instances_touched},
-            {"peak_memory_mib", f.peak_memory_mib}};
+    return {
+        {"frame", f.frame},
+        {"seconds", seconds},
+        {"rays",
+         {{"primary", f.rays.primary},
+          {"shadow", f.rays.shadow},
+          {"gather", f.rays.gather},
+          {"glossy", f.rays.glossy},
+          {"specular", f.rays.specular},
+          {"path", f.rays.path},
+          {"total", f.rays.total()},
+          {"traced", f.traced_rays},
+          {"invalid", f.invalid_rays}}},
+        {"cache",
+         {{"records", f.records}, {"lookups", f.cache.lookups}, {"hits", f.cache.hits}, {"rounds", f.cache.rounds}}},
+        {"samples", f.samples},
+        {"nan", f.nan_count},
+        {"estimate", {{"replaced", f.replaced}, {"clamped", f.clamped}}},
+        {"saliency_fallback", f.saliency_fallback},
+        {"instances_updated", f.instances_touched},
+        {"peak_memory_mib", f.peak_memory_mib}};
 }
 
 }  // namespace

@@ -11,7 +11,7 @@ namespace aleph {
 namespace {
 
 constexpr float pi = std::numbers::pi_v<float>;
-constexpr int most_candidates = 16;  // lights compared at a hit
+constexpr int most_candidates = 16;          // lights compared at a hit
 constexpr float smallest_distance = 1e-20f;  // keeps gradients finite where even the median is 0
 constexpr float infinite = std::numeric_limits<float>::infinity();
 
@@ -33,15 +33,15 @@ Reflected choose_light(const LightingContext& context, const SurfacePoint& point
     float total = 0.0f;
     for (int c = 0; c < candidates; ++c) {
         const std::size_t slot = static_cast<std::size_t>(c);
-        const int light =
-            candidates == lights
-                ? c
-                : std::min(static_cast<int>((static_cast<float>(c) + random.next()) * share), lights - 1);
-        const LightSample sample = sample_light(context.shading, context.lights, light, point.position, point.normal,
-                                                random.next_2d());
+        const int light = candidates == lights
+                              ? c
+                              : std::min(static_cast<int>((static_cast<float>(c) + random.next()) * share), lights - 1);
+        const LightSample sample =
+            sample_light(context.shading, context.lights, light, point.position, point.normal, random.next_2d());
         const float cosine = glm::dot(point.normal, sample.direction);
         if (cosine > 0.0f && glm::dot(point.geometric, sample.direction) > 0.0f) {
-            reflected[slot].radiance = evaluate_diffuse(material, cos_view, cosine) * sample.incoming * (cosine * share);
+            reflected[slot].radiance =
+                evaluate_diffuse(material, cos_view, cosine) * sample.incoming * (cosine * share);
             reflected[slot].shadow_ray = {point.ray_origin(), sample.direction, 0.0f, sample.distance};
             total += luminance(reflected[slot].radiance);
         }
@@ -58,7 +58,9 @@ Reflected choose_light(const LightingContext& context, const SurfacePoint& point
     return picked;
 }
 
-float fraction(float x) { return x - std::floor(x); }
+float fraction(float x) {
+    return x - std::floor(x);
+}
 
 /// The corner directions and sines that a row of the gradient sums needs.
 struct Row {
@@ -185,8 +187,8 @@ IrradianceSample gather_irradiance(const LightingContext& context, Tracer& trace
         scratch.distances[i] = hit.instance == no_index ? infinite : hit.distance;
         if (hit.instance == no_index) continue;
         const SurfacePoint met = make_surface_point(context.shading, hit, scratch.rays[i].direction);
-        const Reflected reflected = choose_light(context, met, evaluate_material(context.shading, met),
-                                                 -scratch.rays[i].direction, random);
+        const Reflected reflected =
+            choose_light(context, met, evaluate_material(context.shading, met), -scratch.rays[i].direction, random);
         if (reflected.radiance == Rgb(0.0f)) continue;
         scratch.radiance[i] = reflected.radiance;
         scratch.shadow_rays.push_back(reflected.shadow_ray);

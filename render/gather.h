@@ -11,11 +11,11 @@ namespace aleph {
 
 /// Indirect irradiance at a point with its gradients (Ward and Heckbert 1992, "Irradiance Gradients").
 struct IrradianceSample {
-    Rgb irradiance{0.0f};                          ///< of reflected light; lights seen directly are left out
+    Rgb irradiance{0.0f};                             ///< of reflected light; lights seen directly are left out
     std::array<glm::vec3, 3> rotation_gradient{};     ///< per colour channel: dE = dot(cross(N_i, N), gradient)
     std::array<glm::vec3, 3> translation_gradient{};  ///< per colour channel, per m, in the tangent plane
-    float harmonic_mean_distance = 0.0f;  ///< m (6.5); infinite where nothing was met
-    int ignored_distances = 0;            ///< hits too near to be true, left out of the mean (HARD_CASES IC-05)
+    float harmonic_mean_distance = 0.0f;              ///< m (6.5); infinite where nothing was met
+    int ignored_distances = 0;  ///< hits too near to be true, left out of the mean (HARD_CASES IC-05)
 };
 
 /// How a hemisphere is cut: rows in elevation, columns in azimuth, columns about pi times rows.

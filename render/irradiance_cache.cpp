@@ -32,7 +32,8 @@ IrradianceRecord make_record(const glm::vec3& position, const glm::vec3& normal,
     record.normal = normal;
     record.irradiance = sample.irradiance;
     record.smallest_radius = bounds.smallest;
-    record.radius = std::clamp(sample.harmonic_mean_distance, bounds.smallest, std::max(bounds.smallest, bounds.largest));
+    record.radius =
+        std::clamp(sample.harmonic_mean_distance, bounds.smallest, std::max(bounds.smallest, bounds.largest));
     for (std::size_t c = 0; c < 3; ++c) {
         const float irradiance = sample.irradiance[static_cast<int>(c)];
         record.translation_gradient[c] = limit_gradient(sample.translation_gradient[c], irradiance, record.radius);
@@ -54,8 +55,8 @@ Rgb extrapolate(const IrradianceRecord& record, const glm::vec3& position, const
     Rgb value = record.irradiance;
     for (int c = 0; c < 3; ++c) {
         const std::size_t channel = static_cast<std::size_t>(c);
-        value[c] += glm::dot(turn, record.rotation_gradient[channel]) +
-                    glm::dot(offset, record.translation_gradient[channel]);
+        value[c] +=
+            glm::dot(turn, record.rotation_gradient[channel]) + glm::dot(offset, record.translation_gradient[channel]);
         value[c] = std::clamp(value[c], 0.0f, 2.0f * record.irradiance[c]);
     }
     return value;
@@ -78,15 +79,15 @@ int IrradianceCache::find_or_add_cell(const glm::vec3& position, float radius) {
         Cell& here = cells_[static_cast<std::size_t>(cell)];
         here.largest_radius = std::max(here.largest_radius, radius);
         if (here.half_size * 0.5f < reach_for_index * radius) break;
-        const std::size_t octant = static_cast<std::size_t>((position.x > here.center.x ? 1 : 0) |
-                                                            (position.y > here.center.y ? 2 : 0) |
-                                                            (position.z > here.center.z ? 4 : 0));
+        const std::size_t octant =
+            static_cast<std::size_t>((position.x > here.center.x ? 1 : 0) | (position.y > here.center.y ? 2 : 0) |
+                                     (position.z > here.center.z ? 4 : 0));
         int child = here.children[octant];
         if (child < 0) {
             Cell added;
             added.half_size = 0.5f * here.half_size;
-            added.center = here.center + added.half_size * glm::vec3(octant & 1 ? 1 : -1, octant & 2 ? 1 : -1,
-                                                                     octant & 4 ? 1 : -1);
+            added.center = here.center +
+                           added.half_size * glm::vec3(octant & 1 ? 1 : -1, octant & 2 ? 1 : -1, octant & 4 ? 1 : -1);
             added.children.fill(-1);
             child = static_cast<int>(cells_.size());
             here.children[octant] = child;

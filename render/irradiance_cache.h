@@ -18,7 +18,7 @@ struct IrradianceRecord {
     glm::vec3 position{0.0f};  ///< m, relative to the frame's anchor
     glm::vec3 normal{0.0f};    ///< unit
     Rgb irradiance{0.0f};
-    float radius = 0.0f;       ///< R_i (6.5), m; positive and finite; neighbour clamping may shrink it later
+    float radius = 0.0f;           ///< R_i (6.5), m; positive and finite; neighbour clamping may shrink it later
     float smallest_radius = 0.0f;  ///< neighbour clamping stops here
     std::array<glm::vec3, 3> rotation_gradient{};
     std::array<glm::vec3, 3> translation_gradient{};
@@ -51,7 +51,8 @@ Rgb extrapolate(const IrradianceRecord& record, const glm::vec3& position, const
 
 class IrradianceCache {
   public:
-    /// @param bounds_low, bounds_high  box that holds every record, m; records outside are clamped into it for the index
+    /// @param bounds_low, bounds_high  box that holds every record, m; records outside are clamped into it for the
+    /// index
     IrradianceCache(const glm::vec3& bounds_low, const glm::vec3& bounds_high);
 
     /// Adds a record. Its radius is clamped by its neighbours' and theirs by its own.

@@ -35,8 +35,8 @@ Emitter make_emitter(const PosedInstance& instance, const ShadingMaterial& mater
         if (!(twice_area > 0.0) || !(length > 0.0f)) continue;
         area += 0.5 * twice_area;
         cumulative.push_back(area);
-        emitter.triangles.push_back({instance.linear * p0 + instance.translation, edge1, edge2, normal / length,
-                                     static_cast<int>(i)});
+        emitter.triangles.push_back(
+            {instance.linear * p0 + instance.translation, edge1, edge2, normal / length, static_cast<int>(i)});
     }
     emitter.area = static_cast<float>(area);
     for (const double a : cumulative) emitter.cumulative_area.push_back(static_cast<float>(a / area));
@@ -46,8 +46,8 @@ Emitter make_emitter(const PosedInstance& instance, const ShadingMaterial& mater
 LightSample sample_emitter(const ShadingScene& shading, const Emitter& emitter, const glm::vec3& position,
                            const glm::vec2& u) {
     const auto found = std::upper_bound(emitter.cumulative_area.begin(), emitter.cumulative_area.end(), u.x);
-    const std::size_t i = std::min(static_cast<std::size_t>(found - emitter.cumulative_area.begin()),
-                                   emitter.triangles.size() - 1);
+    const std::size_t i =
+        std::min(static_cast<std::size_t>(found - emitter.cumulative_area.begin()), emitter.triangles.size() - 1);
     const float low = i == 0 ? 0.0f : emitter.cumulative_area[i - 1];
     const float width = emitter.cumulative_area[i] - low;
     const float reused = width > 0.0f ? std::clamp((u.x - low) / width, 0.0f, 0x1.fffffep-1f) : 0.0f;
@@ -116,9 +116,8 @@ LightSet make_light_set(const ShadingScene& shading) {
     }
     for (const LightValues& light : shading.frame->lights) {
         if (light.intensity == Rgb(0.0f)) continue;
-        lights.punctual.push_back({light.kind == Light::Kind::directional,
-                                   glm::vec3(light.position - shading.anchor), glm::vec3(light.direction),
-                                   light.intensity, static_cast<float>(light.range)});
+        lights.punctual.push_back({light.kind == Light::Kind::directional, glm::vec3(light.position - shading.anchor),
+                                   glm::vec3(light.direction), light.intensity, static_cast<float>(light.range)});
     }
     lights.environment = shading.environment;
     lights.has_environment = shading.environment != Rgb(0.0f);

@@ -49,8 +49,8 @@ LightSet make_light_set(const ShadingScene& shading);
 struct LightSample {
     glm::vec3 direction{0.0f};  ///< unit, towards the light
     float distance = 0.0f;      ///< m, to just before the light; infinite for directional light and environment
-    Rgb incoming{0.0f};         ///< radiance / pdf (area light, environment), or irradiance on a facing surface (punctual)
-    float pdf = 0.0f;           ///< per solid angle; 0 for punctual lights, which no direction can find
+    Rgb incoming{0.0f};  ///< radiance / pdf (area light, environment), or irradiance on a facing surface (punctual)
+    float pdf = 0.0f;    ///< per solid angle; 0 for punctual lights, which no direction can find
 };
 
 /// A sample of one light as a point sees it, u in [0,1)^2. `incoming` is 0 where the light cannot be seen from there

@@ -16,8 +16,8 @@ struct SampleHits {
 struct PixelSurface {
     SurfacePoint point;
     SurfaceMaterial material;
-    glm::vec3 view{0.0f};     ///< unit, towards the camera
-    float footprint = 0.0f;   ///< a pixel's size at that distance, m
+    glm::vec3 view{0.0f};    ///< unit, towards the camera
+    float footprint = 0.0f;  ///< a pixel's size at that distance, m
 };
 
 /// Undefined where the pixel hit nothing.

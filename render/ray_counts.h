@@ -6,10 +6,10 @@
 namespace aleph {
 
 struct RayCounts {
-    std::uint64_t primary = 0;   ///< through pixels
-    std::uint64_t shadow = 0;    ///< towards lights, from pixels and from gather hits
-    std::uint64_t gather = 0;    ///< over hemispheres, for irradiance values
-    std::uint64_t glossy = 0;    ///< by a glossy lobe, towards lights
+    std::uint64_t primary = 0;  ///< through pixels
+    std::uint64_t shadow = 0;   ///< towards lights, from pixels and from gather hits
+    std::uint64_t gather = 0;   ///< over hemispheres, for irradiance values
+    std::uint64_t glossy = 0;   ///< by a glossy lobe, towards lights
     std::uint64_t specular = 0;
     std::uint64_t path = 0;
 

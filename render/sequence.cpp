@@ -56,10 +56,12 @@ Moment make_moment(const Scene& scene, std::int64_t frame, int camera, int width
 void refuse_later_effects(const Scene& scene, const CameraValues& camera) {
     const std::string name = scene.nodes[static_cast<std::size_t>(camera.node)].name;
     if (camera.shutter.x != camera.shutter.y) {
-        throw InputError(scene.file, "camera of node " + printable(name), "motion blur (an open shutter) is not in this version");
+        throw InputError(scene.file, "camera of node " + printable(name),
+                         "motion blur (an open shutter) is not in this version");
     }
     if (camera.aperture > 0.0) {
-        throw InputError(scene.file, "camera of node " + printable(name), "depth of field (an aperture) is not in this version");
+        throw InputError(scene.file, "camera of node " + printable(name),
+                         "depth of field (an aperture) is not in this version");
     }
 }
 
@@ -70,9 +72,16 @@ bool is_cut(const Scene& scene, std::int64_t frame) {
 }  // namespace
 
 std::array<std::pair<const char*, double>, 10> list_stages(const StageSeconds& s) {
-    return {{{"pose", s.pose}, {"update", s.update}, {"first_hits", s.first_hits}, {"estimate", s.estimate},
-             {"motion", s.motion}, {"perception", s.perception}, {"fill", s.fill}, {"shade", s.shade},
-             {"write", s.write}, {"total", s.total}}};
+    return {{{"pose", s.pose},
+             {"update", s.update},
+             {"first_hits", s.first_hits},
+             {"estimate", s.estimate},
+             {"motion", s.motion},
+             {"perception", s.perception},
+             {"fill", s.fill},
+             {"shade", s.shade},
+             {"write", s.write},
+             {"total", s.total}}};
 }
 
 struct Sequence::State {
@@ -110,8 +119,12 @@ Sequence::Sequence(const Scene& scene, const RenderSettings& settings, const std
 
 Sequence::~Sequence() = default;
 Sequence::Sequence(Sequence&&) noexcept = default;
-double Sequence::exposure() const { return state_->exposure; }
-FrameRange Sequence::range() const { return state_->range; }
+double Sequence::exposure() const {
+    return state_->exposure;
+}
+FrameRange Sequence::range() const {
+    return state_->range;
+}
 
 namespace {
 
@@ -194,7 +207,8 @@ FrameOutput Sequence::render(std::int64_t frame, const FrameRequest& request) {
             if (!s.other_rays) s.other_rays = std::make_unique<RayScene>(s.rays.share_meshes());
             const std::uint64_t before = s.other_rays->rays_traced();
             s.other_rays->update(other.frame, compute_anchor(other.view));
-            stats.rays.primary += mark_hidden(out.motion, s.scene, {&other.frame, &other.view}, centers.hits, *s.other_rays);
+            stats.rays.primary +=
+                mark_hidden(out.motion, s.scene, {&other.frame, &other.view}, centers.hits, *s.other_rays);
             stats.traced_rays += s.other_rays->rays_traced() - before;
         }
         out.velocity = compute_image_velocity(out.motion, s.viewing);
@@ -211,8 +225,9 @@ FrameOutput Sequence::render(std::int64_t frame, const FrameRequest& request) {
     out.alpha = compute_accuracy_map(out.perception.aleph, settings);
 
     if (request.frame) {
-        const IndirectContext indirect{lighting,  now.view, settings, out.alpha, static_cast<std::uint32_t>(frame),
-                                       scene_radius(shading), request.progress};
+        const IndirectContext indirect{
+            lighting,        now.view, settings, out.alpha, static_cast<std::uint32_t>(frame), scene_radius(shading),
+            request.progress};
         out.shaded = shade_frame(indirect, centers, s.exposure);
         stats.seconds.fill = out.shaded.fill_seconds;
         stats.seconds.shade = out.shaded.shade_seconds;

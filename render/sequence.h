@@ -15,8 +15,8 @@ namespace aleph {
 
 /// Seconds by stage, in the order in which they run; total includes writing where the caller adds it.
 struct StageSeconds {
-    double pose = 0, update = 0, first_hits = 0, estimate = 0, motion = 0, perception = 0, fill = 0, shade = 0, write = 0,
-           total = 0;
+    double pose = 0, update = 0, first_hits = 0, estimate = 0, motion = 0, perception = 0, fill = 0, shade = 0,
+           write = 0, total = 0;
 };
 /// The stages' names with their values, as files show them.
 std::array<std::pair<const char*, double>, 10> list_stages(const StageSeconds& seconds);
@@ -29,8 +29,8 @@ struct FrameStatistics {
     std::uint64_t invalid_rays = 0;  ///< refused by the wrapper
     std::uint64_t records = 0;       ///< irradiance values computed
     FillStatistics cache;
-    std::uint64_t samples = 0;       ///< pixel samples
-    std::uint64_t nan_count = 0;     ///< samples thrown away
+    std::uint64_t samples = 0;                ///< pixel samples
+    std::uint64_t nan_count = 0;              ///< samples thrown away
     std::uint64_t replaced = 0, clamped = 0;  ///< what sanitize_estimate changed
     bool saliency_fallback = false;
     std::size_t instances_touched = 0;
@@ -45,12 +45,12 @@ struct FrameRequest {
 };
 
 struct FrameOutput {
-    ShadedFrame shaded;       ///< filled if `frame`
+    ShadedFrame shaded;  ///< filled if `frame`
     CameraView view;
-    Image<Hit> hits;          ///< through the pixel centres
-    Image<Rgb> estimate;      ///< sanitized
+    Image<Hit> hits;      ///< through the pixel centres
+    Image<Rgb> estimate;  ///< sanitized
     MotionField motion;
-    Image<float> velocity;    ///< deg/s
+    Image<float> velocity;  ///< deg/s
     PerceptionMaps perception;
     Image<float> alpha;       ///< ambient accuracy
     Image<float> threshold;   ///< cd/m2

@@ -27,7 +27,7 @@ double number(const SettingValue& value, double low, double high, bool whole) {
 }
 
 template <class Number>
-Entry number_entry(std::string name, std::string help, Number RenderSettings::* field, double low, double high) {
+Entry number_entry(std::string name, std::string help, Number RenderSettings::*field, double low, double high) {
     return {{std::move(name), std::move(help)},
             [field](const RenderSettings& s) { return SettingValue(static_cast<double>(s.*field)); },
             [=](RenderSettings& s, const SettingValue& v) {
@@ -99,19 +99,19 @@ std::vector<Entry> make_entries() {
                  set_size});
     e.push_back(number_entry("seed", "random seed, a whole number", &S::seed, 0, 4294967295.0));
     e.push_back(choice_entry<Guide>(
-        "guide", "who looks at the frame: none, spatial, full, saliency", [](S& s) -> Guide& { return s.perception.guide; },
+        "guide", "who looks at the frame: none, spatial, full, saliency",
+        [](S& s) -> Guide& { return s.perception.guide; },
         {{"none", Guide::none}, {"spatial", Guide::spatial}, {"full", Guide::full}, {"saliency", Guide::saliency}}));
-    e.push_back(choice_entry<EstimateKind>(
-        "estimate", "the cheap picture the model looks at: flat, direct", [](S& s) -> EstimateKind& { return s.estimate; },
-        {{"flat", EstimateKind::flat}, {"direct", EstimateKind::direct}}));
+    e.push_back(choice_entry<EstimateKind>("estimate", "the cheap picture the model looks at: flat, direct",
+                                           [](S& s) -> EstimateKind& { return s.estimate; },
+                                           {{"flat", EstimateKind::flat}, {"direct", EstimateKind::direct}}));
     e.push_back(fixed_entry("motion", "where motion comes from: model", "model", {"image"}));
-    e.push_back(choice_entry<Bands>(
-        "bands", "band frequencies: printed, measured", [](S& s) -> Bands& { return s.perception.bands; },
-        {{"printed", Bands::printed}, {"measured", Bands::measured}}));
-    e.push_back(choice_entry<SaliencyGrid>(
-        "grid", "where saliency's maps are compared: full, center (cheaper)",
-        [](S& s) -> SaliencyGrid& { return s.perception.grid; },
-        {{"full", SaliencyGrid::full}, {"center", SaliencyGrid::center}}));
+    e.push_back(choice_entry<Bands>("bands", "band frequencies: printed, measured",
+                                    [](S& s) -> Bands& { return s.perception.bands; },
+                                    {{"printed", Bands::printed}, {"measured", Bands::measured}}));
+    e.push_back(choice_entry<SaliencyGrid>("grid", "where saliency's maps are compared: full, center (cheaper)",
+                                           [](S& s) -> SaliencyGrid& { return s.perception.grid; },
+                                           {{"full", SaliencyGrid::full}, {"center", SaliencyGrid::center}}));
     e.push_back({{"neutral_opponent", "true: grey is neutral in the opponent channels"},
                  [](const S& s) { return SettingValue(s.perception.neutral_opponent); },
                  [](S& s, const SettingValue& v) {
@@ -125,9 +125,11 @@ std::vector<Entry> make_entries() {
     e.push_back(number_entry("adapter_k", "K of scale-add, a number above 0", &S::adapter_k, 1e-6, 1e12));
     e.push_back(number_entry("accuracy", "ambient accuracy, 0 (gather everywhere) to 1", &S::accuracy, 0.0, 1.0));
     e.push_back(number_entry("gather", "hemisphere samples per irradiance value", &S::gather, 4, 1 << 20));
-    e.push_back(number_entry("bounces", "bounces of indirect diffuse light, 0 or 1 in this version", &S::bounces, 0, 1));
+    e.push_back(
+        number_entry("bounces", "bounces of indirect diffuse light, 0 or 1 in this version", &S::bounces, 0, 1));
     e.push_back(number_entry("spp", "samples per pixel; 1 is the pixel's centre", &S::spp, 1, 65536));
-    e.push_back(fixed_entry("sampling", "samples per pixel: uniform", "uniform", {"consecutive", "variance", "protocol"}));
+    e.push_back(
+        fixed_entry("sampling", "samples per pixel: uniform", "uniform", {"consecutive", "variance", "protocol"}));
     e.push_back(fixed_entry("integrator", "how light is gathered: cache", "cache", {"path"}));
     e.push_back(number_entry("light_samples", "direct-light samples per pixel and light", &S::light_samples, 1, 65536));
     e.push_back(number_entry("shade_radius", "shading reads records this much farther than filling, 1 to 2",

@@ -29,14 +29,14 @@ struct RenderSettings {
     EstimateKind estimate = EstimateKind::direct;
     PerceptionSettings perception;  ///< keys guide, bands, grid, neutral_opponent
     Adapter adapter = Adapter::compress;
-    double adapter_k = 100.0;       ///< K of (6.8)
-    double accuracy = 0.15;         ///< ambient accuracy alpha_Acc; 0 gathers at every sample
-    int gather = 1024;              ///< hemisphere samples per irradiance value
-    int bounces = 1;                ///< of indirect diffuse light; 0 or 1 in this version
-    int spp = 16;                   ///< samples per pixel; 1 is the pixel's centre
-    int light_samples = 16;         ///< direct-light samples per pixel and light, shared out among its spp
-    double shade_radius = 1.4;      ///< shading reads records this much farther than filling does
-    double min_radius_pixels = 4.0; ///< a record reaches at least this far at its own accuracy
+    double adapter_k = 100.0;        ///< K of (6.8)
+    double accuracy = 0.15;          ///< ambient accuracy alpha_Acc; 0 gathers at every sample
+    int gather = 1024;               ///< hemisphere samples per irradiance value
+    int bounces = 1;                 ///< of indirect diffuse light; 0 or 1 in this version
+    int spp = 16;                    ///< samples per pixel; 1 is the pixel's centre
+    int light_samples = 16;          ///< direct-light samples per pixel and light, shared out among its spp
+    double shade_radius = 1.4;       ///< shading reads records this much farther than filling does
+    double min_radius_pixels = 4.0;  ///< a record reaches at least this far at its own accuracy
 
     bool operator==(const RenderSettings&) const = default;
 };

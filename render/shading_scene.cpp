@@ -14,7 +14,9 @@ namespace {
 /// coordinates, so that it stays small in small scenes (HARD_CASES RC-05).
 constexpr float offset_scale = 0x1p-16f;
 
-float largest_component(const glm::vec3& v) { return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}); }
+float largest_component(const glm::vec3& v) {
+    return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
+}
 
 template <class T>
 T interpolate(const std::vector<T>& values, const glm::uvec3& t, float u, float v) {
@@ -46,7 +48,8 @@ ShadingScene make_shading_scene(const Scene& scene, const SceneFrame& frame, con
         posed.linear = glm::mat3(glm::dmat3(world));
         posed.translation = glm::vec3(glm::dvec3(world[3]) - anchor);
         posed.normals = glm::mat3(normal_matrix(world));
-        posed.visible = frame.visible[static_cast<std::size_t>(instance.node)] != 0;
+        // What rays leave out for want of volume (HARD_CASES RC-02) must not shine, nor count for the scene's size.
+        posed.visible = frame.visible[static_cast<std::size_t>(instance.node)] != 0 && has_full_rank(world);
         shading.instances.push_back(posed);
     }
     return shading;
@@ -68,8 +71,9 @@ SurfacePoint make_surface_point(const ShadingScene& shading, const Hit& hit, con
     const glm::vec3 local = p0 + e1 * u + e2 * v;
     point.position = instance.linear * local + instance.translation;
     const glm::vec3 w0 = instance.linear * p0, w1 = instance.linear * e1, w2 = instance.linear * e2;
-    point.offset = offset_scale * std::max({largest_component(w0), largest_component(w1), largest_component(w2),
-                                            largest_component(instance.translation), largest_component(point.position)});
+    point.offset =
+        offset_scale * std::max({largest_component(w0), largest_component(w1), largest_component(w2),
+                                 largest_component(instance.translation), largest_component(point.position)});
     // normal_matrix keeps outward outward, under reflections too.
     glm::vec3 geometric = instance.normals * glm::cross(e1, e2);
     const float length = glm::length(geometric);

@@ -46,10 +46,10 @@ struct SurfacePoint {
     glm::vec3 geometric{0.0f};  ///< unit, towards the viewer
     glm::vec3 normal{0.0f};     ///< shading normal, unit, never facing away from the viewer's side of `geometric`
     glm::vec2 uv[2]{};
-    glm::vec4 color{1.0f};      ///< vertex colour
+    glm::vec4 color{1.0f};  ///< vertex colour
     int material = no_index;
-    float offset = 0.0f;        ///< m along `geometric` that clears rounding of the position (HARD_CASES RC-04)
-    bool front = true;          ///< seen from the side its winding faces
+    float offset = 0.0f;  ///< m along `geometric` that clears rounding of the position (HARD_CASES RC-04)
+    bool front = true;    ///< seen from the side its winding faces
 
     /// Where rays that leave on the viewer's side start.
     glm::vec3 ray_origin() const { return position + geometric * offset; }

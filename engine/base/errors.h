@@ -32,8 +32,8 @@ class OutputError : public std::runtime_error {
 /// Our own mistake: an invariant does not hold. `values` prints what was found.
 [[noreturn]] void fail_check(const char* expression, const char* file, int line, const std::string& values);
 
-#define ALEPH_CHECK(expression, values)                                               \
-    do {                                                                              \
+#define ALEPH_CHECK(expression, values)                                                  \
+    do {                                                                                 \
         if (!(expression)) ::aleph::fail_check(#expression, __FILE__, __LINE__, values); \
     } while (false)
 

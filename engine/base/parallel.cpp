@@ -14,7 +14,9 @@ namespace aleph {
 
 namespace {
 std::atomic<int> thread_limit{0};
-int hardware_threads() { return std::max(1, static_cast<int>(std::thread::hardware_concurrency())); }
+int hardware_threads() {
+    return std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+}
 }  // namespace
 
 struct ThreadLimit::State {
@@ -22,9 +24,13 @@ struct ThreadLimit::State {
 };
 
 ThreadLimit::ThreadLimit(int threads) : state_(new State{thread_limit.exchange(threads)}) {}
-ThreadLimit::~ThreadLimit() { thread_limit = state_->previous; }
+ThreadLimit::~ThreadLimit() {
+    thread_limit = state_->previous;
+}
 
-int thread_count() { return thread_limit > 0 ? thread_limit.load() : hardware_threads(); }
+int thread_count() {
+    return thread_limit > 0 ? thread_limit.load() : hardware_threads();
+}
 
 #else
 
@@ -34,8 +40,8 @@ struct ThreadLimit::State {
 
 ThreadLimit::ThreadLimit(int threads) {
     if (threads > 0) {
-        state_.reset(new State{tbb::global_control(tbb::global_control::max_allowed_parallelism,
-                                                   static_cast<std::size_t>(threads))});
+        state_.reset(new State{
+            tbb::global_control(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads))});
     }
 }
 ThreadLimit::~ThreadLimit() = default;

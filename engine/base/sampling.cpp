@@ -19,7 +19,9 @@ glm::vec3 sample_cosine_hemisphere(const glm::vec2& u) {
     return {r * std::cos(phi), r * std::sin(phi), std::sqrt(std::max(0.0f, 1.0f - u.x))};
 }
 
-float pdf_cosine_hemisphere(float cos_theta) { return std::max(0.0f, cos_theta) / std::numbers::pi_v<float>; }
+float pdf_cosine_hemisphere(float cos_theta) {
+    return std::max(0.0f, cos_theta) / std::numbers::pi_v<float>;
+}
 
 glm::vec2 sample_triangle(const glm::vec2& u) {
     const float root = std::sqrt(u.x);

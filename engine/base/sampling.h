@@ -19,7 +19,9 @@ constexpr std::uint64_t mix_bits(std::uint64_t x) {
 }
 
 /// Uniform in [0, 1), 24 bits: never 1 (HARD_CASES MC-05).
-constexpr float unit_float(std::uint32_t bits) { return static_cast<float>(bits >> 8) * 0x1p-24f; }
+constexpr float unit_float(std::uint32_t bits) {
+    return static_cast<float>(bits >> 8) * 0x1p-24f;
+}
 
 /// What a stream of random numbers is for. Streams with different keys are independent.
 struct RandomKey {

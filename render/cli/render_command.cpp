@@ -33,7 +33,8 @@ void add_maps_command(CLI::App& app, Command& command) {
     const auto options = std::make_shared<SceneOptions>();
     add_scene_options(*maps, *options);
     maps->footer(
-        "Channels: forward.u/.v (pixels to frame N+1, y up), motion.valid, velocity.image/.retinal (deg/s), saliency.Y, "
+        "Channels: forward.u/.v (pixels to frame N+1, y up), motion.valid, velocity.image/.retinal (deg/s), "
+        "saliency.Y, "
         "conspicuity.*, aleph.Y, alpha.acc, threshold.Y (cd/m2), estimate.*, Z (m), N.*, objectId.X.\n\n"
         "Examples:\n"
         "  aleph maps scenes/pool/scene.json --frames 20 -o maps.exr\n"

@@ -41,7 +41,9 @@ std::string option_name(std::string key) {
 }
 
 /// PNG for people, EXR for everything else; by the pattern's ending.
-bool is_png(const std::filesystem::path& path) { return path.extension() == ".png"; }
+bool is_png(const std::filesystem::path& path) {
+    return path.extension() == ".png";
+}
 
 }  // namespace
 
@@ -60,7 +62,9 @@ void add_scene_options(CLI::App& app, SceneOptions& options) {
     for (const SettingKey& key : setting_keys()) {
         app.add_option_function<std::string>(
                option_name(key.name),
-               [&options, name = key.name](const std::string& value) { parse_setting(name + "=" + value, options.settings); },
+               [&options, name = key.name](const std::string& value) {
+                   parse_setting(name + "=" + value, options.settings);
+               },
                key.help)
             ->type_name("VALUE")
             ->group("Settings (the scene file's \"settings\" have the same names)");

@@ -8,8 +8,8 @@
 #include <iostream>
 
 #include "engine/archive.h"
-#include "engine/base/parallel.h"
 #include "engine/base/errors.h"
+#include "engine/base/parallel.h"
 #include "render/cli/options.h"
 #include "scenes/studies/study_tools.h"
 
@@ -38,15 +38,14 @@ struct Experiment {
     };
     Row run(Guide guide, double accuracy) const {
         const FrameOutput output = render_variant(scene, settings, frame, guide, accuracy);
-        return {output.statistics,
-                measure_error(output.shaded.color, dense, threshold, scene.viewing.display_white)};
+        return {output.statistics, measure_error(output.shaded.color, dense, threshold, scene.viewing.display_white)};
     }
 };
 
 void print_row(double accuracy, const std::string& guide, const Experiment::Row& row) {
-    fmt::print("| {:.3g} | {} | {:.2f} | {:.2f} | {} | {:.2e} | {:.3f} |\n", accuracy, guide, row.statistics.seconds.total,
-               static_cast<double>(row.statistics.rays.gather) * 1e-6, row.statistics.records, row.error.relative_mse,
-               row.error.percent_beyond);
+    fmt::print("| {:.3g} | {} | {:.2f} | {:.2f} | {} | {:.2e} | {:.3f} |\n", accuracy, guide,
+               row.statistics.seconds.total, static_cast<double>(row.statistics.rays.gather) * 1e-6,
+               row.statistics.records, row.error.relative_mse, row.error.percent_beyond);
     std::cout << std::flush;
 }
 
@@ -113,5 +112,6 @@ int main(int argc, char** argv) {
     aleph::add_value(app, "--light-samples", options.light_samples, "direct light; the same noise in every variant");
     aleph::add_value(app, "-t,--threads", options.threads, "threads; 0: all");
     app.add_flag("--best-uniform", options.best_uniform, "add the best uniform accuracy with the same share beyond");
-    return aleph::run_program(app, [&] { return aleph::run_accuracy(options); }, argc, argv, std::cerr);
+    return aleph::run_program(
+        app, [&] { return aleph::run_accuracy(options); }, argc, argv, std::cerr);
 }

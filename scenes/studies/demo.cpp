@@ -117,5 +117,6 @@ int main(int argc, char** argv) {
     aleph::add_value(app, "--gather", options.gather, "rays per irradiance value");
     aleph::add_value(app, "-t,--threads", options.threads, "threads; 0: all");
     app.add_flag("-q,--quiet", options.quiet, "no progress");
-    return aleph::run_program(app, [&] { return aleph::run_demo(options); }, argc, argv, std::cerr);
+    return aleph::run_program(
+        app, [&] { return aleph::run_demo(options); }, argc, argv, std::cerr);
 }

@@ -38,8 +38,8 @@ Panel map_panel(const std::string& caption, const Image<float>& map, double low,
     for (int y = 0; y < map.height; ++y) {
         for (int x = 0; x < map.width; ++x) {
             const double v = map(x, y);
-            const double position = logarithmic ? std::log(std::max(v, low) / low) / std::log(high / low)
-                                                : (v - low) / (high - low);
+            const double position =
+                logarithmic ? std::log(std::max(v, low) / low) / std::log(high / low) : (v - low) / (high - low);
             const float shown = static_cast<float>(std::isfinite(position) ? std::clamp(position, 0.0, 1.0) : 0.0);
             values.setpixel(x, y, &shown);
         }
@@ -84,7 +84,8 @@ void write_sheet(const std::filesystem::path& path, const std::vector<Panel>& pa
         OIIO::ImageBuf full = make_buffer(display.width, display.height, 3);
         full.set_pixels(OIIO::ROI(0, display.width, 0, display.height, 0, 1, 0, 3), OIIO::TypeDesc::FLOAT,
                         display.pixels.data());
-        const OIIO::ImageBuf scaled = OIIO::ImageBufAlgo::resize(full, "triangle", 0.0f, OIIO::ROI(0, width, 0, height));
+        const OIIO::ImageBuf scaled =
+            OIIO::ImageBufAlgo::resize(full, "triangle", 0.0f, OIIO::ROI(0, width, 0, height));
         OIIO::ImageBufAlgo::paste(sheet, left, top + caption_height, 0, 0, scaled);
         // Without the font (another system) the sheet has no captions; the table names the panels too.
         OIIO::ImageBufAlgo::render_text(sheet, left + 8, top + 19, panels[i].caption, 15, caption_font,

@@ -47,7 +47,8 @@ Image<Rgb> load_or_render_dense(const Scene& scene, RenderSettings settings, std
     if (!file.empty() && std::filesystem::exists(file)) {
         const ChannelImage read = read_image(file);
         const Image<float>*r = read.find("R"), *g = read.find("G"), *b = read.find("B");
-        if (r != nullptr && g != nullptr && b != nullptr && r->width == settings.width && r->height == settings.height) {
+        if (r != nullptr && g != nullptr && b != nullptr && r->width == settings.width &&
+            r->height == settings.height) {
             Image<Rgb> color(r->width, r->height);
             for (std::size_t i = 0; i < color.size(); ++i) {
                 color.pixels[i] = Rgb(r->pixels[i], g->pixels[i], b->pixels[i]);

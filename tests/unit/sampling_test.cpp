@@ -78,7 +78,8 @@ TEST(Sampling, PowerHeuristicAtItsEdges) {
     EXPECT_EQ(power_heuristic(inf, 1), 1.0f);
     EXPECT_EQ(power_heuristic(1, inf), 0.0f);
     EXPECT_EQ(power_heuristic(inf, inf), 0.5f);
-    for (const float a : {1e-10f, .3f, 1.f, 1e10f}) EXPECT_NEAR(power_heuristic(a, 1) + power_heuristic(1, a), 1, 2e-7f);
+    for (const float a : {1e-10f, .3f, 1.f, 1e10f})
+        EXPECT_NEAR(power_heuristic(a, 1) + power_heuristic(1, a), 1, 2e-7f);
 }
 
 }  // namespace
