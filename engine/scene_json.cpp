@@ -74,8 +74,8 @@ void read_settings(Scene& scene, const JsonRef& root) {
     }
 }
 
-/// What later versions will read: told apart from a slip of the pen.
-void check_planned(const nlohmann::json& root, const std::string& file) {
+/// A later version is told apart from a file that is wrong.
+void check_version(const nlohmann::json& root, const std::string& file) {
     if (!root.is_object()) return;
     const auto version = root.find("aleph");
     if (version != root.end() && version->is_number_integer() && *version != 1) {
@@ -110,7 +110,7 @@ int NameIndex::require(const JsonRef& at) const {
 
 SceneText read_scene_text(std::string_view text, const std::string& file) {
     const JsonText parsed = parse_json_text(text, file);
-    check_planned(parsed.root, file);
+    check_version(parsed.root, file);
     check_scene_schema(parsed.root, file);
     const JsonRef root(parsed.root, file);
 

@@ -18,6 +18,12 @@ std::string describe(const ValueRange& range) {
     return fmt::format("has to lie between {} and {}{}", range.low, range.high, range.open ? ", both excluded" : "");
 }
 
+void check_range(const JsonRef& at, double value, const ValueRange& range) {
+    const bool inside =
+        range.open ? value > range.low && value < range.high : value >= range.low && value <= range.high;
+    if (!inside) at.fail(fmt::format("{}, found {}", describe(range), value));
+}
+
 /// How one kind of value stands in the file.
 template <class T>
 struct ValueReader {
@@ -196,12 +202,6 @@ glm::dmat4 read_sixteen(const JsonRef& at, const ValueRange&) {
 
 double to_radians(double degrees) {
     return degrees * (std::numbers::pi / 180.0);
-}
-
-void check_range(const JsonRef& at, double value, const ValueRange& range) {
-    const bool inside =
-        range.open ? value > range.low && value < range.high : value >= range.low && value <= range.high;
-    if (!inside) at.fail(fmt::format("{}, found {}", describe(range), value));
 }
 
 glm::dvec3 read_dvec3(const JsonRef& at) {

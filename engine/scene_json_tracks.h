@@ -22,7 +22,6 @@ Track<double> read_degrees(const JsonRef& at, const FrameRate& rate, const Value
 
 glm::dvec3 read_dvec3(const JsonRef& at);
 glm::dvec2 read_dvec2(const JsonRef& at);
-void check_range(const JsonRef& at, double value, const ValueRange& range);
 
 /// Degrees to radians as the reader does it.
 double to_radians(double degrees);
