@@ -12,8 +12,8 @@ record() {
     >"$1/results/$2.xml"
 }
 
-# run_tests FOLDER CTEST-OPTIONS...: ctest, under `launcher` if that is set. A failure that left no trace in a program's results (a crash, a sanitizer's report
-# at the end, running out of time) is recorded as one more.
+# run_tests FOLDER CTEST-OPTIONS...: ctest, under `launcher` if that is set. A failure that left no trace in a program's
+# results (a crash, a sanitizer's report at the end, running out of time) is recorded as one more.
 run_tests() {
   local folder=$1 code=0 failed=$1/Testing/Temporary/LastTestsFailed.log name
   shift
@@ -22,7 +22,7 @@ run_tests() {
   [ -e "$failed" ] || return "$code"
   while IFS=: read -r _ name; do
     if ! grep -qs '<testsuites [^>]*failures="[1-9]' "$folder/results/$name.xml"; then
-      record "$folder" "$name.end" 1
+      record "$folder" "$name (it did not end well: see above)" 1
     fi
   done <"$failed"
   return "$code"
@@ -43,7 +43,11 @@ summarize() {
     /<testsuites / {
       tests += attribute("tests"); disabled += attribute("disabled"); bad = attribute("failures") + attribute("errors")
       failed += bad
-      if (bad > 0) { file = FILENAME; sub(/\/results\//, "/", file); sub(/\.xml$/, "", file); print "FAILED in " file }
+      if (bad > 0) {
+        file = FILENAME
+        sub(/^.*\/build/, "build", file); sub(/\/results\//, "/", file); sub(/\.xml$/, "", file)
+        print "FAILED: " file
+      }
     }
     /<testcase / { test = attribute("classname") "." attribute("name") }
     /<testcase / && /result="skipped"/ { ++skipped; waiting = test }

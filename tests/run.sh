@@ -47,7 +47,7 @@ needed() {
   part "$@" || { printf '\n%s failed\n0 passed, 1 failed\n' "$1"; exit 1; }
 }
 
-# checked FOLDER TITLE COMMAND...: a part whose failures are counted; one that left no result (a build that broke, say) too.
+# checked FOLDER TITLE COMMAND...: a part whose failures are counted, also those that left no result (a broken build).
 checked() {
   local folder=$1
   shift
