@@ -7,14 +7,14 @@ namespace aleph {
 
 double compress_accuracy(double accuracy, double aleph) {
     if (!(accuracy > 0.0)) return 0.0;
-    const double n = std::max(aleph, 1.0);  // also for NaN
+    const double n = std::max(1.0, aleph);  // in this order 1 for NaN too
     if (std::isinf(n)) return 1.0;
     return std::min(1.0, accuracy * n / (1.0 + accuracy * (n - 1.0)));
 }
 
 double scale_add_accuracy(double accuracy, double aleph, double k) {
     if (!(accuracy > 0.0)) return 0.0;
-    const double n = std::max(aleph, 1.0);
+    const double n = std::max(1.0, aleph);
     return std::min(1.0, accuracy + n / k);
 }
 
