@@ -33,7 +33,7 @@ Json frame_json(const FrameStatistics& f) {
          {{"records", f.records}, {"lookups", f.cache.lookups}, {"hits", f.cache.hits}, {"rounds", f.cache.rounds}}},
         {"samples", f.samples},
         {"nan", f.nan_count},
-        {"estimate", {{"replaced", f.replaced}, {"clamped", f.clamped}}},
+        {"estimate", {{"replaced", f.replaced}, {"clamped", f.clamped}, {"median_cd_m2", f.median_luminance}}},
         {"saliency_fallback", f.saliency_fallback},
         {"instances_updated", f.instances_touched},
         {"peak_memory_mib", f.peak_memory_mib}};

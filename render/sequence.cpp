@@ -65,6 +65,15 @@ void refuse_later_effects(const Scene& scene, const CameraValues& camera) {
     }
 }
 
+/// cd/m2; every 16th pixel is enough to tell a wrong unit from a right one.
+double median_luminance(const Image<Rgb>& estimate, const ViewingConditions& viewing) {
+    std::vector<float> values;
+    for (std::size_t i = 0; i < estimate.size(); i += 16) values.push_back(luminance(estimate.pixels[i]));
+    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+    std::nth_element(values.begin(), middle, values.end());
+    return viewing.display_white * *middle;
+}
+
 bool is_cut(const Scene& scene, std::int64_t frame) {
     return std::find(scene.cuts.begin(), scene.cuts.end(), frame) != scene.cuts.end();
 }
@@ -199,6 +208,7 @@ FrameOutput Sequence::render(std::int64_t frame, const FrameRequest& request) {
         const SanitizeCounts sanitized = sanitize_estimate(out.estimate);
         stats.replaced = sanitized.replaced;
         stats.clamped = sanitized.clamped;
+        stats.median_luminance = median_luminance(out.estimate, s.viewing);
         clock.add_to(stats.seconds.estimate);
 
         out.motion = compute_model_motion(s.scene, {&now.frame, &now.view}, {&other.frame, &other.view}, centers.hits,

@@ -33,6 +33,7 @@ struct FrameStatistics {
     std::uint64_t nan_count = 0;              ///< samples thrown away
     std::uint64_t replaced = 0, clamped = 0;  ///< what sanitize_estimate changed
     bool saliency_fallback = false;
+    double median_luminance = 0.0;  ///< of the estimate, cd/m2; thresholds mean little outside 1e-3 to 1e4 (CS-14)
     std::size_t instances_touched = 0;
     double peak_memory_mib = 0.0;
 };

@@ -107,6 +107,20 @@ PreparedScene prepare_scene(const SceneOptions& options) {
     return prepared;
 }
 
+namespace {
+
+/// Thresholds are in cd/m2: a scene in other units would be all below or all above them (HARD_CASES CS-14).
+void warn_of_units(const FrameStatistics& frame) {
+    const double median = frame.median_luminance;
+    if (median == 0.0 || (median >= 1e-3 && median <= 1e4)) return;
+    std::cerr << fmt::format(
+        "aleph: warning: frame {}: the median luminance is {:.3g} cd/m2, outside 1e-3 to 1e4: check \"exposure\" and "
+        "\"display_white\" of the scene\n",
+        frame.frame, median);
+}
+
+}  // namespace
+
 void write_frames(const PreparedScene& prepared, const SceneOptions& options, const FrameRequest& request, bool maps,
                   const std::string& title) {
     prepare_output(options.output, prepared.name, prepared.frames.size());
@@ -134,6 +148,7 @@ void write_frames(const PreparedScene& prepared, const SceneOptions& options, co
         StageSeconds& seconds = output.statistics.seconds;
         seconds.write = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
         seconds.total += seconds.write;
+        if (i == 0 && !options.quiet) warn_of_units(output.statistics);
         statistics.push_back(output.statistics);
         progress.update(static_cast<double>(i + 1), fmt::format("frame {}", frame));
     }
