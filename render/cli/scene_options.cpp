@@ -35,6 +35,23 @@ FrameRate parse_fps(const std::string& text) {
     throw InputError("--fps", printable(text), "expected frames per second, such as 30 or 30000/1001");
 }
 
+/// The scene file's own numbers that --set may change beside its "settings": taken out of the map.
+void set_scene_numbers(Scene& scene, SettingMap& settings) {
+    const auto take = [&](const std::string& key, auto&& apply) {
+        const auto found = settings.find(key);
+        if (found == settings.end()) return;
+        const double* number = std::get_if<double>(&found->second);
+        if (number == nullptr || !(*number > 0.0 && *number <= 1e18)) {
+            throw InputError("--set", key, "expected a number above 0");
+        }
+        apply(*number);
+        settings.erase(found);
+    };
+    take("exposure", [&](double v) { scene.exposure = v; });
+    take("viewing.pixels_per_degree", [&](double v) { scene.viewing.pixels_per_degree = v; });
+    take("viewing.display_white", [&](double v) { scene.viewing.display_white = v; });
+}
+
 std::string option_name(std::string key) {
     for (char& c : key) c = c == '_' ? '-' : c;
     return "--" + key;
@@ -74,7 +91,7 @@ void add_scene_options(CLI::App& app, SceneOptions& options) {
            [&options](const std::vector<std::string>& texts) {
                for (const std::string& text : texts) parse_setting(text, options.settings);
            },
-           "any setting of the scene file")
+           "any setting of the scene file; also exposure, viewing.pixels_per_degree, viewing.display_white")
         ->type_name("KEY=VALUE")
         ->allow_extra_args(false);
 }
@@ -85,7 +102,9 @@ PreparedScene prepare_scene(const SceneOptions& options) {
     Scene& scene = prepared.scene;
     if (!options.fps.empty()) scene.frame_rate = parse_fps(options.fps);
     apply_settings(prepared.settings, scene.settings, options.scene);
-    apply_settings(prepared.settings, options.settings, "");
+    SettingMap given = options.settings;
+    set_scene_numbers(scene, given);
+    apply_settings(prepared.settings, given, "");
     if (!options.quiet) {
         for (const std::string& warning : scene.warnings) {
             std::cerr << "aleph: warning: " << printable(warning, 400) << "\n";
