@@ -115,7 +115,7 @@ Rgb compute_direct_light(const LightingContext& context, Tracer& tracer, const S
         const int light_samples = has_area(context.lights, light) ? samples : 1;
         const glm::vec2 shift = random.next_2d();
         for (int i = 0; i < light_samples; ++i) {
-            const LightSample sample = sample_light(context.shading, context.lights, light, point.position,
+            const LightSample sample = sample_light(context.shading, context.lights, light, point.ray_origin(),
                                                     point.normal, lattice_point(i, light_samples, shift));
             const Rgb f = scatter(point, material, basis, view, local_view, sample);
             shadows.add(point.ray_origin(), sample.direction, sample.distance,
@@ -148,7 +148,7 @@ Rgb estimate_direct_light(const LightingContext& context, Tracer& tracer, const 
     for (int light = 0; light < context.lights.count(); ++light) {
         const int light_samples = has_area(context.lights, light) ? samples : 1;
         for (int i = 0; i < light_samples; ++i) {
-            const LightSample sample = sample_light(context.shading, context.lights, light, point.position,
+            const LightSample sample = sample_light(context.shading, context.lights, light, point.ray_origin(),
                                                     point.normal, lattice_point(i, light_samples, {0.0f, 0.25f}));
             const float cosine = glm::dot(point.normal, sample.direction);
             if (!(cosine > 0.0f) || !(glm::dot(point.geometric, sample.direction) > 0.0f)) continue;

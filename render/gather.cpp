@@ -37,7 +37,7 @@ Reflected choose_light(const LightingContext& context, const SurfacePoint& point
                               ? c
                               : std::min(static_cast<int>((static_cast<float>(c) + random.next()) * share), lights - 1);
         const LightSample sample =
-            sample_light(context.shading, context.lights, light, point.position, point.normal, random.next_2d());
+            sample_light(context.shading, context.lights, light, point.ray_origin(), point.normal, random.next_2d());
         const float cosine = glm::dot(point.normal, sample.direction);
         if (cosine > 0.0f && glm::dot(point.geometric, sample.direction) > 0.0f) {
             reflected[slot].radiance =

@@ -53,8 +53,10 @@ struct LightSample {
     float pdf = 0.0f;    ///< per solid angle; 0 for punctual lights, which no direction can find
 };
 
-/// A sample of one light as a point sees it, u in [0,1)^2. `incoming` is 0 where the light cannot be seen from there
-/// whatever stands between (behind it, zero area, out of range). The environment is sampled by cosine about `normal`.
+/// A sample of one light as a point sees it, u in [0,1)^2. `position` is where the shadow ray starts
+/// (SurfacePoint::ray_origin): from the surface itself, `distance` would let an offset ray run into the light.
+/// `incoming` is 0 where the light cannot be seen from there whatever stands between (behind it, zero area, out of
+/// range). The environment is sampled by cosine about `normal`.
 LightSample sample_light(const ShadingScene& shading, const LightSet& lights, int light, const glm::vec3& position,
                          const glm::vec3& normal, const glm::vec2& u);
 
