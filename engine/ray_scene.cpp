@@ -122,6 +122,17 @@ RayScene::State::~State() {
     if (top != nullptr) rtcReleaseScene(top);
 }
 
+bool is_traceable(const glm::dmat4& world, const glm::dvec3& anchor) {
+    if (!has_full_rank(world)) return false;
+    const glm::dmat3 inverse = glm::inverse(glm::dmat3(world));
+    double largest = 0.0;
+    for (int column = 0; column < 3; ++column) {
+        for (int row = 0; row < 3; ++row) largest = std::max(largest, std::abs(inverse[column][row]));
+    }
+    const glm::dvec3 moved = glm::abs(inverse * (glm::dvec3(world[3]) - anchor));
+    return 3.0 * largest * largest_ray_component + std::max({moved.x, moved.y, moved.z}) < largest_coordinate;
+}
+
 RayScene::RayScene(const Scene& scene) : state_(new State(std::make_shared<MeshStructures>(scene))) {}
 RayScene::RayScene(std::unique_ptr<State> state) : state_(std::move(state)) {}
 RayScene::~RayScene() = default;
@@ -142,8 +153,8 @@ std::size_t RayScene::update(const SceneFrame& frame, const glm::dvec3& anchor) 
         const std::size_t node = static_cast<std::size_t>(state.meshes->objects[i].node);
         const glm::dmat4& world = frame.world[node];
         bool enabled = frame.visible[node] != 0;
-        if (enabled && !has_full_rank(world)) {
-            enabled = false;  // a singular instance would end the process (HARD_CASES RC-02)
+        if (enabled && !is_traceable(world, anchor)) {
+            enabled = false;
             ++state.skipped_instances;
         }
         std::array<float, 12> transform{};  // column by column: RTC_FORMAT_FLOAT3X4_COLUMN_MAJOR

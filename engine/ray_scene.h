@@ -33,6 +33,13 @@ struct Hit {
     bool operator==(const Hit&) const = default;
 };
 
+/// Rays with a component of this size or more are refused, in m or as a direction.
+inline constexpr float largest_ray_component = 1e9f;
+
+/// Whether rays can meet an instance at all: its transform keeps volume, and every ray that is let through stays within
+/// what Embree takes in the object's own space (else it ends the process; HARD_CASES RC-01, RC-02).
+bool is_traceable(const glm::dmat4& world, const glm::dvec3& anchor);
+
 class RayScene {
   public:
     /// Builds the structures of every mesh once. Degenerate triangles are left out and counted.
@@ -44,7 +51,7 @@ class RayScene {
     RayScene& operator=(RayScene&&) noexcept;
 
     /// Places the instances for a frame: only those whose transform or visibility changed are touched (all when the
-    /// anchor moved). Instances without volume-preserving rank (a scale of 0) are left out and counted.
+    /// anchor moved). Instances that are not traceable (a scale of 0) are left out and counted.
     /// @return how many instances were touched
     std::size_t update(const SceneFrame& frame, const glm::dvec3& anchor);
 

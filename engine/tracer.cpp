@@ -11,16 +11,21 @@ namespace aleph {
 
 namespace {
 
-constexpr float largest_component = 1.844e18f;
+/// The direction with components that are next to nothing made 0: a denormal one of a wrong sign makes Embree's
+/// coherent packets lose hits of the other rays.
+glm::vec3 embree_direction(const Ray& ray) {
+    const auto clean = [](float v) { return std::abs(v) < 1e-30f ? 0.0f : v; };
+    return {clean(ray.direction.x), clean(ray.direction.y), clean(ray.direction.z)};
+}
 
 bool is_valid(const Ray& ray) {
     const auto fits = [](const glm::vec3& v) {
         // NaN fails every comparison.
-        return std::abs(v.x) < largest_component && std::abs(v.y) < largest_component &&
-               std::abs(v.z) < largest_component;
+        return std::abs(v.x) < largest_ray_component && std::abs(v.y) < largest_ray_component &&
+               std::abs(v.z) < largest_ray_component;
     };
-    return fits(ray.origin) && fits(ray.direction) && ray.near >= 0.0f && ray.near < largest_component &&
-           ray.far >= ray.near && (ray.direction.x != 0.0f || ray.direction.y != 0.0f || ray.direction.z != 0.0f);
+    return fits(ray.origin) && fits(ray.direction) && ray.near >= 0.0f && ray.near < largest_ray_component &&
+           ray.far >= ray.near && embree_direction(ray) != glm::vec3(0.0f);
 }
 
 RTCIntersectContext make_context(bool coherent) {
@@ -77,9 +82,10 @@ void fill_lane(Rays& packet, int* valid, int lane, const Ray* ray, PacketCounts&
     packet.org_x[lane] = r.origin.x;
     packet.org_y[lane] = r.origin.y;
     packet.org_z[lane] = r.origin.z;
-    packet.dir_x[lane] = r.direction.x;
-    packet.dir_y[lane] = r.direction.y;
-    packet.dir_z[lane] = r.direction.z;
+    const glm::vec3 direction = embree_direction(r);
+    packet.dir_x[lane] = direction.x;
+    packet.dir_y[lane] = direction.y;
+    packet.dir_z[lane] = direction.z;
     packet.tnear[lane] = r.near;
     packet.tfar[lane] = r.far;
     packet.time[lane] = 0.0f;
@@ -150,18 +156,9 @@ Hit Tracer::intersect(const Ray& ray) {
     ++traced_;
     RTCIntersectContext context = make_context(false);
     RTCRayHit query{};
-    query.ray = {ray.origin.x,
-                 ray.origin.y,
-                 ray.origin.z,
-                 ray.near,
-                 ray.direction.x,
-                 ray.direction.y,
-                 ray.direction.z,
-                 0.0f,
-                 ray.far,
-                 ~0u,
-                 0,
-                 0};
+    const glm::vec3 direction = embree_direction(ray);
+    query.ray = {ray.origin.x, ray.origin.y, ray.origin.z, ray.near, direction.x, direction.y,
+                 direction.z,  0.0f,         ray.far,      ~0u,      0,           0};
     query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
     query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
     rtcIntersect1(state_.top, &context, &query);
@@ -176,18 +173,9 @@ bool Tracer::occluded(const Ray& ray) {
     }
     ++traced_;
     RTCIntersectContext context = make_context(false);
-    RTCRay query = {ray.origin.x,
-                    ray.origin.y,
-                    ray.origin.z,
-                    ray.near,
-                    ray.direction.x,
-                    ray.direction.y,
-                    ray.direction.z,
-                    0.0f,
-                    ray.far,
-                    ~0u,
-                    0,
-                    0};
+    const glm::vec3 direction = embree_direction(ray);
+    RTCRay query = {ray.origin.x, ray.origin.y, ray.origin.z, ray.near, direction.x, direction.y,
+                    direction.z,  0.0f,         ray.far,      ~0u,      0,           0};
     rtcOccluded1(state_.top, &context, &query);
     return query.tfar < 0.0f;
 }

@@ -49,7 +49,7 @@ ShadingScene make_shading_scene(const Scene& scene, const SceneFrame& frame, con
         posed.translation = glm::vec3(glm::dvec3(world[3]) - anchor);
         posed.normals = glm::mat3(normal_matrix(world));
         // What rays leave out for want of volume (HARD_CASES RC-02) must not shine, nor count for the scene's size.
-        posed.visible = frame.visible[static_cast<std::size_t>(instance.node)] != 0 && has_full_rank(world);
+        posed.visible = frame.visible[static_cast<std::size_t>(instance.node)] != 0 && is_traceable(world, anchor);
         shading.instances.push_back(posed);
     }
     return shading;
