@@ -1,0 +1,203 @@
+// Render settings: every key there and back, and a refusal that names key and values for everything else.
+
+#include "render/settings.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <set>
+
+#include "engine/base/errors.h"
+
+namespace aleph {
+namespace {
+
+/// A value other than the default for every key.
+const std::map<std::string, SettingValue>& other_values() {
+    static const std::map<std::string, SettingValue> values{
+        {"size", "320x200"},      {"seed", 4294967295.0}, {"guide", "full"},         {"estimate", "flat"},
+        {"motion", "model"},      {"bands", "measured"},  {"grid", "center"},        {"neutral_opponent", true},
+        {"adapter", "scale-add"}, {"adapter_k", 50.0},    {"accuracy", 0.3},         {"gather", 64.0},
+        {"bounces", 0.0},         {"spp", 4.0},           {"sampling", "uniform"},   {"integrator", "cache"},
+        {"light_samples", 7.0},   {"shade_radius", 1.1},  {"min_radius_pixels", 2.5}};
+    return values;
+}
+
+/// What an error says, and that it names source and key.
+std::string refusal(const std::string& key, const SettingValue& value) {
+    RenderSettings settings;
+    try {
+        apply_settings(settings, {{key, value}}, "--set");
+    } catch (const InputError& e) {
+        EXPECT_EQ(e.file(), "--set");
+        EXPECT_EQ(e.place(), key);
+        EXPECT_EQ(settings, RenderSettings()) << "changed by a refused " << key;
+        return e.reason();
+    }
+    ADD_FAILURE() << key << " was taken";
+    return {};
+}
+
+TEST(Settings, EveryKeyRoundTrips) {
+    std::set<std::string> keys;
+    for (const SettingKey& key : setting_keys()) {
+        keys.insert(key.name);
+        EXPECT_FALSE(key.help.empty());
+        ASSERT_TRUE(other_values().contains(key.name)) << key.name;
+        RenderSettings settings;
+        apply_settings(settings, {{key.name, other_values().at(key.name)}}, "test");
+        const SettingMap map = setting_map(settings);
+        EXPECT_EQ(map.at(key.name), other_values().at(key.name)) << key.name;
+        // One key changes one thing.
+        const SettingMap defaults = setting_map(RenderSettings());
+        for (const auto& [name, value] : map) {
+            if (name != key.name) {
+                EXPECT_EQ(value, defaults.at(name)) << key.name << " changed " << name;
+            }
+        }
+        RenderSettings again;
+        apply_settings(again, map, "test");
+        EXPECT_EQ(again, settings) << key.name;
+    }
+    EXPECT_EQ(keys.size(), setting_keys().size()) << "a key is listed twice";
+    EXPECT_EQ(keys.size(), setting_map(RenderSettings()).size());
+}
+
+TEST(Settings, DefaultsAreDocumentedOnes) {
+    const SettingMap map = setting_map(RenderSettings());
+    EXPECT_EQ(map.at("size"), SettingValue("640x480"));
+    EXPECT_EQ(map.at("guide"), SettingValue("saliency"));
+    EXPECT_EQ(map.at("accuracy"), SettingValue(0.15));
+    EXPECT_EQ(map.at("gather"), SettingValue(1024.0));
+    EXPECT_EQ(map.at("spp"), SettingValue(16.0));
+    EXPECT_EQ(map.at("seed"), SettingValue(0.0));
+}
+
+TEST(Settings, FieldsReceiveWhatKeysSay) {
+    RenderSettings s;
+    apply_settings(s, SettingMap(other_values().begin(), other_values().end()), "test");
+    EXPECT_EQ(s.width, 320);
+    EXPECT_EQ(s.height, 200);
+    EXPECT_EQ(s.seed, 4294967295u);
+    EXPECT_EQ(s.perception.guide, Guide::full);
+    EXPECT_EQ(s.perception.bands, Bands::measured);
+    EXPECT_EQ(s.perception.grid, SaliencyGrid::center);
+    EXPECT_TRUE(s.perception.neutral_opponent);
+    EXPECT_EQ(s.estimate, EstimateKind::flat);
+    EXPECT_EQ(s.adapter, Adapter::scale_add);
+    EXPECT_EQ(s.adapter_k, 50.0);
+    EXPECT_EQ(s.accuracy, 0.3);
+    EXPECT_EQ(s.gather, 64);
+    EXPECT_EQ(s.bounces, 0);
+    EXPECT_EQ(s.spp, 4);
+    EXPECT_EQ(s.light_samples, 7);
+    EXPECT_EQ(s.shade_radius, 1.1);
+    EXPECT_EQ(s.min_radius_pixels, 2.5);
+}
+
+TEST(Settings, ChoicesNameWhatIsAllowed) {
+    EXPECT_EQ(refusal("guide", "everything"), "expected one of none, spatial, full, saliency");
+    EXPECT_EQ(refusal("guide", 1.0), "expected one of none, spatial, full, saliency");
+    EXPECT_EQ(refusal("estimate", ""), "expected one of flat, direct");
+    EXPECT_EQ(refusal("bands", "Printed"), "expected one of printed, measured");
+    EXPECT_EQ(refusal("grid", true), "expected one of full, center");
+    EXPECT_EQ(refusal("adapter", "scale_add"), "expected one of compress, scale-add");
+    EXPECT_EQ(refusal("neutral_opponent", "yes"), "expected true or false");
+    EXPECT_EQ(refusal("neutral_opponent", 1.0), "expected true or false");
+}
+
+TEST(Settings, LaterVersionsAreRefusedByName) {
+    EXPECT_EQ(refusal("motion", "image"), "not in this version; use model");
+    EXPECT_EQ(refusal("motion", "none"), "expected model");
+    for (const char* later : {"consecutive", "variance", "protocol"}) {
+        EXPECT_EQ(refusal("sampling", later), "not in this version; use uniform");
+    }
+    EXPECT_EQ(refusal("integrator", "path"), "not in this version; use cache");
+    EXPECT_EQ(refusal("integrator", 3.0), "expected cache");
+    EXPECT_EQ(refusal("bounces", 2.0), "expected a whole number from 0 to 1");
+}
+
+TEST(Settings, NumbersOutOfRangeOfAnyKind) {
+    const double nan_value = std::nan(""), infinite = std::numeric_limits<double>::infinity();
+    const std::map<std::string, std::vector<double>> bad{{"accuracy", {-0.01, 1.01, nan_value, infinite, -infinite}},
+                                                         {"adapter_k", {0.0, -1.0, nan_value, infinite}},
+                                                         {"gather", {3.0, 16.5, 1e7, -4.0, nan_value, infinite}},
+                                                         {"bounces", {-1.0, 0.5, nan_value}},
+                                                         {"spp", {0.0, 1.5, 65537.0, nan_value, infinite}},
+                                                         {"light_samples", {0.0, nan_value, 1e9}},
+                                                         {"seed", {-1.0, 4294967296.0, 0.5, nan_value}},
+                                                         {"shade_radius", {0.99, 2.01, nan_value}},
+                                                         {"min_radius_pixels", {0.0, -1.0, 1001.0, nan_value}}};
+    for (const auto& [key, values] : bad) {
+        for (const double value : values) EXPECT_NE(refusal(key, value).find(" from "), std::string::npos) << key;
+        EXPECT_NE(refusal(key, "1").find(" from "), std::string::npos) << key << " as text";
+        EXPECT_NE(refusal(key, true).find(" from "), std::string::npos) << key << " as true";
+    }
+    EXPECT_EQ(refusal("accuracy", 2.0), "expected a number from 0 to 1");
+}
+
+TEST(Settings, Sizes) {
+    for (const char* text : {"", "x", "640", "640x", "x480", "640x480x3", "640X480", " 640x480", "640x480 ", "-1x5",
+                             "0x5", "5x0", "1e3x5", "70000x1", "99999999999x1", "6.5x4", "640*480"}) {
+        EXPECT_NE(refusal("size", text).find("WIDTHxHEIGHT"), std::string::npos) << text;
+    }
+    EXPECT_NE(refusal("size", 640.0).find("WIDTHxHEIGHT"), std::string::npos);
+    EXPECT_NE(refusal("size", "65536x65536").find("2^28"), std::string::npos);
+    RenderSettings settings;
+    apply_settings(settings, {{"size", "1x65536"}}, "test");
+    EXPECT_EQ(settings.height, 65536);
+}
+
+TEST(Settings, UnknownKeysListTheKnown) {
+    RenderSettings settings;
+    try {
+        apply_settings(settings, {{"acuracy\x01", 0.1}}, "scene.json");
+        FAIL();
+    } catch (const InputError& e) {
+        EXPECT_EQ(e.file(), "scene.json");
+        EXPECT_NE(e.place().find("acuracy"), std::string::npos);
+        EXPECT_EQ(e.place().find('\x01'), std::string::npos);
+        for (const SettingKey& key : setting_keys()) EXPECT_NE(e.reason().find(key.name), std::string::npos);
+    }
+}
+
+TEST(Settings, ValidateChecksStructsFilledByHand) {
+    RenderSettings settings;
+    EXPECT_NO_THROW(validate(settings));
+    settings.accuracy = std::nan("");
+    EXPECT_THROW(validate(settings), InputError);
+    settings = {};
+    settings.width = 0;
+    EXPECT_THROW(validate(settings), InputError);
+    settings = {};
+    settings.gather = 0;
+    EXPECT_THROW(validate(settings), InputError);
+    settings = {};
+    settings.adapter = static_cast<Adapter>(9);
+    EXPECT_THROW(validate(settings), InputError);
+}
+
+TEST(Settings, ParseTellsTextNumbersAndTruth) {
+    SettingMap map;
+    for (const char* text :
+         {"a=1", "b=-2.5e3", "c=true", "d=false", "e=640x480", "f=", "g=1=2", "h= 1", "i=1,5", "j=0x10"}) {
+        parse_setting(text, map);
+    }
+    EXPECT_EQ(map.at("a"), SettingValue(1.0));
+    EXPECT_EQ(map.at("b"), SettingValue(-2500.0));
+    EXPECT_EQ(map.at("c"), SettingValue(true));
+    EXPECT_EQ(map.at("d"), SettingValue(false));
+    EXPECT_EQ(map.at("e"), SettingValue("640x480"));
+    EXPECT_EQ(map.at("f"), SettingValue(""));
+    EXPECT_EQ(map.at("g"), SettingValue("1=2"));
+    EXPECT_EQ(map.at("h"), SettingValue(" 1"));
+    EXPECT_EQ(map.at("i"), SettingValue("1,5"));
+    EXPECT_EQ(map.at("j"), SettingValue("0x10"));
+    EXPECT_THROW(parse_setting("accuracy", map), InputError);
+    EXPECT_THROW(parse_setting("=1", map), InputError);
+    parse_setting("a=3", map);
+    EXPECT_EQ(map.at("a"), SettingValue(3.0));  // the last one counts
+}
+
+}  // namespace
+}  // namespace aleph
