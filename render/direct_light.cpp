@@ -84,7 +84,7 @@ Rgb sample_glossy_light(const LightingContext& context, Tracer& tracer, const Su
         if (emitter == no_index) return Rgb(0.0f);
         const SurfacePoint lamp = make_surface_point(context.shading, hit, direction);
         incoming = evaluate_material(context.shading, lamp).emission;
-        light_pdf = pdf_emitter(context.lights.emitters[static_cast<std::size_t>(emitter)],
+        light_pdf = pdf_emitter(context.lights.emitters[static_cast<std::size_t>(emitter)], point.ray_origin(),
                                 std::abs(glm::dot(lamp.geometric, direction)), hit.distance);
     }
     return evaluate_glossy(material, local_view, local) * incoming * (local.z / pdf * power_heuristic(pdf, light_pdf));

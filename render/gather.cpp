@@ -137,6 +137,18 @@ void set_mean_distance(const std::vector<float>& distances, float shortest, Irra
     out.harmonic_mean_distance = sum > 0.0 ? static_cast<float>(mean) : infinite;
 }
 
+/// From the row next to the horizon: a wall that a neighbour of this point may hide behind stands in it.
+void set_clearance(const HemisphereStrata& strata, const Basis& basis, const GatherScratch& scratch, float shortest,
+                   IrradianceSample& out) {
+    out.clearance.fill(infinite);
+    for (std::size_t i = static_cast<std::size_t>((strata.rows - 1) * strata.columns); i < scratch.rays.size(); ++i) {
+        const glm::vec3 local = basis.to_local(scratch.rays[i].direction);
+        if (scratch.distances[i] < shortest) continue;
+        float& clear = out.clearance[octant_of(local.x, local.y)];
+        clear = std::min(clear, scratch.distances[i] * std::sqrt(local.x * local.x + local.y * local.y));
+    }
+}
+
 }  // namespace
 
 HemisphereStrata choose_strata(int samples) {
@@ -206,6 +218,7 @@ IrradianceSample gather_irradiance(const LightingContext& context, Tracer& trace
     out.irradiance = Rgb(sum * (std::numbers::pi / static_cast<double>(count)));
     const float shortest = shortest_true_distance(scratch);
     set_mean_distance(scratch.distances, shortest, out);
+    set_clearance(strata, basis, scratch, shortest, out);
     add_gradients(strata, basis, scratch, std::max(shortest, smallest_distance), out);
     return out;
 }

@@ -2,12 +2,21 @@
 // One irradiance value: rays over the hemisphere, the light they bring, and how it changes around the point.
 
 #include <array>
+#include <cmath>
 #include <glm/vec3.hpp>
+#include <limits>
 #include <vector>
 
 #include "render/direct_light.h"
 
 namespace aleph {
+
+/// Nothing stands near, in any octant of azimuth.
+constexpr std::array<float, 8> unlimited_clearance() {
+    std::array<float, 8> all{};
+    all.fill(std::numeric_limits<float>::infinity());
+    return all;
+}
 
 /// Indirect irradiance at a point with its gradients (Ward and Heckbert 1992, "Irradiance Gradients").
 struct IrradianceSample {
@@ -15,8 +24,16 @@ struct IrradianceSample {
     std::array<glm::vec3, 3> rotation_gradient{};     ///< per colour channel: dE = dot(cross(N_i, N), gradient)
     std::array<glm::vec3, 3> translation_gradient{};  ///< per colour channel, per m, in the tangent plane
     float harmonic_mean_distance = 0.0f;              ///< m (6.5); infinite where nothing was met
+    /// How far the tangent plane is free, by octants of azimuth (octant_of), m: nearest hit of the lowest row of
+    /// strata.
+    std::array<float, 8> clearance = unlimited_clearance();
     int ignored_distances = 0;  ///< hits too near to be true, left out of the mean (HARD_CASES IC-05)
 };
+
+/// Octant of azimuth of a direction with these tangent-plane coordinates, 0 to 7, in no particular order.
+inline std::size_t octant_of(float x, float y) {
+    return static_cast<std::size_t>((x < 0.0f ? 1 : 0) | (y < 0.0f ? 2 : 0) | (std::abs(x) < std::abs(y) ? 4 : 0));
+}
 
 /// How a hemisphere is cut: rows in elevation, columns in azimuth, columns about pi times rows.
 struct HemisphereStrata {

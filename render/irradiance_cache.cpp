@@ -34,6 +34,8 @@ IrradianceRecord make_record(const glm::vec3& position, const glm::vec3& normal,
     record.smallest_radius = bounds.smallest;
     record.radius =
         std::clamp(sample.harmonic_mean_distance, bounds.smallest, std::max(bounds.smallest, bounds.largest));
+    record.tangent = make_basis(normal).tangent;
+    record.clearance = sample.clearance;
     for (std::size_t c = 0; c < 3; ++c) {
         const float irradiance = sample.irradiance[static_cast<int>(c)];
         record.translation_gradient[c] = limit_gradient(sample.translation_gradient[c], irradiance, record.radius);
@@ -46,6 +48,10 @@ float interpolation_error(const IrradianceRecord& record, const glm::vec3& posit
     if (!(glm::dot(normal, record.normal) > 0.0f)) return infinite;
     const glm::vec3 offset = position - record.position;
     if (glm::dot(offset, normal + record.normal) * 0.5f < -0.05f * record.radius) return infinite;
+    const float x = glm::dot(offset, record.tangent);
+    const float y = glm::dot(offset, glm::cross(record.normal, record.tangent));
+    const float clear = record.clearance[octant_of(x, y)];
+    if (x * x + y * y > clear * clear) return infinite;
     constexpr float inverse_root_two = 0.70710678f;
     return glm::length(offset) / record.radius + glm::length(normal - record.normal) * inverse_root_two;
 }

@@ -22,6 +22,10 @@ struct IrradianceRecord {
     float smallest_radius = 0.0f;  ///< neighbour clamping stops here
     std::array<glm::vec3, 3> rotation_gradient{};
     std::array<glm::vec3, 3> translation_gradient{};
+    glm::vec3 tangent{0.0f};  ///< of make_basis(normal), for the octants of `clearance`
+    /// How far it reaches along its tangent plane by octants, m: not behind the wall that stands there, however its
+    /// radius was set (HARD_CASES IC-08, IC-09).
+    std::array<float, 8> clearance = unlimited_clearance();
 };
 
 /// Where irradiance is asked for.
@@ -43,7 +47,8 @@ IrradianceRecord make_record(const glm::vec3& position, const glm::vec3& normal,
 
 /// Error term of (6.2), the inverse of the weight: |P - P_i| / R_i + |N - N_i| / sqrt 2. The second is
 /// sqrt(1 - N.N_i) without its cancellation (HARD_CASES IC-01, IC-02). Infinite where the record must not be used:
-/// its normal faces away (IC-09), or it lies in front of the point (IC-08).
+/// its normal faces away (IC-09), it lies in front of the point (IC-08), or a wall may
+/// stand between.
 float interpolation_error(const IrradianceRecord& record, const glm::vec3& position, const glm::vec3& normal);
 
 /// What a record says about a place: its value, moved by its gradients, within [0, 2 E_i].

@@ -1,12 +1,15 @@
 #include "render/lights.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <span>
 
 #include "engine/base/sampling.h"
 #include "render/bsdf.h"
+#include "render/spherical_triangle.h"
 #include "render/texture.h"
 
 namespace aleph {
@@ -15,6 +18,13 @@ namespace {
 
 /// Shadow rays stop this share of the distance before the light, so that they do not meet it.
 constexpr float shadow_end = 1.0f - 1e-4f;
+
+/// Lights of at most so many triangles are sampled by solid angle where they are near.
+constexpr std::size_t most_spherical = 4;
+
+float pdf_by_area(const Emitter& emitter, float cos_at_light, float distance) {
+    return distance * distance / (cos_at_light * emitter.area);
+}
 
 Emitter make_emitter(const PosedInstance& instance, const ShadingMaterial& material, int index) {
     Emitter emitter;
@@ -39,20 +49,87 @@ Emitter make_emitter(const PosedInstance& instance, const ShadingMaterial& mater
             {instance.linear * p0 + instance.translation, edge1, edge2, normal / length, static_cast<int>(i)});
     }
     emitter.area = static_cast<float>(area);
+    for (const Emitter::Triangle& t : emitter.triangles) {
+        emitter.center += (t.corner + (t.edge1 + t.edge2) / 3.0f) / static_cast<float>(emitter.triangles.size());
+    }
+    for (const Emitter::Triangle& t : emitter.triangles) {
+        for (const glm::vec3& corner : {t.corner, t.corner + t.edge1, t.corner + t.edge2}) {
+            emitter.radius = std::max(emitter.radius, glm::length(corner - emitter.center));
+        }
+    }
     for (const double a : cumulative) emitter.cumulative_area.push_back(static_cast<float>(a / area));
     return emitter;
 }
 
+/// How much of the sky each triangle of a small light fills, seen from the side that shines.
+struct SolidAngles {
+    std::array<float, most_spherical> of{};
+    float total = 0.0f;  ///< 0: too many triangles, or too far away to tell
+};
+
+/// From this solid angle on, sampling by area is the noisier way, and float angles are fine enough.
+constexpr float smallest_solid_angle = 0.1f;
+
+SolidAngles find_solid_angles(const Emitter& emitter, const glm::vec3& position) {
+    SolidAngles angles;
+    if (emitter.triangles.size() > most_spherical) return angles;
+    const glm::vec3 away = emitter.center - position;
+    const float nearest = std::max(0.0f, glm::length(away) - emitter.radius);
+    if (emitter.area < smallest_solid_angle * nearest * nearest) return angles;
+    for (std::size_t i = 0; i < emitter.triangles.size(); ++i) {
+        const Emitter::Triangle& t = emitter.triangles[i];
+        const glm::vec3 corner = t.corner - position;
+        if (!emitter.double_sided && !(glm::dot(corner, t.normal) < 0.0f)) continue;
+        angles.of[i] = solid_angle(corner, corner + t.edge1, corner + t.edge2);
+        angles.total += angles.of[i];
+    }
+    if (!(angles.total > smallest_solid_angle)) angles.total = 0.0f;
+    return angles;
+}
+
+/// Barycentric (b1, b2) of where a direction meets the triangle's plane, clamped into the triangle.
+glm::vec2 meet_triangle(const Emitter::Triangle& t, const glm::vec3& position, const glm::vec3& direction) {
+    const glm::vec3 p = glm::cross(direction, t.edge2), s = position - t.corner;
+    const float determinant = glm::dot(t.edge1, p);
+    if (determinant == 0.0f) return {1.0f / 3.0f, 1.0f / 3.0f};
+    glm::vec2 b(glm::dot(s, p) / determinant, glm::dot(direction, glm::cross(s, t.edge1)) / determinant);
+    b = glm::clamp(b, glm::vec2(0.0f), glm::vec2(1.0f));
+    return b.x + b.y > 1.0f ? b / (b.x + b.y) : b;
+}
+
+/// Which of several parts u falls into, given where each ends; u is stretched to [0,1) within it.
+std::size_t choose_part(std::span<const float> ends, float& u) {
+    std::size_t i = 0;
+    if (ends.size() > most_spherical) {
+        i = static_cast<std::size_t>(std::upper_bound(ends.begin(), ends.end(), u) - ends.begin());
+    } else {
+        while (i < ends.size() && ends[i] <= u) ++i;
+    }
+    i = std::min(i, ends.size() - 1);
+    const float low = i == 0 ? 0.0f : ends[i - 1];
+    const float width = ends[i] - low;
+    u = width > 0.0f ? std::clamp((u - low) / width, 0.0f, 0x1.fffffep-1f) : 0.0f;
+    return i;
+}
+
 LightSample sample_emitter(const ShadingScene& shading, const Emitter& emitter, const glm::vec3& position,
-                           const glm::vec2& u) {
-    const auto found = std::upper_bound(emitter.cumulative_area.begin(), emitter.cumulative_area.end(), u.x);
-    const std::size_t i =
-        std::min(static_cast<std::size_t>(found - emitter.cumulative_area.begin()), emitter.triangles.size() - 1);
-    const float low = i == 0 ? 0.0f : emitter.cumulative_area[i - 1];
-    const float width = emitter.cumulative_area[i] - low;
-    const float reused = width > 0.0f ? std::clamp((u.x - low) / width, 0.0f, 0x1.fffffep-1f) : 0.0f;
-    const glm::vec2 b = sample_triangle({reused, u.y});
-    const Emitter::Triangle& triangle = emitter.triangles[i];
+                           glm::vec2 u) {
+    const SolidAngles angles = find_solid_angles(emitter, position);
+    std::size_t chosen = 0;
+    glm::vec2 b;
+    if (angles.total > 0.0f) {
+        std::array<float, most_spherical> ends{};
+        float sum = 0.0f;
+        for (std::size_t i = 0; i < emitter.triangles.size(); ++i) ends[i] = (sum += angles.of[i]) / angles.total;
+        chosen = choose_part(std::span(ends.data(), emitter.triangles.size()), u.x);
+        const Emitter::Triangle& t = emitter.triangles[chosen];
+        const glm::vec3 corner = t.corner - position;
+        b = meet_triangle(t, position, sample_spherical_triangle(corner, corner + t.edge1, corner + t.edge2, u));
+    } else {
+        chosen = choose_part(emitter.cumulative_area, u.x);
+        b = sample_triangle(u);
+    }
+    const Emitter::Triangle& triangle = emitter.triangles[chosen];
     const glm::vec3 to_light = triangle.corner + triangle.edge1 * b.x + triangle.edge2 * b.y - position;
     const float distance2 = glm::dot(to_light, to_light);
     LightSample sample;
@@ -63,7 +140,7 @@ LightSample sample_emitter(const ShadingScene& shading, const Emitter& emitter, 
     if (emitter.double_sided) cosine = std::abs(cosine);
     if (!(cosine > 0.0f)) return sample;
     sample.distance = distance * shadow_end;
-    sample.pdf = pdf_emitter(emitter, cosine, distance);
+    sample.pdf = angles.total > 0.0f ? 1.0f / angles.total : pdf_by_area(emitter, cosine, distance);
     Rgb radiance = emitter.radiance;
     if (emitter.textured) {
         const Hit hit{emitter.instance, triangle.primitive, b.x, b.y, distance};
@@ -98,8 +175,10 @@ LightSample sample_punctual(const PunctualLight& light, const glm::vec3& positio
 
 }  // namespace
 
-float pdf_emitter(const Emitter& emitter, float cos_at_light, float distance) {
-    return cos_at_light > 0.0f ? distance * distance / (cos_at_light * emitter.area) : 0.0f;
+float pdf_emitter(const Emitter& emitter, const glm::vec3& position, float cos_at_light, float distance) {
+    if (!(cos_at_light > 0.0f)) return 0.0f;
+    const SolidAngles angles = find_solid_angles(emitter, position);
+    return angles.total > 0.0f ? 1.0f / angles.total : pdf_by_area(emitter, cos_at_light, distance);
 }
 
 LightSet make_light_set(const ShadingScene& shading) {

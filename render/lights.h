@@ -19,8 +19,10 @@ struct Emitter {
     int instance = no_index;
     bool double_sided = false;
     bool textured = false;
-    Rgb radiance{0.0f};  ///< without texture
-    float area = 0.0f;   ///< m2, of all triangles
+    Rgb radiance{0.0f};      ///< without texture
+    float area = 0.0f;       ///< m2, of all triangles
+    glm::vec3 center{0.0f};  ///< m, of a sphere about all triangles
+    float radius = 0.0f;     ///< m
     std::vector<Triangle> triangles;
     std::vector<float> cumulative_area;  ///< share of the area up to and with each triangle
 };
@@ -60,7 +62,8 @@ struct LightSample {
 LightSample sample_light(const ShadingScene& shading, const LightSet& lights, int light, const glm::vec3& position,
                          const glm::vec3& normal, const glm::vec2& u);
 
-/// Density with which sample_light finds an emitter's point at `distance` along `direction`.
-float pdf_emitter(const Emitter& emitter, float cos_at_light, float distance);
+/// Density per solid angle with which sample_light, at `position`, finds an emitter's point at `distance` that faces
+/// back with this cosine. Emitters of few triangles are sampled by solid angle where they are near, else by area.
+float pdf_emitter(const Emitter& emitter, const glm::vec3& position, float cos_at_light, float distance);
 
 }  // namespace aleph

@@ -135,26 +135,27 @@ void expect_dark(const DarkRoom& found) {
     EXPECT_GT(found.darkest_lit, 0.01f);
 }
 
+// Ward's criterion and the smallest radius alone leak here: a record knows by its octants where a wall stands. Octants
+// are coarse: at loose accuracies a wall met aslant may let single pixels through.
+void expect_nearly_dark(const DarkRoom& found) {
+    EXPECT_LE(50 * found.leaking, found.dark);
+    EXPECT_GT(found.darkest_lit, 0.01f);
+}
+
 TEST(IrradianceCache, IC08_TheDarkRoomStaysDark) {
-    expect_dark(render_two_rooms(0.1, 0.0, 4.0));
-    expect_dark(render_two_rooms(0.1, 0.05, 0.1));
-    expect_dark(render_two_rooms(0.1, 0.15, 0.1));
+    for (const double accuracy : {0.0, 0.05, 0.15}) {
+        SCOPED_TRACE(accuracy);
+        expect_dark(render_two_rooms(0.1, accuracy, 4.0));
+    }
+    for (const double accuracy : {0.3, 0.5, 1.0}) expect_nearly_dark(render_two_rooms(0.1, accuracy, 4.0));
 }
 
 TEST(IrradianceCache, IC09_BehindAThinWallStaysDark) {
-    expect_dark(render_two_rooms(1e-4, 0.0, 4.0));
-    expect_dark(render_two_rooms(1e-4, 0.05, 0.1));
-    expect_dark(render_two_rooms(1e-4, 0.15, 0.1));
-}
-
-TEST(IrradianceCache, IC08_TheSmallestRadiusLeaksNoFartherThanItsPixels) {
-    // At 4 pixels a record beside the wall reaches through it, along floor and side walls: 4 times 1.4 for shading.
-    for (const double thickness : {0.1, 1e-4}) {
-        const DarkRoom found = render_two_rooms(thickness, 0.15, 4.0);
-        const double pixel = 2.0 * std::tan(0.45) * 4.0 / 48.0;  // m on the floor, where pixels are largest
-        EXPECT_LE(found.farthest, 4.0 * 1.4 * pixel);
-        EXPECT_GT(found.darkest_lit, 0.01f);
+    for (const double accuracy : {0.0, 0.05, 0.15}) {
+        SCOPED_TRACE(accuracy);
+        expect_dark(render_two_rooms(1e-4, accuracy, 4.0));
     }
+    for (const double accuracy : {0.3, 0.5, 1.0}) expect_nearly_dark(render_two_rooms(1e-4, accuracy, 4.0));
 }
 
 TEST(IrradianceCache, IC10_WindingDoesNotMatterToATwoSidedSurface) {
@@ -230,7 +231,7 @@ TEST(IrradianceCache, IC12_AccuracyOneRendersWithFewRecords) {
     const Stage stage(make_room(), 64, 48);
     const ShadedFrame coarse = shade(stage, plain_settings(1.0, 64)), fine = shade(stage, plain_settings(0.1, 64));
     EXPECT_GT(coarse.record_count, 5u);
-    EXPECT_LT(4 * coarse.record_count, fine.record_count);
+    EXPECT_LT(2 * coarse.record_count, fine.record_count);  // walls near by limit a record at any accuracy
     EXPECT_EQ(coarse.invalid_count, 0u);
 }
 

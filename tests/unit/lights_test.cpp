@@ -1,6 +1,7 @@
 // What shines: emissive instances as lists of triangles, their densities, punctual lights, the environment.
 
 #include "render/lights.h"
+#include "render/spherical_triangle.h"
 
 #include <gtest/gtest.h>
 
@@ -75,8 +76,57 @@ TEST(Lights, DensityMeasuresTheSolidAngle) {
         side.add(sample.direction.x * sample.distance);
     }
     const double a = 1.0 / 1.5;  // half size over height
-    EXPECT_NEAR(solid_angle.mean(), 4.0 * std::asin(a * a / (1.0 + a * a)), 3.0 * solid_angle.error());
+    // So near a lamp is sampled by solid angle: 1 / pdf does not vary at all.
+    EXPECT_NEAR(solid_angle.mean(), 4.0 * std::asin(a * a / (1.0 + a * a)), 1e-6);
+    EXPECT_LT(solid_angle.error(), 1e-6);
     EXPECT_NEAR(side.mean(), 0.0, 3.0 * side.error());
+}
+
+TEST(Lights, FarLampsAreSampledByAreaWithTheSameMean) {
+    const double height = 9.0, a = 1.0 / height;
+    const Stage stage(make_lamp_scene(2.0, height));
+    std::mt19937 engine(7);
+    std::uniform_real_distribution<float> unit(0.0f, 0x1.fffffep-1f);
+    Mean solid_angle;
+    for (int i = 0; i < 100'000; ++i) {
+        solid_angle.add(
+            1.0 / sample_light(stage.shading, stage.lights, 0, glm::vec3(0.0f), up, {unit(engine), unit(engine)}).pdf);
+    }
+    EXPECT_GT(solid_angle.error(), 0.0);
+    EXPECT_NEAR(solid_angle.mean(), 4.0 * std::asin(a * a / (1.0 + a * a)), 3.0 * solid_angle.error());
+}
+
+TEST(Lights, SphericalTriangleIsUniformInSolidAngle) {
+    // Moments of the direction against a fine grid over the triangle, each cell weighted by its solid angle.
+    const glm::vec3 corners[3] = {{-1.0f, 0.3f, 0.6f}, {1.2f, -0.4f, 0.9f}, {0.1f, 1.5f, 0.5f}};
+    glm::dvec3 truth(0.0);
+    double total = 0.0;
+    constexpr int n = 400;
+    const glm::dvec3 p(corners[0]), e1(corners[1] - corners[0]), e2(corners[2] - corners[0]);
+    const glm::dvec3 normal = glm::cross(e1, e2);
+    for (int i = 0; i < n; ++i) {
+        for (int k = 0; k + i < n; ++k) {
+            for (const double third : {1.0 / 3.0, 2.0 / 3.0}) {
+                if (third > 0.5 && i + k + 2 > n) continue;
+                const glm::dvec3 at = p + e1 * ((i + third) / n) + e2 * ((k + third) / n);
+                const double r = glm::length(at);
+                const double weight = std::abs(glm::dot(normal, at)) / (r * r * r) * 0.5 / n / n;
+                truth += at / r * weight;
+                total += weight;
+            }
+        }
+    }
+    EXPECT_NEAR(solid_angle(corners[0], corners[1], corners[2]), total, 1e-4 * total);
+    std::mt19937 engine(8);
+    std::uniform_real_distribution<float> unit(0.0f, 0x1.fffffep-1f);
+    Mean mean[3];
+    for (int i = 0; i < 100'000; ++i) {
+        const glm::vec3 d = sample_spherical_triangle(corners[0], corners[1], corners[2], {unit(engine), unit(engine)});
+        ASSERT_NEAR(glm::length(d), 1.0f, 1e-5f);
+        for (int c = 0; c < 3; ++c) mean[c].add(d[c]);
+    }
+    for (int c = 0; c < 3; ++c) EXPECT_NEAR(mean[c].mean(), truth[c] / total, 3.0 * mean[c].error()) << c;
+    EXPECT_EQ(solid_angle({1.0f, 0.0f, 0.0f}, {2.0f, 0.0f, 0.0f}, {0.0f, 1.0f, 0.0f}), 0.0f);
 }
 
 TEST(Lights, TexturedLampHasTheTexturesMeanPower) {
@@ -104,8 +154,8 @@ TEST(Lights, TexturedLampHasTheTexturesMeanPower) {
 TEST(Lights, WhatCannotBeSeenBringsNothing) {
     const Stage stage(make_lamp_scene(2.0, 1.5));
     EXPECT_EQ(sample_light(stage.shading, stage.lights, 0, {0.0f, 3.0f, 0.0f}, up, {0.3f, 0.4f}).incoming, Rgb(0.0f));
-    EXPECT_EQ(pdf_emitter(stage.lights.emitters[0], 0.0f, 1.0f), 0.0f);
-    EXPECT_EQ(pdf_emitter(stage.lights.emitters[0], -1.0f, 1.0f), 0.0f);
+    EXPECT_EQ(pdf_emitter(stage.lights.emitters[0], {}, 0.0f, 1.0f), 0.0f);
+    EXPECT_EQ(pdf_emitter(stage.lights.emitters[0], {}, -1.0f, 1.0f), 0.0f);
     Scene scene;
     add_light(scene, Light::Kind::point, glm::dvec3(1.0), {0.0, 0.0, 0.0});
     const Stage at_light(std::move(scene));
