@@ -156,10 +156,11 @@ HemisphereStrata choose_strata(int samples) {
     double best_cost = 1e30;
     for (int rows = 1; rows * rows <= samples; ++rows) {
         const int columns = samples / rows;
-        // Cells as wide as high near the horizon at columns = pi rows; a lost sample costs like a skewed cell.
+        // Cells as wide as high near the horizon at columns = pi rows; but what was asked for is what should be spent,
+        // so cells may be up to 1.6 times too wide or narrow before a sample is dropped.
         const double skew = std::abs(std::log(columns / (std::numbers::pi * rows)));
         const double lost = static_cast<double>(samples - rows * columns) / samples;
-        const double cost = skew + 8.0 * lost;
+        const double cost = skew + (lost > 0.0 ? 0.5 + 100.0 * lost : 0.0);
         if (cost < best_cost) {
             best_cost = cost;
             best = {rows, columns};

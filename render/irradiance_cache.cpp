@@ -108,14 +108,15 @@ int IrradianceCache::find_or_add_cell(const glm::vec3& position, float radius) {
 
 /// Calls visit_record(index) for every record that may lie within reach_factor * its radius + extra_reach of the
 /// position, until it returns false.
-template <class Visit>
+template <class VisitRecord, class VisitCell>
 void IrradianceCache::visit(const glm::vec3& position, float reach_factor, float extra_reach,
-                            const Visit& visit_record) const {
+                            const VisitRecord& visit_record, const VisitCell& visit_cell) const {
     int stack[deepest_level * 8 + 8];
     int top = 0;
     stack[top++] = 0;
     while (top > 0) {
         const Cell& cell = cells_[static_cast<std::size_t>(stack[--top])];
+        visit_cell();
         for (int record = cell.first_record; record >= 0; record = next_[static_cast<std::size_t>(record)]) {
             if (!visit_record(record)) return;
         }
@@ -129,6 +130,20 @@ void IrradianceCache::visit(const glm::vec3& position, float reach_factor, float
             }
         }
     }
+}
+
+template <class VisitRecord>
+void IrradianceCache::visit(const glm::vec3& position, float reach_factor, float extra_reach,
+                            const VisitRecord& visit_record) const {
+    visit(position, reach_factor, extra_reach, visit_record, [] {});
+}
+
+std::size_t IrradianceCache::look_up_cost(const CacheQuery& query) const {
+    std::size_t touched = 0;
+    const auto count = [&] { ++touched; };
+    visit(
+        query.position, std::min(query.accuracy, 1.0f), 0.0f, [&](int) { return ++touched > 0; }, count);
+    return touched;
 }
 
 float IrradianceCache::radius_bound(const glm::vec3& position, const glm::vec3& normal, float largest) const {

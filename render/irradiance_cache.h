@@ -72,6 +72,9 @@ class IrradianceCache {
     /// The largest radius that neighbour clamping would leave a record here, if it asked for `largest`.
     float radius_bound(const glm::vec3& position, const glm::vec3& normal, float largest) const;
 
+    /// Cells and records that a look-up touches: what its time is proportional to.
+    std::size_t look_up_cost(const CacheQuery& query) const;
+
     const std::vector<IrradianceRecord>& records() const { return records_; }
 
   private:
@@ -85,8 +88,11 @@ class IrradianceCache {
 
     int find_or_add_cell(const glm::vec3& position, float radius);
     void clamp_to_neighbours(IrradianceRecord& record);
-    template <class Visit>
-    void visit(const glm::vec3& position, float reach_factor, float extra_reach, const Visit& visit_record) const;
+    template <class VisitRecord, class VisitCell>
+    void visit(const glm::vec3& position, float reach_factor, float extra_reach, const VisitRecord& visit_record,
+               const VisitCell& visit_cell) const;
+    template <class VisitRecord>
+    void visit(const glm::vec3& position, float reach_factor, float extra_reach, const VisitRecord& visit_record) const;
 
     std::vector<IrradianceRecord> records_;
     std::vector<int> next_;

@@ -39,8 +39,9 @@ Entry number_entry(std::string name, std::string help, Number RenderSettings::*f
 template <class Enum, class Field>
 Entry choice_entry(std::string name, std::string help, Field field, std::vector<std::pair<std::string, Enum>> choices) {
     const auto get = [=](const RenderSettings& s) {
+        RenderSettings copy = s;  // `field` gives a reference to write through
         for (const auto& [text, value] : choices) {
-            if (value == field(const_cast<RenderSettings&>(s))) return SettingValue(text);
+            if (value == field(copy)) return SettingValue(text);
         }
         return SettingValue(std::string());
     };

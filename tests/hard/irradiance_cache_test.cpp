@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <chrono>
 #include <limits>
 #include <random>
 
@@ -249,8 +248,9 @@ TEST(IrradianceCache, IC15_EmptyAndOneRecord) {
     EXPECT_FALSE(cache.covers({glm::vec3(0.5f), up, 0.0f}));  // accuracy 0 accepts nothing
 }
 
-/// s per look-up in a cache of so many records on a square, each reaching a few of its neighbours.
-double time_lookups(int side) {
+/// Cells and records touched per look-up in a cache of so many records on a square, each reaching a few of its
+/// neighbours. Counted, not timed: machines are noisy.
+double mean_look_up_cost(int side) {
     IrradianceCache cache(glm::vec3(0.0f), glm::vec3(1.0f));
     Randoms random;
     const glm::vec3 up(0.0f, 1.0f, 0.0f);
@@ -259,25 +259,21 @@ double time_lookups(int side) {
         const glm::vec3 corner(static_cast<float>(i % side), 0.0f, static_cast<float>(i / side));
         cache.insert(make_plain_record((corner + glm::vec3(0.5f, 0.0f, 0.5f)) * spacing, up, 2.0f * spacing));
     }
-    std::vector<CacheQuery> queries;
+    double touched = 0.0;
     for (int i = 0; i < 20'000; ++i) {
-        queries.push_back({{random.uniform(0.0f, 1.0f), 0.0f, random.uniform(0.0f, 1.0f)}, up, 0.75f});
+        const CacheQuery query{{random.uniform(0.0f, 1.0f), 0.0f, random.uniform(0.0f, 1.0f)}, up, 0.75f};
+        const std::optional<Rgb> found = cache.interpolate(query);
+        EXPECT_TRUE(found.has_value());
+        EXPECT_NEAR(found->x, 1.0f, 1e-4f);
+        touched += static_cast<double>(cache.look_up_cost(query));
     }
-    std::vector<double> times;
-    for (int run = 0; run < 7; ++run) {
-        const auto start = std::chrono::steady_clock::now();
-        double sum = 0.0;
-        for (const CacheQuery& query : queries) sum += cache.interpolate(query)->x;
-        times.push_back(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
-        EXPECT_NEAR(sum, 20'000.0, 1.0);
-    }
-    std::sort(times.begin(), times.end());
-    return times[3] / 20'000.0;
+    return touched / 20'000.0;
 }
 
 TEST(IrradianceCache, IC15_LookUpsInAMillionRecords) {
-    const double thousand = time_lookups(32), million = time_lookups(1000);
-    EXPECT_LT(million, 10.0 * thousand);
+    const double thousand = mean_look_up_cost(32), million = mean_look_up_cost(1000);
+    EXPECT_GT(thousand, 4.0);
+    EXPECT_LT(million, 4.0 * thousand);  // the logarithms of their numbers are as 2 to 1
 }
 
 }  // namespace

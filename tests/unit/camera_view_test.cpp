@@ -102,13 +102,13 @@ TEST(CameraView, RefusesWhatIsNoCamera) {
 TEST(CameraView, AnchorLiesOnTheGridNearTheCamera) {
     CameraView view;
     EXPECT_EQ(compute_anchor(view), glm::dvec3(0.0));
-    view.position = {31.9, -31.9, 32.1};
-    EXPECT_EQ(compute_anchor(view), glm::dvec3(0.0, 0.0, 64.0));
+    view.position = {7.9, -7.9, 8.1};
+    EXPECT_EQ(compute_anchor(view), glm::dvec3(0.0, 0.0, 16.0));
     view.position = {1e6 + 3.0, -1e6, 777.0};
     const glm::dvec3 anchor = compute_anchor(view);
     for (int i = 0; i < 3; ++i) {
-        EXPECT_EQ(std::fmod(anchor[i], 64.0), 0.0);
-        EXPECT_LE(std::abs(anchor[i] - view.position[i]), 32.0);
+        EXPECT_EQ(std::fmod(anchor[i], 16.0), 0.0);
+        EXPECT_LE(std::abs(anchor[i] - view.position[i]), 8.0);
     }
     EXPECT_EQ(compute_anchor(view), anchor);
 }
