@@ -6,4 +6,4 @@ bash scenes/setup.sh
 cmake -S . -B build -G Ninja -DCMAKE_BUILD_TYPE=Release >/dev/null
 ninja -C build --quiet aleph study_demo
 mkdir -p build/demo
-build/study_demo scenes/pool/scene.json --frames 20,40,60 -o build/demo/demo.png
+build/study_demo scenes/pool/scene.json --frames 20,60 -o build/demo/demo.png

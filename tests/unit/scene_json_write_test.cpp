@@ -13,6 +13,7 @@
 #include "engine/scene_json.h"
 #include "engine/scene_json_tracks.h"
 #include "engine/shapes.h"
+#include "tests/german_locale.h"
 
 namespace aleph {
 namespace {
@@ -233,28 +234,12 @@ TEST(SceneJsonWrite, KF24_ChainOfAHundredThousandNodes) {
     EXPECT_TRUE(again(scene) == scene);
 }
 
-class CommaLocale {
-  public:
-    CommaLocale() : before_(std::setlocale(LC_ALL, nullptr)) {
-        for (const char* name : {"de_DE.UTF-8", "de_DE.utf8", "de_DE", "fr_FR.UTF-8"}) {
-            if (std::setlocale(LC_ALL, name) != nullptr && std::localeconv()->decimal_point[0] == ',') present_ = true;
-            if (present_) return;
-        }
-    }
-    ~CommaLocale() { std::setlocale(LC_ALL, before_.c_str()); }
-    bool present() const { return present_; }
-
-  private:
-    std::string before_;
-    bool present_ = false;
-};
-
 TEST(SceneJsonWrite, DT09_CommaLocaleChangesNothing) {
     Numbers numbers;
     const Scene scene = make_full_scene(numbers);
     const std::string text = write_scene_text(scene, "test.json");
-    const CommaLocale locale;
-    if (!locale.present()) GTEST_SKIP() << "no locale with a decimal comma is installed";
+    const GermanLocale locale;
+    if (!locale.available()) GTEST_SKIP() << "no locale with a decimal comma can be made";
     EXPECT_EQ(write_scene_text(scene, "test.json"), text);
     EXPECT_TRUE(read_scene_text(text, "test.json").scene == scene);
     EXPECT_EQ(std::string(std::localeconv()->decimal_point), ",") << "the caller's locale has to stay";
