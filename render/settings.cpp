@@ -21,7 +21,8 @@ struct Entry {
 double number(const SettingValue& value, double low, double high, bool whole) {
     const double* found = std::get_if<double>(&value);
     if (found == nullptr || !(*found >= low && *found <= high) || (whole && *found != std::floor(*found))) {
-        throw fmt::format("expected {} from {:g} to {:g}", whole ? "a whole number" : "a number", low, high);
+        throw whole ? fmt::format("expected a whole number from {:.0f} to {:.0f}", low, high)
+                    : fmt::format("expected a number from {:g} to {:g}", low, high);
     }
     return *found;
 }
