@@ -13,21 +13,13 @@
 #include "engine/pose.h"
 #include "engine/track.h"
 #include "engine/transforms.h"
+#include "tests/unit/keyed_track.h"
 
 namespace aleph {
 namespace {
 
 constexpr double pi = std::numbers::pi;
 constexpr double double_unit = 1.2e-16;  // rounding unit
-
-template <class T>
-Track<T> keyed(std::vector<double> times, std::vector<T> values, Interpolation how = Interpolation::linear) {
-    Track<T> track;
-    track.sampling = {TimeSampling::Kind::acyclic, 0.0, 1.0, std::move(times)};
-    track.interpolation = how;
-    track.values = std::move(values);
-    return track;
-}
 
 /// The turn about (.48, -.6, .64) in long double, rounded once.
 glm::dquat exact_turn(long double angle) {

@@ -9,20 +9,12 @@
 #include <numbers>
 
 #include "engine/base/errors.h"
+#include "tests/unit/keyed_track.h"
 
 namespace aleph {
 namespace {
 
 constexpr double pi = std::numbers::pi;
-
-template <class T>
-Track<T> keyed(std::vector<double> times, std::vector<T> values, Interpolation how = Interpolation::linear) {
-    Track<T> track;
-    track.sampling = {TimeSampling::Kind::acyclic, 0.0, 1.0, std::move(times)};
-    track.interpolation = how;
-    track.values = std::move(values);
-    return track;
-}
 
 Node child_of(int parent, const glm::dvec3& translation = glm::dvec3(0.0)) {
     Node node;
