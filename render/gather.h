@@ -1,6 +1,7 @@
 #pragma once
 // One irradiance value: rays over the hemisphere, the light they bring, and how it changes around the point.
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <glm/vec3.hpp>
@@ -11,9 +12,9 @@
 
 namespace aleph {
 
-/// Nothing stands near, in any octant of azimuth.
-constexpr std::array<float, 8> unlimited_clearance() {
-    std::array<float, 8> all{};
+/// Nothing stands near, in any sector of azimuth.
+constexpr std::array<float, 16> unlimited_clearance() {
+    std::array<float, 16> all{};
     all.fill(std::numeric_limits<float>::infinity());
     return all;
 }
@@ -24,15 +25,19 @@ struct IrradianceSample {
     std::array<glm::vec3, 3> rotation_gradient{};     ///< per colour channel: dE = dot(cross(N_i, N), gradient)
     std::array<glm::vec3, 3> translation_gradient{};  ///< per colour channel, per m, in the tangent plane
     float harmonic_mean_distance = 0.0f;              ///< m (6.5); infinite where nothing was met
-    /// How far the tangent plane is free, by octants of azimuth (octant_of), m: nearest hit of the lowest row of
+    /// How far the tangent plane is free, by sectors of azimuth (sector_of), m: nearest hit of the lowest row of
     /// strata.
-    std::array<float, 8> clearance = unlimited_clearance();
+    std::array<float, 16> clearance = unlimited_clearance();
     int ignored_distances = 0;  ///< hits too near to be true, left out of the mean (HARD_CASES IC-05)
 };
 
-/// Octant of azimuth of a direction with these tangent-plane coordinates, 0 to 7, in no particular order.
-inline std::size_t octant_of(float x, float y) {
-    return static_cast<std::size_t>((x < 0.0f ? 1 : 0) | (y < 0.0f ? 2 : 0) | (std::abs(x) < std::abs(y) ? 4 : 0));
+/// Which sixteenth of the circle a direction with these tangent-plane coordinates lies in, in no particular order.
+inline std::size_t sector_of(float x, float y) {
+    const float across = std::abs(x), along = std::abs(y);
+    constexpr float tan_half = 0.41421356f;  // of 22.5 degrees
+    const bool diagonal = std::min(across, along) > tan_half * std::max(across, along);
+    return static_cast<std::size_t>((x < 0.0f ? 1 : 0) | (y < 0.0f ? 2 : 0) | (across < along ? 4 : 0) |
+                                    (diagonal ? 8 : 0));
 }
 
 /// How a hemisphere is cut: rows in elevation, columns in azimuth, columns about pi times rows.

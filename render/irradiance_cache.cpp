@@ -50,7 +50,7 @@ float interpolation_error(const IrradianceRecord& record, const glm::vec3& posit
     if (glm::dot(offset, normal + record.normal) * 0.5f < -0.05f * record.radius) return infinite;
     const float x = glm::dot(offset, record.tangent);
     const float y = glm::dot(offset, glm::cross(record.normal, record.tangent));
-    const float clear = record.clearance[octant_of(x, y)];
+    const float clear = record.clearance[sector_of(x, y)];
     if (x * x + y * y > clear * clear) return infinite;
     constexpr float inverse_root_two = 0.70710678f;
     return glm::length(offset) / record.radius + glm::length(normal - record.normal) * inverse_root_two;

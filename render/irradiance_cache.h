@@ -22,10 +22,10 @@ struct IrradianceRecord {
     float smallest_radius = 0.0f;  ///< neighbour clamping stops here
     std::array<glm::vec3, 3> rotation_gradient{};
     std::array<glm::vec3, 3> translation_gradient{};
-    glm::vec3 tangent{0.0f};  ///< of make_basis(normal), for the octants of `clearance`
-    /// How far it reaches along its tangent plane by octants, m: not behind the wall that stands there, however its
+    glm::vec3 tangent{0.0f};  ///< of make_basis(normal), for the sectors of `clearance`
+    /// How far it reaches along its tangent plane by sectors, m: not behind the wall that stands there, however its
     /// radius was set (HARD_CASES IC-08, IC-09).
-    std::array<float, 8> clearance = unlimited_clearance();
+    std::array<float, 16> clearance = unlimited_clearance();
 };
 
 /// Where irradiance is asked for.

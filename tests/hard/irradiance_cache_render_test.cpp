@@ -104,7 +104,7 @@ struct DarkRoom {
 
 DarkRoom render_two_rooms(double thickness, double accuracy, double min_radius_pixels) {
     const Stage stage(make_two_rooms(thickness), 64, 48);
-    RenderSettings settings = plain_settings(accuracy, 64);
+    RenderSettings settings = plain_settings(accuracy, accuracy > 0.0 ? 1024 : 64);  // the default gather
     settings.min_radius_pixels = min_radius_pixels;
     const ShadedFrame out = shade(stage, settings);
     const SampleHits hits = cast_sample(stage.rays, stage.view, 0, 1, nullptr);
@@ -135,7 +135,7 @@ void expect_dark(const DarkRoom& found) {
     EXPECT_GT(found.darkest_lit, 0.01f);
 }
 
-// Ward's criterion and the smallest radius alone leak here: a record knows by its octants where a wall stands. Octants
+// Ward's criterion and the smallest radius alone leak here: a record knows by sectors where a wall stands. Sectors
 // are coarse: at loose accuracies a wall met aslant may let single pixels through.
 void expect_nearly_dark(const DarkRoom& found) {
     EXPECT_LE(50 * found.leaking, found.dark);
