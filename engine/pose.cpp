@@ -38,10 +38,12 @@ glm::dmat4 local_transform(const Node& node, double seconds) {
             glm::dvec4(rotation[2] * scale.z, 0.0), glm::dvec4(evaluate(node.translation, seconds), 1.0)};
 }
 
-/// Visibility never fades, whatever its track says.
-bool is_visible(const Node& node, double seconds) {
-    const std::size_t key = find_samples(node.visible.sampling, node.visible.key_count(), seconds).floor;
-    return key_value(node.visible, key) != 0.0;
+/// For what never fades, whatever its track says.
+double evaluate_whole(const Track<double>& track, double seconds) {
+    const std::size_t key = track.interpolation == Interpolation::nearest
+                                ? nearest_sample(track.sampling, track.key_count(), seconds)
+                                : find_samples(track.sampling, track.key_count(), seconds).floor;
+    return key_value(track, key);
 }
 
 MaterialValues pose_material(const Material& material, double seconds) {
@@ -53,6 +55,7 @@ MaterialValues pose_material(const Material& material, double seconds) {
     values.emission = Rgb(not_negative(material.emission, seconds) * not_negative(material.emission_strength, seconds));
     values.specular = unit_range(material.specular, seconds);
     values.specular_color = Rgb(not_negative(material.specular_color, seconds));
+    values.transmission = unit_range(material.transmission, seconds);
     values.ior = static_cast<float>(not_negative(material.ior, seconds));
     return values;
 }
@@ -65,7 +68,9 @@ LightValues pose_light(const Light& light, int node, const glm::dmat4& world, do
     const glm::dvec3 direction = safe_normalize(-glm::dvec3(world[2]));
     if (direction != glm::dvec3(0.0)) values.direction = direction;
     values.intensity = Rgb(not_negative(light.color, seconds) * not_negative(light.intensity, seconds));
-    values.range = light.range;
+    values.range = not_negative(light.range, seconds);
+    values.inner_cone = evaluate(light.inner_cone, seconds);
+    values.outer_cone = evaluate(light.outer_cone, seconds);
     return values;
 }
 
@@ -77,6 +82,8 @@ CameraValues pose_camera(const Camera& camera, int node, const glm::dmat4& world
     values.axes = orthonormal_axes(world);
     values.fov = evaluate(camera.fov, seconds);
     values.half_height = evaluate(camera.half_height, seconds);
+    values.shift_x = evaluate(camera.shift_x, seconds);
+    values.shift_y = evaluate(camera.shift_y, seconds);
     values.near_plane = camera.near_plane;
     values.shutter = camera.shutter;
     values.aperture = not_negative(camera.aperture, seconds);
@@ -95,10 +102,11 @@ SceneFrame pose(const Scene& scene, double seconds) {
         const int index = static_cast<int>(frame.world.size());
         ALEPH_CHECK(node.parent < index, fmt::format("node {} has parent {}", index, node.parent));
         const glm::dmat4 local = local_transform(node, seconds);
-        const bool visible = is_visible(node, seconds);
+        const double visible = evaluate_whole(node.visible, seconds);
         const bool root = node.parent == no_index;
-        frame.world.push_back(root ? local : frame.world[node.parent] * local);
-        frame.visible.push_back(visible && (root || frame.visible[node.parent]));
+        const bool detached = root || evaluate_whole(node.inherits, seconds) == 0.0;
+        frame.world.push_back(detached ? local : frame.world[node.parent] * local);
+        frame.visible.push_back(visible >= 2.0 || (visible != 0.0 && (root || frame.visible[node.parent])));
 
         if (node.light != no_index && frame.visible.back())
             frame.lights.push_back(pose_light(scene.lights[node.light], index, frame.world.back(), seconds));
@@ -106,6 +114,13 @@ SceneFrame pose(const Scene& scene, double seconds) {
             frame.cameras.push_back(pose_camera(scene.cameras[node.camera], index, frame.world.back(), seconds));
     }
     frame.instances = list_instances(scene);
+    frame.meshes.resize(scene.meshes.size());
+    frame.shown.reserve(frame.instances.size());
+    for (const Instance& instance : frame.instances) {
+        const Mesh& mesh = scene.meshes[static_cast<std::size_t>(instance.mesh)];
+        frame.shown.push_back(frame.visible[static_cast<std::size_t>(instance.node)] != 0 &&
+                              evaluate_whole(mesh.present, seconds) != 0.0);
+    }
     frame.materials.reserve(scene.materials.size());
     for (const Material& material : scene.materials) frame.materials.push_back(pose_material(material, seconds));
     if (scene.environment) frame.environment = Rgb(not_negative(*scene.environment, seconds));

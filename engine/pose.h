@@ -25,6 +25,7 @@ struct MaterialValues {
     float specular = 1.0f;
     Rgb specular_color{1.0f};
     float ior = 1.5f;
+    float transmission = 0.0f;
     bool operator==(const MaterialValues&) const = default;
 };
 
@@ -35,6 +36,7 @@ struct LightValues {
     glm::dvec3 direction{0.0, 0.0, -1.0};  ///< world, unit, the way the light travels
     Rgb intensity{1.0f};                   ///< candela or lux, colour included
     double range = 0.0;
+    double inner_cone = 0.0, outer_cone = 0.0;  ///< spot, radians
     bool operator==(const LightValues&) const = default;
 };
 
@@ -45,10 +47,19 @@ struct CameraValues {
     glm::dmat3 axes{1.0};      ///< columns right, up, back in world; orthonormal (the node's scale taken out)
     double fov = 0.785;        ///< vertical, radians
     double half_height = 1.0;  ///< orthographic, m
+    double shift_x = 0.0, shift_y = 0.0;  ///< in heights of the picture
     double near_plane = 1e-4;
     glm::dvec2 shutter{0.0};
     double aperture = 0.0, focus_distance = 1.0;
     bool operator==(const CameraValues&) const = default;
+};
+
+/// What replaces a deforming mesh's own arrays at a moment. In double: its motion is a difference of projections.
+struct PosedMesh {
+    std::vector<glm::dvec3> positions;  ///< m, object space, per vertex; empty: the mesh is rigid
+    std::vector<glm::vec3> normals;     ///< per vertex; empty: flat
+    std::vector<glm::dvec3> control;    ///< of a cage's mesh: control points of its LimitSurface
+    bool operator==(const PosedMesh&) const = default;
 };
 
 struct SceneFrame {
@@ -56,6 +67,8 @@ struct SceneFrame {
     std::vector<glm::dmat4> world;      ///< per node, object to world
     std::vector<std::uint8_t> visible;  ///< per node, ancestors included
     std::vector<Instance> instances;    ///< list_instances(scene)
+    std::vector<std::uint8_t> shown;    ///< per instance: its node is visible and its mesh present
+    std::vector<PosedMesh> meshes;      ///< per mesh of the scene
     std::vector<MaterialValues> materials;
     std::vector<LightValues> lights;    ///< visible nodes that hold a light, in node order
     std::vector<CameraValues> cameras;  ///< nodes that hold a camera, in node order

@@ -189,7 +189,7 @@ class Writer {
         ordered_json out = {{"type", light_words[static_cast<std::size_t>(light.kind)]}};
         track(out, "color", light.color, absent.color, write_vector);
         track(out, "intensity", light.intensity, absent.intensity, write_number);
-        if (light.range != 0.0) out["range"] = light.range;
+        if (light.range.values.front() != 0.0) out["range"] = light.range.values.front();
         return out;
     }
 

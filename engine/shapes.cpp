@@ -165,6 +165,9 @@ Mesh make_shape_mesh(const Shape& shape, int material, const std::string& name) 
         case Shape::Kind::cylinder:
             add_cylinder(mesh, shape);
             break;
+        case Shape::Kind::torus:
+        case Shape::Kind::lathe:
+            throw InputError({}, name, "this shape is not made yet");
     }
     return mesh;
 }
@@ -180,6 +183,9 @@ std::size_t shape_triangle_count(const Shape& shape) {
             return 2 * segments * (static_cast<std::size_t>(sphere_rows(shape)) - 1);
         case Shape::Kind::cylinder:
             return 4 * segments;
+        case Shape::Kind::torus:
+        case Shape::Kind::lathe:
+            return 0;
     }
     return 0;
 }

@@ -116,6 +116,8 @@ T evaluate(const Track<T>& track, double seconds) {
     const SampleSpan span = find_samples(track.sampling, keys, seconds);
     if (span.floor == span.ceil || track.interpolation == Interpolation::step)
         return as_valid(key_value(track, span.floor));
+    if (track.interpolation == Interpolation::nearest)
+        return as_valid(key_value(track, nearest_sample(track.sampling, keys, seconds)));
     if (track.interpolation == Interpolation::linear)
         return interpolate(track.values[span.floor], track.values[span.ceil], span.fraction);
     const double interval = sample_time(track.sampling, span.ceil) - sample_time(track.sampling, span.floor);

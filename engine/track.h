@@ -12,9 +12,10 @@
 namespace aleph {
 
 enum class Interpolation {
-    step,    ///< the sample at or before the time
-    linear,  ///< quaternions: slerp, the short way; matrices: polar decomposition, slerp and lerp
-    cubic,   ///< glTF's CUBICSPLINE: values hold in-tangent, value, out-tangent per key
+    step,     ///< the sample at or before the time
+    linear,   ///< quaternions: slerp, the short way; matrices: polar decomposition, slerp and lerp
+    nearest,  ///< the sample nearest in time, the earlier one in a tie
+    cubic,    ///< glTF's CUBICSPLINE: values hold in-tangent, value, out-tangent per key
 };
 
 /// A constant has one value and any sampling. Values are never empty in a valid scene.
