@@ -4,7 +4,8 @@
 #include <glm/geometric.hpp>
 #include <numbers>
 
-#include "scenes/pool/texture_tools.h"
+#include "scenes/common/texture_tools.h"
+#include "scenes/pool/textures.h"
 
 namespace aleph {
 
@@ -68,8 +69,8 @@ glm::dvec3 color_numbered_ball(int number, const glm::dvec2& uv) {
 
 }  // namespace
 
-std::vector<PoolTexture> make_ball_textures() {
-    std::vector<PoolTexture> textures;
+std::vector<DrawnTexture> make_ball_textures() {
+    std::vector<DrawnTexture> textures;
     for (int number = 0; number <= 15; ++number) {
         const std::string name = fmt::format("ball_{:02}", number);
         textures.push_back(draw_texture(name.c_str(), 256, 128, 4, [&](const glm::dvec2& uv) {

@@ -2,8 +2,8 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "scenes/common/build.h"
 #include "scenes/pool/break.h"
-#include "scenes/pool/build.h"
 #include "scenes/pool/pool_scene.h"
 
 namespace aleph {

@@ -8,25 +8,12 @@
 #include <filesystem>
 
 #include "engine/archive.h"
-#include "engine/base/color.h"
-#include "engine/image_io.h"
 #include "scenes/pool/pool_scene.h"
 #include "scenes/pool/textures.h"
 
 namespace aleph {
 
 namespace {
-
-void write_textures(const std::filesystem::path& folder, const std::vector<PoolTexture>& textures) {
-    for (const PoolTexture& texture : textures) {
-        Image<Rgb> linear(texture.srgb.width, texture.srgb.height);
-        for (std::size_t i = 0; i < linear.size(); ++i)
-            for (int channel = 0; channel < 3; ++channel)
-                linear.pixels[i][channel] =
-                    srgb_to_linear(static_cast<float>(texture.srgb.pixels[i][channel]) / 255.0f);
-        write_png(folder / (texture.name + ".png"), linear);
-    }
-}
 
 void write_scenes(const std::filesystem::path& output) {
     std::filesystem::create_directories(output / "pool" / "textures");

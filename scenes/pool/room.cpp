@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "scenes/pool/build.h"
+#include "scenes/common/build.h"
 #include "scenes/pool/pool_scene.h"
 
 namespace aleph {

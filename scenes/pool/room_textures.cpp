@@ -2,7 +2,8 @@
 #include <glm/geometric.hpp>
 #include <numbers>
 
-#include "scenes/pool/texture_tools.h"
+#include "scenes/common/texture_tools.h"
+#include "scenes/pool/textures.h"
 
 namespace aleph {
 
@@ -141,7 +142,7 @@ glm::dvec3 color_circles(const glm::dvec2& uv) {
 
 }  // namespace
 
-std::vector<PoolTexture> make_room_textures() {
+std::vector<DrawnTexture> make_room_textures() {
     return {
         draw_texture("felt", 256, 256, 1, color_felt),         draw_texture("rail", 512, 64, 2, color_rail),
         draw_texture("floor", 256, 256, 2, color_floor),       draw_texture("wallpaper", 256, 256, 3, color_wallpaper),

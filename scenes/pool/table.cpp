@@ -1,6 +1,6 @@
 #include <fmt/format.h>
 
-#include "scenes/pool/build.h"
+#include "scenes/common/build.h"
 #include "scenes/pool/pool_scene.h"
 
 namespace aleph {

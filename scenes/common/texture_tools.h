@@ -9,7 +9,7 @@
 #include <glm/vec3.hpp>
 
 #include "engine/base/sampling.h"
-#include "scenes/pool/textures.h"
+#include "scenes/common/textures.h"
 
 namespace aleph {
 
@@ -43,8 +43,8 @@ inline double fractal_noise(const glm::dvec2& uv, glm::i64vec2 cells, int octave
 
 /// Calls color(uv) for `samples` x `samples` points of every pixel and rounds their mean; uv in [0, 1).
 template <class Color>
-PoolTexture draw_texture(const char* name, int width, int height, int samples, const Color& color) {
-    PoolTexture texture{name, Image<glm::u8vec3>(width, height)};
+DrawnTexture draw_texture(const char* name, int width, int height, int samples, const Color& color) {
+    DrawnTexture texture{name, Image<glm::u8vec3>(width, height)};
     for (int y = 0; y < height; ++y) {
         for (int x = 0; x < width; ++x) {
             glm::dvec3 sum(0.0);

@@ -1,0 +1,58 @@
+#include "scenes/common/build.h"
+
+#include <cmath>
+
+#include "engine/base/color.h"
+#include "engine/base/errors.h"
+
+namespace aleph {
+
+namespace {
+
+Material make_lambert(const std::string& name) {
+    Material material;
+    material.name = name;
+    material.metallic = 0.0;
+    material.specular = 0.0;
+    return material;
+}
+
+int add_material(Scene& scene, const Material& material) {
+    scene.materials.push_back(material);
+    return static_cast<int>(scene.materials.size()) - 1;
+}
+
+}  // namespace
+
+int add_lambert(Scene& scene, const std::string& name, const glm::dvec3& srgb) {
+    Material material = make_lambert(name);
+    glm::dvec3 linear;
+    // Four digits are more than eight bits of sRGB hold, and read well in a file.
+    for (int i = 0; i < 3; ++i)
+        linear[i] = std::round(1e4 * srgb_to_linear(static_cast<float>(srgb[i]) / 255.0f)) / 1e4;
+    material.base_color = linear;
+    return add_material(scene, material);
+}
+
+int add_textured(Scene& scene, const std::string& name, const std::string& image) {
+    Material material = make_lambert(name);
+    for (std::size_t i = 0; i < scene.images.size(); ++i)
+        if (scene.images[i].name == image) material.base_color_texture.image = static_cast<int>(i);
+    ALEPH_CHECK(material.base_color_texture.image != no_index, image);
+    return add_material(scene, material);
+}
+
+int add_emitter(Scene& scene, const std::string& name, const glm::dvec3& color, double radiance) {
+    Material material = make_lambert(name);
+    material.base_color = glm::dvec3(0.8);
+    material.emission = color;
+    material.emission_strength = radiance;
+    return add_material(scene, material);
+}
+
+void add_gloss(Scene& scene, double roughness) {
+    scene.materials.back().specular = 1.0;
+    scene.materials.back().roughness = roughness;
+}
+
+}  // namespace aleph

@@ -1,0 +1,31 @@
+#include "scenes/common/textures.h"
+
+#include "engine/base/color.h"
+#include "engine/image_io.h"
+
+namespace aleph {
+
+void write_textures(const std::filesystem::path& folder, const std::vector<DrawnTexture>& textures) {
+    for (const DrawnTexture& texture : textures) {
+        Image<Rgb> linear(texture.srgb.width, texture.srgb.height);
+        for (std::size_t i = 0; i < linear.size(); ++i)
+            for (int channel = 0; channel < 3; ++channel)
+                linear.pixels[i][channel] =
+                    srgb_to_linear(static_cast<float>(texture.srgb.pixels[i][channel]) / 255.0f);
+        write_png(folder / (texture.name + ".png"), linear);
+    }
+}
+
+void add_images(Scene& scene, const std::string& folder, const std::vector<DrawnTexture>& textures) {
+    for (const DrawnTexture& texture : textures) {
+        SceneImage image;
+        image.name = texture.name;
+        image.path = folder + texture.name + ".png";
+        image.bytes = Image<glm::u8vec4>(texture.srgb.width, texture.srgb.height);
+        for (std::size_t i = 0; i < texture.srgb.size(); ++i)
+            image.bytes.pixels[i] = glm::u8vec4(texture.srgb.pixels[i], 255);
+        scene.images.push_back(image);
+    }
+}
+
+}  // namespace aleph
