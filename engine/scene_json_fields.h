@@ -69,7 +69,7 @@ inline Material absent_material() {
 }
 
 // Words of enumerations, in the order of their values.
-inline constexpr std::array interpolation_words{"step", "linear", "cubic"};
+inline constexpr std::array interpolation_words{"step", "linear", "nearest", "cubic"};
 inline constexpr std::array wrap_words{"repeat", "clamp", "mirror"};
 inline constexpr std::array shape_words{"quad", "box", "sphere", "cylinder"};
 inline constexpr std::array light_words{"point", "directional"};
