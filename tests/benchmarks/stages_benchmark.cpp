@@ -20,6 +20,7 @@
 #include "engine/base/parallel.h"
 #include "engine/first_hits.h"
 #include "engine/shapes.h"
+#include "motion/image_motion.h"
 #include "motion/model_motion.h"
 #include "motion/reprojection.h"
 #include "motion/velocity.h"
@@ -75,7 +76,7 @@ struct Inputs {
     Image<Hit> hits;
     MotionField motion;
     Image<float> velocity;
-    Image<Rgb> estimate;
+    Image<Rgb> estimate, next_estimate;
 
     explicit Inputs(const std::string& scene_name, Scene from)
         : name(scene_name), scene(std::move(from)), rays(scene), other_rays(rays.share_meshes()) {
@@ -91,22 +92,23 @@ struct Inputs {
         hits = cast_first_hits(rays, views[0]);
         motion = compute_motion();
         velocity = compute_image_velocity(motion, {});
-        estimate = compute_estimate();
+        estimate = compute_estimate(hits, frames[0]);
+        next_estimate = compute_estimate(cast_first_hits(other_rays, views[1]), frames[1]);
     }
     MotionField compute_motion() const {
         return compute_model_motion(scene, {&frames[0], &views[0]}, {&frames[1], &views[1]}, hits, {});
     }
     /// A checker on every surface, a gradient behind: edges and texture enough for the maps of perception.
-    Image<Rgb> compute_estimate() const {
+    Image<Rgb> compute_estimate(const Image<Hit>& seen, const SceneFrame& frame) const {
         Image<Rgb> image(width, height);
         for (int y = 0; y < height; ++y) {
             for (int x = 0; x < width; ++x) {
-                const Hit& hit = hits(x, y);
+                const Hit& hit = seen(x, y);
                 if (hit.instance == no_index) {
                     image(x, y) = Rgb(0.3f, 0.4f, 0.6f) * (1.0f - 0.5f * static_cast<float>(y) / height);
                     continue;
                 }
-                const Instance& instance = frames[0].instances[static_cast<std::size_t>(hit.instance)];
+                const Instance& instance = frame.instances[static_cast<std::size_t>(hit.instance)];
                 const glm::dvec3 p = surface_point(scene.meshes[static_cast<std::size_t>(instance.mesh)], hit);
                 const glm::dvec3 cell = glm::floor(8.0 * p + 0.5);
                 const bool odd = std::fmod(std::abs(cell.x + cell.y + cell.z), 2.0) > 0.5;
@@ -149,6 +151,15 @@ void motion_hidden(benchmark::State& state) {
         state.ResumeTiming();
         const MotionMoment other{&inputs().frames[1], &inputs().views[1]};
         benchmark::DoNotOptimize(mark_hidden(field, inputs().scene, other, inputs().hits, inputs().other_rays));
+    }
+}
+
+/// Two frames to a motion field; a sequence makes every pyramid once.
+void image_motion(benchmark::State& state) {
+    const CensusPyramid next = make_census_pyramid(inputs().next_estimate);
+    for (auto _ : state) {
+        benchmark::DoNotOptimize(
+            compute_image_motion(make_census_pyramid(inputs().estimate), next).validity.pixels.data());
     }
 }
 
@@ -214,6 +225,7 @@ void print_ratios(const BestTimes& best) {
                 {"first_hits", nullptr, 0.0},
                 {"motion", "copy_motion", 1.0},
                 {"motion_hidden", nullptr, 0.0},
+                {"image_motion", nullptr, 0.0},
                 {"perception_full", "copy_perception", 8.0},
                 {"perception_center", "copy_perception", 2.0},
                 {"perception_spatial", "copy_perception", 0.0}};
@@ -250,6 +262,7 @@ int main(int argc, char** argv) {
     add("first_hits", first_hits);
     add("motion", motion);
     add("motion_hidden", motion_hidden);
+    add("image_motion", image_motion);
     add("perception_full", [](auto& state) { perception(state, {.grid = SaliencyGrid::full}); });
     add("perception_center", [](auto& state) { perception(state, {.grid = SaliencyGrid::center}); });
     add("perception_spatial", [](auto& state) { perception(state, {.guide = Guide::spatial}); });

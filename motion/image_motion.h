@@ -1,0 +1,57 @@
+#pragma once
+// Image-based motion, thesis 5.1.1: where the census-transformed neighbourhood of a pixel went, by a hierarchical
+// search. For frames without a scene. Known limits: nothing can be told from uniform colour; motion along an edge does
+// not show; background that comes out from behind something seems to move with it; white noise has no coarse level to
+// search.
+
+#include <cstdint>
+#include <vector>
+
+#include "engine/base/color.h"
+#include "engine/base/image.h"
+#include "motion/motion_field.h"
+
+namespace aleph {
+
+/// Census of one Gaussian level: a byte per pixel, a bit per neighbour (raster order, 1 where neighbour >= centre).
+/// One pixel of border on every side repeats the edge, so that 3x3 windows need no test.
+struct CensusLevel {
+    int width = 0, height = 0;       ///< without the border
+    std::vector<std::uint8_t> bits;  ///< (height + 2) rows of width + 2 bytes, and a few bytes that readers may touch
+
+    const std::uint8_t* row(int y) const {  ///< y from -1 to height; [-1] to [width] may be read
+        return bits.data() + static_cast<std::size_t>(y + 1) * static_cast<std::size_t>(width + 2) + 1;
+    }
+};
+
+/// Level 0, the finest, first. Made once for a frame, which is N+1 first and N then.
+using CensusPyramid = std::vector<CensusLevel>;
+
+/// Of the achromatic channel A. NaN and components below 0 count as 0 (opponent_color.h).
+/// Three levels; those whose shorter side is under 8 pixels are left out, but never level 0.
+CensusPyramid make_census_pyramid(const Image<Rgb>& frame);
+
+/// The census of one level; neighbours beyond the border are the nearest pixel inside.
+CensusLevel make_census_level(const Image<float>& level);
+
+struct ImageMotionSettings {
+    /// The other frame is N-1 (the sequence's last frame): displacement is from it to this one, so that constant speed
+    /// gives what the forward difference gives (HARD_CASES RP-11).
+    bool backward = false;
+    /// A camera cut, or no other frame: displacement 0, every pixel `no_counterpart`.
+    bool cut = false;
+};
+
+/// Whole pixels, for every pixel. Cost of an offset: sum of Hamming distances over 3x3, borders clamped; targets
+/// outside the frame are excluded. Exhaustive within 8 pixels at the coarsest level; at each finer level three steps
+/// (4, 2, 1) from twice the coarser result (of pixel floor(x/2), floor(y/2); brought back inside where it leads one
+/// pixel out). Ties go to the smaller |offset|^2, then dy, then dx, of the offset from where the step starts: a still
+/// pair is still, and a flat place keeps what the coarser level says. Reach: 53 pixels with three levels, 23 with two,
+/// 8 with one. Every pixel has a target, so that all are `valid`. The same bits for any number of threads.
+/// @throws InputError if the sizes differ or are empty
+MotionField compute_image_motion(const CensusPyramid& now, const CensusPyramid& other,
+                                 const ImageMotionSettings& settings = {});
+MotionField compute_image_motion(const Image<Rgb>& now, const Image<Rgb>& other,
+                                 const ImageMotionSettings& settings = {});
+
+}  // namespace aleph
