@@ -1,0 +1,27 @@
+#pragma once
+// Checks a subdivision cage before OpenSubdiv sees it: what it does not check corrupts memory or ends the process
+// (HARD_CASES section 12).
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "engine/scene.h"
+
+namespace aleph {
+
+/// The highest level that Cage::level and Cage::max_level may name.
+inline constexpr int max_subdivision_level = 10;
+
+/// Checks sizes, indices and numbers. Refused: faces of fewer than 3 or of repeated points, indices out of range, more
+/// than 65535 faces or edges about a point, a sharp edge at an inner point of two edges, Loop faces that are no
+/// triangles, arrays that do not fit each other, numbers that are not finite.
+/// @param cage_points  how many points the cage's point cache has
+/// @throws InputError (place: the cage's name)
+void validate(const Cage& cage, std::size_t cage_points);
+
+/// What is let pass and a user should know: creases that follow no edge (ignored), faces that repeat another, edges of
+/// more than two faces (they become sharp). Of a valid cage.
+std::vector<std::string> list_warnings(const Cage& cage);
+
+}  // namespace aleph
