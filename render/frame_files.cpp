@@ -53,6 +53,15 @@ void add_maps(ChannelImage& file, const FrameOutput& output) {
     add(file, "invalid.Y", output.shaded.invalid);
 }
 
+std::string define_motion(MotionSource source) {
+    const char* what = source == MotionSource::model ? "of the surface point under the pixel's centre"
+                                                     : "of what looks most like the pixel's neighbourhood";
+    return fmt::format(
+        "forward.u/.v: position in frame N+1 minus position in frame N {}, pixels, x right, y up; the last frame: N "
+        "minus N-1",
+        what);
+}
+
 std::string format_camera(const CameraView& view) {
     std::string text;
     for (int row = 0; row < 3; ++row) {
@@ -82,9 +91,7 @@ ChannelImage make_frame_image(const FrameOutput& output, bool maps, const Scene&
     file.metadata["samplesPerPixel"] = static_cast<double>(settings.spp);
     file.metadata["seed"] = static_cast<double>(settings.seed);
     file.metadata["worldToCamera"] = format_camera(output.view);
-    file.metadata["motion:definition"] =
-        "forward.u/.v: position in frame N+1 minus position in frame N of the surface point under the pixel's centre, "
-        "pixels, x right, y up; the scene's last frame: N minus N-1";
+    file.metadata["motion:definition"] = define_motion(settings.motion);
     for (const auto& [key, value] : setting_map(settings)) {
         const std::string text = std::visit([](const auto& v) { return fmt::format("{}", v); }, value);
         file.metadata["aleph:" + key] = text;

@@ -107,7 +107,10 @@ std::vector<Entry> make_entries() {
     e.push_back(choice_entry<EstimateKind>("estimate", "the cheap picture the model looks at: flat, direct",
                                            [](S& s) -> EstimateKind& { return s.estimate; },
                                            {{"flat", EstimateKind::flat}, {"direct", EstimateKind::direct}}));
-    e.push_back(fixed_entry("motion", "where motion comes from: model", "model", {"image"}));
+    e.push_back(choice_entry<MotionSource>("motion",
+                                           "where motion comes from: model (the scene), image (the quick estimates)",
+                                           [](S& s) -> MotionSource& { return s.motion; },
+                                           {{"model", MotionSource::model}, {"image", MotionSource::image}}));
     e.push_back(choice_entry<Bands>("bands", "band frequencies: printed, measured",
                                     [](S& s) -> Bands& { return s.perception.bands; },
                                     {{"printed", Bands::printed}, {"measured", Bands::measured}}));

@@ -17,6 +17,12 @@ enum class EstimateKind {
     direct,  ///< direct light with shadows, from a fixed pattern of light points (no noise that would read as detail)
 };
 
+/// Where a frame's motion comes from.
+enum class MotionSource {
+    model,  ///< exact, from the scene (thesis 5.1.2)
+    image,  ///< from the quick estimates of two frames alone, as for frames without a scene (5.1.1)
+};
+
 /// How the Aleph map becomes a per-pixel ambient accuracy.
 enum class Adapter {
     compress,   ///< (6.7)
@@ -27,6 +33,7 @@ struct RenderSettings {
     int width = 640, height = 480;  ///< key "size": "640x480"
     std::uint32_t seed = 0;
     EstimateKind estimate = EstimateKind::direct;
+    MotionSource motion = MotionSource::model;
     PerceptionSettings perception;  ///< keys guide, bands, grid, neutral_opponent
     Adapter adapter = Adapter::compress;
     double adapter_k = 100.0;        ///< K of (6.8)

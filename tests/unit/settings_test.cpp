@@ -16,7 +16,7 @@ namespace {
 const std::map<std::string, SettingValue>& other_values() {
     static const std::map<std::string, SettingValue> values{
         {"size", "320x200"},      {"seed", 4294967295.0}, {"guide", "full"},         {"estimate", "flat"},
-        {"motion", "model"},      {"bands", "measured"},  {"grid", "center"},        {"neutral_opponent", true},
+        {"motion", "image"},      {"bands", "measured"},  {"grid", "center"},        {"neutral_opponent", true},
         {"adapter", "scale-add"}, {"adapter_k", 50.0},    {"accuracy", 0.3},         {"gather", 64.0},
         {"bounces", 0.0},         {"spp", 4.0},           {"sampling", "uniform"},   {"integrator", "cache"},
         {"light_samples", 7.0},   {"shade_radius", 1.1},  {"min_radius_pixels", 2.5}};
@@ -107,8 +107,7 @@ TEST(Settings, ChoicesNameWhatIsAllowed) {
 }
 
 TEST(Settings, LaterVersionsAreRefusedByName) {
-    EXPECT_EQ(refusal("motion", "image"), "not in this version; use model");
-    EXPECT_EQ(refusal("motion", "none"), "expected model");
+    EXPECT_EQ(refusal("motion", "none"), "expected one of model, image");
     for (const char* later : {"consecutive", "variance", "protocol"}) {
         EXPECT_EQ(refusal("sampling", later), "not in this version; use uniform");
     }
