@@ -1,0 +1,56 @@
+#pragma once
+// Archives and what the reference library reads from them. The project's own stand in tests/assets/abc; those of others
+// are read from ALEPH_ASSETS_DIR where that is present.
+
+#include <gtest/gtest.h>
+
+#include <cstdint>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+namespace aleph {
+
+using nlohmann::json;
+
+inline const std::vector<std::string> own_archives{"camera_anim",   "instances",    "materials_facesets",
+                                                   "polymesh_anim", "property_zoo", "subd_creases",
+                                                   "xform_acyclic", "xform_uniform"};
+inline const std::vector<std::string> foreign_archives{"indexedTextureCoordinates", "nestedInstancing", "testAbcCamera",
+                                                       "testUsdAbcXformPrimCollapsing"};
+
+inline std::filesystem::path archive_path(const std::string& name) {
+    const std::filesystem::path own = std::filesystem::path(ALEPH_SOURCE_DIR) / "tests/assets/abc" / (name + ".abc");
+    if (std::filesystem::exists(own)) return own;
+    return std::filesystem::path(ALEPH_ASSETS_DIR) / "abc/third_party" / (name + ".abc");
+}
+
+inline json truth_of(const std::string& name) {
+    std::ifstream stream(archive_path(name).replace_extension(".json"));
+    return json::parse(stream);
+}
+
+inline std::vector<std::uint8_t> file_bytes(const std::filesystem::path& path) {
+    std::ifstream stream(path, std::ios::binary);
+    return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+}
+
+/// Tests with a parameter: the name of an archive.
+class AlembicTruth : public testing::TestWithParam<std::string> {
+  protected:
+    void SetUp() override {
+        if (!std::filesystem::exists(archive_path(GetParam())))
+            GTEST_SKIP() << "not here: " << archive_path(GetParam());
+    }
+};
+
+inline std::vector<std::string> all_archives() {
+    std::vector<std::string> names = own_archives;
+    names.insert(names.end(), foreign_archives.begin(), foreign_archives.end());
+    return names;
+}
+
+}  // namespace aleph
