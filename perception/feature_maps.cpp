@@ -14,7 +14,7 @@ constexpr std::array<LevelPair, 6> level_pairs = {{{2, 5}, {2, 6}, {3, 6}, {3, 7
 
 /// One of the pyramids that feature maps are taken from.
 struct Source {
-    Channel channel;
+    FeatureChannel channel;
     const std::vector<Image<float>>* levels;
 };
 
@@ -43,10 +43,11 @@ std::vector<FeatureMap> make_feature_maps(const ChannelPyramids& pyramids) {
         }
     });
 
-    std::vector<Source> sources = {
-        {Channel::intensity, &pyramids.a}, {Channel::color, &pyramids.c1}, {Channel::color, &pyramids.c2}};
-    for (const auto& levels : oriented) sources.push_back({Channel::orientation, &levels});
-    sources.push_back({Channel::motion, &pyramids.velocity});
+    std::vector<Source> sources = {{FeatureChannel::intensity, &pyramids.a},
+                                   {FeatureChannel::color, &pyramids.c1},
+                                   {FeatureChannel::color, &pyramids.c2}};
+    for (const auto& levels : oriented) sources.push_back({FeatureChannel::orientation, &levels});
+    sources.push_back({FeatureChannel::motion, &pyramids.velocity});
 
     std::vector<FeatureMap> maps(sources.size() * level_pairs.size());
     parallel_for(maps.size(), 1, [&](std::size_t begin, std::size_t end) {

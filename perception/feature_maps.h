@@ -13,11 +13,11 @@ namespace aleph {
 inline constexpr int saliency_levels = 9;  ///< Gaussian levels 0..8; a level of 1x1 stays 1x1
 
 /// The four channels whose conspicuity is summed apart.
-enum class Channel { intensity, color, orientation, motion };
+enum class FeatureChannel { intensity, color, orientation, motion };
 inline constexpr int channel_count = 4;
 
 struct FeatureMap {
-    Channel channel;
+    FeatureChannel channel;
     int level;                ///< centre: 2, 3 or 4
     Image<float> difference;  ///< centre - expanded surround, signed, at the centre's size
 };

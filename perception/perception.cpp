@@ -100,10 +100,10 @@ PerceptionMaps compute_perception(const Image<Rgb>& estimate, const Image<float>
     maps.clamped = images.clamped;
     maps.fallback = saliency.fallback;
     if (salient && outputs.conspicuity) {
-        maps.conspicuity_intensity = full_conspicuity(saliency, Channel::intensity);
-        maps.conspicuity_color = full_conspicuity(saliency, Channel::color);
-        maps.conspicuity_orientation = full_conspicuity(saliency, Channel::orientation);
-        maps.conspicuity_motion = full_conspicuity(saliency, Channel::motion);
+        maps.conspicuity_intensity = full_conspicuity(saliency, FeatureChannel::intensity);
+        maps.conspicuity_color = full_conspicuity(saliency, FeatureChannel::color);
+        maps.conspicuity_orientation = full_conspicuity(saliency, FeatureChannel::orientation);
+        maps.conspicuity_motion = full_conspicuity(saliency, FeatureChannel::motion);
     }
     return maps;
 }

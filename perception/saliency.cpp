@@ -28,7 +28,7 @@ std::vector<WeightedMap> weigh_maps(const std::vector<FeatureMap>& maps, const s
     std::vector<WeightedMap> weighted(maps.size());
     parallel_for(maps.size(), 1, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
-            const double floor = maps[i].channel == Channel::motion ? motion_floor : feature_floor * largest_a;
+            const double floor = maps[i].channel == FeatureChannel::motion ? motion_floor : feature_floor * largest_a;
             const FeatureMap& map = maps[i];
             weighted[i] = {&map, grid == SaliencyGrid::full
                                      ? compute_normalization({&map.difference, map.level, &sizes}, floor)
@@ -147,7 +147,7 @@ void scale_saliency_row(Saliency& saliency, int y) {
     }
 }
 
-Image<float> full_conspicuity(const Saliency& saliency, Channel channel) {
+Image<float> full_conspicuity(const Saliency& saliency, FeatureChannel channel) {
     return expand_to_level(saliency.conspicuity[static_cast<std::size_t>(channel)], saliency.sizes,
                            saliency.conspicuity_level, 0);
 }

@@ -13,7 +13,7 @@ namespace aleph {
 /// way.
 struct Saliency {
     std::vector<LevelSize> sizes;  ///< of levels 0..8
-    /// By Channel: sums of N(feature), before their own N(.). Rasters of `conspicuity_level`.
+    /// By FeatureChannel: sums of N(feature), before their own N(.). Rasters of `conspicuity_level`.
     std::array<Image<float>, channel_count> conspicuity;
     int conspicuity_level = 0;             ///< 0 with grid `full`, 2 with `center`
     Image<float> map;                      ///< sum of N(conspicuity)
@@ -22,7 +22,7 @@ struct Saliency {
 };
 
 /// A channel's conspicuity at full size.
-Image<float> full_conspicuity(const Saliency& saliency, Channel channel);
+Image<float> full_conspicuity(const Saliency& saliency, FeatureChannel channel);
 
 /// Turns row y of the map into S: min-max to [0,1] exactly.
 void scale_saliency_row(Saliency& saliency, int y);
