@@ -12,7 +12,6 @@ namespace aleph {
 
 /// Limits of a file, so that a small text cannot ask for all memory.
 inline constexpr std::size_t max_scene_nodes = 1000000;
-inline constexpr std::size_t max_shape_triangles = std::size_t{1} << 24;  ///< in all shapes together
 
 /// A scene without the content of its pictures and includes, and where the text names them.
 struct SceneText {

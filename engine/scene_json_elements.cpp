@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "engine/base/errors.h"
 #include "engine/close_names.h"
 #include "engine/scene_json_reader.h"
@@ -127,21 +129,16 @@ int add_camera(SceneReader& reader, const JsonRef& at, const std::string& name) 
     return static_cast<int>(reader.scene.cameras.size()) - 1;
 }
 
-/// Sizes that a kind of shape does not have would change nothing: most likely another kind was meant.
-void check_sizes(const JsonRef& at, const Shape& shape) {
-    const bool flat = shape.kind == Shape::Kind::quad, box = shape.kind == Shape::Kind::box;
-    const auto refuse = [&](const char* key) {
-        if (const auto value = at.find(key)) {
-            value->fail(fmt::format("a {} has no \"{}\"", shape_words[static_cast<std::size_t>(shape.kind)], key));
-        }
-    };
-    if (flat || box) {
-        refuse("radius");
-        refuse("segments");
-    } else {
-        refuse("size");
+/// Keys that a kind of shape does not have would change nothing: most likely another kind was meant.
+void check_shape_keys(const JsonRef& at, const Shape& shape) {
+    const auto kind = static_cast<std::size_t>(shape.kind);
+    for (const auto& member : at.json().items()) {
+        const auto& known = shape_keys[kind];
+        if (member.key() == "type" || std::find(known.begin(), known.end(), member.key()) != known.end()) continue;
+        const JsonRef value = at.require(member.key());
+        value.fail(fmt::format("a {} has no \"{}\"", shape_words[kind], member.key()));
     }
-    if (shape.kind != Shape::Kind::cylinder) refuse("height");
+    const bool flat = shape.kind == Shape::Kind::quad;
     if (const auto size = at.find("size"); size && size->array_size() != (flat ? 2u : 3u)) {
         size->fail(flat ? "the size of a quad is 2 numbers" : "the size of a box is 3 numbers");
     }
@@ -151,13 +148,21 @@ Shape read_shape(const JsonRef& at) {
     Shape shape;
     const JsonRef type = at.require("type");
     shape.kind = static_cast<Shape::Kind>(read_word(type, shape_words));
-    check_sizes(at, shape);
+    check_shape_keys(at, shape);
     if (const auto value = at.find("size")) {
         const glm::dvec2 flat = read_dvec2(*value);
         shape.size = shape.kind == Shape::Kind::quad ? glm::dvec3(flat, 1.0) : read_dvec3(*value);
     }
-    if (const auto value = at.find("radius")) shape.radius = value->number();
-    if (const auto value = at.find("height")) shape.height = value->number();
+    for (const auto& field : shape_numbers) {
+        if (const auto value = at.find(field.key)) shape.*field.member = value->number();
+    }
+    if (const auto value = at.find("profile")) {
+        for (std::size_t i = 0; i < value->array_size(); ++i) {
+            const JsonRef point = (*value)[i];
+            shape.profile.push_back(read_dvec2(point));
+        }
+    }
+    if (const auto value = at.find("smooth")) shape.smooth = value->boolean();
     if (const auto value = at.find("uv_scale")) shape.uv_scale = read_dvec2(*value);
     if (const auto value = at.find_integer("segments", min_shape_segments, max_shape_segments)) {
         shape.segments = static_cast<int>(*value);

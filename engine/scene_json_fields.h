@@ -4,6 +4,8 @@
 
 #include <array>
 #include <limits>
+#include <string>
+#include <vector>
 
 #include "engine/scene.h"
 
@@ -61,6 +63,16 @@ inline constexpr std::array camera_numbers{
     TrackField<Camera, double>{"focus", &Camera::focus_distance, above_zero},
 };
 
+struct ShapeNumber {
+    const char* key;
+    double Shape::*member;
+};
+inline constexpr std::array shape_numbers{
+    ShapeNumber{"radius", &Shape::radius},
+    ShapeNumber{"tube_radius", &Shape::tube_radius},
+    ShapeNumber{"height", &Shape::height},
+};
+
 /// Nobody who writes a colour by hand expects metal: unlike in glTF an absent `metallic` is 0.
 inline Material absent_material() {
     Material material;
@@ -71,7 +83,16 @@ inline Material absent_material() {
 // Words of enumerations, in the order of their values.
 inline constexpr std::array interpolation_words{"step", "linear", "nearest", "cubic"};
 inline constexpr std::array wrap_words{"repeat", "clamp", "mirror"};
-inline constexpr std::array shape_words{"quad", "box", "sphere", "cylinder"};
-inline constexpr std::array light_words{"point", "directional"};
+inline constexpr std::array shape_words{"quad", "box", "sphere", "cylinder", "torus", "lathe"};
+/// What each kind of shape takes, in the order of shape_words.
+inline const std::array<std::vector<std::string>, shape_words.size()> shape_keys{{
+    {"size", "uv_scale"},
+    {"size", "uv_scale"},
+    {"radius", "segments", "uv_scale"},
+    {"radius", "height", "segments", "uv_scale"},
+    {"radius", "tube_radius", "segments", "uv_scale"},
+    {"profile", "smooth", "segments", "uv_scale"},
+}};
+inline constexpr std::array light_words{"point", "directional", "spot"};
 
 }  // namespace aleph

@@ -125,33 +125,34 @@ TimeSampling read_regular_times(const JsonRef& at, const FrameRate& rate, bool i
     return sampling;
 }
 
+TimeSampling read_sampling(const JsonRef& at, const FrameRate& rate) {
+    const bool in_frames = at.find_string("unit").value_or("frames") == "frames";
+    const auto keys = at.find("keys"), values = at.find("values");
+    if (keys && values) at.fail("either \"keys\" or \"values\", not both");
+    if (!keys && !values) at.fail("neither \"keys\" nor \"values\"");
+    if (values) return read_regular_times(at, rate, in_frames);
+    for (const char* other : {"start", "period", "cycle"}) {
+        if (const auto found = at.find(other)) {
+            found->fail(fmt::format("\"{}\" goes with \"values\"; keys have their own times", other));
+        }
+    }
+    TimeSampling sampling;
+    sampling.kind = TimeSampling::Kind::acyclic;
+    sampling.times = read_times(*keys, keys->array_size(), rate, in_frames, true);
+    return sampling;
+}
+
 template <class T>
 Track<T> read_track(const JsonRef& at, const FrameRate& rate, const ValueReader<T>& read,
                     Interpolation absent = Interpolation::linear) {
     Track<T> track;
-    track.interpolation = absent;
     if (!at.json().is_object()) {
         track = Track<T>(read.read(at));
     } else {
         track.interpolation = read_interpolation(at, absent);
-        const bool in_frames = at.find_string("unit").value_or("frames") == "frames";
-        const auto keys = at.find("keys"), values = at.find("values");
-        if (keys && values) at.fail("either \"keys\" or \"values\", not both");
-        if (keys) {
-            for (const char* other : {"start", "period", "cycle"}) {
-                if (const auto found = at.find(other)) {
-                    found->fail(fmt::format("\"{}\" goes with \"values\"; keys have their own times", other));
-                }
-            }
-            track.sampling.kind = TimeSampling::Kind::acyclic;
-            track.sampling.times = read_times(*keys, keys->array_size(), rate, in_frames, true);
-            read_keys(*keys, track, read);
-        } else if (values) {
-            track.sampling = read_regular_times(at, rate, in_frames);
-            read_values(*values, track, read);
-        } else {
-            at.fail("neither \"keys\" nor \"values\"");
-        }
+        track.sampling = read_sampling(at, rate);
+        if (const auto keys = at.find("keys")) read_keys(*keys, track, read);
+        if (const auto values = at.find("values")) read_values(*values, track, read);
     }
     validate(track, at.file(), at.pointer());
     return track;
@@ -202,6 +203,23 @@ glm::dmat4 read_sixteen(const JsonRef& at, const ValueRange&) {
 
 double to_radians(double degrees) {
     return degrees * (std::numbers::pi / 180.0);
+}
+
+TimeSampling read_samples(const JsonRef& at, const FrameRate& rate, const std::function<void(const JsonRef&)>& visit) {
+    TimeSampling sampling = read_sampling(at, rate);
+    const auto keys = at.find("keys");
+    const JsonRef list = keys ? *keys : at.require("values");
+    for (std::size_t i = 0; i < list.array_size(); ++i) {
+        const JsonRef item = list[i];
+        if (!keys) {
+            visit(item);
+            continue;
+        }
+        const JsonRef value = item[1];
+        visit(value);
+    }
+    validate(sampling, list.array_size(), at.file(), at.pointer());
+    return sampling;
 }
 
 glm::dvec3 read_dvec3(const JsonRef& at) {

@@ -1,6 +1,7 @@
 #pragma once
 // Values over time in scene files: constants, keys, uniform and cyclic samples; and back to JSON, bit for bit.
 
+#include <functional>
 #include <nlohmann/json.hpp>
 #include <optional>
 
@@ -20,6 +21,9 @@ Track<double> read_visibility(const JsonRef& at, const FrameRate& rate);
 /// Degrees in the file, radians in the track. @param range  degrees
 Track<double> read_degrees(const JsonRef& at, const FrameRate& rate, const ValueRange& range);
 
+/// Values of any kind over time: calls visit at each value of "keys" or "values", and gives their times.
+TimeSampling read_samples(const JsonRef& at, const FrameRate& rate, const std::function<void(const JsonRef&)>& visit);
+
 glm::dvec3 read_dvec3(const JsonRef& at);
 glm::dvec2 read_dvec2(const JsonRef& at);
 
@@ -38,6 +42,10 @@ nlohmann::ordered_json write_matrix(const Track<glm::dmat4>& track, const FrameR
 nlohmann::ordered_json write_visibility(const Track<double>& track, const FrameRate& rate);
 /// Nothing where a value has no exact degrees: then it has to be written in radians.
 std::optional<nlohmann::ordered_json> write_degrees(const Track<double>& track, const FrameRate& rate);
+
+/// An object with "keys" or "values", one each of the sampling's.
+nlohmann::ordered_json write_samples(const TimeSampling& sampling, const FrameRate& rate,
+                                     std::vector<nlohmann::ordered_json> values);
 
 nlohmann::ordered_json write_dvec3(const glm::dvec3& value);
 

@@ -163,15 +163,21 @@ class Writer {
 
     ordered_json write_shape(const Shape& shape) const {
         const Shape absent;
-        const bool flat = shape.kind == Shape::Kind::quad, box = shape.kind == Shape::Kind::box;
-        ordered_json out = {{"type", shape_words[static_cast<std::size_t>(shape.kind)]}};
-        if (flat && shape.size != absent.size) out["size"] = {shape.size.x, shape.size.y};
-        if (box && shape.size != absent.size) out["size"] = write_dvec3(shape.size);
-        if (!flat && !box) {
-            if (shape.radius != absent.radius) out["radius"] = shape.radius;
-            if (shape.kind == Shape::Kind::cylinder && shape.height != absent.height) out["height"] = shape.height;
-            if (shape.segments != absent.segments) out["segments"] = shape.segments;
+        const auto kind = static_cast<std::size_t>(shape.kind);
+        const auto has = [&](const char* key) {
+            return std::find(shape_keys[kind].begin(), shape_keys[kind].end(), key) != shape_keys[kind].end();
+        };
+        ordered_json out = {{"type", shape_words[kind]}};
+        if (has("size") && shape.size != absent.size) {
+            out["size"] = write_dvec3(shape.size);
+            if (shape.kind == Shape::Kind::quad) out["size"].erase(2);
         }
+        for (const auto& field : shape_numbers) {
+            if (has(field.key) && shape.*field.member != absent.*field.member) out[field.key] = shape.*field.member;
+        }
+        for (const glm::dvec2& point : shape.profile) out["profile"].push_back({point.x, point.y});
+        if (shape.smooth != absent.smooth) out["smooth"] = shape.smooth;
+        if (has("segments") && shape.segments != absent.segments) out["segments"] = shape.segments;
         if (shape.uv_scale != absent.uv_scale) out["uv_scale"] = {shape.uv_scale.x, shape.uv_scale.y};
         return out;
     }

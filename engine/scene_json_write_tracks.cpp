@@ -41,37 +41,28 @@ template <class T, class Write>
 ordered_json write_track(const Track<T>& track, const FrameRate& rate, const Write& write,
                          Interpolation absent = Interpolation::linear) {
     if (track.values.size() == 1 && track == Track<T>(track.values.front())) return write(track.values.front());
-    const TimeSampling& sampling = track.sampling;
     const bool cubic = track.interpolation == Interpolation::cubic;
-    const bool in_frames = has_whole_frames(sampling, rate);
-    const auto time = [&](double seconds) {
-        return in_frames ? ordered_json(*whole_frame(seconds, rate)) : ordered_json(seconds);
-    };
-
+    const bool with_time = track.sampling.kind == TimeSampling::Kind::acyclic;
+    std::vector<ordered_json> values;
+    for (std::size_t key = 0; key < track.key_count(); ++key) {
+        if (!cubic) {
+            values.push_back(write(track.values[key]));
+            continue;
+        }
+        ordered_json item = ordered_json::array();
+        for (std::size_t part = 0; part < 3; ++part) item.push_back(write(track.values[3 * key + part]));
+        values.push_back(std::move(item));
+    }
     ordered_json out = ordered_json::object();
     if (track.interpolation != absent)
         out["interpolation"] = interpolation_words[static_cast<std::size_t>(track.interpolation)];
-    if (!in_frames) out["unit"] = "seconds";
-    const std::size_t width = cubic ? 3 : 1;
-    ordered_json list = ordered_json::array();
-    for (std::size_t key = 0; key < track.key_count(); ++key) {
-        const bool with_time = sampling.kind == TimeSampling::Kind::acyclic;
-        ordered_json item = ordered_json::array();
-        if (with_time) item.push_back(time(sampling.times.at(key)));
-        for (std::size_t part = 0; part < width; ++part) item.push_back(write(track.values[width * key + part]));
-        list.push_back(with_time || cubic ? std::move(item) : std::move(item[0]));
+    out.update(write_samples(track.sampling, rate, std::move(values)));
+    if (!cubic || !with_time) return out;
+    for (ordered_json& key : out["keys"]) {  // [time, [in, value, out]] to [time, in, value, out]
+        const ordered_json parts = std::move(key[1]);
+        key.erase(1);
+        for (const ordered_json& part : parts) key.push_back(part);
     }
-    if (sampling.kind == TimeSampling::Kind::acyclic) {
-        out["keys"] = std::move(list);
-        return out;
-    }
-    if (sampling.kind == TimeSampling::Kind::cyclic) {
-        for (const double seconds : sampling.times) out["cycle"].push_back(time(seconds));
-    } else if (sampling.start != 0.0 || std::signbit(sampling.start)) {
-        out["start"] = time(sampling.start);
-    }
-    if (sampling.period != (in_frames ? seconds_per_frame(rate) : 1.0)) out["period"] = time(sampling.period);
-    out["values"] = std::move(list);
     return out;
 }
 
@@ -80,6 +71,29 @@ ordered_json write_plain(double value) {
 }
 
 }  // namespace
+
+ordered_json write_samples(const TimeSampling& sampling, const FrameRate& rate, std::vector<ordered_json> values) {
+    const bool in_frames = has_whole_frames(sampling, rate);
+    const auto time = [&](double seconds) {
+        return in_frames ? ordered_json(*whole_frame(seconds, rate)) : ordered_json(seconds);
+    };
+    ordered_json out = ordered_json::object();
+    if (!in_frames) out["unit"] = "seconds";
+    if (sampling.kind == TimeSampling::Kind::acyclic) {
+        for (std::size_t key = 0; key < values.size(); ++key) {
+            out["keys"].push_back(ordered_json::array({time(sampling.times.at(key)), std::move(values[key])}));
+        }
+        return out;
+    }
+    if (sampling.kind == TimeSampling::Kind::cyclic) {
+        for (const double seconds : sampling.times) out["cycle"].push_back(time(seconds));
+    } else if (sampling.start != 0.0 || std::signbit(sampling.start)) {
+        out["start"] = time(sampling.start);
+    }
+    if (sampling.period != (in_frames ? seconds_per_frame(rate) : 1.0)) out["period"] = time(sampling.period);
+    out["values"] = std::move(values);
+    return out;
+}
 
 ordered_json write_dvec3(const glm::dvec3& v) {
     return ordered_json::array({v.x, v.y, v.z});

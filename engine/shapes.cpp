@@ -5,10 +5,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <glm/geometric.hpp>
 #include <limits>
 #include <numbers>
 
 #include "engine/base/errors.h"
+#include "engine/shapes_revolved.h"
 
 namespace aleph {
 
@@ -24,6 +26,25 @@ void check_size(double value, const char* name, const std::string& file, const s
             file, place,
             fmt::format("{} has to lie within {} and {}, found {}", name, smallest_size, largest_size, value));
     }
+}
+
+void check_profile(const Shape& shape, const std::string& file, const std::string& place) {
+    double widest = 0.0, longest = 0.0;
+    for (std::size_t i = 0; i < shape.profile.size(); ++i) {
+        const glm::dvec2 point = shape.profile[i];
+        if (!(point.x >= 0.0 && point.x <= largest_size && std::abs(point.y) <= largest_size)) {
+            throw InputError(file, place,
+                             fmt::format("point {} of the profile, [{}, {}], has to be a distance from the axis of at "
+                                         "least 0 and a y, both within {}",
+                                         i, point.x, point.y, largest_size));
+        }
+        widest = std::max(widest, point.x);
+        longest = std::max(longest, glm::distance(shape.profile.front(), point));
+    }
+    if (!(longest >= smallest_size)) {
+        throw InputError(file, place, "the profile of a lathe needs at least two different points [radius, y]");
+    }
+    if (!(widest >= smallest_size)) throw InputError(file, place, "the profile lies on the axis: nothing to turn");
 }
 
 void add_vertex(Mesh& mesh, const Shape& shape, const glm::dvec3& position, const glm::dvec3& normal,
@@ -59,14 +80,6 @@ void add_box(Mesh& mesh, const Shape& shape) {
          {Face{x, -z, y}, Face{-x, z, y}, Face{y, x, -z}, Face{-y, x, z}, Face{z, x, y}, Face{-z, -x, y}}) {
         add_rectangle(mesh, shape, face.normal * half, face.right * half, face.up * half, face.normal);
     }
-}
-
-/// Unit vector in the plane y = 0 at `column` of `segments`; column 0 and the last give the same bits. The middle is
-/// +z.
-glm::dvec3 around(double column, int segments) {
-    const double turn = std::fmod(column, segments) / segments;
-    const double angle = 2.0 * std::numbers::pi * (turn - 0.5);
-    return {std::sin(angle), 0.0, std::cos(angle)};
 }
 
 int sphere_rows(const Shape& shape) {
@@ -167,7 +180,8 @@ Mesh make_shape_mesh(const Shape& shape, int material, const std::string& name) 
             break;
         case Shape::Kind::torus:
         case Shape::Kind::lathe:
-            throw InputError({}, name, "this shape is not made yet");
+            add_revolved(mesh, shape, make_outline(shape));
+            break;
     }
     return mesh;
 }
@@ -184,26 +198,50 @@ std::size_t shape_triangle_count(const Shape& shape) {
         case Shape::Kind::cylinder:
             return 4 * segments;
         case Shape::Kind::torus:
-        case Shape::Kind::lathe:
-            return 0;
+            return count_revolved_triangles(make_outline(shape), shape.segments);
+        case Shape::Kind::lathe: {
+            const std::size_t most = 2 * segments * count_outline_pieces(shape);
+            return most > max_shape_triangles ? most : count_revolved_triangles(make_outline(shape), shape.segments);
+        }
     }
     return 0;
 }
 
 void validate(const Shape& shape, const std::string& file, const std::string& place) {
-    const bool flat = shape.kind == Shape::Kind::quad, box = shape.kind == Shape::Kind::box;
-    if (flat || box) {
-        check_size(shape.size.x, "size x", file, place);
-        check_size(shape.size.y, "size y", file, place);
-        if (box) check_size(shape.size.z, "size z", file, place);
-    } else {
-        check_size(shape.radius, "radius", file, place);
-        if (shape.kind == Shape::Kind::cylinder) check_size(shape.height, "height", file, place);
-        if (shape.segments < min_shape_segments || shape.segments > max_shape_segments) {
-            throw InputError(file, place,
-                             fmt::format("segments have to lie within {} and {}, found {}", min_shape_segments,
-                                         max_shape_segments, shape.segments));
-        }
+    const auto check = [&](double value, const char* name) { check_size(value, name, file, place); };
+    switch (shape.kind) {
+        case Shape::Kind::quad:
+        case Shape::Kind::box:
+            check(shape.size.x, "size x");
+            check(shape.size.y, "size y");
+            if (shape.kind == Shape::Kind::box) check(shape.size.z, "size z");
+            break;
+        case Shape::Kind::sphere:
+            check(shape.radius, "radius");
+            break;
+        case Shape::Kind::cylinder:
+            check(shape.radius, "radius");
+            check(shape.height, "height");
+            break;
+        case Shape::Kind::torus:
+            check(shape.radius, "radius");
+            check(shape.tube_radius, "tube_radius");
+            if (!(shape.tube_radius < shape.radius)) {
+                throw InputError(file, place,
+                                 fmt::format("tube_radius ({}) has to be smaller than radius ({}), that of the circle "
+                                             "which the tube follows",
+                                             shape.tube_radius, shape.radius));
+            }
+            break;
+        case Shape::Kind::lathe:
+            check_profile(shape, file, place);
+            break;
+    }
+    const bool turned = shape.kind != Shape::Kind::quad && shape.kind != Shape::Kind::box;
+    if (turned && (shape.segments < min_shape_segments || shape.segments > max_shape_segments)) {
+        throw InputError(file, place,
+                         fmt::format("segments have to lie within {} and {}, found {}", min_shape_segments,
+                                     max_shape_segments, shape.segments));
     }
     for (const double scale : {shape.uv_scale.x, shape.uv_scale.y}) {
         if (!(std::abs(scale) <= largest_size)) {

@@ -62,7 +62,7 @@ class Numbers {
     auto track(const Make& make, bool may_be_cubic = true) -> Track<decltype(make())> {
         Track<decltype(make())> track;
         const int keys = 1 + below(4);
-        track.interpolation = static_cast<Interpolation>(below(may_be_cubic ? 3 : 2));
+        track.interpolation = static_cast<Interpolation>(below(may_be_cubic ? 4 : 3));
         track.values.resize(static_cast<std::size_t>(track.interpolation == Interpolation::cubic ? 3 * keys : keys));
         for (auto& value : track.values) value = make();
         track.sampling.kind = static_cast<TimeSampling::Kind>(below(3));
@@ -103,7 +103,7 @@ Scene make_full_scene(Numbers& n) {
         image.path = std::string(name) + ".png";
         scene.images.push_back(image);
     }
-    for (int i = 0; i < 4; ++i) {
+    for (int i = 0; i < 6; ++i) {
         Material material;
         material.name = fmt::format("material {}", 9 - i);
         if (i > 0) {
@@ -141,6 +141,12 @@ Scene make_full_scene(Numbers& n) {
         if (i >= 2) shape.radius = n.positive();
         if (i == 3) shape.height = n.positive();
         if (i >= 2) shape.segments = 3 + n.below(20);
+        if (i == 4) shape.tube_radius = shape.radius * (0.1 + 0.8 * n.unit());
+        if (i == 5) {
+            shape.radius = Shape{}.radius;
+            for (int p = 0; p < 5; ++p) shape.profile.emplace_back(n.unit(), n.unit());
+            shape.smooth = n.below(2) == 1;
+        }
         shape.uv_scale = {n.unit(), n.any()};
         scene.meshes.push_back(make_shape_mesh(shape, i - 1, fmt::format("mesh {}", i)));
     }
@@ -169,7 +175,7 @@ Scene make_full_scene(Numbers& n) {
         }
         node.visible = n.track([&] { return static_cast<double>(n.below(2)); }, false);
         node.visible.interpolation = Interpolation::step;
-        for (int mesh = 0; mesh < i % 4; ++mesh) node.meshes.push_back((i + mesh) % 4);
+        for (int mesh = 0; mesh < i % 4; ++mesh) node.meshes.push_back((i + mesh) % 6);
         if (i % 5 == 0) node.camera = n.below(4);
         if (i % 6 == 0) node.light = n.below(4);
         scene.nodes.push_back(node);
