@@ -33,14 +33,19 @@ CameraView make_camera_view(const CameraValues& camera, int width, int height) {
                              fmt::format("its field of view is {} degrees; it must lie between 0 and 180",
                                          camera.fov * 180.0 / std::numbers::pi));
     }
+    // The view's centre moves right and up, so the axis moves left and down in the picture.
+    view.axis_offset = {-camera.shift_x * height, camera.shift_y * height};
+    if (!std::isfinite(view.axis_offset.x) || !std::isfinite(view.axis_offset.y))
+        throw InputError("", "camera",
+                         fmt::format("its film offset is ({}, {}) heights of the picture; it must be finite",
+                                     camera.shift_x, camera.shift_y));
     return view;
 }
 
 CameraRay make_camera_ray(const CameraView& view, double x, double y) {
-    const double right = (x - 0.5 * view.width) / view.pixels_per_unit;
-    const double up = (0.5 * view.height - y) / view.pixels_per_unit;
-    if (view.orthographic) return {view.position + view.axes * glm::dvec3(right, up, 0.0), -view.axes[2]};
-    return {view.position, view.axes * safe_normalize(glm::dvec3(right, up, -1.0))};
+    const glm::dvec2 at = unproject_pixel(view, x, y);
+    if (view.orthographic) return {view.position + view.axes * glm::dvec3(at, 0.0), -view.axes[2]};
+    return {view.position, view.axes * safe_normalize(glm::dvec3(at, -1.0))};
 }
 
 glm::dvec3 compute_anchor(const CameraView& view) {

@@ -17,9 +17,12 @@ struct CameraView {
     glm::dmat3 axes{1.0};          ///< columns right, up, back
     double pixels_per_unit = 1.0;  ///< perspective: focal length in pixels; orthographic: pixels per metre
     double near_plane = 1e-4;      ///< m
+    /// Pixels, x right and y down: where the optical axis meets the picture, from its middle (film offset).
+    glm::dvec2 axis_offset{0.0};
 };
 
-/// @throws InputError where the field of view or half height is not positive and finite, or the size is not positive
+/// @throws InputError where the field of view or half height is not positive and finite, the film offset is not finite,
+/// or the size is not positive
 CameraView make_camera_view(const CameraValues& camera, int width, int height);
 
 /// A point in the camera's own axes: x right, y up, z back (negative in front). The difference is taken first, so
@@ -31,7 +34,13 @@ inline glm::dvec3 to_camera(const CameraView& view, const glm::dvec3& world) {
 /// Pixel position of a point in camera axes. Valid only where -z > near_plane; finite wherever z != 0.
 inline glm::dvec2 project_camera_point(const CameraView& view, const glm::dvec3& p) {
     const double scale = view.orthographic ? view.pixels_per_unit : view.pixels_per_unit / -p.z;
-    return {0.5 * view.width + p.x * scale, 0.5 * view.height - p.y * scale};
+    return {0.5 * view.width + view.axis_offset.x + p.x * scale, 0.5 * view.height + view.axis_offset.y - p.y * scale};
+}
+
+/// Where a pixel position lies on the plane z = -1 (perspective) or z = 0, m (orthographic), in camera axes.
+inline glm::dvec2 unproject_pixel(const CameraView& view, double x, double y) {
+    return {(x - (0.5 * view.width + view.axis_offset.x)) / view.pixels_per_unit,
+            (0.5 * view.height + view.axis_offset.y - y) / view.pixels_per_unit};
 }
 
 /// Start (world, m) and direction (unit, world) of the ray through a pixel position. Orthographic rays start on the

@@ -55,6 +55,7 @@ CameraView interpolate_view(const CameraView& a, const CameraView& b, double fra
     view.position = glm::mix(a.position, b.position, fraction);
     view.axes = glm::mat3_cast(glm::slerp(glm::quat_cast(a.axes), glm::quat_cast(b.axes), fraction));
     view.pixels_per_unit = std::lerp(a.pixels_per_unit, b.pixels_per_unit, fraction);
+    view.axis_offset = glm::mix(a.axis_offset, b.axis_offset, fraction);
     return view;
 }
 
@@ -64,7 +65,7 @@ double turn_between(const CameraView& a, const CameraView& b) {
 
 bool same_projection(const CameraView& a, const CameraView& b) {
     return a.width == b.width && a.height == b.height && a.orthographic == b.orthographic &&
-           a.pixels_per_unit == b.pixels_per_unit && a.near_plane == b.near_plane;
+           a.pixels_per_unit == b.pixels_per_unit && a.axis_offset == b.axis_offset && a.near_plane == b.near_plane;
 }
 
 /// The background lies at infinity: only rotation moves it. Its points are directions in the axes of `now`.
@@ -197,8 +198,7 @@ PixelMotion compute_point_motion(const FrameMotion& frame, const ObjectMotion& o
 PixelMotion compute_background_motion(const FrameMotion& frame, double x, double y) {
     PixelMotion motion;
     if (!frame.background.still || !frame.background.between.empty()) {
-        const glm::dvec3 direction((x - 0.5 * frame.now.width) / frame.now.pixels_per_unit,
-                                   (0.5 * frame.now.height - y) / frame.now.pixels_per_unit, -1.0);
+        const glm::dvec3 direction(unproject_pixel(frame.now, x, y), -1.0);
         // At infinity every direction before the camera is beyond the near plane.
         constexpr double smallest = 1e-12;
         motion = compute_point_motion(frame, frame.background, direction, smallest, smallest);

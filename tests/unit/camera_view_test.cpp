@@ -80,6 +80,49 @@ TEST(CameraView, OrthographicRaysStartOnTheCameraPlane) {
     EXPECT_NEAR(to_camera(view, ray.origin).y, 2.5 * (240.0 - 20.0) / 240.0, 1e-14);
 }
 
+/// A film offset cuts another window out of the same, larger picture.
+TEST(CameraView, FilmOffsetIsACropOfALargerPicture) {
+    for (const bool orthographic : {false, true}) {
+        CameraValues camera = placed({3.0, 4.0, -5.0}, {-1.0, 0.5, 2.0});
+        camera.orthographic = orthographic;
+        // 160 x 120 pixels within 480 x 360 with the same focal length: half an angle whose tangent is three times as
+        // large, or three times the half height.
+        CameraValues wide = camera;
+        wide.fov = 2.0 * std::atan(3.0 * std::tan(0.5 * camera.fov));
+        wide.half_height = 3.0 * camera.half_height;
+        const CameraView whole = make_camera_view(wide, 480, 360);
+        camera.shift_x = 50.0 / 120.0;   // right
+        camera.shift_y = -25.0 / 120.0;  // down
+        const CameraView cropped = make_camera_view(camera, 160, 120);
+        const glm::dvec2 corner(160.0 + 50.0, 120.0 + 25.0);  // of the crop in the larger picture
+        for (const glm::dvec2 pixel : {glm::dvec2(0.5, 0.5), glm::dvec2(80.0, 60.0), glm::dvec2(159.5, 31.25)}) {
+            const CameraRay a = make_camera_ray(cropped, pixel.x, pixel.y);
+            const CameraRay b = make_camera_ray(whole, corner.x + pixel.x, corner.y + pixel.y);
+            expect_near(a.origin, b.origin, 1e-12);
+            expect_near(a.direction, b.direction, 1e-12);
+            const glm::dvec2 back = project_camera_point(cropped, to_camera(cropped, a.origin + 5.0 * a.direction));
+            EXPECT_NEAR(back.x, pixel.x, 1e-10);
+            EXPECT_NEAR(back.y, pixel.y, 1e-10);
+        }
+    }
+}
+
+TEST(CameraView, FilmOffsetMovesTheCentreRightAndUp) {
+    CameraValues camera;
+    camera.fov = pi / 2.0;
+    camera.shift_x = 0.5;
+    camera.shift_y = 0.25;
+    const CameraView view = make_camera_view(camera, 200, 100);
+    // Half the picture's height is 45 degrees: the centre looks at tan = (1, .5).
+    const glm::dvec3 centre = make_camera_ray(view, 100.0, 50.0).direction;
+    EXPECT_NEAR(centre.x / -centre.z, 1.0, 1e-14);
+    EXPECT_NEAR(centre.y / -centre.z, 0.5, 1e-14);
+    for (const double bad : {std::numeric_limits<double>::infinity(), std::nan("")}) {
+        camera.shift_x = bad;
+        EXPECT_THROW(make_camera_view(camera, 200, 100), InputError);
+    }
+}
+
 TEST(CameraView, RefusesWhatIsNoCamera) {
     const double infinity = std::numeric_limits<double>::infinity();
     CameraValues camera;

@@ -243,6 +243,30 @@ TEST(ModelMotion, ZoomMovesObjectsAndBackground) {
     EXPECT_NEAR(field.displacement(0, height / 2).x, left_edge * grown, 1e-9);
 }
 
+/// A film offset that changes slides the whole picture, near and far alike; one that stays moves nothing.
+TEST(ModelMotion, FilmOffsetSlidesThePicture) {
+    for (const bool orthographic : {false, true}) {
+        Scene scene;
+        add_object(scene, make_node(no_index, {0.3, 0.2, -7.0}));
+        add_camera(scene);
+        scene.cameras[0].orthographic = orthographic;
+        scene.cameras[0].shift_x = ramp(0.1, 0.35);
+        scene.cameras[0].shift_y = -0.2;
+        const TwoMoments moments(scene, 0.0, 1.0, width, height);
+        Image<Hit> hits = make_random_hits(scene, moments.frames[0], width, height);
+        if (!orthographic) hits(3, 5).instance = no_index;
+        const MotionField field = compute_model_motion(scene, moments.now(), moments.other(), hits, {});
+        for (const glm::dvec2& d : field.displacement.pixels) {
+            ASSERT_NEAR(d.x, -0.25 * height, 1e-9);
+            ASSERT_NEAR(d.y, 0.0, 1e-9);
+        }
+        scene.cameras[0].shift_x = 0.35;
+        const TwoMoments held(scene, 0.0, 1.0, width, height);
+        const MotionField still = compute_model_motion(scene, held.now(), held.other(), hits, {});
+        for (const glm::dvec2& d : still.displacement.pixels) ASSERT_EQ(d, glm::dvec2(0.0));
+    }
+}
+
 TEST(ModelMotion, PathIsTheDisplacementsLengthWhereNothingTurnsFar) {
     Scene scene;
     dollying(scene, add_node(scene, make_node(no_index, {})));
