@@ -88,9 +88,11 @@ ChannelImage make_frame_image(const FrameOutput& output, bool maps, const Scene&
     file.metadata["whiteLuminance"] = scene.viewing.display_white;
     file.metadata["pixelsPerDegree"] = scene.viewing.pixels_per_degree;
     file.metadata["exposureFactor"] = exposure;
-    file.metadata["samplesPerPixel"] = static_cast<double>(settings.spp);
-    file.metadata["seed"] = static_cast<double>(settings.seed);
-    file.metadata["worldToCamera"] = format_camera(output.view);
+    if (output.view.width > 0) {  // frames without a scene have no camera, and nobody sampled them here
+        file.metadata["samplesPerPixel"] = static_cast<double>(settings.spp);
+        file.metadata["seed"] = static_cast<double>(settings.seed);
+        file.metadata["worldToCamera"] = format_camera(output.view);
+    }
     file.metadata["motion:definition"] = define_motion(settings.motion);
     for (const auto& [key, value] : setting_map(settings)) {
         const std::string text = std::visit([](const auto& v) { return fmt::format("{}", v); }, value);

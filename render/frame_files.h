@@ -7,6 +7,7 @@
 namespace aleph {
 
 /// R, G, B, A of the picture where it was rendered; with `maps` every map's channels as well.
+/// Maps that were not made (of geometry and rendering, for frames without a scene) have no channels.
 /// forward.u and forward.v are y up; the C++ MotionField is y down.
 ChannelImage make_frame_image(const FrameOutput& output, bool maps, const Scene& scene, const RenderSettings& settings,
                               double exposure);

@@ -28,24 +28,4 @@ void add_render_command(CLI::App& app, Command& command) {
     });
 }
 
-void add_maps_command(CLI::App& app, Command& command) {
-    CLI::App* maps = app.add_subcommand("maps", "write motion, saliency and Aleph maps of a scene's frames");
-    const auto options = std::make_shared<SceneOptions>();
-    add_scene_options(*maps, *options);
-    maps->footer(
-        "Channels: forward.u/.v (pixels to frame N+1, y up), motion.valid, velocity.image/.retinal (deg/s), "
-        "saliency.Y, "
-        "conspicuity.*, aleph.Y, alpha.acc, threshold.Y (cd/m2), estimate.*, Z (m), N.*, objectId.X.\n\n"
-        "Examples:\n"
-        "  aleph maps scenes/pool/scene.json --frames 20 -o maps.exr\n"
-        "  aleph compare guided.exr dense.exr --threshold maps.exr      would a viewer notice?");
-    maps->callback([options, &command] {
-        command = [options] {
-            write_frames(prepare_scene(*options), *options, {.frame = false, .maps = true, .progress = {}}, true,
-                         "maps");
-            return exit_done;
-        };
-    });
-}
-
 }  // namespace aleph

@@ -16,9 +16,6 @@
 
 namespace aleph {
 
-namespace {
-
-/// "30", "29.97" or "30000/1001".
 FrameRate parse_fps(const std::string& text) {
     const std::size_t slash = text.find('/');
     if (slash != std::string::npos) {
@@ -35,7 +32,6 @@ FrameRate parse_fps(const std::string& text) {
     throw InputError("--fps", printable(text), "expected frames per second, such as 30 or 30000/1001");
 }
 
-/// The scene file's own numbers that --set may change beside its "settings": taken out of the map.
 void set_scene_numbers(Scene& scene, SettingMap& settings) {
     const auto take = [&](const std::string& key, auto&& apply) {
         const auto found = settings.find(key);
@@ -51,6 +47,8 @@ void set_scene_numbers(Scene& scene, SettingMap& settings) {
     take("viewing.pixels_per_degree", [&](double v) { scene.viewing.pixels_per_degree = v; });
     take("viewing.display_white", [&](double v) { scene.viewing.display_white = v; });
 }
+
+namespace {
 
 std::string option_name(std::string key) {
     for (char& c : key) c = c == '_' ? '-' : c;
@@ -142,12 +140,22 @@ void warn_of_units(const FrameStatistics& frame) {
 
 void write_frames(const PreparedScene& prepared, const SceneOptions& options, const FrameRequest& request, bool maps,
                   const std::string& title) {
+    prepare_frames_output(prepared, options, maps);
+    const ThreadLimit limit(options.threads);
+    Sequence sequence(prepared.scene, prepared.settings, options.camera);
+    write_made_frames(prepared, options, request, maps, title, sequence.exposure(),
+                      [&](int frame, const FrameRequest& asked) { return sequence.render(frame, asked); });
+}
+
+void prepare_frames_output(const PreparedScene& prepared, const SceneOptions& options, bool maps) {
     prepare_output(options.output, prepared.name, prepared.frames.size());
     if (maps && is_png(output_path(options.output, prepared.name, prepared.frames.front()))) {
         throw InputError("--output", printable(options.output), "maps need channels: write .exr, not .png");
     }
-    const ThreadLimit limit(options.threads);
-    Sequence sequence(prepared.scene, prepared.settings, options.camera);
+}
+
+void write_made_frames(const PreparedScene& prepared, const SceneOptions& options, const FrameRequest& request,
+                       bool maps, const std::string& title, double exposure, const FrameMaker& make_frame) {
     std::vector<FrameStatistics> statistics;
     Progress progress(title, static_cast<double>(prepared.frames.size()), progress_look(options.quiet));
     for (std::size_t i = 0; i < prepared.frames.size(); ++i) {
@@ -156,13 +164,13 @@ void write_frames(const PreparedScene& prepared, const SceneOptions& options, co
         asked.progress = [&](double fraction, const char* stage) {
             progress.update(static_cast<double>(i) + fraction, fmt::format("frame {}: {}", frame, stage));
         };
-        FrameOutput output = sequence.render(frame, asked);
+        FrameOutput output = make_frame(frame, asked);
         const auto start = std::chrono::steady_clock::now();
         const std::filesystem::path path = output_path(options.output, prepared.name, frame);
         if (is_png(path)) {
             write_png(path, output.shaded.color);
         } else {
-            write_exr(path, make_frame_image(output, maps, prepared.scene, prepared.settings, sequence.exposure()));
+            write_exr(path, make_frame_image(output, maps, prepared.scene, prepared.settings, exposure));
         }
         StageSeconds& seconds = output.statistics.seconds;
         seconds.write = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
@@ -172,8 +180,7 @@ void write_frames(const PreparedScene& prepared, const SceneOptions& options, co
         progress.update(static_cast<double>(i + 1), fmt::format("frame {}", frame));
     }
     if (!options.stats.empty()) {
-        write_file(options.stats,
-                   format_statistics(statistics, prepared.scene, prepared.settings, sequence.exposure()));
+        write_file(options.stats, format_statistics(statistics, prepared.scene, prepared.settings, exposure));
     }
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 // The options of the commands that work on a scene's frames, and what they make of the scene.
 
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -21,6 +22,15 @@ struct SceneOptions {
 /// Adds the scene argument and the options that `render` and `maps` share: one per setting, --set for any.
 void add_scene_options(CLI::App& app, SceneOptions& options);
 
+/// "30", "29.97" or "30000/1001".
+/// @throws InputError (--fps)
+FrameRate parse_fps(const std::string& text);
+
+/// The scene file's own numbers that --set may change beside its "settings" (exposure, viewing.*): taken out of the
+/// map.
+/// @throws InputError (--set)
+void set_scene_numbers(Scene& scene, SettingMap& settings);
+
 /// A scene with its settings: defaults, then the scene file's, then the command line's.
 struct PreparedScene {
     Scene scene;
@@ -37,5 +47,12 @@ PreparedScene prepare_scene(const SceneOptions& options);
 /// @param maps  channels of all maps beside (or, without `frame` in the request, instead of) the picture
 void write_frames(const PreparedScene& prepared, const SceneOptions& options, const FrameRequest& request, bool maps,
                   const std::string& title);
+
+/// The steps of write_frames: checks the output and makes its folder before anything is computed;
+void prepare_frames_output(const PreparedScene& prepared, const SceneOptions& options, bool maps);
+/// then makes every frame and writes it.
+using FrameMaker = std::function<FrameOutput(int frame, const FrameRequest& request)>;
+void write_made_frames(const PreparedScene& prepared, const SceneOptions& options, const FrameRequest& request,
+                       bool maps, const std::string& title, double exposure, const FrameMaker& make_frame);
 
 }  // namespace aleph

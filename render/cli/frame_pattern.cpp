@@ -1,0 +1,107 @@
+#include "render/cli/frame_pattern.h"
+
+#include <fmt/format.h>
+
+#include <charconv>
+#include <string_view>
+#include <system_error>
+
+#include "engine/base/errors.h"
+
+namespace aleph {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A field that starts at `at`.
+std::optional<NumberField> field_at(const std::string& name, std::size_t at) {
+    if (name[at] == '#') {
+        const std::size_t end = std::min(name.find_first_not_of('#', at), name.size());
+        return NumberField{at, end - at, static_cast<int>(end - at)};
+    }
+    if (name.compare(at, 2, "%d") == 0) return NumberField{at, 2, 1};
+    if (name.size() >= at + 4 && name[at + 1] == '0' && name[at + 2] >= '1' && name[at + 2] <= '9' &&
+        name[at + 3] == 'd') {
+        return NumberField{at, 4, name[at + 2] - '0'};
+    }
+    return std::nullopt;
+}
+
+/// What stands in the number's place, if the rest of the name fits.
+std::optional<std::string_view> text_of_number(std::string_view name, const std::string& pattern,
+                                               const NumberField& field) {
+    const std::string_view before = std::string_view(pattern).substr(0, field.begin);
+    const std::string_view after = std::string_view(pattern).substr(field.begin + field.length);
+    if (name.size() <= before.size() + after.size() || !name.starts_with(before) || !name.ends_with(after)) {
+        return std::nullopt;
+    }
+    return name.substr(before.size(), name.size() - before.size() - after.size());
+}
+
+[[noreturn]] void refuse(const std::string& pattern, const std::string& reason) {
+    throw InputError("", "--images", fmt::format("'{}': {}", printable(pattern, 400), reason));
+}
+
+}  // namespace
+
+std::optional<NumberField> find_number_field(const std::string& name, const std::string& option) {
+    std::optional<NumberField> found;
+    for (std::size_t at = name.find_first_of("#%"); at != std::string::npos; at = name.find_first_of("#%", at)) {
+        const auto field = field_at(name, at);
+        if (!field) {
+            throw InputError("", option, fmt::format("'{}': after '%' comes 'd' or '04d'", printable(name)));
+        }
+        if (found) {
+            throw InputError("", option,
+                             fmt::format("'{}': the frame number has more than one place", printable(name)));
+        }
+        found = field;
+        at += field->length;
+    }
+    return found;
+}
+
+std::string insert_number(const std::string& name, const NumberField& field, int frame) {
+    std::string text = name;
+    return text.replace(field.begin, field.length, fmt::format("{:0{}}", frame, field.width));
+}
+
+std::map<std::int64_t, fs::path> find_frame_files(const std::string& pattern) {
+    const fs::path path(pattern);
+    const std::string name = path.filename().string();
+    std::error_code error;
+    if (fs::is_directory(path, error)) refuse(pattern, "this is a folder; add its files' names, as in name.####.exr");
+    const auto field = find_number_field(name, "--images");
+    if (!field) {
+        if (!fs::exists(path, error))
+            refuse(pattern, "there is no such file; several frames are named as name.####.exr");
+        return {{0, path}};
+    }
+    const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
+    if (!fs::is_directory(folder, error)) refuse(pattern, "there is no such folder");
+    std::map<std::int64_t, fs::path> files;
+    std::string near;  // a name that differs only in how its number is written
+    for (const fs::directory_entry& entry : fs::directory_iterator(folder, error)) {
+        const std::string file = entry.path().filename().string();
+        const auto text = text_of_number(file, name, *field);
+        if (!text) continue;
+        int frame = 0;
+        const auto [end, failure] = std::from_chars(text->data(), text->data() + text->size(), frame);
+        if (failure != std::errc() || end != text->data() + text->size()) continue;
+        if (insert_number(name, *field, frame) == file) {
+            files[frame] = path.has_parent_path() ? folder / file : fs::path(file);
+        } else if (near.empty() || file < near) {
+            near = file;
+        }
+    }
+    if (error) refuse(pattern, error.message());
+    if (files.empty()) {
+        refuse(pattern, near.empty()
+                            ? "no file fits; each # stands for a digit of the frame number"
+                            : fmt::format("no file fits, but {} would with another number of #", printable(near)));
+    }
+    return files;
+}
+
+}  // namespace aleph

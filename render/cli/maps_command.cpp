@@ -1,0 +1,215 @@
+// `aleph maps`: the maps of a scene's frames, or of frames without a scene.
+
+#include <algorithm>
+#include <iostream>
+#include <set>
+
+#include "engine/base/errors.h"
+#include "engine/image_io.h"
+#include "render/cli/commands.h"
+#include "render/cli/frame_list.h"
+#include "render/cli/frame_pattern.h"
+#include "render/cli/output_path.h"
+#include "render/cli/scene_options.h"
+#include "render/image_sequence.h"
+
+namespace aleph {
+
+namespace {
+
+struct MapsOptions {
+    SceneOptions common;
+    std::vector<std::string> images;
+    std::string cuts;
+    std::optional<double> exposure;
+};
+
+FrameRequest maps_request() {
+    return {.frame = false, .maps = true, .progress = {}};
+}
+
+/// Settings that mean something without a scene.
+const std::set<std::string>& image_settings() {
+    static const std::set<std::string> keys = {"guide",
+                                               "motion",
+                                               "bands",
+                                               "grid",
+                                               "adapter",
+                                               "neutral_opponent",
+                                               "adapter_k",
+                                               "accuracy",
+                                               "exposure",
+                                               "viewing.display_white",
+                                               "viewing.pixels_per_degree"};
+    return keys;
+}
+
+void refuse_what_needs_a_scene(const MapsOptions& options) {
+    if (!options.common.scene.empty() || options.images.size() > 1) {
+        throw InputError("", "--images",
+                         "give a scene or one pattern, not more; quotes keep the shell from replacing it by file "
+                         "names: --images 'frame.####.exr'");
+    }
+    if (!options.common.camera.empty()) throw InputError("", "--camera", "this needs a scene");
+    for (const auto& [key, value] : options.common.settings) {
+        if (!image_settings().contains(key)) throw InputError("", key, "this setting needs a scene");
+        const auto* text = std::get_if<std::string>(&value);
+        if (key == "motion" && text != nullptr && *text == "model") {
+            throw InputError("", key, "model-based motion needs a scene");
+        }
+    }
+}
+
+/// "frame.####.exr" to "frame-maps": beside the pictures, but never over them.
+std::string name_of_maps(const std::filesystem::path& pattern) {
+    std::string name = pattern.stem().string();
+    name.erase(std::min(name.find_first_of("#%"), name.size()));
+    while (!name.empty() && std::string_view("._-").find(name.back()) != std::string_view::npos) name.pop_back();
+    return (name.empty() ? "frame" : name) + "-maps";
+}
+
+/// What the first picture says of the shot: our own frames and those of most programs carry their rate.
+void read_shot(Scene& shot, const ChannelImage& first) {
+    const auto number = [&](const char* key, double& value) {
+        const auto found = first.metadata.find(key);
+        if (found == first.metadata.end()) return;
+        const double* const given = std::get_if<double>(&found->second);
+        if (given != nullptr && *given > 0.0 && *given <= 1e18) value = *given;
+    };
+    number("whiteLuminance", shot.viewing.display_white);
+    number("pixelsPerDegree", shot.viewing.pixels_per_degree);
+    const auto rate = first.metadata.find("framesPerSecond");
+    if (rate == first.metadata.end()) return;
+    const auto* const fraction = std::get_if<std::array<int, 2>>(&rate->second);
+    if (fraction != nullptr && (*fraction)[0] > 0 && (*fraction)[1] > 0)
+        shot.frame_rate = {(*fraction)[0], (*fraction)[1]};
+}
+
+struct PreparedImages {
+    PreparedScene prepared;  ///< a scene without objects: what is known of the shot
+    FrameFiles files;
+};
+
+/// Finds and checks everything that can be known before a map is computed.
+PreparedImages prepare_images(const MapsOptions& options) {
+    refuse_what_needs_a_scene(options);
+    const std::string& pattern = options.images.front();
+    PreparedImages images;
+    images.files = find_frame_files(pattern);
+    PreparedScene& prepared = images.prepared;
+    Scene& shot = prepared.scene;
+    shot.file = pattern;
+    shot.exposure = 1.0;
+    const ChannelImage first = read_image(images.files.begin()->second);
+    read_shot(shot, first);
+    if (!options.common.fps.empty()) shot.frame_rate = parse_fps(options.common.fps);
+    SettingMap given = options.common.settings;
+    set_scene_numbers(shot, given);
+    if (options.exposure) shot.exposure = *options.exposure;
+    if (!(*shot.exposure > 0.0 && *shot.exposure <= 1e18)) {
+        throw InputError("", "--exposure", "expected a number above 0");
+    }
+    apply_settings(prepared.settings, given, "");
+    prepared.settings.motion = MotionSource::image;
+    if (!first.channels.empty()) {
+        prepared.settings.width = first.channels.front().values.width;
+        prepared.settings.height = first.channels.front().values.height;
+    }
+    if (!options.cuts.empty()) {
+        try {
+            for (const int frame : parse_frame_list(options.cuts)) shot.cuts.push_back(frame);
+        } catch (const InputError& e) {
+            throw InputError("", "--cuts", e.reason());
+        }
+    }
+    if (options.common.frames.empty()) {
+        for (const auto& [frame, path] : images.files) prepared.frames.push_back(static_cast<int>(frame));
+    } else {
+        prepared.frames = parse_frame_list(options.common.frames);
+    }
+    prepared.name = name_of_maps(pattern);
+    return images;
+}
+
+/// Every frame has its partner, and no picture would be written over.
+void check_frames(const PreparedImages& images, const std::string& output) {
+    const PreparedScene& prepared = images.prepared;
+    std::set<std::filesystem::path> names;
+    for (const auto& [number, file] : images.files) names.insert(file.filename());
+    const std::filesystem::path folder = images.files.begin()->second.parent_path();
+    for (const int frame : prepared.frames) {
+        find_partner(images.files, prepared.scene.cuts, frame);
+        const std::filesystem::path path = output_path(output, prepared.name, frame);
+        std::error_code ignored;
+        if (names.contains(path.filename()) && std::filesystem::equivalent(folder / path.filename(), path, ignored)) {
+            throw InputError("", "--output", printable(path.string(), 400) + " is one of the pictures themselves");
+        }
+    }
+}
+
+void write_image_maps(const MapsOptions& options) {
+    const PreparedImages images = prepare_images(options);
+    check_frames(images, options.common.output);
+    const PreparedScene& prepared = images.prepared;
+    prepare_frames_output(prepared, options.common, true);
+    const ThreadLimit limit(options.common.threads);
+    ImageSequence sequence(prepared.scene, images.files, prepared.settings);
+    write_made_frames(prepared, options.common, maps_request(), true, "maps", *prepared.scene.exposure,
+                      [&](int frame, const FrameRequest&) { return sequence.compute_maps(frame); });
+}
+
+}  // namespace
+
+void add_maps_command(CLI::App& app, Command& command) {
+    CLI::App* maps =
+        app.add_subcommand("maps", "write motion, saliency and Aleph maps of a scene's frames, or of any pictures");
+    const auto options = std::make_shared<MapsOptions>();
+    add_scene_options(*maps, options->common);
+    maps->get_option("scene")->required(false);
+    const std::string group = "Frames without a scene";
+    maps->add_option("--images", options->images,
+                     "pictures in place of a scene, such as 'frame.####.exr' or 'frame.%04d.png', in quotes: EXR "
+                     "(linear Rec.709) or PNG (sRGB), numbered without gaps; motion is found by comparing them")
+        ->type_name("PATTERN")
+        ->group(group);
+    maps->add_option("--cuts", options->cuts, "frames that begin a new shot: no motion from the frame before")
+        ->type_name("LIST")
+        ->group(group);
+    maps->add_option_function<std::string>(
+            "--exposure",
+            [options](const std::string& text) { options->exposure = parse_value<double>(text, "--exposure"); },
+            "factor on the pictures' values, so that white is 1 (default: 1)")
+        ->type_name("NUMBER")
+        ->group(group);
+    maps->footer(
+        "Channels: forward.u/.v (pixels to frame N+1, y up), motion.valid, velocity.image/.retinal (deg/s), "
+        "saliency.Y, conspicuity.*, aleph.Y, alpha.acc, threshold.Y (cd/m2), estimate.*, and with a scene Z (m), N.*, "
+        "objectId.X.\n\n"
+        "With --images, estimate.* is the picture itself. Its frame rate (framesPerSecond), whiteLuminance and "
+        "pixelsPerDegree are taken from the first EXR where it has them; --fps and --set viewing.pixels_per_degree=N, "
+        "viewing.display_white=N say otherwise. Where a picture shows no detail, or more moves than 53 pixels a frame, "
+        "motion is a guess; with a scene, --motion model (the default) is exact.\n\n"
+        "Examples:\n"
+        "  aleph maps scenes/pool/scene.json --frames 20 -o maps.exr\n"
+        "  aleph maps --images 'shot/frame.####.png' --fps 24 -o maps/\n"
+        "  aleph compare guided.exr dense.exr --threshold maps.exr      would a viewer notice?");
+    maps->callback([options, &command] {
+        if (options->images.empty()) {
+            if (options->common.scene.empty()) {
+                throw CLI::RequiredError("a scene, or --images 'frame.####.exr'");
+            }
+            if (!options->cuts.empty()) throw CLI::ValidationError("--cuts", "a scene file names its own cuts");
+            if (options->exposure) options->common.settings["exposure"] = *options->exposure;
+        }
+        command = [options] {
+            if (!options->images.empty()) {
+                write_image_maps(*options);
+            } else {
+                write_frames(prepare_scene(options->common), options->common, maps_request(), true, "maps");
+            }
+            return exit_done;
+        };
+    });
+}
+
+}  // namespace aleph
