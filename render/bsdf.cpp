@@ -5,8 +5,6 @@
 #include <glm/geometric.hpp>
 #include <numbers>
 
-#include "render/texture.h"
-
 namespace aleph {
 
 namespace {
@@ -36,32 +34,35 @@ float smith_lambda(float alpha, const glm::vec3& v) {
 
 }  // namespace
 
-SurfaceMaterial evaluate_material(const ShadingScene& shading, const SurfacePoint& point) {
+SurfaceMaterial evaluate_material(const ShadingScene& shading, const SurfacePoint& point,
+                                  const RayFootprint& footprint) {
     const ShadingMaterial& entry = shading.materials[static_cast<std::size_t>(point.material)];
     const MaterialValues& values = entry.values;
     Rgb base = values.base_color * Rgb(point.color);
     float metallic = values.metallic, roughness = values.roughness, specular = values.specular;
     Rgb emission = values.emission, specular_color = values.specular_color;
-    if (entry.material != nullptr) {
-        const Material& m = *entry.material;
-        const auto look_up = [&](const TextureRef& texture, TextureSpace space) {
-            return sample_texture(*shading.scene, texture, point.uv[texture.uv_set == 1 ? 1 : 0], space);
+    const MaterialTextures& textures = shading.textures->materials[static_cast<std::size_t>(point.material)];
+    if (textures.any) {
+        const UvFootprint uv_footprints[2] = {make_uv_footprint(point, footprint, 0),
+                                              make_uv_footprint(point, footprint, 1)};
+        const auto look_up = [&](const TextureUse& use) {
+            return sample_texture(*shading.textures, use, point.uv[use.uv_set], uv_footprints[use.uv_set]);
         };
-        if (m.base_color_texture.image != no_index) base *= Rgb(look_up(m.base_color_texture, TextureSpace::srgb));
-        if (m.metallic_roughness_texture.image != no_index) {
-            const glm::vec4 t = look_up(m.metallic_roughness_texture, TextureSpace::linear);
+        if (textures.base_color.texture != no_index) base *= Rgb(look_up(textures.base_color));
+        if (textures.metallic_roughness.texture != no_index) {
+            const glm::vec4 t = look_up(textures.metallic_roughness);
             roughness *= t.y;
             metallic *= t.z;
         }
-        if (entry.emits && m.emission_texture.image != no_index) {
-            emission *= Rgb(look_up(m.emission_texture, TextureSpace::srgb));
-        }
-        if (m.specular_texture.image != no_index) specular *= look_up(m.specular_texture, TextureSpace::linear).w;
-        if (m.specular_color_texture.image != no_index) {
-            specular_color *= Rgb(look_up(m.specular_color_texture, TextureSpace::srgb));
-        }
+        if (entry.emits && textures.emission.texture != no_index) emission *= Rgb(look_up(textures.emission));
+        if (textures.specular.texture != no_index) specular *= look_up(textures.specular).w;
+        if (textures.specular_color.texture != no_index) specular_color *= Rgb(look_up(textures.specular_color));
     }
     SurfaceMaterial surface;
+    if (entry.material != nullptr && entry.material->unlit) {
+        surface.emission = base;
+        return surface;
+    }
     const float ior_reflectance = (values.ior - 1.0f) / (values.ior + 1.0f);
     const Rgb dielectric_f0 = glm::min(ior_reflectance * ior_reflectance * specular_color, Rgb(1.0f)) * specular;
     surface.diffuse = base * (1.0f - metallic);

@@ -9,6 +9,7 @@
 
 #include "engine/base/color.h"
 #include "render/shading_scene.h"
+#include "render/texture_footprint.h"
 
 namespace aleph {
 
@@ -24,7 +25,10 @@ struct SurfaceMaterial {
     bool has_glossy() const { return f90 > 0.0f || f0 != Rgb(0.0f); }
 };
 
-SurfaceMaterial evaluate_material(const ShadingScene& shading, const SurfacePoint& point);
+/// Textures are averaged over the footprint. An unlit material (KHR_materials_unlit) shows its base colour as radiance,
+/// from both sides, reflects nothing, and is no light: rays other than the camera's find nothing there.
+SurfaceMaterial evaluate_material(const ShadingScene& shading, const SurfacePoint& point,
+                                  const RayFootprint& footprint);
 
 /// Share of light that passes into the Lambert layer at a cosine: 1 - F (Schlick 1994).
 float diffuse_transmission(const SurfaceMaterial& material, float cosine);

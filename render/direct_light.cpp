@@ -83,7 +83,7 @@ Rgb sample_glossy_light(const LightingContext& context, Tracer& tracer, const Su
         const int emitter = context.lights.emitter_of_instance[static_cast<std::size_t>(hit.instance)];
         if (emitter == no_index) return Rgb(0.0f);
         const SurfacePoint lamp = make_surface_point(context.shading, hit, direction);
-        incoming = evaluate_material(context.shading, lamp).emission;
+        incoming = evaluate_material(context.shading, lamp, {}).emission;
         light_pdf = pdf_emitter(context.lights.emitters[static_cast<std::size_t>(emitter)], point.ray_origin(),
                                 std::abs(glm::dot(lamp.geometric, direction)), hit.distance);
     }
@@ -148,8 +148,9 @@ Rgb estimate_direct_light(const LightingContext& context, Tracer& tracer, const 
     for (int light = 0; light < context.lights.count(); ++light) {
         const int light_samples = has_area(context.lights, light) ? samples : 1;
         for (int i = 0; i < light_samples; ++i) {
-            const LightSample sample = sample_light(context.shading, context.lights, light, point.ray_origin(),
-                                                    point.normal, lattice_point(i, light_samples, {0.0f, 0.25f}));
+            const LightSample sample =
+                sample_light(context.shading, context.lights, light, point.ray_origin(), point.normal,
+                             lattice_point(i, light_samples, {0.0f, 0.25f}), 1.0f / static_cast<float>(light_samples));
             const float cosine = glm::dot(point.normal, sample.direction);
             if (!(cosine > 0.0f) || !(glm::dot(point.geometric, sample.direction) > 0.0f)) continue;
             Rgb f(0.0f);

@@ -11,8 +11,9 @@ namespace aleph {
 namespace {
 
 constexpr float pi = std::numbers::pi_v<float>;
-constexpr int most_candidates = 16;          // lights compared at a hit
-constexpr float smallest_distance = 1e-20f;  // keeps gradients finite where even the median is 0
+constexpr int most_candidates = 16;           // lights compared at a hit
+constexpr float smallest_distance = 1e-20f;   // keeps gradients finite where even the median is 0
+constexpr float smallest_ray_cosine = 0.05f;  // a cell at the horizon is no wider than this makes it
 constexpr float infinite = std::numeric_limits<float>::infinity();
 
 /// The light that one gather hit reflects back, before its shadow ray.
@@ -198,13 +199,17 @@ IrradianceSample gather_irradiance(const LightingContext& context, Tracer& trace
     }
     tracer.intersect(scratch.rays, scratch.hits, true);
     counts.gather += count;
+    const float cell_angle = pi / static_cast<float>(count);  // of a cell around the normal; 1 / cosine more elsewhere
     for (std::size_t i = 0; i < count; ++i) {
         const Hit& hit = scratch.hits[i];
         scratch.distances[i] = hit.instance == no_index ? infinite : hit.distance;
         if (hit.instance == no_index) continue;
-        const SurfacePoint met = make_surface_point(context.shading, hit, scratch.rays[i].direction);
+        const glm::vec3& direction = scratch.rays[i].direction;
+        const SurfacePoint met = make_surface_point(context.shading, hit, direction);
+        const float cosine = std::max(glm::dot(point.normal, direction), smallest_ray_cosine);
+        const RayFootprint footprint = make_cone_footprint(met, direction, hit.distance, cell_angle / cosine);
         const Reflected reflected =
-            choose_light(context, met, evaluate_material(context.shading, met), -scratch.rays[i].direction, random);
+            choose_light(context, met, evaluate_material(context.shading, met, footprint), -direction, random);
         if (reflected.radiance == Rgb(0.0f)) continue;
         scratch.radiance[i] = reflected.radiance;
         scratch.shadow_rays.push_back(reflected.shadow_ray);

@@ -10,7 +10,6 @@
 #include "engine/base/sampling.h"
 #include "render/bsdf.h"
 #include "render/spherical_triangle.h"
-#include "render/texture.h"
 
 namespace aleph {
 
@@ -112,8 +111,8 @@ std::size_t choose_part(std::span<const float> ends, float& u) {
     return i;
 }
 
-LightSample sample_emitter(const ShadingScene& shading, const Emitter& emitter, const glm::vec3& position,
-                           glm::vec2 u) {
+LightSample sample_emitter(const ShadingScene& shading, const Emitter& emitter, const glm::vec3& position, glm::vec2 u,
+                           float share) {
     const SolidAngles angles = find_solid_angles(emitter, position);
     std::size_t chosen = 0;
     glm::vec2 b;
@@ -144,15 +143,37 @@ LightSample sample_emitter(const ShadingScene& shading, const Emitter& emitter, 
     Rgb radiance = emitter.radiance;
     if (emitter.textured) {
         const Hit hit{emitter.instance, triangle.primitive, b.x, b.y, distance};
-        radiance = evaluate_material(shading, make_surface_point(shading, hit, sample.direction)).emission;
+        const RayFootprint footprint{{}, {}, std::sqrt(share * emitter.area)};
+        radiance = evaluate_material(shading, make_surface_point(shading, hit, sample.direction), footprint).emission;
     }
     sample.incoming = radiance / sample.pdf;
     return sample;
 }
 
+/// 1 - cosine between unit vectors, without the cancellation that would coarsen narrow cones.
+float versine_between(const glm::vec3& a, const glm::vec3& b) {
+    const glm::vec3 chord = a - b;
+    return 0.5f * glm::dot(chord, chord);
+}
+
+float versine(double angle) {
+    const double s = std::sin(0.5 * angle);
+    return static_cast<float>(2.0 * s * s);
+}
+
+/// KHR_lights_punctual: the square of what rises linearly with the cosine, from the outer cone to the inner one. Equal
+/// cones end sharply.
+float spot_falloff(const PunctualLight& light, const glm::vec3& towards_light) {
+    const float inside = light.outer_versine - versine_between(light.direction, -towards_light);
+    if (!(inside > 0.0f)) return 0.0f;
+    const float ramp = light.outer_versine - light.inner_versine;
+    const float share = inside < ramp ? inside / ramp : 1.0f;
+    return share * share;
+}
+
 LightSample sample_punctual(const PunctualLight& light, const glm::vec3& position) {
     LightSample sample;
-    if (light.directional) {
+    if (light.kind == Light::Kind::directional) {
         sample.direction = -light.direction;
         sample.distance = std::numeric_limits<float>::infinity();
         sample.incoming = light.intensity;
@@ -169,6 +190,7 @@ LightSample sample_punctual(const PunctualLight& light, const glm::vec3& positio
         const float ratio2 = distance2 / (light.range * light.range);
         window = std::clamp(1.0f - ratio2 * ratio2, 0.0f, 1.0f);
     }
+    if (light.kind == Light::Kind::spot) window *= spot_falloff(light, sample.direction);
     sample.incoming = light.intensity * (window / distance2);
     return sample;
 }
@@ -195,8 +217,9 @@ LightSet make_light_set(const ShadingScene& shading) {
     }
     for (const LightValues& light : shading.frame->lights) {
         if (light.intensity == Rgb(0.0f)) continue;
-        lights.punctual.push_back({light.kind == Light::Kind::directional, glm::vec3(light.position - shading.anchor),
-                                   glm::vec3(light.direction), light.intensity, static_cast<float>(light.range)});
+        lights.punctual.push_back({light.kind, glm::vec3(light.position - shading.anchor), glm::vec3(light.direction),
+                                   light.intensity, static_cast<float>(light.range), versine(light.inner_cone),
+                                   versine(light.outer_cone)});
     }
     lights.environment = shading.environment;
     lights.has_environment = shading.environment != Rgb(0.0f);
@@ -204,9 +227,9 @@ LightSet make_light_set(const ShadingScene& shading) {
 }
 
 LightSample sample_light(const ShadingScene& shading, const LightSet& lights, int light, const glm::vec3& position,
-                         const glm::vec3& normal, const glm::vec2& u) {
+                         const glm::vec3& normal, const glm::vec2& u, float share) {
     std::size_t i = static_cast<std::size_t>(light);
-    if (i < lights.emitters.size()) return sample_emitter(shading, lights.emitters[i], position, u);
+    if (i < lights.emitters.size()) return sample_emitter(shading, lights.emitters[i], position, u, share);
     i -= lights.emitters.size();
     if (i < lights.punctual.size()) return sample_punctual(lights.punctual[i], position);
     LightSample sample;

@@ -1,5 +1,5 @@
 #pragma once
-// Everything that shines, as a list of lights: emissive instances, point and directional lights, the environment.
+// Everything that shines, as a list of lights: emissive instances, point, spot and directional lights, the environment.
 
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
@@ -28,11 +28,13 @@ struct Emitter {
 };
 
 struct PunctualLight {
-    bool directional = false;
+    Light::Kind kind = Light::Kind::point;
     glm::vec3 position{0.0f};   ///< m, relative to the anchor
     glm::vec3 direction{0.0f};  ///< unit, the way light travels
     Rgb intensity{0.0f};        ///< candela or lux
-    float range = 0.0f;
+    float range = 0.0f;         ///< m; 0: unlimited
+    /// Spot: 1 - cosine of the half-angles where full intensity ends and where all light ends.
+    float inner_versine = 0.0f, outer_versine = 0.0f;
 };
 
 struct LightSet {
@@ -58,9 +60,11 @@ struct LightSample {
 /// A sample of one light as a point sees it, u in [0,1)^2. `position` is where the shadow ray starts
 /// (SurfacePoint::ray_origin): from the surface itself, `distance` would let an offset ray run into the light.
 /// `incoming` is 0 where the light cannot be seen from there whatever stands between (behind it, zero area, out of
-/// range). The environment is sampled by cosine about `normal`.
+/// range, outside a spot's cone). The environment is sampled by cosine about `normal`.
+/// @param share  of an area light that the sample stands for: its texture is averaged over so much of it; 0: read at
+///               the sampled point itself
 LightSample sample_light(const ShadingScene& shading, const LightSet& lights, int light, const glm::vec3& position,
-                         const glm::vec3& normal, const glm::vec2& u);
+                         const glm::vec3& normal, const glm::vec2& u, float share = 0.0f);
 
 /// Density per solid angle with which sample_light, at `position`, finds an emitter's point at `distance` that faces
 /// back with this cosine. Emitters of few triangles are sampled by solid angle where they are near, else by area.

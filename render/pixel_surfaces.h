@@ -11,6 +11,7 @@ namespace aleph {
 struct SampleHits {
     Image<Hit> hits;
     double offset_x = 0.5, offset_y = 0.5;
+    float spacing = 1.0f;  ///< pixels between a pixel's samples: what textures are averaged over
 };
 
 struct PixelSurface {

@@ -13,6 +13,7 @@
 #include "perception/threshold.h"
 #include "render/accuracy_map.h"
 #include "render/estimate.h"
+#include "render/texture.h"
 
 namespace aleph {
 
@@ -99,6 +100,7 @@ struct Sequence::State {
     int camera;
     FrameRange range;
     ViewingConditions viewing;
+    TextureSet textures;
     RayScene rays;
     std::unique_ptr<RayScene> other_rays;  ///< for visibility in the other frame
     double exposure = 1.0;
@@ -107,7 +109,7 @@ struct Sequence::State {
 Sequence::Sequence(const Scene& scene, const RenderSettings& settings, const std::string& camera) {
     validate(settings);
     state_.reset(new State{scene, settings, find_camera(scene, camera), frame_range(scene), scene.viewing,
-                           RayScene(scene), nullptr, 1.0});
+                           make_texture_set(scene), RayScene(scene), nullptr, 1.0});
     State& s = *state_;
     s.viewing.frames_per_second = scene.frame_rate.per_second();
     if (scene.exposure) {
@@ -118,7 +120,7 @@ Sequence::Sequence(const Scene& scene, const RenderSettings& settings, const std
     const Moment moment = make_moment(scene, s.range.first, s.camera, exposure_columns, height);
     const glm::dvec3 anchor = compute_anchor(moment.view);
     s.rays.update(moment.frame, anchor);
-    const ShadingScene shading = make_shading_scene(scene, moment.frame, anchor);
+    const ShadingScene shading = make_shading_scene(scene, moment.frame, anchor, s.textures);
     const LightSet lights = make_light_set(shading);
     RayCounts counts;
     const SampleHits centers = cast_sample(s.rays, moment.view, 0, 1, &counts.primary);
@@ -195,7 +197,7 @@ FrameOutput Sequence::render(std::int64_t frame, const FrameRequest& request) {
 
     const glm::dvec3 anchor = compute_anchor(now.view);
     stats.instances_touched = s.rays.update(now.frame, anchor);
-    const ShadingScene shading = make_shading_scene(s.scene, now.frame, anchor);
+    const ShadingScene shading = make_shading_scene(s.scene, now.frame, anchor, s.textures);
     const LightSet lights = make_light_set(shading);
     const LightingContext lighting{shading, lights, s.rays};
     clock.add_to(stats.seconds.update);

@@ -25,16 +25,18 @@ T interpolate(const std::vector<T>& values, const glm::uvec3& t, float u, float 
 
 }  // namespace
 
-ShadingScene make_shading_scene(const Scene& scene, const SceneFrame& frame, const glm::dvec3& anchor) {
+ShadingScene make_shading_scene(const Scene& scene, const SceneFrame& frame, const glm::dvec3& anchor,
+                                const TextureSet& textures) {
     ShadingScene shading;
     shading.scene = &scene;
     shading.frame = &frame;
+    shading.textures = &textures;
     shading.anchor = anchor;
     shading.environment = frame.environment;
     for (std::size_t i = 0; i < scene.materials.size(); ++i) {
         const MaterialValues& values = frame.materials[i];
-        shading.materials.push_back(
-            {values, &scene.materials[i], scene.materials[i].double_sided, values.emission != Rgb(0.0f)});
+        shading.materials.push_back({values, &scene.materials[i], scene.materials[i].double_sided,
+                                     values.emission != Rgb(0.0f) && !scene.materials[i].unlit});
     }
     shading.materials.push_back({});
     const int default_material = static_cast<int>(scene.materials.size());
@@ -91,8 +93,13 @@ SurfacePoint make_surface_point(const ShadingScene& shading, const Hit& hit, con
             if (glm::dot(shading_normal, point.geometric) > 0.0f) point.normal = shading_normal;
         }
     }
+    point.edges[0] = w1;
+    point.edges[1] = w2;
     for (int k = 0; k < 2; ++k) {
-        if (!mesh.uv[k].empty()) point.uv[k] = interpolate(mesh.uv[k], t, u, v);
+        if (mesh.uv[k].empty()) continue;
+        point.uv[k] = interpolate(mesh.uv[k], t, u, v);
+        point.uv_edges[k][0] = mesh.uv[k][t.y] - mesh.uv[k][t.x];
+        point.uv_edges[k][1] = mesh.uv[k][t.z] - mesh.uv[k][t.x];
     }
     if (!mesh.colors.empty()) point.color = interpolate(mesh.colors, t, u, v);
     return point;

@@ -11,6 +11,8 @@
 
 namespace aleph {
 
+struct TextureSet;
+
 struct PosedInstance {
     const Mesh* mesh = nullptr;
     int material = no_index;      ///< into ShadingScene::materials; the default material is its last entry
@@ -31,14 +33,17 @@ struct ShadingMaterial {
 struct ShadingScene {
     const Scene* scene = nullptr;
     const SceneFrame* frame = nullptr;
+    const TextureSet* textures = nullptr;
     glm::dvec3 anchor{0.0};
     std::vector<PosedInstance> instances;  ///< as SceneFrame::instances
     std::vector<ShadingMaterial> materials;
     Rgb environment{0.0f};
 };
 
-/// Keeps pointers into scene and frame: both must outlive it.
-ShadingScene make_shading_scene(const Scene& scene, const SceneFrame& frame, const glm::dvec3& anchor);
+/// Keeps pointers to scene, frame and textures: they must outlive it.
+/// @param textures  make_texture_set(scene)
+ShadingScene make_shading_scene(const Scene& scene, const SceneFrame& frame, const glm::dvec3& anchor,
+                                const TextureSet& textures);
 
 /// A point of a surface, seen from a direction.
 struct SurfacePoint {
@@ -46,7 +51,9 @@ struct SurfacePoint {
     glm::vec3 geometric{0.0f};  ///< unit, towards the viewer
     glm::vec3 normal{0.0f};     ///< shading normal, unit, never facing away from the viewer's side of `geometric`
     glm::vec2 uv[2]{};
-    glm::vec4 color{1.0f};  ///< vertex colour
+    glm::vec3 edges[2]{};        ///< m, of the triangle, from its first corner
+    glm::vec2 uv_edges[2][2]{};  ///< per set of texture coordinates: how it changes along each edge
+    glm::vec4 color{1.0f};       ///< vertex colour
     int material = no_index;
     float offset = 0.0f;  ///< m along `geometric` that clears rounding of the position (HARD_CASES RC-04)
     bool front = true;    ///< seen from the side its winding faces

@@ -1,72 +1,161 @@
 #include "render/texture.h"
 
-#include <array>
+#include <algorithm>
 #include <cmath>
 
-#include "engine/base/color.h"
+#include "render/texture_texels.h"
 
 namespace aleph {
 
 namespace {
 
-const std::array<float, 256>& srgb_table() {
-    static const std::array<float, 256> table = [] {
-        std::array<float, 256> t{};
-        for (std::size_t i = 0; i < t.size(); ++i) t[i] = srgb_to_linear(static_cast<float>(i) / 255.0f);
-        return t;
-    }();
-    return table;
+/// Beyond this a float holds no fraction of a texel.
+constexpr float largest_coordinate = 1e6f;
+/// Footprints longer than this are blurred across as well: what a look-up may cost is bounded.
+constexpr int most_probes = 16;
+
+/// A coordinate brought into [0,1]: mirroring folds it, so that texels are then clamped at both ends.
+float wrap_coordinate(float u, Wrap wrap) {
+    if (wrap == Wrap::clamp) return std::clamp(u, 0.0f, 1.0f);
+    if (wrap == Wrap::repeat) return u - std::floor(u);
+    const float folded = u - 2.0f * std::floor(u * 0.5f);
+    return folded > 1.0f ? 2.0f - folded : folded;
 }
 
+/// For indices at most one outside [0, n).
 int wrap_index(int i, int n, Wrap wrap) {
-    if (wrap == Wrap::clamp) return i < 0 ? 0 : (i >= n ? n - 1 : i);
-    if (wrap == Wrap::repeat) {
-        const int r = i % n;
-        return r < 0 ? r + n : r;
-    }
-    const int period = 2 * n;
-    int r = i % period;
-    if (r < 0) r += period;
-    return r < n ? r : period - 1 - r;
+    if (i < 0) return wrap == Wrap::repeat ? n - 1 : 0;
+    if (i >= n) return wrap == Wrap::repeat ? 0 : n - 1;
+    return i;
 }
 
-glm::vec4 read_texel(const SceneImage& image, int x, int y, TextureSpace space) {
-    if (image.bytes.empty()) return image.floats(x, y);
-    const glm::u8vec4 b = image.bytes(x, y);
-    const auto decode = [&](std::uint8_t v) {
-        return space == TextureSpace::srgb ? srgb_table()[v] : static_cast<float>(v) * (1.0f / 255.0f);
+/// One level's four texels around a place, blended. Reading is a parameter so that level 0 decodes in place.
+template <class Read>
+glm::vec4 blend_texels(int width, int height, const glm::vec2& place, Wrap wrap_u, Wrap wrap_v, const Read& read) {
+    const float cx = place.x * static_cast<float>(width) - 0.5f, cy = place.y * static_cast<float>(height) - 0.5f;
+    const float x_floor = std::floor(cx), y_floor = std::floor(cy);
+    const float ax = cx - x_floor, ay = cy - y_floor;
+    const int ix = static_cast<int>(x_floor), iy = static_cast<int>(y_floor);
+    const int x0 = wrap_index(ix, width, wrap_u), x1 = wrap_index(ix + 1, width, wrap_u);
+    const int y0 = wrap_index(iy, height, wrap_v), y1 = wrap_index(iy + 1, height, wrap_v);
+    const glm::vec4 top = read(x0, y0) * (1.0f - ax) + read(x1, y0) * ax;
+    const glm::vec4 bottom = read(x0, y1) * (1.0f - ax) + read(x1, y1) * ax;
+    return top * (1.0f - ay) + bottom * ay;
+}
+
+/// @param place  uv within [0,1]
+glm::vec4 sample_level(const Texture& texture, const TextureUse& use, int level, const glm::vec2& place) {
+    const auto from = [&](const auto& image, const auto& decode) {
+        return blend_texels(image.width, image.height, place, use.wrap_u, use.wrap_v,
+                            [&](int x, int y) { return decode(image(x, y)); });
     };
-    return {decode(b.x), decode(b.y), decode(b.z), static_cast<float>(b.w) * (1.0f / 255.0f)};
+    if (level > 0)
+        return from(texture.coarse[static_cast<std::size_t>(level - 1)], [](const glm::vec4& t) { return t; });
+    if (texture.image->bytes.empty()) return from(texture.image->floats, [](const glm::vec4& t) { return t; });
+    if (texture.space == TextureSpace::srgb) {
+        return from(texture.image->bytes, [](const glm::u8vec4& t) { return decode_texel(t, TextureSpace::srgb); });
+    }
+    return from(texture.image->bytes, [](const glm::u8vec4& t) { return decode_texel(t, TextureSpace::linear); });
+}
+
+/// Where and how coarsely a footprint reads a texture.
+struct Probes {
+    int count = 1;
+    glm::vec2 step{0.0f};    ///< uv from one probe to the next
+    float level = 0.0f;      ///< 0: magnified
+    bool magnified = false;  ///< smaller than a texel all over
+};
+
+/// log2 of how many texels one probe covers, within the pyramid.
+float find_level(const Texture& texture, float texels) {
+    const float level = std::log2(texels), coarsest = static_cast<float>(texture.coarse.size());
+    return level < coarsest ? level : coarsest;  // so is what is no number
+}
+
+/// Probes of the footprint's width, rounded up in number, that reach from end to end of its length. Their spread is
+/// that of a box of that length, near enough (a box of n widths: n^2 / 12; n probes over n - 1 widths with their own
+/// tent: (n^2 - 1) / 12 + 1 / 6).
+Probes place_probes(const Texture& texture, const UvFootprint& footprint) {
+    const float width = static_cast<float>(texture.width), height = static_cast<float>(texture.height);
+    const glm::vec2 dx(footprint.dx.x * width, footprint.dx.y * height);
+    const glm::vec2 dy(footprint.dy.x * width, footprint.dy.y * height);
+    const float area = std::abs(dx.x * dy.y - dx.y * dy.x);
+    Probes probes;
+    if (footprint.round) {
+        probes.magnified = area <= 1.0f;
+        probes.level = probes.magnified ? 0.0f : find_level(texture, std::sqrt(area));
+        return probes;
+    }
+    // Axes of the ellipse J J^T, J = [dx dy]: eigenvalues mean +- root.
+    const float xx = dx.x * dx.x + dy.x * dy.x, yy = dx.y * dx.y + dy.y * dy.y, xy = dx.x * dx.y + dy.x * dy.y;
+    const float half_difference = 0.5f * (xx - yy);
+    const float root = std::sqrt(half_difference * half_difference + xy * xy);
+    const float major2 = 0.5f * (xx + yy) + root;
+    if (major2 <= 1.0f) {
+        probes.magnified = true;
+        return probes;
+    }
+    const float major = std::sqrt(major2);
+    if (!(major < 1e18f)) {  // not a number, or nearly infinite
+        probes.level = static_cast<float>(texture.coarse.size());
+        return probes;
+    }
+    const float minor = area / major;
+    const float probe_width = std::max({minor, 1.0f, major / static_cast<float>(most_probes)});
+    probes.level = find_level(texture, probe_width);
+    probes.count = std::clamp(static_cast<int>(major / probe_width + 0.75f), 1, most_probes);
+    if (probes.count > 1) {
+        const glm::vec2 along =
+            half_difference >= 0.0f ? glm::vec2(root + half_difference, xy) : glm::vec2(xy, root - half_difference);
+        const float step = (major - probe_width) /
+                           (std::sqrt(along.x * along.x + along.y * along.y) * static_cast<float>(probes.count - 1));
+        probes.step = glm::vec2(along.x * step / width, along.y * step / height);
+    }
+    return probes;
+}
+
+bool is_place(float u) {
+    return std::abs(u) < largest_coordinate;
 }
 
 }  // namespace
 
-glm::vec4 sample_texture(const Scene& scene, const TextureRef& texture, const glm::vec2& uv, TextureSpace space) {
-    if (texture.image == no_index) return glm::vec4(1.0f);
-    const SceneImage& image = scene.images[static_cast<std::size_t>(texture.image)];
-    const int width = image.bytes.empty() ? image.floats.width : image.bytes.width;
-    const int height = image.bytes.empty() ? image.floats.height : image.bytes.height;
-    if (width == 0 || height == 0) return glm::vec4(1.0f);
-    // Far beyond this a float holds no fraction of a texel, and the conversion to int would overflow.
-    constexpr float limit = 1e6f;
-    const float u = std::abs(uv.x) < limit ? uv.x : 0.0f;
-    const float v = std::abs(uv.y) < limit ? uv.y : 0.0f;
-    // Wrap before scaling, so that indices stay small whatever the repeat count; mirroring has period 2.
-    const float fx = (u - 2.0f * std::floor(u * 0.5f)) * static_cast<float>(width);
-    const float fy = (v - 2.0f * std::floor(v * 0.5f)) * static_cast<float>(height);
-    const float px = texture.wrap_u == Wrap::clamp ? glm::clamp(u, 0.0f, 1.0f) * static_cast<float>(width) : fx;
-    const float py = texture.wrap_v == Wrap::clamp ? glm::clamp(v, 0.0f, 1.0f) * static_cast<float>(height) : fy;
-    const auto texel = [&](int x, int y) {
-        return read_texel(image, wrap_index(x, width, texture.wrap_u), wrap_index(y, height, texture.wrap_v), space);
+glm::vec4 sample_texture(const TextureSet& set, const TextureUse& use, const glm::vec2& uv,
+                         const UvFootprint& footprint) {
+    if (use.texture == no_index) return glm::vec4(1.0f);
+    const Texture& texture = set.textures[static_cast<std::size_t>(use.texture)];
+    glm::vec2 center = uv;
+    Probes probes;
+    if (use.transformed) {
+        center = use.offset + use.matrix * uv;
+        probes = place_probes(texture, {use.matrix * footprint.dx, use.matrix * footprint.dy, footprint.round});
+    } else {
+        probes = place_probes(texture, footprint);
+    }
+    center = {is_place(center.x) ? center.x : 0.0f, is_place(center.y) ? center.y : 0.0f};
+    const auto wrap = [&](const glm::vec2& place) {
+        return glm::vec2(wrap_coordinate(place.x, use.wrap_u), wrap_coordinate(place.y, use.wrap_v));
     };
-    if (texture.nearest) return texel(static_cast<int>(std::floor(px)), static_cast<int>(std::floor(py)));
-    const float cx = px - 0.5f, cy = py - 0.5f;
-    const float x0 = std::floor(cx), y0 = std::floor(cy);
-    const float ax = cx - x0, ay = cy - y0;
-    const int ix = static_cast<int>(x0), iy = static_cast<int>(y0);
-    const glm::vec4 top = texel(ix, iy) * (1.0f - ax) + texel(ix + 1, iy) * ax;
-    const glm::vec4 bottom = texel(ix, iy + 1) * (1.0f - ax) + texel(ix + 1, iy + 1) * ax;
-    return top * (1.0f - ay) + bottom * ay;
+    if (probes.magnified) {
+        const glm::vec2 place = wrap(center);
+        if (!use.nearest) return sample_level(texture, use, 0, place);
+        const int x = static_cast<int>(place.x * static_cast<float>(texture.width));
+        const int y = static_cast<int>(place.y * static_cast<float>(texture.height));
+        return read_texel(*texture.image, wrap_index(x, texture.width, use.wrap_u),
+                          wrap_index(y, texture.height, use.wrap_v), texture.space);
+    }
+    const int level = static_cast<int>(probes.level);
+    const float coarser = probes.level - static_cast<float>(level);
+    glm::vec2 at = center - probes.step * (0.5f * static_cast<float>(probes.count - 1));
+    glm::vec4 sum(0.0f);
+    for (int i = 0; i < probes.count; ++i) {
+        const glm::vec2 place = wrap(at);
+        glm::vec4 value = sample_level(texture, use, level, place);
+        if (coarser > 0.0f) value += (sample_level(texture, use, level + 1, place) - value) * coarser;
+        sum += value;
+        at += probes.step;
+    }
+    return sum * (1.0f / static_cast<float>(probes.count));
 }
 
 }  // namespace aleph

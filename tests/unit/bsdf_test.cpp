@@ -228,7 +228,7 @@ SurfaceMaterial evaluate(Material material, bool front = true, const glm::vec4& 
     point.material = 0;
     point.front = front;
     point.color = color;
-    return evaluate_material(stage.shading, point);
+    return evaluate_material(stage.shading, point, {});
 }
 
 TEST(Bsdf, SpecularZeroIsPureLambert) {
@@ -299,7 +299,7 @@ TEST(Bsdf, TexturesMultiplyTheFactors) {
     const Stage stage(std::move(scene));
     SurfacePoint point = make_point(glm::vec3(0.0f), {0.0f, 0.0f, 1.0f});
     point.material = 0;
-    const SurfaceMaterial surface = evaluate_material(stage.shading, point);
+    const SurfaceMaterial surface = evaluate_material(stage.shading, point, {});
     const float rough = 128.0f / 255.0f, metal = 51.0f / 255.0f, green = srgb_to_linear(128.0f / 255.0f);
     EXPECT_NEAR(surface.alpha, rough * rough, 1e-6f);
     EXPECT_NEAR(surface.diffuse.y, green * (1.0f - metal), 1e-6f);

@@ -122,8 +122,10 @@ struct Stage {
         : scene(std::move(s)),
           frame((ensure_camera(scene), pose(scene, seconds))),
           view(make_camera_view(frame.cameras[0], width, height)),
+          textures(make_texture_set(scene)),
           rays(scene),
-          shading((rays.update(frame, compute_anchor(view)), make_shading_scene(scene, frame, compute_anchor(view)))),
+          shading((rays.update(frame, compute_anchor(view)),
+                   make_shading_scene(scene, frame, compute_anchor(view), textures))),
           lights(make_light_set(shading)) {}
     Stage(const Stage&) = delete;
     Stage& operator=(const Stage&) = delete;
@@ -137,6 +139,7 @@ struct Stage {
     Scene scene;
     SceneFrame frame;
     CameraView view;
+    TextureSet textures;
     RayScene rays;
     ShadingScene shading;
     LightSet lights;

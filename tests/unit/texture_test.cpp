@@ -1,9 +1,11 @@
-// Texture look-up: texel centres, interpolation, wrapping, colour spaces, coordinates that are no numbers.
+// Texture look-up at a point: texel centres, interpolation, wrapping, colour spaces, the reference's transform,
+// coordinates that are no numbers. texture_filter_test.cpp has what a footprint changes.
 
 #include "render/texture.h"
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <limits>
 
 #include "engine/base/color.h"
@@ -23,9 +25,17 @@ Scene make_ramp(int width, int height = 1) {
     return scene;
 }
 
+/// At a point, through a set that holds this texture alone.
+glm::vec4 sample(const Scene& scene, const TextureRef& reference, const glm::vec2& uv,
+                 TextureSpace space = TextureSpace::linear) {
+    TextureSet set;
+    set.textures.push_back(make_texture(scene.images[static_cast<std::size_t>(reference.image)], space));
+    return sample_texture(set, make_texture_use(reference, 0), uv, {});
+}
+
 float look_up(const Scene& scene, Wrap wrap, float u, bool nearest = false, float v = 0.5f) {
     const TextureRef texture{.image = 0, .wrap_u = wrap, .wrap_v = wrap, .nearest = nearest};
-    return sample_texture(scene, texture, {u, v}, TextureSpace::linear).x;
+    return sample(scene, texture, {u, v}).x;
 }
 
 TEST(Texture, CentresAndBetween) {
@@ -35,12 +45,12 @@ TEST(Texture, CentresAndBetween) {
         for (int x = 0; x < 4; ++x) {
             const glm::vec2 uv((static_cast<float>(x) + 0.5f) / 4.0f, (static_cast<float>(y) + 0.5f) / 2.0f);
             // v grows downwards: row 0 of the image at v = 0.
-            EXPECT_EQ(sample_texture(scene, texture, uv, TextureSpace::linear), glm::vec4(x, y, 0.0f, 1.0f));
+            EXPECT_EQ(sample(scene, texture, uv), glm::vec4(x, y, 0.0f, 1.0f));
         }
     }
-    EXPECT_FLOAT_EQ(sample_texture(scene, texture, {0.5f, 0.5f}, TextureSpace::linear).x, 1.5f);
-    EXPECT_FLOAT_EQ(sample_texture(scene, texture, {0.5f, 0.5f}, TextureSpace::linear).y, 0.5f);
-    EXPECT_FLOAT_EQ(sample_texture(scene, texture, {0.3125f, 0.5f}, TextureSpace::linear).x, 0.75f);
+    EXPECT_FLOAT_EQ(sample(scene, texture, {0.5f, 0.5f}).x, 1.5f);
+    EXPECT_FLOAT_EQ(sample(scene, texture, {0.5f, 0.5f}).y, 0.5f);
+    EXPECT_FLOAT_EQ(sample(scene, texture, {0.3125f, 0.5f}).x, 0.75f);
 }
 
 TEST(Texture, WrapModesBilinear) {
@@ -87,14 +97,14 @@ TEST(Texture, EightBitColoursAreDecodedBeforeInterpolating) {
     image.bytes(1, 0) = glm::u8vec4(255, 188, 10, 128);
     scene.images.push_back(image);
     const TextureRef texture{.image = 0, .wrap_u = Wrap::clamp, .wrap_v = Wrap::clamp};
-    const glm::vec4 srgb = sample_texture(scene, texture, {0.75f, 0.5f}, TextureSpace::srgb);
+    const glm::vec4 srgb = sample(scene, texture, {0.75f, 0.5f}, TextureSpace::srgb);
     EXPECT_FLOAT_EQ(srgb.x, 1.0f);
     EXPECT_FLOAT_EQ(srgb.y, srgb_to_linear(188.0f / 255.0f));
     EXPECT_FLOAT_EQ(srgb.z, 10.0f / 255.0f / 12.92f);
     EXPECT_FLOAT_EQ(srgb.w, 128.0f / 255.0f);  // alpha is never encoded
-    const glm::vec4 linear = sample_texture(scene, texture, {0.75f, 0.5f}, TextureSpace::linear);
+    const glm::vec4 linear = sample(scene, texture, {0.75f, 0.5f});
     EXPECT_FLOAT_EQ(linear.y, 188.0f / 255.0f);
-    EXPECT_FLOAT_EQ(sample_texture(scene, texture, {0.5f, 0.5f}, TextureSpace::srgb).y, 0.5f * srgb.y);
+    EXPECT_FLOAT_EQ(sample(scene, texture, {0.5f, 0.5f}, TextureSpace::srgb).y, 0.5f * srgb.y);
 }
 
 TEST(Texture, CoordinatesThatAreNoPlaces) {
@@ -116,9 +126,65 @@ TEST(Texture, CoordinatesThatAreNoPlaces) {
 
 TEST(Texture, NoImageIsWhite) {
     Scene scene;
-    EXPECT_EQ(sample_texture(scene, TextureRef{}, {0.5f, 0.5f}, TextureSpace::srgb), glm::vec4(1.0f));
     scene.images.emplace_back();  // a picture without pixels
-    EXPECT_EQ(sample_texture(scene, TextureRef{.image = 0}, {0.5f, 0.5f}, TextureSpace::srgb), glm::vec4(1.0f));
+    scene.materials.resize(2);
+    scene.materials[1].base_color_texture.image = 0;
+    const TextureSet set = make_texture_set(scene);
+    ASSERT_EQ(set.materials.size(), 3u);  // and that of meshes without a material
+    for (const MaterialTextures& textures : set.materials) {
+        EXPECT_FALSE(textures.any);
+        EXPECT_EQ(sample_texture(set, textures.base_color, {0.5f, 0.5f}, {}), glm::vec4(1.0f));
+    }
+}
+
+TEST(Texture, OnePyramidForEachPictureAndSpace) {
+    Scene scene = make_ramp(4, 4);
+    scene.images.emplace_back();
+    scene.images[1].bytes = Image<glm::u8vec4>(8, 2, glm::u8vec4(10));
+    Material material;
+    material.base_color_texture.image = material.metallic_roughness_texture.image = 0;  // float: one for both
+    material.emission_texture.image = material.specular_color_texture.image = 1;        // both sRGB
+    material.specular_texture.image = 1;                                                // linear
+    scene.materials = {material, material};
+    const TextureSet set = make_texture_set(scene);
+    EXPECT_EQ(set.textures.size(), 3u);
+    EXPECT_EQ(set.materials[0].base_color.texture, set.materials[1].metallic_roughness.texture);
+    EXPECT_EQ(set.materials[0].emission.texture, set.materials[0].specular_color.texture);
+    EXPECT_NE(set.materials[0].emission.texture, set.materials[0].specular.texture);
+    const Texture& wide = set.textures[static_cast<std::size_t>(set.materials[0].specular.texture)];
+    ASSERT_EQ(wide.coarse.size(), 3u);  // 8x2, 4x1, 2x1, 1x1
+    EXPECT_EQ(wide.coarse[1].width, 2);
+    EXPECT_EQ(wide.coarse[1].height, 1);
+}
+
+/// KHR_texture_transform: offset, then rotation, then scale, as columns of what acts on (u, v, 1). Its worked example:
+/// the lower left quarter of the picture, turned clockwise by 90 degrees.
+TEST(Texture, TransformFollowsTheExtension) {
+    const Scene scene = make_ramp(8, 8);
+    TextureRef reference{.image = 0, .nearest = true};
+    reference.uv_offset = {0.0, 1.0};
+    reference.uv_rotation = 1.57079632679;
+    reference.uv_scale = {0.5, 0.5};
+    // The mesh's left edge, read downwards, is the picture's lower edge from the left.
+    for (int i = 0; i < 4; ++i) {
+        const float along = (static_cast<float>(i) + 0.5f) / 4.0f;
+        EXPECT_EQ(sample(scene, reference, {0.01f, along}), glm::vec4(i, 7, 0, 1)) << i;
+        EXPECT_EQ(sample(scene, reference, {along, 0.99f}), glm::vec4(3, 7 - i, 0, 1)) << i;
+    }
+    // Its other one: v from the bottom up.
+    reference = {.image = 0, .nearest = true};
+    reference.uv_offset = {0.0, 1.0};
+    reference.uv_scale = {1.0, -1.0};
+    EXPECT_EQ(sample(scene, reference, {0.05f, 0.05f}), glm::vec4(0, 7, 0, 1));
+    // Rotation comes after scale: with unequal scales the order shows.
+    reference.uv_offset = {0.25, 0.5};
+    reference.uv_scale = {2.0, 0.5};
+    reference.uv_rotation = 0.3;
+    const TextureUse use = make_texture_use(reference, 0);
+    const double c = std::cos(0.3), s = std::sin(0.3), u = 0.7, v = 0.2;
+    const glm::vec2 moved = use.offset + use.matrix * glm::vec2(u, v);
+    EXPECT_NEAR(moved.x, 0.25 + c * 2.0 * u + s * 0.5 * v, 1e-6);
+    EXPECT_NEAR(moved.y, 0.5 - s * 2.0 * u + c * 0.5 * v, 1e-6);
 }
 
 }  // namespace

@@ -1,0 +1,151 @@
+// Pyramids of textures: each level the mean of the one below over exactly the texels' own areas.
+
+#include <cmath>
+#include <glm/vec4.hpp>
+
+#include "engine/base/parallel.h"
+#include "render/texture.h"
+#include "render/texture_texels.h"
+
+namespace aleph {
+
+namespace {
+
+/// Which inputs, and how much of each, make up output i of `to` when `from` values are reduced by area.
+struct Span {
+    int first = 0, count = 0;
+    double weights[4] = {};
+};
+
+/// from / to lies in [2, 3], so that at most four inputs overlap an output (odd sizes shift their borders).
+Span find_span(int i, int from, int to) {
+    const double scale = static_cast<double>(from) / to;
+    const double begin = i * scale, end = begin + scale;
+    Span span;
+    span.first = static_cast<int>(std::floor(begin));
+    double sum = 0.0;
+    for (int k = 0; k < 4 && span.first + k < from; ++k) {
+        const double overlap = std::min(end, span.first + k + 1.0) - std::max(begin, span.first + k + 0.0);
+        if (!(overlap > 1e-9)) break;
+        span.weights[span.count++] = overlap;
+        sum += overlap;
+    }
+    for (double& weight : span.weights) weight /= sum;
+    return span;
+}
+
+Span one_to_one(int i) {
+    Span span;
+    span.first = i;
+    span.count = 1;
+    span.weights[0] = 1.0;
+    return span;
+}
+
+std::vector<Span> find_spans(int from, int to) {
+    std::vector<Span> spans;
+    for (int i = 0; i < to; ++i) spans.push_back(from == to ? one_to_one(i) : find_span(i, from, to));
+    return spans;
+}
+
+/// In double, so that a constant picture stays exactly that. A texel that is not finite would spoil every level: it
+/// counts as 0.
+template <class Read>
+Image<glm::vec4> reduce(int width, int height, const Read& read) {
+    Image<glm::vec4> out(std::max(1, width / 2), std::max(1, height / 2));
+    const std::vector<Span> columns = find_spans(width, out.width), rows = find_spans(height, out.height);
+    for (int y = 0; y < out.height; ++y) {
+        const Span& row = rows[static_cast<std::size_t>(y)];
+        for (int x = 0; x < out.width; ++x) {
+            const Span& column = columns[static_cast<std::size_t>(x)];
+            glm::dvec4 sum(0.0);
+            for (int j = 0; j < row.count; ++j) {
+                for (int i = 0; i < column.count; ++i) {
+                    const glm::dvec4 texel(read(column.first + i, row.first + j));
+                    for (int c = 0; c < 4; ++c) {
+                        if (std::isfinite(texel[c])) sum[c] += row.weights[j] * column.weights[i] * texel[c];
+                    }
+                }
+            }
+            out(x, y) = glm::vec4(sum);
+        }
+    }
+    return out;
+}
+
+}  // namespace
+
+Texture make_texture(const SceneImage& image, TextureSpace space) {
+    Texture texture;
+    texture.image = &image;
+    texture.space = space;
+    texture.width = image.bytes.empty() ? image.floats.width : image.bytes.width;
+    texture.height = image.bytes.empty() ? image.floats.height : image.bytes.height;
+    if (texture.width <= 1 && texture.height <= 1) return texture;
+    texture.coarse.push_back(
+        reduce(texture.width, texture.height, [&](int x, int y) { return read_texel(image, x, y, space); }));
+    while (texture.coarse.back().size() > 1) {
+        const Image<glm::vec4>& finer = texture.coarse.back();
+        texture.coarse.push_back(reduce(finer.width, finer.height, [&](int x, int y) { return finer(x, y); }));
+    }
+    return texture;
+}
+
+TextureUse make_texture_use(const TextureRef& reference, int texture) {
+    TextureUse use;
+    use.texture = texture;
+    use.uv_set = reference.uv_set == 1 ? 1 : 0;
+    use.wrap_u = reference.wrap_u;
+    use.wrap_v = reference.wrap_v;
+    use.nearest = reference.nearest;
+    use.transformed =
+        reference.uv_offset != glm::dvec2(0.0) || reference.uv_scale != glm::dvec2(1.0) || reference.uv_rotation != 0.0;
+    if (use.transformed) {
+        // Counter-clockwise where v points down; the extension's own listing turns the other way (glTF issue 1563).
+        const double c = std::cos(reference.uv_rotation), s = std::sin(reference.uv_rotation);
+        use.matrix =
+            glm::mat2(glm::dmat2(c, -s, s, c) * glm::dmat2(reference.uv_scale.x, 0.0, 0.0, reference.uv_scale.y));
+        use.offset = glm::vec2(reference.uv_offset);
+    }
+    return use;
+}
+
+TextureSet make_texture_set(const Scene& scene) {
+    TextureSet set;
+    std::vector<std::array<int, 2>> known(scene.images.size(), {no_index, no_index});
+    const auto use = [&](const TextureRef& reference, TextureSpace space) {
+        if (reference.image == no_index) return TextureUse{};
+        const SceneImage& image = scene.images[static_cast<std::size_t>(reference.image)];
+        if (image.bytes.empty() && image.floats.empty()) return TextureUse{};
+        // A float image reads the same in both spaces.
+        const std::size_t slot = space == TextureSpace::srgb && !image.bytes.empty() ? 1 : 0;
+        int& index = known[static_cast<std::size_t>(reference.image)][slot];
+        if (index == no_index) {
+            index = static_cast<int>(set.textures.size());
+            set.textures.push_back({&image, space, 0, 0, {}});
+        }
+        return make_texture_use(reference, index);
+    };
+    for (const Material& material : scene.materials) {
+        MaterialTextures textures;
+        textures.base_color = use(material.base_color_texture, TextureSpace::srgb);
+        textures.metallic_roughness = use(material.metallic_roughness_texture, TextureSpace::linear);
+        textures.emission = use(material.emission_texture, TextureSpace::srgb);
+        textures.specular = use(material.specular_texture, TextureSpace::linear);
+        textures.specular_color = use(material.specular_color_texture, TextureSpace::srgb);
+        for (const TextureUse* each : {&textures.base_color, &textures.metallic_roughness, &textures.emission,
+                                       &textures.specular, &textures.specular_color}) {
+            textures.any = textures.any || each->texture != no_index;
+        }
+        set.materials.push_back(textures);
+    }
+    set.materials.emplace_back();
+    parallel_for(set.textures.size(), 1, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) {
+            set.textures[i] = make_texture(*set.textures[i].image, set.textures[i].space);
+        }
+    });
+    return set;
+}
+
+}  // namespace aleph
