@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <unordered_set>
 
 #include "engine/base/errors.h"
@@ -158,36 +159,76 @@ bool is_finite(const nlohmann::ordered_json& value) {
 
 constexpr std::size_t line_width = 110;
 
-std::string format_line(const nlohmann::ordered_json& value) {
-    if (value.is_number_float()) return format_number(value.get<double>());
-    if (!value.is_structured()) return value.dump();
-    std::string out(1, value.is_array() ? '[' : '{');
-    for (const auto& item : value.items()) {
-        if (out.size() > 1) out += ", ";
-        if (value.is_object()) out += nlohmann::ordered_json(item.key()).dump() + ": ";
-        out += format_line(item.value());
+/// Appends the value on one line. False where the text grows beyond `longest`; then it is cut off somewhere.
+bool append_line(std::string& out, const nlohmann::ordered_json& value, std::size_t longest) {
+    if (value.is_number_float()) {
+        out += format_number(value.get<double>());
+    } else if (!value.is_structured()) {
+        out += value.dump();
+    } else {
+        out += value.is_array() ? '[' : '{';
+        const char* separator = "";
+        for (auto item = value.begin(); item != value.end(); ++item) {
+            out += separator;
+            separator = ", ";
+            if (value.is_object()) out += nlohmann::ordered_json(item.key()).dump() + ": ";
+            if (!append_line(out, *item, longest)) return false;
+        }
+        out += value.is_array() ? ']' : '}';
     }
-    return out + (value.is_array() ? ']' : '}');
+    return out.size() <= longest;
+}
+
+/// Long lists of numbers, and of lists of whole numbers (faces), have many on a line.
+bool is_bulk(const nlohmann::ordered_json& value) {
+    const auto is_whole = [](const nlohmann::ordered_json& item) { return item.is_number_integer(); };
+    return value.is_array() && std::all_of(value.begin(), value.end(), [&](const nlohmann::ordered_json& item) {
+               return item.is_number() || (item.is_array() && std::all_of(item.begin(), item.end(), is_whole));
+           });
+}
+
+constexpr std::size_t no_limit = std::numeric_limits<std::size_t>::max();
+
+void append_bulk(std::string& out, const nlohmann::ordered_json& list, std::size_t indent) {
+    const std::string margin(indent + 2, ' ');
+    out += "[\n" + margin;
+    std::size_t line = out.size();
+    std::string text;
+    bool first = true;
+    for (const auto& item : list) {
+        text.clear();
+        append_line(text, item, no_limit);
+        if (!first) {
+            const bool full = out.size() - line + text.size() + indent + 4 > line_width;
+            out += full ? ",\n" + margin : ", ";
+            if (full) line = out.size();
+        }
+        first = false;
+        out += text;
+    }
+    out += '\n' + std::string(indent, ' ') + ']';
 }
 
 void append_json(std::string& out, const nlohmann::ordered_json& value, std::size_t indent) {
     if (!value.is_structured() || value.empty()) {
-        out += format_line(value);
+        append_line(out, value, no_limit);
         return;
     }
     const bool is_array = value.is_array();
     out += is_array ? '[' : '{';
     const std::string margin(indent + 2, ' ');
     const char* separator = "\n";
-    for (const auto& item : value.items()) {
+    for (auto item = value.begin(); item != value.end(); ++item) {
         out += separator + margin;
         separator = ",\n";
         if (!is_array) out += nlohmann::ordered_json(item.key()).dump() + ": ";
-        const std::string line = format_line(item.value());
-        if (indent + line.size() <= line_width) {
-            out += line;
+        const std::size_t start = out.size();
+        if (append_line(out, *item, start + line_width - std::min(indent, line_width))) continue;
+        out.resize(start);
+        if (is_bulk(*item)) {
+            append_bulk(out, *item, indent + 2);
         } else {
-            append_json(out, item.value(), indent + 2);
+            append_json(out, *item, indent + 2);
         }
     }
     out += '\n' + std::string(indent, ' ') + (is_array ? ']' : '}');

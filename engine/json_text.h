@@ -22,7 +22,8 @@ struct JsonText {
 JsonText parse_json_text(std::string_view text, const std::string& file);
 
 /// The value as text: a list or an object stands on one line where that fits 110 columns, else one element a line,
-/// indented by 2. Numbers are the shortest that give back the same bits, whatever the locale. Ends with a newline.
+/// indented by 2; long lists of numbers, and of lists of whole numbers, fill their lines. Numbers are the shortest that
+/// give back the same bits, whatever the locale. Ends with a newline.
 /// @throws InputError (file as given) for text that is not UTF-8 and numbers that are not finite
 std::string format_json(const nlohmann::ordered_json& value, const std::string& file);
 

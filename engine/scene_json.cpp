@@ -10,7 +10,6 @@
 #include "engine/scene_json_reader.h"
 #include "engine/scene_json_tracks.h"
 #include "engine/scene_schema.h"
-#include "engine/shapes.h"
 
 namespace aleph {
 
@@ -115,13 +114,13 @@ SceneText read_scene_text(std::string_view text, const std::string& file) {
     const JsonRef root(parsed.root, file);
 
     SceneReader reader;
+    reader.file = file;
     read_header(reader.scene, root);
     read_elements(reader, root, parsed.key_order);
     read_nodes(reader, root);
     read_includes(reader, root, no_index);
     read_settings(reader.scene, root);
-    // Last, when all shapes are known to be few enough.
-    for (Mesh& mesh : reader.scene.meshes) mesh = make_shape_mesh(*mesh.shape, mesh.material, mesh.name);
+    make_meshes(reader);
     return std::move(reader.result);
 }
 

@@ -12,6 +12,7 @@ namespace aleph {
 
 /// Limits of a file, so that a small text cannot ask for all memory.
 inline constexpr std::size_t max_scene_nodes = 1000000;
+inline constexpr std::size_t max_scene_cages = 4096;
 
 /// A scene without the content of its pictures and includes, and where the text names them.
 struct SceneText {
@@ -28,8 +29,8 @@ SceneText read_scene_text(std::string_view text, const std::string& file);
 
 /// The text that read_scene_text turns into an equal scene: every bit of every track. What includes brought is left
 /// out.
-/// @throws InputError with the element's place where the format cannot say what the scene holds: meshes that are no
-/// shape, pictures without a path, names that do not tell elements apart, frames per second that disagree, ...
+/// @throws InputError with the element's place where the format cannot say what the scene holds: morph targets and
+/// skins, pictures without a path, names that do not tell elements apart, frames per second that disagree, ...
 std::string write_scene_text(const Scene& scene, const std::string& file);
 
 /// The scene's own part: without the elements that includes brought, whose numbers follow its own.

@@ -1,4 +1,4 @@
-// Images, materials, meshes, lights and cameras of a scene file.
+// Images, materials, lights and cameras of a scene file.
 
 #include <fmt/format.h>
 
@@ -8,19 +8,10 @@
 #include "engine/close_names.h"
 #include "engine/scene_json_reader.h"
 #include "engine/scene_json_tracks.h"
-#include "engine/shapes.h"
 
 namespace aleph {
 
 namespace {
-
-template <class Words>
-std::size_t read_word(const JsonRef& at, const Words& words) {
-    for (std::size_t i = 0; i < words.size(); ++i) {
-        if (at.string() == words[i]) return i;
-    }
-    at.fail(fmt::format("unknown word \"{}\"", printable(at.string())));
-}
 
 std::string read_path(const JsonRef& at) {
     if (const std::string fault = path_fault(at.string()); !fault.empty()) at.fail(fault);
@@ -129,48 +120,6 @@ int add_camera(SceneReader& reader, const JsonRef& at, const std::string& name) 
     return static_cast<int>(reader.scene.cameras.size()) - 1;
 }
 
-/// Keys that a kind of shape does not have would change nothing: most likely another kind was meant.
-void check_shape_keys(const JsonRef& at, const Shape& shape) {
-    const auto kind = static_cast<std::size_t>(shape.kind);
-    for (const auto& member : at.json().items()) {
-        const auto& known = shape_keys[kind];
-        if (member.key() == "type" || std::find(known.begin(), known.end(), member.key()) != known.end()) continue;
-        const JsonRef value = at.require(member.key());
-        value.fail(fmt::format("a {} has no \"{}\"", shape_words[kind], member.key()));
-    }
-    const bool flat = shape.kind == Shape::Kind::quad;
-    if (const auto size = at.find("size"); size && size->array_size() != (flat ? 2u : 3u)) {
-        size->fail(flat ? "the size of a quad is 2 numbers" : "the size of a box is 3 numbers");
-    }
-}
-
-Shape read_shape(const JsonRef& at) {
-    Shape shape;
-    const JsonRef type = at.require("type");
-    shape.kind = static_cast<Shape::Kind>(read_word(type, shape_words));
-    check_shape_keys(at, shape);
-    if (const auto value = at.find("size")) {
-        const glm::dvec2 flat = read_dvec2(*value);
-        shape.size = shape.kind == Shape::Kind::quad ? glm::dvec3(flat, 1.0) : read_dvec3(*value);
-    }
-    for (const auto& field : shape_numbers) {
-        if (const auto value = at.find(field.key)) shape.*field.member = value->number();
-    }
-    if (const auto value = at.find("profile")) {
-        for (std::size_t i = 0; i < value->array_size(); ++i) {
-            const JsonRef point = (*value)[i];
-            shape.profile.push_back(read_dvec2(point));
-        }
-    }
-    if (const auto value = at.find("smooth")) shape.smooth = value->boolean();
-    if (const auto value = at.find("uv_scale")) shape.uv_scale = read_dvec2(*value);
-    if (const auto value = at.find_integer("segments", min_shape_segments, max_shape_segments)) {
-        shape.segments = static_cast<int>(*value);
-    }
-    validate(shape, at.file(), at.pointer());
-    return shape;
-}
-
 /// Calls add(element, name) for the members of one of the root's objects, in the order of the file.
 template <class Add>
 void read_named(const JsonRef& root, const KeyOrder& key_order, const char* kind, const Add& add) {
@@ -210,32 +159,16 @@ int read_camera_use(SceneReader& reader, const JsonRef& at, const std::string& n
     return add_camera(reader, at, reader.cameras.unused(name));
 }
 
-int read_shape_mesh(SceneReader& reader, const JsonRef& at, const std::optional<JsonRef>& material,
-                    const std::string& name) {
-    const Shape shape = read_shape(at);
-    reader.shape_triangles += shape_triangle_count(shape);
-    if (reader.shape_triangles > max_shape_triangles) {
-        at.fail(
-            fmt::format("with this shape there are more than {} triangles; lower \"segments\"", max_shape_triangles));
-    }
-    const int index = static_cast<int>(reader.scene.meshes.size());
-    const int used = material ? read_material_use(reader, *material, name) : no_index;
-    Mesh mesh;
-    mesh.name = name;
-    mesh.material = used;
-    mesh.shape = shape;
-    reader.scene.meshes.push_back(std::move(mesh));
-    reader.meshes.add(name, index);
-    return index;
-}
-
 void read_elements(SceneReader& reader, const JsonRef& root, const KeyOrder& order) {
     read_named(root, order, "images", [&](const JsonRef& at, const std::string& name) { add_image(reader, at, name); });
     read_named(root, order, "materials",
                [&](const JsonRef& at, const std::string& name) { add_material(reader, at, name); });
+    read_named(root, order, "points",
+               [&](const JsonRef& at, const std::string& name) { read_points(reader, at, name); });
+    read_named(root, order, "cages", [&](const JsonRef& at, const std::string& name) { read_cage(reader, at, name); });
     read_named(root, order, "meshes", [&](const JsonRef& at, const std::string& name) {
         const JsonRef shape = at.require("shape");
-        read_shape_mesh(reader, shape, at.find("material"), name);
+        read_mesh(reader, shape, at.find("material"), at.find("present"), name);
     });
     read_named(root, order, "lights", [&](const JsonRef& at, const std::string& name) { add_light(reader, at, name); });
     read_named(root, order, "cameras",

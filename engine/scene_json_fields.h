@@ -93,6 +93,12 @@ inline const std::array<std::vector<std::string>, shape_words.size()> shape_keys
     {"radius", "tube_radius", "segments", "uv_scale"},
     {"profile", "smooth", "segments", "uv_scale"},
 }};
+inline const std::vector<std::string> mesh_keys{"positions", "points", "vertex_points", "triangles",
+                                                "normals",   "uv",     "uv1",           "colors"};
+inline constexpr std::array scheme_words{"catmull_clark", "loop", "bilinear"};
+inline constexpr std::array boundary_words{"none", "edge_only", "edge_and_corner"};
+inline constexpr std::array uv_rule_words{"linear_none",          "linear_corners_only", "linear_corners_plus1",
+                                          "linear_corners_plus2", "linear_boundaries",   "linear_all"};
 inline constexpr std::array light_words{"point", "directional", "spot"};
 
 }  // namespace aleph

@@ -112,7 +112,8 @@ class NodeReader {
     void read_meshes(const JsonRef& at, Node& node, const std::string& name) {
         const auto shape = at.find("shape"), material = at.find("material");
         if (material && !shape) material->fail("\"material\" goes with \"shape\"; a mesh has its own");
-        if (shape) node.meshes.push_back(read_shape_mesh(reader_, *shape, material, reader_.meshes.unused(name)));
+        if (shape)
+            node.meshes.push_back(read_mesh(reader_, *shape, material, std::nullopt, reader_.meshes.unused(name)));
         if (const auto mesh = at.find("mesh")) node.meshes.push_back(reader_.meshes.require(*mesh));
         if (const auto list = at.find("meshes")) {
             for (std::size_t i = 0; i < list->array_size(); ++i) {

@@ -45,6 +45,9 @@ Scene without_includes(const Scene& scene, const std::string& file) {
     own.camera = scene.camera;
     own.nodes = own_part("node", scene.nodes, file);
     own.meshes = own_part("mesh", scene.meshes, file);
+    own.point_caches = own_part("points", scene.point_caches, file);
+    own.skins = own_part("skin", scene.skins, file);
+    own.cages = own_part("cage", scene.cages, file);
     own.materials = own_part("material", scene.materials, file);
     own.images = own_part("image", scene.images, file);
     own.lights = own_part("light", scene.lights, file);
@@ -62,7 +65,14 @@ Scene without_includes(const Scene& scene, const std::string& file) {
         check_index(node.light, own.lights.size(), "node", i, "light", file);
     }
     for (std::size_t i = 0; i < own.meshes.size(); ++i) {
-        check_index(own.meshes[i].material, own.materials.size(), "mesh", i, "material", file);
+        const Mesh& mesh = own.meshes[i];
+        check_index(mesh.material, own.materials.size(), "mesh", i, "material", file);
+        check_index(mesh.points, own.point_caches.size(), "mesh", i, "points", file);
+        check_index(mesh.skin, own.skins.size(), "mesh", i, "skin", file);
+        check_index(mesh.cage, own.cages.size(), "mesh", i, "cage", file);
+    }
+    for (std::size_t i = 0; i < own.cages.size(); ++i) {
+        check_index(own.cages[i].points, own.point_caches.size(), "cage", i, "points", file);
     }
     for (std::size_t i = 0; i < own.includes.size(); ++i) {
         check_index(own.includes[i].node, own.nodes.size(), "include", i, "node", file);

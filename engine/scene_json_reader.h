@@ -32,7 +32,10 @@ class NameIndex {
 struct SceneReader {
     SceneText result;
     Scene& scene = result.scene;
+    std::string file;  ///< what errors name
     NameIndex images{"image"}, materials{"material"}, meshes{"mesh"}, lights{"light"}, cameras{"camera"}, nodes{"node"};
+    NameIndex points{"list of points"}, cages{"cage"};
+    std::vector<std::string> cage_places;  ///< JSON pointer per scene.cages
     std::unordered_map<std::string, int> image_of_path;
     std::size_t shape_triangles = 0;
 };
@@ -47,9 +50,44 @@ int read_material_use(SceneReader& reader, const JsonRef& at, const std::string&
 int read_light_use(SceneReader& reader, const JsonRef& at, const std::string& name);
 int read_camera_use(SceneReader& reader, const JsonRef& at, const std::string& name);
 
-/// Adds a mesh whose triangles are made at the end. @param material  nothing: glTF's default material
-int read_shape_mesh(SceneReader& reader, const JsonRef& shape, const std::optional<JsonRef>& material,
-                    const std::string& name);
+int read_cage_use(SceneReader& reader, const JsonRef& at, const std::string& name);
+
+/// The word that a text is, by its place in the list.
+template <class Words>
+std::size_t read_word(const JsonRef& at, const Words& words) {
+    for (std::size_t i = 0; i < words.size(); ++i) {
+        if (at.string() == words[i]) return i;
+    }
+    at.fail("unknown word");  // the schema has the same words
+}
+
+// Elements of the root's objects "points" and "cages".
+void read_points(SceneReader& reader, const JsonRef& at, const std::string& name);
+void read_cage(SceneReader& reader, const JsonRef& at, const std::string& name);
+
+/// Points that an element names under "points" or holds under "positions".
+struct PointsUse {
+    int index = no_index;
+    std::size_t count = 0;
+};
+PointsUse read_points_use(SceneReader& reader, const JsonRef& at, const std::string& name);
+
+/// Adds a mesh; what follows from shapes and cages is made at the end, by make_meshes.
+/// @param material  nothing: glTF's default material
+int read_mesh(SceneReader& reader, const JsonRef& shape, const std::optional<JsonRef>& material,
+              const std::optional<JsonRef>& present, const std::string& name);
+
+/// Makes the triangles of shapes and cages, when all of them are known to be few enough.
+void make_meshes(SceneReader& reader);
+void make_cage_meshes(SceneReader& reader);
+
+/// Parts that a cage's faces belong to.
+std::size_t count_parts(const Cage& cage);
+/// Triangles of all parts at the cage's level, within a factor of 2.
+std::size_t count_cage_triangles(const Cage& cage);
+
+/// Where a cache's first sample puts the vertices of a mesh.
+std::vector<glm::vec3> first_positions(const Mesh& mesh, const PointCache& cache);
 
 /// The root's nodes with all that stands in them.
 void read_nodes(SceneReader& reader, const JsonRef& root);

@@ -5,9 +5,11 @@
 #include <unordered_set>
 
 #include "engine/base/errors.h"
+#include "engine/cage_validate.h"
 #include "engine/json_text.h"
 #include "engine/scene_json.h"
 #include "engine/scene_json_tracks.h"
+#include "engine/scene_json_write_meshes.h"
 #include "engine/shapes.h"
 
 namespace aleph {
@@ -26,8 +28,14 @@ class Writer {
     Writer(const Scene& scene, const std::string& file) : scene_(scene), rate_(scene.frame_rate), file_(file) {}
 
     ordered_json write() {
+        if (!scene_.skins.empty()) {
+            place_ = place_of("skin", scene_.skins, 0);
+            refuse("a scene file cannot hold skins: keep the mesh in a .glb and include that");
+        }
         check_names("image", scene_.images);
         check_names("material", scene_.materials);
+        check_names("points", scene_.point_caches);
+        check_names("cage", scene_.cages);
         check_names("mesh", scene_.meshes);
         check_names("light", scene_.lights);
         check_names("camera", scene_.cameras);
@@ -35,6 +43,8 @@ class Writer {
         write_header();
         write_list("images", scene_.images, [&](const SceneImage& image) { return ordered_json(image.path); });
         write_list("materials", scene_.materials, [&](const Material& material) { return write_material(material); });
+        write_list("points", scene_.point_caches, [&](const PointCache& cache) { return write_point_cache(cache); });
+        write_list("cages", scene_.cages, [&](const Cage& cage) { return write_control_mesh(cage); });
         write_list("meshes", scene_.meshes, [&](const Mesh& mesh) { return write_mesh(mesh); });
         write_list("lights", scene_.lights, [&](const Light& light) { return write_light(light); });
         write_list("cameras", scene_.cameras, [&](const Camera& camera) { return write_camera(camera); });
@@ -161,33 +171,50 @@ class Writer {
         return out;
     }
 
-    ordered_json write_shape(const Shape& shape) const {
-        const Shape absent;
-        const auto kind = static_cast<std::size_t>(shape.kind);
-        const auto has = [&](const char* key) {
-            return std::find(shape_keys[kind].begin(), shape_keys[kind].end(), key) != shape_keys[kind].end();
-        };
-        ordered_json out = {{"type", shape_words[kind]}};
-        if (has("size") && shape.size != absent.size) {
-            out["size"] = write_dvec3(shape.size);
-            if (shape.kind == Shape::Kind::quad) out["size"].erase(2);
+    ordered_json write_mesh(const Mesh& mesh) const {
+        if (!mesh.targets.empty() || mesh.skin != no_index) {
+            refuse("a scene file cannot hold morph targets and skins: keep the mesh in a .glb and include that");
         }
-        for (const auto& field : shape_numbers) {
-            if (has(field.key) && shape.*field.member != absent.*field.member) out[field.key] = shape.*field.member;
+        ordered_json out;
+        if (mesh.cage != no_index) {
+            out["shape"] = {{"type", "cage"}, {"cage", name_in(scene_.cages, mesh.cage)}};
+            if (mesh.cage_part != 0) out["shape"]["part"] = mesh.cage_part;
+        } else if (mesh.shape) {
+            validate(*mesh.shape, file_, place_);
+            out["shape"] = write_shape(*mesh.shape);
+        } else {
+            out["shape"] = write_triangles(mesh, points_of(mesh), rate_);
         }
-        for (const glm::dvec2& point : shape.profile) out["profile"].push_back({point.x, point.y});
-        if (shape.smooth != absent.smooth) out["smooth"] = shape.smooth;
-        if (has("segments") && shape.segments != absent.segments) out["segments"] = shape.segments;
-        if (shape.uv_scale != absent.uv_scale) out["uv_scale"] = {shape.uv_scale.x, shape.uv_scale.y};
+        if (mesh.material != no_index) out["material"] = name_in(scene_.materials, mesh.material);
+        track(out, "present", mesh.present, Mesh{}.present, write_visibility);
         return out;
     }
 
-    ordered_json write_mesh(const Mesh& mesh) const {
-        if (!mesh.shape) refuse("its triangles come from no shape: a scene file holds shapes and includes only");
-        validate(*mesh.shape, file_, place_);
-        ordered_json out = {{"shape", write_shape(*mesh.shape)}};
-        if (mesh.material != no_index) out["material"] = name_in(scene_.materials, mesh.material);
-        return out;
+    const PointCache* points_of(const Mesh& mesh) const {
+        if (mesh.points == no_index) return nullptr;
+        name_in(scene_.point_caches, mesh.points);
+        const PointCache& cache = scene_.point_caches[static_cast<std::size_t>(mesh.points)];
+        for (const std::uint32_t point : mesh.vertex_points) {
+            if (point >= cache.point_count())
+                refuse(fmt::format("its points \"{}\" have no point {}", cache.name, point));
+        }
+        return &cache;
+    }
+
+    ordered_json write_point_cache(const PointCache& cache) const {
+        if (cache.positions.empty()) refuse("it has no positions");
+        validate(cache.sampling, cache.positions.size(), file_, place_);
+        return write_points(cache, rate_);
+    }
+
+    ordered_json write_control_mesh(const Cage& cage) const {
+        const std::string points = name_in(scene_.point_caches, cage.points);
+        try {
+            validate(cage, scene_.point_caches[static_cast<std::size_t>(cage.points)].point_count());
+        } catch (const InputError& error) {
+            refuse(error.reason());
+        }
+        return write_cage(cage, points);
     }
 
     ordered_json write_light(const Light& light) const {
@@ -270,7 +297,8 @@ std::string first_difference(const char* kind, const std::vector<Element>& a, co
 
 std::string first_difference(const Scene& a, const Scene& b) {
     for (const std::string& place :
-         {first_difference("node", a.nodes, b.nodes), first_difference("mesh", a.meshes, b.meshes),
+         {first_difference("node", a.nodes, b.nodes), first_difference("points", a.point_caches, b.point_caches),
+          first_difference("cage", a.cages, b.cages), first_difference("mesh", a.meshes, b.meshes),
           first_difference("material", a.materials, b.materials), first_difference("image", a.images, b.images),
           first_difference("light", a.lights, b.lights), first_difference("camera", a.cameras, b.cameras)}) {
         if (!place.empty()) return place;
@@ -292,7 +320,8 @@ std::string write_scene_text(const Scene& scene, const std::string& file) {
     }
     own.file.clear();
     own.warnings.clear();
-    const Scene again = read_scene_text(text, file).scene;
+    Scene again = read_scene_text(text, file).scene;
+    again.warnings.clear();
     if (again != own) {
         throw InputError(file, first_difference(own, again), "holds something that a scene file cannot say exactly");
     }
