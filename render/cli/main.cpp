@@ -15,6 +15,7 @@ int main(int argc, char** argv) {
     app.require_subcommand(0, 1);
     aleph::add_render_command(app, command);
     aleph::add_maps_command(app, command);
+    aleph::add_explain_command(app, command);
     aleph::add_compare_command(app, command);
     app.footer("`aleph COMMAND --help` shows a command's options, with examples.");
     return aleph::run_program(app, command, argc, argv, std::cerr);

@@ -1,0 +1,83 @@
+// `aleph explain`: what a scene holds.
+
+#include <fmt/format.h>
+
+#include <iostream>
+#include <memory>
+
+#include "engine/archive.h"
+#include "engine/base/errors.h"
+#include "render/cli/commands.h"
+#include "render/cli/explain.h"
+
+namespace aleph {
+
+namespace {
+
+struct ExplainOptions {
+    std::string scene, camera;
+    double at = 0.0;
+    bool json = false, moment = false;
+    std::uint32_t objects = 60;
+};
+
+Scene load_or_list_missing(const std::string& file) {
+    try {
+        return load_scene(file);
+    } catch (const InputError&) {
+        const std::vector<MissingFile> missing = list_missing_files(file);
+        for (const MissingFile& item : missing) {
+            std::cerr << fmt::format("aleph: missing: {} {} names {}\n", printable(item.file, 300),
+                                     printable(item.place), printable(item.path, 300));
+        }
+        throw;
+    }
+}
+
+/// JSON has no word for numbers that are not finite; names in a file may be no UTF-8.
+std::string to_text(const nlohmann::ordered_json& value) {
+    return value.dump(1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+}
+
+int explain(const ExplainOptions& options) {
+    const Scene scene = load_or_list_missing(options.scene);
+    if (options.moment) {
+        std::cout << to_text(explain_moment(scene, options.at));
+    } else {
+        RenderSettings settings;
+        apply_settings(settings, scene.settings, options.scene);
+        const nlohmann::ordered_json explained = explain_scene(scene, settings, options.camera);
+        std::cout << (options.json ? to_text(explained) : explain_text(explained, options.objects));
+    }
+    std::cout.flush();
+    if (!std::cout) throw OutputError("standard output", "could not be written");
+    return exit_done;
+}
+
+}  // namespace
+
+void add_explain_command(CLI::App& app, Command& command) {
+    CLI::App* explain_app = app.add_subcommand("explain", "tell what a scene holds, without rendering it");
+    const auto options = std::make_shared<ExplainOptions>();
+    explain_app->add_option("scene", options->scene, "a scene file (.json), .gltf, .glb or .abc")
+        ->required()
+        ->type_name("SCENE");
+    explain_app->add_flag("--json", options->json, "everything, as JSON");
+    CLI::Option* at =
+        add_value(*explain_app, "--at", options->at,
+                  "a time in seconds: world matrix, visibility, bounds and points of every object, as JSON");
+    add_value(*explain_app, "--objects", options->objects, "lines of the tree in the text; 0: all");
+    explain_app->add_option("--camera", options->camera, "name of a camera or of its node")->type_name("NAME");
+    explain_app->footer(
+        "Names every file that is missing, not only the first.\n\n"
+        "Examples:\n"
+        "  aleph explain scenes/pool/scene.json              the tree, what moves and when, counts, bounds, warnings\n"
+        "  aleph explain shot.abc --json > shot.json         the same for programs\n"
+        "  aleph explain shot.abc --at 0.5                   where everything is half a second in");
+    explain_app->callback([options, at, &command] {
+        options->moment = at->count() > 0;
+        command = [options] { return explain(*options); };
+    });
+}
+
+}  // namespace aleph

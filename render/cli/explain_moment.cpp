@@ -1,0 +1,79 @@
+// A scene at a moment, object by object: what `aleph explain --at` prints.
+
+#include <limits>
+#include <map>
+
+#include "engine/lookup.h"
+#include "engine/pose.h"
+#include "render/cli/explain.h"
+#include "render/cli/world_bounds.h"
+
+namespace aleph {
+
+namespace {
+
+using nlohmann::ordered_json;
+
+constexpr std::size_t shown_points = 6;
+
+ordered_json to_json(const glm::dvec3& v) {
+    return {v.x, v.y, v.z};
+}
+
+ordered_json to_rows(const glm::dmat4& m) {
+    ordered_json rows = ordered_json::array();
+    for (int row = 0; row < 4; ++row)
+        for (int column = 0; column < 4; ++column) rows.push_back(m[column][row]);
+    return rows;
+}
+
+/// The points as the file has them: of a cache or cage those that meshes are made of, else the vertices.
+std::vector<glm::dvec3> source_points(const Scene& scene, const SceneFrame& frame, int mesh_index) {
+    const Mesh& mesh = scene.meshes[static_cast<std::size_t>(mesh_index)];
+    const int cache = mesh.cage == no_index ? mesh.points : scene.cages[static_cast<std::size_t>(mesh.cage)].points;
+    if (cache != no_index) return sample_points(scene.point_caches[static_cast<std::size_t>(cache)], frame.seconds);
+    const PosedMesh& posed = frame.meshes[static_cast<std::size_t>(mesh_index)];
+    if (!posed.positions.empty()) return posed.positions;
+    return {mesh.positions.begin(), mesh.positions.end()};
+}
+
+/// Of a node's meshes: those made of one cache count once.
+ordered_json describe_points(const Scene& scene, const SceneFrame& frame, const Node& node) {
+    std::size_t count = 0;
+    ordered_json first = ordered_json::array();
+    std::map<std::pair<int, int>, bool> told;
+    for (const int index : node.meshes) {
+        const Mesh& mesh = scene.meshes[static_cast<std::size_t>(index)];
+        if (mesh.present.key_count() > 1 && evaluate(mesh.present, frame.seconds) == 0.0) continue;
+        const bool own = mesh.cage == no_index && mesh.points == no_index;
+        if (!own && !told.emplace(std::pair(mesh.cage, mesh.points), true).second) continue;
+        const std::vector<glm::dvec3> points = source_points(scene, frame, index);
+        for (std::size_t i = 0; i < points.size() && first.size() < shown_points; ++i)
+            first.push_back(to_json(points[i]));
+        count += points.size();
+    }
+    return {{"count", count}, {"first", std::move(first)}};
+}
+
+}  // namespace
+
+ordered_json explain_moment(const Scene& scene, double seconds) {
+    const SceneFrame frame = pose(scene, seconds);
+    const std::vector<std::string> paths = node_paths(scene);
+    std::vector<WorldBounds> bounds(scene.nodes.size());
+    for (const Instance& instance : frame.instances)
+        add_instance(bounds[static_cast<std::size_t>(instance.node)], scene, frame, instance);
+    ordered_json objects = ordered_json::array();
+    for (std::size_t i = 0; i < scene.nodes.size(); ++i) {
+        ordered_json object = {
+            {"path", paths[i]}, {"world", to_rows(frame.world[i])}, {"visible", frame.visible[i] != 0}};
+        object["bounds"] = bounds[i].empty()
+                               ? ordered_json(nullptr)
+                               : ordered_json{{"min", to_json(bounds[i].low)}, {"max", to_json(bounds[i].high)}};
+        if (!scene.nodes[i].meshes.empty()) object["points"] = describe_points(scene, frame, scene.nodes[i]);
+        objects.push_back(std::move(object));
+    }
+    return {{"seconds", seconds}, {"objects", std::move(objects)}};
+}
+
+}  // namespace aleph

@@ -1,0 +1,174 @@
+// The explanation of a scene for people.
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "engine/base/errors.h"
+#include "render/cli/explain.h"
+
+namespace aleph {
+
+namespace {
+
+using nlohmann::ordered_json;
+
+std::string text_of(const ordered_json& value) {
+    return printable(value.get<std::string>(), 120);
+}
+
+/// 1234567 as 1,234,567.
+std::string grouped(const ordered_json& number) {
+    std::string text = fmt::format("{}", number.get<std::uint64_t>());
+    for (std::size_t i = text.size(); i > 3; i -= 3) text.insert(i - 3, 1, ',');
+    return text;
+}
+
+std::string box_text(const ordered_json& bounds) {
+    if (bounds.is_null()) return "nothing to see";
+    const auto at = [&](const char* end, int k) { return bounds[end][static_cast<std::size_t>(k)].get<double>(); };
+    return fmt::format("{:.4g} x {:.4g} x {:.4g} m, from ({:.4g}, {:.4g}, {:.4g}) to ({:.4g}, {:.4g}, {:.4g})",
+                       at("max", 0) - at("min", 0), at("max", 1) - at("min", 1), at("max", 2) - at("min", 2),
+                       at("min", 0), at("min", 1), at("min", 2), at("max", 0), at("max", 1), at("max", 2));
+}
+
+std::string track_text(const ordered_json& track) {
+    return fmt::format("{} ({} {} keys, {:.4g} to {:.4g} s, {}{})", text_of(track["property"]),
+                       track["keys"].get<std::size_t>(), text_of(track["sampling"]), track["first"].get<double>(),
+                       track["last"].get<double>(), text_of(track["interpolation"]),
+                       track.contains("constant") ? ", all alike" : "");
+}
+
+std::string tracks_text(const ordered_json& tracks) {
+    std::string text;
+    for (const ordered_json& track : tracks) {
+        if (!text.empty()) text += ", ";
+        text += track_text(track);
+    }
+    return text;
+}
+
+std::string object_text(const ordered_json& object) {
+    const std::string path = object["path"];
+    std::string text(2 * object["depth"].get<std::size_t>() + 2, ' ');
+    text += printable(path.substr(path.rfind('/') + 1), 80);
+    std::vector<std::string> parts;
+    if (object.contains("triangles")) {
+        std::string materials;
+        for (const ordered_json& name : object["materials"]) {
+            if (!materials.empty()) materials += ", ";
+            materials += text_of(name);
+        }
+        parts.push_back(fmt::format("{} triangles of {}", grouped(object["triangles"]), materials));
+    }
+    if (object.contains("subdivision_level"))
+        parts.push_back(fmt::format("subdivided, level {}", object["subdivision_level"].get<int>()));
+    if (object.contains("deforms")) parts.push_back(fmt::format("deforms by {}", text_of(object["deforms"])));
+    if (object.contains("camera")) {
+        const ordered_json& camera = object["camera"];
+        parts.push_back(
+            camera.contains("fov_degrees")
+                ? fmt::format("camera, {:.4g} degrees high", camera["fov_degrees"].get<double>())
+                : fmt::format("orthographic camera, {:.4g} m high", 2.0 * camera["half_height"].get<double>()));
+        if (!camera["animated"].empty()) parts.push_back(fmt::format("animated {}", tracks_text(camera["animated"])));
+    }
+    if (object.contains("light")) {
+        parts.push_back(fmt::format("{} light", text_of(object["light"]["kind"])));
+        if (!object["light"]["animated"].empty())
+            parts.push_back(fmt::format("animated {}", tracks_text(object["light"]["animated"])));
+    }
+    if (object.contains("hidden")) parts.push_back("hidden");
+    if (object.contains("detached")) parts.push_back("not moved by its parent");
+    if (object.contains("from") && object["depth"].get<int>() == 0)
+        parts.push_back(fmt::format("from {}", text_of(object["from"])));
+    if (object.contains("animated")) parts.push_back(fmt::format("animated {}", tracks_text(object["animated"])));
+    for (std::size_t i = 0; i < parts.size(); ++i) text.append(i == 0 ? ": " : "; ").append(parts[i]);
+    text += '\n';
+    return text;
+}
+
+/// The tree from the top; where it is cut, what moves further down is still named.
+std::string objects_text(const ordered_json& objects, std::size_t most) {
+    std::string text = "\nobjects\n";
+    for (std::size_t i = 0; i < std::min(most, objects.size()); ++i) text += object_text(objects[i]);
+    if (objects.size() <= most) return text;
+    text += fmt::format("  ... and {} more (--objects 0 shows all)\n", objects.size() - most);
+    std::size_t moving = 0;
+    std::string lines;
+    for (std::size_t i = most; i < objects.size(); ++i) {
+        if (!objects[i].contains("animated") || ++moving > most) continue;
+        lines += fmt::format("  {}: {}\n", text_of(objects[i]["path"]), tracks_text(objects[i]["animated"]));
+    }
+    if (moving > 0) text.append("\nfurther objects that move\n").append(lines);
+    if (moving > most) text += fmt::format("  ... and {} more\n", moving - most);
+    return text;
+}
+
+std::string list_text(const char* title, const ordered_json& items) {
+    if (items.empty()) return {};
+    std::string text = fmt::format("\n{}\n", title);
+    for (const ordered_json& item : items) text += fmt::format("  {}\n", printable(item.get<std::string>(), 400));
+    return text;
+}
+
+std::string frames_text(const ordered_json& frames) {
+    std::string text = fmt::format(
+        "frames    {} to {} at {} a second ({:.4g} to {:.4g} s), {}", frames["first"].get<std::int64_t>(),
+        frames["last"].get<std::int64_t>(), text_of(frames["per_second"]), frames["first_second"].get<double>(),
+        frames["last_second"].get<double>(), frames["from"] == "given" ? "as the scene says" : "the span of its keys");
+    if (!frames["cuts"].empty()) text += fmt::format("; camera cuts at {}", frames["cuts"].dump());
+    text += '\n';
+    return text;
+}
+
+std::string counts_text(const ordered_json& counts) {
+    std::string text = fmt::format(
+        "holds     {} objects ({} animated, {} hidden), {} triangles in {} meshes; {} triangles in {} instances\n",
+        grouped(counts["objects"]), grouped(counts["animated_objects"]), grouped(counts["hidden_objects"]),
+        grouped(counts["triangles"]), grouped(counts["meshes"]), grouped(counts["instanced_triangles"]),
+        grouped(counts["instances"]));
+    text += fmt::format(
+        "          {} deforming meshes, {} subdivision cages, {} materials, {} images, {} lights, {} cameras\n",
+        grouped(counts["deforming_meshes"]), grouped(counts["subdivision_cages"]), grouped(counts["materials"]),
+        grouped(counts["images"]), grouped(counts["lights"]), grouped(counts["cameras"]));
+    return text;
+}
+
+}  // namespace
+
+std::string explain_text(const ordered_json& explained, std::size_t most_objects) {
+    std::string text = fmt::format("{}\n", printable(explained["file"].get<std::string>(), 300));
+    text += "units     metres, seconds, degrees; y up\n";
+    text += frames_text(explained["frames"]);
+    if (explained["camera"].is_string()) {
+        text += fmt::format("camera    {}\n", text_of(explained["camera"]));
+        const ordered_json& exposure = explained["exposure"];
+        text += fmt::format("exposure  {:.6g}, {}\n", exposure["factor"].get<double>(),
+                            exposure["from"] == "given" ? "as the scene says" : "from its first frame");
+    }
+    text += counts_text(explained["counts"]);
+    text += fmt::format("bounds    {}\n", box_text(explained["bounds"]["range"]));
+
+    text += objects_text(explained["objects"], most_objects == 0 ? explained["objects"].size() : most_objects);
+    std::string materials;
+    for (const ordered_json& material : explained["materials"]) {
+        if (!material.contains("animated")) continue;
+        materials += fmt::format("  {}: {}\n", text_of(material["name"]), tracks_text(material["animated"]));
+    }
+    if (!materials.empty()) text.append("\nanimated materials\n").append(materials);
+    if (!explained["time_samplings"].empty()) {
+        text += "\ntime samplings\n";
+        for (const ordered_json& sampling : explained["time_samplings"]) {
+            const int properties = sampling["properties"].get<int>();
+            text +=
+                fmt::format("  {} keys, {:.6g} to {:.6g} s, {}: {} propert{}\n", sampling["keys"].get<std::size_t>(),
+                            sampling["first"].get<double>(), sampling["last"].get<double>(),
+                            text_of(sampling["sampling"]), properties, properties == 1 ? "y" : "ies");
+        }
+    }
+    text += list_text("nothing uses", explained["unused"]);
+    text += list_text("warnings", explained["warnings"]);
+    return text;
+}
+
+}  // namespace aleph

@@ -1,0 +1,170 @@
+// Keyed properties of a scene's elements, described.
+
+#include <fmt/format.h>
+
+#include "engine/lookup.h"
+#include "render/cli/explain.h"
+
+namespace aleph {
+
+namespace {
+
+using nlohmann::ordered_json;
+
+ordered_json describe_sampling(const TimeSampling& sampling, std::size_t keys) {
+    ordered_json out;
+    switch (sampling.kind) {
+        case TimeSampling::Kind::uniform:
+            out = {{"sampling", "uniform"}, {"start", sampling.start}, {"period", sampling.period}};
+            break;
+        case TimeSampling::Kind::cyclic:
+            out = {{"sampling", "cyclic"}, {"period", sampling.period}, {"samples_per_cycle", sampling.times.size()}};
+            break;
+        case TimeSampling::Kind::acyclic:
+            out = {{"sampling", "acyclic"}};
+            break;
+    }
+    out["keys"] = keys;
+    out["first"] = sample_time(sampling, 0);
+    out["last"] = sample_time(sampling, keys - 1);
+    return out;
+}
+
+const char* interpolation_name(Interpolation interpolation) {
+    switch (interpolation) {
+        case Interpolation::step:
+            return "step";
+        case Interpolation::linear:
+            return "linear";
+        case Interpolation::nearest:
+            return "nearest";
+        case Interpolation::cubic:
+            return "cubic";
+    }
+    return "";
+}
+
+class TrackList {
+  public:
+    template <class T>
+    void add(const std::string& property, const Track<T>& track) {
+        if (track.key_count() <= 1) return;
+        ordered_json item = {{"property", property}};
+        item.update(describe_sampling(track.sampling, track.key_count()));
+        item["interpolation"] = interpolation_name(track.interpolation);
+        if (!is_animated(track)) item["constant"] = true;
+        tracks_.push_back(std::move(item));
+    }
+
+    void add(const std::string& property, const TimeSampling& sampling, std::size_t samples, bool animated) {
+        if (samples <= 1) return;
+        ordered_json item = {{"property", property}};
+        item.update(describe_sampling(sampling, samples));
+        item["interpolation"] = "linear";
+        if (!animated) item["constant"] = true;
+        tracks_.push_back(std::move(item));
+    }
+
+    ordered_json take() { return std::move(tracks_); }
+
+  private:
+    ordered_json tracks_ = ordered_json::array();
+};
+
+bool samples_differ(const std::vector<double>& values, std::size_t samples) {
+    const std::size_t stride = values.size() / samples;
+    for (std::size_t i = stride; i < values.size(); ++i)
+        if (values[i] != values[i % stride]) return true;
+    return false;
+}
+
+void add_operations(TrackList& list, const OperationStack& stack) {
+    std::size_t stride = 0;
+    for (const OperationStack::Kind kind : stack.operations) {
+        using Kind = OperationStack::Kind;
+        stride += kind == Kind::matrix                             ? 16
+                  : kind == Kind::rotate                           ? 4
+                  : kind == Kind::translate || kind == Kind::scale ? 3
+                                                                   : 1;
+    }
+    const std::size_t samples = stride == 0 ? 0 : stack.channels.size() / stride;
+    if (samples > 1) list.add("operations", stack.sampling, samples, samples_differ(stack.channels, samples));
+}
+
+void add_transform(TrackList& list, const Node& node) {
+    if (node.operations) {
+        add_operations(list, *node.operations);
+    } else if (node.matrix) {
+        list.add("matrix", *node.matrix);
+    } else {
+        list.add("translation", node.translation);
+        if (node.axis_rotation) {
+            list.add("rotation.degrees", node.axis_rotation->angle);
+        } else {
+            list.add("rotation", node.rotation);
+        }
+        list.add("scale", node.scale);
+    }
+    list.add("inherits", node.inherits);
+    list.add("visible", node.visible);
+}
+
+}  // namespace
+
+ordered_json list_tracks(const Scene& scene, const Node& node) {
+    TrackList list;
+    add_transform(list, node);
+    int points_told = no_index;
+    for (const int index : node.meshes) {
+        const Mesh& mesh = scene.meshes[static_cast<std::size_t>(index)];
+        list.add("present", mesh.present);
+        for (std::size_t i = 0; i < mesh.target_weights.size(); ++i)
+            list.add(fmt::format("weights[{}]", i), mesh.target_weights[i]);
+        list.add("normals", mesh.normal_sampling, mesh.normal_samples.size(), true);
+        const int points =
+            mesh.cage == no_index ? mesh.points : scene.cages[static_cast<std::size_t>(mesh.cage)].points;
+        if (points == no_index || points == points_told) continue;
+        points_told = points;
+        const PointCache& cache = scene.point_caches[static_cast<std::size_t>(points)];
+        list.add("points", cache.sampling, cache.positions.size(), is_animated(cache));
+    }
+    return list.take();
+}
+
+ordered_json list_tracks(const Material& material) {
+    TrackList list;
+    list.add("base_color", material.base_color);
+    list.add("alpha", material.alpha);
+    list.add("metallic", material.metallic);
+    list.add("roughness", material.roughness);
+    list.add("emission", material.emission);
+    list.add("emission_strength", material.emission_strength);
+    list.add("specular", material.specular);
+    list.add("specular_color", material.specular_color);
+    list.add("ior", material.ior);
+    list.add("transmission", material.transmission);
+    return list.take();
+}
+
+ordered_json list_tracks(const Light& light) {
+    TrackList list;
+    list.add("color", light.color);
+    list.add("intensity", light.intensity);
+    list.add("inner_cone", light.inner_cone);
+    list.add("outer_cone", light.outer_cone);
+    list.add("range", light.range);
+    return list.take();
+}
+
+ordered_json list_tracks(const Camera& camera) {
+    TrackList list;
+    list.add("fov", camera.fov);
+    list.add("half_height", camera.half_height);
+    list.add("shift_x", camera.shift_x);
+    list.add("shift_y", camera.shift_y);
+    list.add("aperture", camera.aperture);
+    list.add("focus_distance", camera.focus_distance);
+    return list.take();
+}
+
+}  // namespace aleph
