@@ -1,18 +1,17 @@
 #include "render/sequence.h"
 
-#include <sys/resource.h>
-
 #include <algorithm>
-#include <chrono>
 
 #include "engine/base/errors.h"
 #include "engine/base/parallel.h"
+#include "motion/image_motion.h"
 #include "motion/model_motion.h"
 #include "motion/velocity.h"
 #include "perception/sanitize.h"
 #include "perception/threshold.h"
 #include "render/accuracy_map.h"
 #include "render/estimate.h"
+#include "render/measure.h"
 #include "render/texture.h"
 
 namespace aleph {
@@ -21,25 +20,6 @@ namespace {
 
 constexpr int exposure_columns = 160;
 constexpr float background_depth = 1e30f;
-
-/// Adds the time since the last call to a stage.
-class StageClock {
-  public:
-    void add_to(double& stage) {
-        const auto now = std::chrono::steady_clock::now();
-        stage += std::chrono::duration<double>(now - last_).count();
-        last_ = now;
-    }
-
-  private:
-    std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
-};
-
-double peak_memory_mib() {
-    rusage usage{};
-    getrusage(RUSAGE_SELF, &usage);
-    return static_cast<double>(usage.ru_maxrss) / 1024.0;
-}
 
 /// A frame's moment: posed, placed for rays, seen by the camera.
 struct Moment {
@@ -66,13 +46,13 @@ void refuse_later_effects(const Scene& scene, const CameraValues& camera) {
     }
 }
 
-/// cd/m2; every 16th pixel is enough to tell a wrong unit from a right one.
-double median_luminance(const Image<Rgb>& estimate, const ViewingConditions& viewing) {
-    std::vector<float> values;
-    for (std::size_t i = 0; i < estimate.size(); i += 16) values.push_back(luminance(estimate.pixels[i]));
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::nth_element(values.begin(), middle, values.end());
-    return viewing.display_white * *middle;
+/// The quick estimate of a moment at which `rays` stand, not sanitized.
+Image<Rgb> estimate_moment(const Scene& scene, const TextureSet& textures, const RayScene& rays, const Moment& moment,
+                           EstimateKind kind, double exposure, RayCounts& counts) {
+    const ShadingScene shading = make_shading_scene(scene, moment.frame, rays.anchor(), textures);
+    const LightSet lights = make_light_set(shading);
+    const SampleHits centers = cast_sample(rays, moment.view, 0, 1, &counts.primary);
+    return compute_estimate({shading, lights, rays}, moment.view, centers, kind, exposure, counts);
 }
 
 bool is_cut(const Scene& scene, std::int64_t frame) {
@@ -102,7 +82,7 @@ struct Sequence::State {
     ViewingConditions viewing;
     TextureSet textures;
     RayScene rays;
-    std::unique_ptr<RayScene> other_rays;  ///< for visibility in the other frame
+    std::unique_ptr<RayScene> other_rays;  ///< for visibility in the other frame, or its quick estimate
     double exposure = 1.0;
 };
 
@@ -118,14 +98,10 @@ Sequence::Sequence(const Scene& scene, const RenderSettings& settings, const std
     }
     const int height = std::max(1, exposure_columns * settings.height / settings.width);
     const Moment moment = make_moment(scene, s.range.first, s.camera, exposure_columns, height);
-    const glm::dvec3 anchor = compute_anchor(moment.view);
-    s.rays.update(moment.frame, anchor);
-    const ShadingScene shading = make_shading_scene(scene, moment.frame, anchor, s.textures);
-    const LightSet lights = make_light_set(shading);
+    s.rays.update(moment.frame, compute_anchor(moment.view));
     RayCounts counts;
-    const SampleHits centers = cast_sample(s.rays, moment.view, 0, 1, &counts.primary);
-    s.exposure = compute_exposure(
-        compute_estimate({shading, lights, s.rays}, moment.view, centers, EstimateKind::direct, 1.0, counts));
+    s.exposure =
+        compute_exposure(estimate_moment(scene, s.textures, s.rays, moment, EstimateKind::direct, 1.0, counts));
 }
 
 Sequence::~Sequence() = default;
@@ -213,16 +189,30 @@ FrameOutput Sequence::render(std::int64_t frame, const FrameRequest& request) {
         stats.median_luminance = median_luminance(out.estimate, s.viewing);
         clock.add_to(stats.seconds.estimate);
 
-        out.motion = compute_model_motion(s.scene, {&now.frame, &now.view}, {&other.frame, &other.view}, centers.hits,
-                                          {.backward = plan.backward, .cut = plan.cut});
-        if (request.maps && !plan.cut) {
-            if (!s.other_rays) s.other_rays = std::make_unique<RayScene>(s.rays.share_meshes());
-            const std::uint64_t before = s.other_rays->rays_traced();
-            s.other_rays->update(other.frame, compute_anchor(other.view));
-            stats.rays.primary +=
-                mark_hidden(out.motion, s.scene, {&other.frame, &other.view}, centers.hits, *s.other_rays);
-            stats.traced_rays += s.other_rays->rays_traced() - before;
+        const bool from_images = settings.motion == MotionSource::image;
+        const bool look_there = !plan.cut && (from_images || request.maps);
+        if (look_there && !s.other_rays) s.other_rays = std::make_unique<RayScene>(s.rays.share_meshes());
+        const std::uint64_t other_before = look_there ? s.other_rays->rays_traced() : 0;
+        if (look_there) s.other_rays->update(other.frame, compute_anchor(other.view));
+        if (from_images) {
+            Image<Rgb> other_estimate;
+            if (look_there) {
+                other_estimate = estimate_moment(s.scene, s.textures, *s.other_rays, other, settings.estimate,
+                                                 s.exposure, stats.rays);
+                sanitize_estimate(other_estimate);
+            }
+            clock.add_to(stats.seconds.estimate);
+            out.motion =
+                compute_image_motion(out.estimate, other_estimate, {.backward = plan.backward, .cut = plan.cut});
+        } else {
+            out.motion = compute_model_motion(s.scene, {&now.frame, &now.view}, {&other.frame, &other.view},
+                                              centers.hits, {.backward = plan.backward, .cut = plan.cut});
+            if (look_there) {
+                stats.rays.primary +=
+                    mark_hidden(out.motion, s.scene, {&other.frame, &other.view}, centers.hits, *s.other_rays);
+            }
         }
+        if (look_there) stats.traced_rays += s.other_rays->rays_traced() - other_before;
         out.velocity = compute_image_velocity(out.motion, s.viewing);
         clock.add_to(stats.seconds.motion);
 
