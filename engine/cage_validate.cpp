@@ -13,8 +13,6 @@ namespace aleph {
 
 namespace {
 
-// OpenSubdiv counts neighbours in 16 bits.
-constexpr int max_valence = 65535;
 // Indices, and those of the points that refinement adds, are 32-bit integers.
 constexpr std::size_t max_face_points = std::size_t{1} << 24;
 
@@ -83,9 +81,6 @@ class Checker {
         for (std::size_t f = 0; f < cage_.face_sizes.size(); ++f) {
             const int size = cage_.face_sizes[f];
             if (size < 3) refuse(fmt::format("face {} has {} points; a face has at least 3", f, size));
-            if (size > max_valence) {
-                refuse(fmt::format("face {} has {} points; at most {} are possible", f, size, max_valence));
-            }
             if (cage_.scheme == Cage::Scheme::loop && size != 3) {
                 refuse(fmt::format("face {} has {} points; Loop subdivision takes triangles only", f, size));
             }
@@ -187,12 +182,13 @@ class Checker {
     }
 
     void check_neighbourhoods() const {
-        std::vector<int> faces(points_, 0), edges(points_, 0);
+        if (measure_crowding(cage_, points_) > max_crowding) {
+            refuse("too many faces meet at its points, or its faces have too many sides; some hundreds are possible");
+        }
+        std::vector<int> edges(points_, 0);
         std::vector<std::uint8_t> inner(points_, 1), sharp(points_, 0);
-        for (const int point : cage_.face_points) ++faces[static_cast<std::size_t>(point)];
         const EdgeFaces edge_faces = count_edge_faces(cage_);
         for (const auto& [key, count] : edge_faces) {
-            if (count > max_valence) refuse(fmt::format("{} faces meet at one edge", count));
             for (const auto point :
                  {static_cast<std::size_t>(key >> 32), static_cast<std::size_t>(key & 0xffffffffu)}) {
                 ++edges[point];
@@ -204,9 +200,6 @@ class Checker {
             sharp[static_cast<std::size_t>(a)] = sharp[static_cast<std::size_t>(b)] = 1;
         });
         for (std::size_t i = 0; i < points_; ++i) {
-            if (faces[i] > max_valence || edges[i] > max_valence) {
-                refuse(fmt::format("{} faces meet at point {}; at most {} are possible", faces[i], i, max_valence));
-            }
             if (edges[i] == 2 && inner[i] && sharp[i]) {
                 refuse(fmt::format(
                     "point {} lies between two faces only and has a sharp edge; remove the crease or the point", i));
@@ -219,6 +212,16 @@ class Checker {
 };
 
 }  // namespace
+
+std::size_t measure_crowding(const Cage& cage, std::size_t cage_points) {
+    std::vector<std::size_t> faces(cage_points, 0);
+    for (const int point : cage.face_points) ++faces[static_cast<std::size_t>(point)];
+    std::size_t sum = 0;
+    const auto add = [&](std::size_t neighbours) { sum += neighbours > 16 ? neighbours * neighbours : 0; };
+    for (const std::size_t count : faces) add(count);
+    for (const int size : cage.face_sizes) add(static_cast<std::size_t>(size));
+    return sum;
+}
 
 void validate(const Cage& cage, std::size_t cage_points) {
     Checker(cage, cage_points).check();

@@ -79,7 +79,7 @@ LimitSurface::LimitSurface(const Cage& cage, std::size_t cage_points, int level)
     SurfaceGrid grid = make_surface_grid(cage, *state.refiner, level);
     state.level = grid.level;
     state.faces = std::move(grid.faces);
-    state.patches = std::make_unique<LimitPatches>(*state.refiner);
+    state.patches = std::make_unique<LimitPatches>(*state.refiner, measure_crowding(cage, cage_points));
     for (PartGrid& from : grid.parts) {
         Part& part = state.parts.emplace_back();
         part.triangles = std::move(from.triangles);
@@ -87,8 +87,10 @@ LimitSurface::LimitSurface(const Cage& cage, std::size_t cage_points, int level)
         part.vertices.reserve(from.vertices.size());
         std::vector<LimitLocation> uv;
         for (const GridVertex& vertex : from.vertices) {
-            part.vertices.push_back({state.patches->make_sample(vertex.position),
-                                     state.patches->make_sample(vertex.normal), vertex.normal});
+            const LimitSample position = state.patches->make_sample(vertex.position);
+            part.vertices.push_back(
+                {position, vertex.normal == vertex.position ? position : state.patches->make_sample(vertex.normal),
+                 vertex.normal});
             uv.push_back(vertex.uv);
         }
         if (!cage.face_uv.empty()) part.uv = state.patches->evaluate_uv(cage.uv, uv);
@@ -202,6 +204,11 @@ void tessellate_cage(Scene& scene, int cage_index) {
         surface = std::make_shared<const LimitSurface>(cage, cache.point_count(), cage.level);
     } catch (const InputError& error) {
         throw InputError(scene.file, error.place(), error.reason());
+    }
+    for (const Mesh& mesh : scene.meshes) {
+        if (mesh.cage != cage_index || (mesh.cage_part >= 0 && mesh.cage_part < surface->part_count())) continue;
+        throw InputError(scene.file, "mesh " + printable(mesh.name),
+                         fmt::format("cage {} has no faces for part {}", printable(cage.name), mesh.cage_part));
     }
     for (const std::string& warning : list_warnings(cage)) {
         if (std::find(scene.warnings.begin(), scene.warnings.end(), warning) == scene.warnings.end()) {

@@ -6,24 +6,33 @@
 #include <opensubdiv/far/stencilTable.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstring>
 
 #include "engine/base/errors.h"
+#include "engine/cage_validate.h"
 
 namespace aleph {
 
 namespace {
 
-// Patches about extraordinary points are approximated at this depth; the approximation's error shrinks sixfold per
-// level (measured; about 1e-6 of an edge at level 7).
-constexpr int deepest_isolation = 7;
-// Large irregular cages are isolated less deeply, so that their control points stay below about this many.
-constexpr int control_point_budget = 2'000'000;
+// About extraordinary points the surface has no finite number of patches: in cells of 2^-deepest_isolation of an edge
+// about them, one patch stands for the rest. It has the limit's position and tangents at the point; between, it slides
+// along the surface by up to 1e-5 of an edge (measured by the tests). All other patches are exact.
+constexpr int deepest_isolation = 9;
+// Cages of many such points, or of long semi-sharp creases, are isolated less deeply, so that a moment's control points
+// stay at about this many.
+constexpr int control_point_budget = 1'000'000;
 
-Far::PatchTableFactory::Options patch_options(int isolation, bool has_uv) {
-    Far::PatchTableFactory::Options options(static_cast<unsigned int>(isolation));
-    options.SetEndCapType(Far::PatchTableFactory::Options::ENDCAP_GREGORY_BASIS);
+// A smooth patch at a point of n neighbours depends on all of them, so all n patches take n^2 weights. In cages more
+// crowded than this the innermost patches are flat.
+constexpr std::size_t max_smooth_crowding = max_crowding / 8;
+
+Far::PatchTableFactory::Options patch_options(int isolation, bool has_uv, bool smooth_ends) {
+    using Options = Far::PatchTableFactory::Options;
+    Options options(static_cast<unsigned int>(isolation));
+    options.SetEndCapType(smooth_ends ? Options::ENDCAP_GREGORY_BASIS : Options::ENDCAP_BILINEAR_BASIS);
     options.useInfSharpPatch = true;
     options.generateLegacySharpCornerPatches = false;
     options.generateVaryingTables = false;
@@ -36,15 +45,18 @@ Far::PatchTableFactory::Options patch_options(int isolation, bool has_uv) {
 
 /// Refines as deeply as the budget allows: a function of the cage alone, so that a surface is the same at every level
 /// of its triangles.
-int refine(Far::TopologyRefiner& refiner, bool has_uv) {
-    for (int level = 2;; ++level) {
+int refine(Far::TopologyRefiner& refiner, bool has_uv, bool smooth_ends) {
+    constexpr int trial = 3;
+    for (int level = trial;;) {
         refiner.Unrefine();
-        auto options = patch_options(level, has_uv).GetRefineAdaptiveOptions();
+        auto options = patch_options(level, has_uv, smooth_ends).GetRefineAdaptiveOptions();
         options.orderVerticesFromFacesFirst = true;
         refiner.RefineAdaptive(options);
-        // A level adds as many points as all before it at most fourfold; most cages add a constant number.
+        // About points a level adds as many as the one before, along semi-sharp edges twice as many.
         const int points = refiner.GetNumVerticesTotal();
-        if (level == deepest_isolation || points > control_point_budget / 3) return level;
+        if (level == deepest_isolation || points > control_point_budget / 2) return level;
+        const bool is_small = points < control_point_budget >> (deepest_isolation - trial);
+        level = is_small ? deepest_isolation : level + 1;
     }
 }
 
@@ -84,38 +96,38 @@ struct UvValue {
     void AddWithWeight(const UvValue& source, double weight) { value += weight * source.value; }
 };
 
-std::uint64_t hash_bytes(const void* data, std::size_t size) {
-    // FNV-1a; collisions are sorted out by comparing.
+/// FNV-1a, a number at a time; collisions are sorted out by comparing.
+std::uint64_t hash_weights(std::span<const double> weights) {
     std::uint64_t hash = 0xcbf29ce484222325u;
-    const auto* bytes = static_cast<const unsigned char*>(data);
-    for (std::size_t i = 0; i < size; ++i) hash = (hash ^ bytes[i]) * 0x100000001b3u;
+    for (const double weight : weights) {
+        hash = (hash ^ std::bit_cast<std::uint64_t>(weight)) * 0x100000001b3u;
+        hash ^= hash >> 29;
+    }
     return hash;
 }
 
-/// Sum of weights that add up to 1, about the first point: exact for equal points, accurate far from the origin.
-glm::dvec3 blend(std::span<const glm::dvec3> control, const int* points, const double* weights, int count) {
-    const glm::dvec3 origin = control[static_cast<std::size_t>(points[0])];
-    glm::dvec3 sum(0.0);
-    for (int i = 1; i < count; ++i) sum += weights[i] * (control[static_cast<std::size_t>(points[i])] - origin);
-    return origin + sum;
-}
-
-/// The same for weights that add up to 0.
-glm::dvec3 blend_derivative(std::span<const glm::dvec3> control, const int* points, const double* weights, int count) {
+/// Weighted sum of points relative to the first. With weights that add up to 0, of the points themselves.
+glm::dvec3 sum_about_first(std::span<const glm::dvec3> control, const int* points, const double* weights, int count) {
     const glm::dvec3 origin = control[static_cast<std::size_t>(points[0])];
     glm::dvec3 sum(0.0);
     for (int i = 1; i < count; ++i) sum += weights[i] * (control[static_cast<std::size_t>(points[i])] - origin);
     return sum;
 }
 
+/// With weights that add up to 1: exact for equal points, accurate far from the origin.
+glm::dvec3 blend(std::span<const glm::dvec3> control, const int* points, const double* weights, int count) {
+    return control[static_cast<std::size_t>(points[0])] + sum_about_first(control, points, weights, count);
+}
+
 }  // namespace
 
-LimitPatches::LimitPatches(Far::TopologyRefiner& refiner) : refiner_(refiner) {
+LimitPatches::LimitPatches(Far::TopologyRefiner& refiner, std::size_t crowding) : refiner_(refiner) {
     const bool has_uv = refiner.GetNumFVarChannels() > 0;
     triangular_ = refiner.GetSchemeType() == OpenSubdiv::Sdc::SCHEME_LOOP;
     cage_point_count_ = refiner.GetLevel(0).GetNumVertices();
-    isolation_level_ = refine(refiner, has_uv);
-    table_.reset(Far::PatchTableFactory::Create(refiner, patch_options(isolation_level_, has_uv)));
+    const bool smooth_ends = crowding <= max_smooth_crowding;
+    const int isolation = refine(refiner, has_uv, smooth_ends);
+    table_.reset(Far::PatchTableFactory::Create(refiner, patch_options(isolation, has_uv, smooth_ends)));
     ALEPH_CHECK(table_ != nullptr, "no patch table");
     map_ = std::make_unique<Far::PatchMap>(*table_);
     record_stencils();
@@ -179,7 +191,7 @@ LimitSample LimitPatches::make_sample(const LimitLocation& location) {
     LimitSample sample;
     sample.first_point =
         static_cast<int>(table_->GetPatchVertices(patch).begin() - table_->GetPatchControlVerticesTable().data());
-    const std::uint64_t hash = hash_bytes(basis.weights, sizeof basis.weights);
+    const std::uint64_t hash = hash_weights({basis.weights[0], 3 * max_patch_points});
     const auto [begin, end] = known_bases_.equal_range(hash);
     for (auto known = begin; known != end; ++known) {
         const Basis& other = bases_[static_cast<std::size_t>(known->second)];
@@ -203,8 +215,8 @@ glm::dvec3 LimitPatches::position(std::span<const glm::dvec3> control, const Lim
 Tangents LimitPatches::tangents(std::span<const glm::dvec3> control, const LimitSample& sample) const {
     const Basis& basis = bases_[static_cast<std::size_t>(sample.basis)];
     const int* points = table_->GetPatchControlVerticesTable().data() + sample.first_point;
-    return {blend_derivative(control, points, basis.weights[1], basis.count),
-            blend_derivative(control, points, basis.weights[2], basis.count)};
+    return {sum_about_first(control, points, basis.weights[1], basis.count),
+            sum_about_first(control, points, basis.weights[2], basis.count)};
 }
 
 glm::dvec3 LimitPatches::evaluate(std::span<const glm::dvec3> control, int face, double s, double t,
@@ -214,8 +226,8 @@ glm::dvec3 LimitPatches::evaluate(std::span<const glm::dvec3> control, int face,
     double position[max_patch_points], ds[max_patch_points], dt[max_patch_points];
     table_->EvaluateBasis(patch, s, t, position, tangents ? ds : nullptr, tangents ? dt : nullptr);
     if (tangents) {
-        tangents->ds = blend_derivative(control, points.begin(), ds, points.size());
-        tangents->dt = blend_derivative(control, points.begin(), dt, points.size());
+        tangents->ds = sum_about_first(control, points.begin(), ds, points.size());
+        tangents->dt = sum_about_first(control, points.begin(), dt, points.size());
     }
     return blend(control, points.begin(), position, points.size());
 }

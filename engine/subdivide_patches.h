@@ -22,6 +22,8 @@ namespace aleph {
 struct LimitLocation {
     int face = 0;
     float s = 0.0f, t = 0.0f;
+
+    bool operator==(const LimitLocation&) const = default;
 };
 
 /// A location whose patch and weights are known.
@@ -37,7 +39,8 @@ struct Tangents {
 class LimitPatches {
   public:
     /// Refines `refiner` about its features.
-    explicit LimitPatches(Far::TopologyRefiner& refiner);
+    /// @param crowding  of the cage (measure_crowding)
+    LimitPatches(Far::TopologyRefiner& refiner, std::size_t crowding);
 
     /// The cage's points, then the refined ones: sums only.
     std::vector<glm::dvec3> make_control_points(std::span<const glm::dvec3> cage_points) const;
@@ -58,9 +61,6 @@ class LimitPatches {
     std::vector<glm::vec2> evaluate_uv(const std::vector<glm::vec2>& values,
                                        const std::vector<LimitLocation>& locations) const;
 
-    int isolation_level() const { return isolation_level_; }
-    int point_count() const { return point_count_; }
-
   private:
     static constexpr int max_patch_points = 20;
     /// Weights of a patch's points.
@@ -74,7 +74,6 @@ class LimitPatches {
 
     const Far::TopologyRefiner& refiner_;
     bool triangular_ = false;
-    int isolation_level_ = 0;
     int cage_point_count_ = 0;
     int point_count_ = 0;
     std::unique_ptr<const Far::PatchTable> table_;
