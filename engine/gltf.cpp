@@ -28,15 +28,20 @@ void rebase(Scene& part, const Scene& scene, int parent_node, int include) {
     }
     for (Mesh& mesh : part.meshes) {
         shift(mesh.material, scene.materials.size());
+        shift(mesh.skin, scene.skins.size());
         mesh.include = include;
     }
     for (Material& material : part.materials) {
         for (TextureRef* texture :
              {&material.base_color_texture, &material.metallic_roughness_texture, &material.emission_texture,
-              &material.specular_texture, &material.specular_color_texture}) {
+              &material.specular_texture, &material.specular_color_texture, &material.transmission_texture}) {
             shift(texture->image, scene.images.size());
         }
         material.include = include;
+    }
+    for (Skin& skin : part.skins) {
+        for (int& joint : skin.joints) shift(joint, scene.nodes.size());
+        skin.include = include;
     }
     for (SceneImage& image : part.images) image.include = include;
     for (Light& light : part.lights) light.include = include;
@@ -53,6 +58,7 @@ void append_gltf(const std::filesystem::path& file, Scene& scene, int parent_nod
     read_meshes(reader);
     read_cameras_and_lights(reader);
     read_nodes(reader);
+    read_skins(reader);
     read_animations(reader);
     rebase(reader.part, scene, parent_node, include_index);
 
@@ -60,6 +66,7 @@ void append_gltf(const std::filesystem::path& file, Scene& scene, int parent_nod
     const auto for_each_list = [&](const auto& apply) {
         apply(scene.nodes, reader.part.nodes);
         apply(scene.meshes, reader.part.meshes);
+        apply(scene.skins, reader.part.skins);
         apply(scene.materials, reader.part.materials);
         apply(scene.images, reader.part.images);
         apply(scene.lights, reader.part.lights);

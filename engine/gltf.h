@@ -7,8 +7,10 @@
 
 namespace aleph {
 
-/// Appends a glTF file's nodes, meshes (one per primitive; a mesh used by several nodes is stored once), materials,
-/// images, lights, cameras and warnings to a scene. All animations of the file apply at once; times are seconds.
+/// Appends a glTF file's nodes, meshes (one per primitive; a rigid mesh used by several nodes is stored once, one with
+/// morph targets or a skin once for each node), skins, materials, images, lights, cameras and warnings to a scene.
+/// All animations of the file apply at once; where two of them move the same property the first one does, and a
+/// warning names what is left out. Times are seconds.
 /// Either everything is appended or the scene stays as it was.
 /// @param parent_node    node under which the file's roots hang, or no_index to append them as roots
 /// @param include_index  becomes `include` of every element that is appended

@@ -1,5 +1,5 @@
 #pragma once
-// Values of glTF accessors: any component type, normalized or not, packed or interleaved.
+// Values of glTF accessors: any component type, normalized or not, packed, interleaved or sparse.
 
 #include <cstdint>
 #include <vector>
@@ -24,15 +24,23 @@ class GltfAccessors {
     template <class T>
     std::vector<T> read(int accessor);
 
-    /// @throws InputError where an index is not below `vertex_count`
-    std::vector<std::uint32_t> read_indices(int accessor, std::size_t vertex_count);
+    /// @param kind  what the indices count, for the message
+    /// @throws InputError where an index is not below `limit`
+    std::vector<std::uint32_t> read_indices(int accessor, std::size_t limit, const char* kind = "vertex");
 
     std::size_t count(int accessor) const;
     int components(int accessor) const;  ///< 3 for VEC3
+    bool is_float(int accessor) const;
+
+    /// Accounts for memory before it is taken, by whoever multiplies what was read.
+    /// @throws InputError beyond the file's allowance
+    void charge(std::uint64_t bytes, const std::string& place);
 
   private:
-    /// Accounts for memory before it is taken. @throws InputError beyond the file's allowance
-    void charge(std::uint64_t bytes, const std::string& place);
+    /// Calls store(element, component, value) with the component type's own values: the base, then what is sparse.
+    template <class Store>
+    void for_each_value(int accessor, const Store& store);
+    std::vector<std::uint32_t> read_sparse_indices(int accessor, const nlohmann::json& sparse, std::size_t limit);
 
     const GltfSource& source_;
     std::uint64_t bytes_left_ = decoded_bytes_base;

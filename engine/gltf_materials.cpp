@@ -97,8 +97,23 @@ TextureRef MaterialReader::texture(int index, int uv_set) {
 }
 
 TextureRef MaterialReader::texture(const nlohmann::json& owner, const char* key) {
-    if (!owner.contains(key)) return {};
-    return texture(owner[key]["index"].get<int>(), owner[key].value("texCoord", 0));
+    const auto info = owner.find(key);
+    if (info == owner.end()) return {};
+    TextureRef reference = texture((*info)["index"].get<int>(), info->value("texCoord", 0));
+    const auto extensions = info->find("extensions");
+    if (extensions == info->end()) return reference;
+    const auto transform = extensions->find("KHR_texture_transform");
+    if (transform == extensions->end()) return reference;
+    const auto pair = [&](const char* name, const glm::dvec2& absent) {
+        const auto found = transform->find(name);
+        if (found == transform->end()) return absent;
+        return glm::dvec2((*found)[0].get<double>(), (*found)[1].get<double>());
+    };
+    reference.uv_offset = pair("offset", glm::dvec2(0.0));
+    reference.uv_scale = pair("scale", glm::dvec2(1.0));
+    reference.uv_rotation = transform->value("rotation", 0.0);
+    reference.uv_set = transform->value("texCoord", reference.uv_set);
+    return reference;
 }
 
 double MaterialReader::clamped(double value, double low, double high, const char* name) {
@@ -120,6 +135,11 @@ void MaterialReader::read_extensions(const nlohmann::json& extensions, Material&
         const double ior = found->value("ior", 1.5);
         material.ior = ior == 0.0 ? 0.0 : clamped(ior, 1.0, unlimited, "ior");  // 0 is allowed: full reflection
     }
+    material.unlit = extensions.contains("KHR_materials_unlit");
+    if (const auto found = extensions.find("KHR_materials_transmission"); found != extensions.end()) {
+        material.transmission = clamped(found->value("transmissionFactor", 0.0), 0.0, 1.0, "transmissionFactor");
+        material.transmission_texture = texture(*found, "transmissionTexture");
+    }
     if (const auto found = extensions.find("KHR_materials_specular"); found != extensions.end()) {
         material.specular = clamped(found->value("specularFactor", 1.0), 0.0, 1.0, "specularFactor");
         const auto color = found->value("specularColorFactor", std::vector<double>{1.0, 1.0, 1.0});
@@ -140,14 +160,18 @@ Material MaterialReader::read(std::size_t index) {
     material.alpha = clamped(base[3], 0.0, 1.0, "baseColorFactor");
     material.metallic = clamped(pbr.metallicFactor, 0.0, 1.0, "metallicFactor");
     material.roughness = clamped(pbr.roughnessFactor, 0.0, 1.0, "roughnessFactor");
-    material.base_color_texture = texture(pbr.baseColorTexture.index, pbr.baseColorTexture.texCoord);
-    material.metallic_roughness_texture =
-        texture(pbr.metallicRoughnessTexture.index, pbr.metallicRoughnessTexture.texCoord);
+    const nlohmann::json& raw = reader_.source.document["materials"][index];
+    if (const auto found = raw.find("pbrMetallicRoughness"); found != raw.end()) {
+        material.base_color_texture = texture(*found, "baseColorTexture");
+        material.metallic_roughness_texture = texture(*found, "metallicRoughnessTexture");
+    }
     const std::vector<double>& emission = source.emissiveFactor;
     material.emission = clamped({emission[0], emission[1], emission[2]}, 1.0, "emissiveFactor");
-    material.emission_texture = texture(source.emissiveTexture.index, source.emissiveTexture.texCoord);
+    material.emission_texture = texture(raw, "emissiveTexture");
     material.double_sided = source.doubleSided;
-    const nlohmann::json& raw = reader_.source.document["materials"][index];
+    if (source.alphaMode == "MASK") material.alpha_mode = Material::AlphaMode::mask;
+    if (source.alphaMode == "BLEND") material.alpha_mode = Material::AlphaMode::blend;
+    material.alpha_cutoff = raw.value("alphaCutoff", 0.5);
     if (const auto extensions = raw.find("extensions"); extensions != raw.end()) read_extensions(*extensions, material);
     return material;
 }

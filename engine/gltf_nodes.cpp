@@ -54,35 +54,15 @@ int find_light(const nlohmann::json& node) {
     return extension == extensions->end() ? no_index : extension->at("light").get<int>();
 }
 
-Camera read_camera(const tinygltf::Camera& source, std::size_t index) {
-    Camera camera;
-    camera.name = source.name.empty() ? fmt::format("camera{}", index) : source.name;
-    camera.orthographic = source.type == "orthographic";
-    // znear and zfar only serve depth buffers: nothing is clipped here, so near_plane keeps its default.
-    if (camera.orthographic) {
-        camera.half_height = source.orthographic.ymag;
-    } else {
-        camera.fov = source.perspective.yfov;
-    }
-    return camera;
+bool has_extension(const nlohmann::json& node, const char* name) {
+    const auto extensions = node.find("extensions");
+    return extensions != node.end() && extensions->contains(name);
 }
 
-Light read_light(GltfReader& reader, const tinygltf::Light& source, std::size_t index) {
-    const std::string place = fmt::format("/extensions/KHR_lights_punctual/lights/{}", index);
-    const auto not_negative = [&](double value, const char* name) {
-        if (value < 0.0) reader.warn(place, fmt::format("{} {} is clamped to 0", name, value));
-        return std::max(value, 0.0);
-    };
-    Light light;
-    light.name = source.name.empty() ? fmt::format("light{}", index) : source.name;
-    light.kind = source.type == "point" ? Light::Kind::point : Light::Kind::directional;
-    if (!source.color.empty()) {
-        light.color = glm::dvec3(not_negative(source.color[0], "color"), not_negative(source.color[1], "color"),
-                                 not_negative(source.color[2], "color"));
-    }
-    light.intensity = not_negative(source.intensity, "intensity");
-    light.range = light.kind == Light::Kind::point ? source.range : 0.0;
-    return light;
+/// KHR_node_visibility.
+bool is_visible(const nlohmann::json& node) {
+    return !has_extension(node, "KHR_node_visibility") ||
+           node["extensions"]["KHR_node_visibility"].value("visible", true);
 }
 
 }  // namespace
@@ -97,18 +77,12 @@ UnitRotation read_rotation(const GltfReader& reader, const double* values, const
     return {scaled / length, length * largest};
 }
 
-void read_cameras_and_lights(GltfReader& reader) {
-    const tinygltf::Model& model = reader.source.model;
-    for (std::size_t i = 0; i < model.cameras.size(); ++i)
-        reader.part.cameras.push_back(read_camera(model.cameras[i], i));
-    for (std::size_t i = 0; i < model.lights.size(); ++i) {
-        reader.part.lights.push_back(read_light(reader, model.lights[i], i));
-    }
-}
-
 void read_nodes(GltfReader& reader) {
     const tinygltf::Model& model = reader.source.model;
     reader.node_of.assign(model.nodes.size(), no_index);
+    reader.morphs_of.resize(model.nodes.size());
+    const nlohmann::json& document = reader.source.document;
+    reader.skin_of.assign(document.contains("skins") ? document["skins"].size() : 0, no_index);
     struct Entry {
         int source;
         int parent;
@@ -129,16 +103,21 @@ void read_nodes(GltfReader& reader) {
         node.name = source.name.empty() ? fmt::format("node{}", entry.source) : source.name;
         node.parent = entry.parent;
         read_transform(reader, source, place, node);
-        if (source.mesh >= 0) node.meshes = reader.meshes_of[static_cast<std::size_t>(source.mesh)];
+        const nlohmann::json& raw = document["nodes"][source_index];
+        const bool is_instanced = has_extension(raw, "EXT_mesh_gpu_instancing");
+        if (source.mesh >= 0 && !is_instanced) node.meshes = take_meshes(reader, source_index);
+        node.camera = source.camera;
+        node.light = find_light(raw);
+        if (!is_visible(raw)) node.visible = Track<double>(0.0);
         instances += node.meshes.size();
+        const int index = static_cast<int>(reader.part.nodes.size());
+        reader.node_of[source_index] = index;
+        reader.part.nodes.push_back(std::move(node));
+        if (is_instanced) instances += read_instances(reader, source_index, index);
         if (instances > max_instances) {
             throw InputError(reader.source.file, place, fmt::format("more than {} instances of meshes", max_instances));
         }
-        node.camera = source.camera;
-        node.light = find_light(reader.source.document["nodes"][source_index]);
-        reader.node_of[source_index] = static_cast<int>(reader.part.nodes.size());
-        push(source.children, static_cast<int>(reader.part.nodes.size()));
-        reader.part.nodes.push_back(std::move(node));
+        push(source.children, index);
     }
 }
 

@@ -70,19 +70,23 @@ void locate_image(const GltfSource& source, std::size_t i) {
     }
 }
 
-/// The document without what tinygltf would open, decode or choke on.
+/// The document without what tinygltf would open or decode, or what it chokes on: sparse values, indices without a
+/// buffer view, channels without a node. Those are read from the document itself.
 nlohmann::json make_parser_input(const GltfSource& source) {
     nlohmann::json input = nlohmann::json::object();
     for (const auto& [key, value] : source.document.items()) {
         if (key != "buffers" && key != "images" && key != "skins" && key != "extras") input[key] = value;
     }
-    if (!input.contains("animations")) return input;
-    for (nlohmann::json& animation : input["animations"]) {
-        nlohmann::json kept = nlohmann::json::array();
-        for (nlohmann::json& channel : animation["channels"]) {
-            if (channel["target"].contains("node")) kept.push_back(std::move(channel));
+    if (input.contains("accessors")) {
+        for (nlohmann::json& accessor : input["accessors"]) accessor.erase("sparse");
+    }
+    if (input.contains("animations")) {
+        for (nlohmann::json& animation : input["animations"]) animation["channels"] = nlohmann::json::array();
+    }
+    if (input.contains("meshes")) {
+        for (nlohmann::json& mesh : input["meshes"]) {
+            for (nlohmann::json& primitive : mesh["primitives"]) primitive.erase("indices");
         }
-        animation["channels"] = std::move(kept);
     }
     return input;
 }

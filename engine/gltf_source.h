@@ -16,7 +16,7 @@ struct GltfSource {
     std::string file;              ///< what messages call it
     std::filesystem::path folder;  ///< no URI leads out of it
     nlohmann::json document;     ///< validated; extensions are read from here: tinygltf cuts their integers to 31 bits
-    tinygltf::Model model;       ///< everything but buffers, images, skins, and channels that animate no node
+    tinygltf::Model model;       ///< without buffers, images, skins, indices, channels, sparse values
     std::vector<Bytes> buffers;  ///< exactly byteLength each
     std::vector<std::string> warnings;
 };

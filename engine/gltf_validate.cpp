@@ -12,13 +12,14 @@ namespace aleph {
 
 namespace {
 
-constexpr std::array<std::string_view, 4> supported_extensions = {
-    "KHR_lights_punctual", "KHR_materials_emissive_strength", "KHR_materials_ior", "KHR_materials_specular"};
+constexpr std::array<std::string_view, 11> supported_extensions = {
+    "EXT_mesh_gpu_instancing", "KHR_animation_pointer",  "KHR_lights_punctual",  "KHR_materials_emissive_strength",
+    "KHR_materials_ior",       "KHR_materials_specular", "KHR_materials_unlit",  "KHR_materials_transmission",
+    "KHR_mesh_quantization",   "KHR_node_visibility",    "KHR_texture_transform"};
 
-/// Known, not supported, and a file that uses them would look wrong without: refused even where optional.
-constexpr std::array<std::string_view, 7> refused_extensions = {
-    "EXT_mesh_gpu_instancing", "KHR_draco_mesh_compression", "KHR_materials_transmission", "KHR_materials_unlit",
-    "KHR_materials_volume",    "KHR_mesh_quantization",      "KHR_texture_transform"};
+/// Compressed data cannot be done without, even where the extension is called optional.
+constexpr std::array<std::string_view, 2> refused_extensions = {"EXT_meshopt_compression",
+                                                                "KHR_draco_mesh_compression"};
 
 template <std::size_t N>
 bool contains(const std::array<std::string_view, N>& names, std::string_view name) {
@@ -67,6 +68,7 @@ GltfCounts count_elements(const JsonRef& root) {
     counts.nodes = count_of(root, "nodes");
     counts.cameras = count_of(root, "cameras");
     counts.scenes = count_of(root, "scenes");
+    counts.skins = count_of(root, "skins");
     if (const ExtensionRef lights(root, "KHR_lights_punctual"); lights) counts.lights = count_of(*lights, "lights");
     return counts;
 }
@@ -77,13 +79,17 @@ void check_extensions(GltfCheck& check) {
     if (const std::optional<JsonRef> required = check.root.find("extensionsRequired")) {
         for (std::size_t i = 0; i < required->array_size(); ++i) {
             const JsonRef name = (*required)[i];
+            if (name.string() == "KHR_mesh_quantization") check.is_quantized = true;
             if (!contains(supported_extensions, name.string())) {
                 name.fail(fmt::format("the required extension {} is not supported", printable(name.string())));
             }
         }
     }
     if (const std::optional<JsonRef> used = check.root.find("extensionsUsed")) {
-        for (std::size_t i = 0; i < used->array_size(); ++i) (*used)[i].string();
+        for (std::size_t i = 0; i < used->array_size(); ++i) {
+            const JsonRef name = (*used)[i];
+            if (name.string() == "KHR_mesh_quantization") check.is_quantized = true;
+        }
     }
     std::set<std::string> names;
     collect_extensions(check.root.json(), names);
@@ -100,7 +106,7 @@ void check_extensions(GltfCheck& check) {
 void validate_gltf(const JsonRef& root, bool has_binary_chunk, std::vector<std::string>& warnings) {
     root.expect_object();
     check_asset(root);
-    GltfCheck check{root, has_binary_chunk, warnings, count_elements(root), {}};
+    GltfCheck check{root, has_binary_chunk, warnings, count_elements(root), {}, {}, false};
     check_extensions(check);
     check_nodes(check);
     check_buffers(check);
@@ -109,6 +115,7 @@ void validate_gltf(const JsonRef& root, bool has_binary_chunk, std::vector<std::
     check_materials(check);
     check_cameras_and_lights(check);
     check_meshes(check);
+    check_skins(check);
     check_animations(check);
 }
 

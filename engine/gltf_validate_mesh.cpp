@@ -1,8 +1,5 @@
-// Validator: meshes and animations: what accessors are used for.
+// Validator: meshes: what accessors are used for.
 #include <fmt/format.h>
-
-#include <set>
-#include <utility>
 
 #include "engine/base/errors.h"
 #include "engine/gltf_validate_parts.h"
@@ -11,141 +8,158 @@ namespace aleph {
 
 namespace {
 
-constexpr std::int64_t type_u8 = 5121, type_u16 = 5123, type_u32 = 5125, type_float = 5126;
-
-bool is_float(const AccessorInfo& info) {
-    return info.component_type == type_float;
+/// KHR_mesh_quantization allows small integers; without it only floats will do.
+bool is_position(const GltfCheck& check, const AccessorInfo& info) {
+    return is_float(info) || (check.is_quantized && info.component_type != type_u32);
+}
+bool is_direction(const GltfCheck& check, const AccessorInfo& info) {
+    const bool is_signed = info.component_type == type_i8 || info.component_type == type_i16;
+    return is_float(info) || (check.is_quantized && is_signed && info.normalized);
 }
 
-/// Floats, or unsigned integers that stand for 0 to 1.
-bool is_unit_range(const AccessorInfo& info) {
-    const bool small = info.component_type == type_u8 || info.component_type == type_u16;
-    return is_float(info) || (small && info.normalized);
+/// Sets 0 and 1 of an attribute are read: "TEXCOORD_0" of "TEXCOORD_".
+bool is_read_set(std::string_view name, std::string_view start) {
+    const std::size_t length = start.size();
+    return name.size() == length + 1 && name.substr(0, length) == start && (name[length] == '0' || name[length] == '1');
 }
 
-void check_attribute(const JsonRef& attribute, std::string_view name, const AccessorInfo& info) {
-    if ((name == "POSITION" || name == "NORMAL") && (info.type != "VEC3" || !is_float(info))) {
-        attribute.fail(fmt::format("{} must be a float VEC3 accessor", name));
+void check_attribute(const GltfCheck& check, const JsonRef& attribute, std::string_view name,
+                     const AccessorInfo& info) {
+    const char* wanted = check.is_quantized ? "a VEC3 accessor of floats or small integers" : "a float VEC3 accessor";
+    if (name == "POSITION" && (info.type != "VEC3" || !is_position(check, info))) {
+        attribute.fail(fmt::format("POSITION must be {}", wanted));
     }
-    if ((name == "TEXCOORD_0" || name == "TEXCOORD_1") && (info.type != "VEC2" || !is_unit_range(info))) {
-        attribute.fail(fmt::format("{} must be a VEC2 accessor of floats or normalized unsigned integers", name));
+    if (name == "NORMAL" && (info.type != "VEC3" || !is_direction(check, info))) {
+        attribute.fail(fmt::format("NORMAL must be {}", wanted));
     }
-    if (name == "COLOR_0" && ((info.type != "VEC3" && info.type != "VEC4") || !is_unit_range(info))) {
+    if (is_read_set(name, "TEXCOORD_")) {
+        const bool is_uv = is_positive_unit_range(info) || (check.is_quantized && info.component_type != type_u32);
+        if (info.type != "VEC2" || !is_uv) {
+            attribute.fail(fmt::format("{} must be a VEC2 accessor of floats or normalized unsigned integers", name));
+        }
+    }
+    if (name == "COLOR_0" && ((info.type != "VEC3" && info.type != "VEC4") || !is_positive_unit_range(info))) {
         attribute.fail("COLOR_0 must be a VEC3 or VEC4 accessor of floats or normalized unsigned integers");
     }
+    if (is_read_set(name, "JOINTS_")) {
+        const bool is_index = info.component_type == type_u8 || info.component_type == type_u16;
+        if (info.type != "VEC4" || !is_index || info.normalized) {
+            attribute.fail(
+                fmt::format("{} must be a VEC4 accessor of 8-bit or 16-bit unsigned integers, not normalized", name));
+        }
+    }
+    if (is_read_set(name, "WEIGHTS_") && (info.type != "VEC4" || !is_positive_unit_range(info))) {
+        attribute.fail(fmt::format("{} must be a VEC4 accessor of floats or normalized unsigned integers", name));
+    }
 }
 
-void check_indices(const GltfCheck& check, const JsonRef& indices) {
-    const AccessorInfo& info = check.accessors[indices.index(check.counts.accessors, "accessor")];
+/// @param vertices  of the primitive
+void check_accessor_use(const JsonRef& attribute, const AccessorInfo& info, std::int64_t vertices) {
+    if (info.count != vertices) {
+        attribute.fail(fmt::format("{} elements, POSITION has {}", info.count, vertices));
+    }
+    if (info.has_view && !info.aligned) attribute.fail("vertex attributes must start at multiples of 4 bytes");
+}
+
+/// Points need one vertex, lines two, and so on. glTF 2.0, 3.7.2.1.
+void check_element_count(const JsonRef& place, std::int64_t mode, std::int64_t count) {
+    if (mode == 4 && count % 3 != 0)
+        place.fail(fmt::format("{} indices or vertices do not make whole triangles", count));
+    if (mode == 1 && count % 2 != 0) place.fail(fmt::format("{} indices or vertices do not make whole lines", count));
+    const std::int64_t least = mode == 0 ? 1 : mode <= 3 ? 2 : 3;
+    if (count < least) place.fail(fmt::format("primitive mode {} needs {} indices or vertices", mode, least));
+}
+
+void check_indices(const GltfCheck& check, const JsonRef& indices, std::int64_t mode) {
+    const AccessorInfo& info = check.accessor(indices);
     const bool is_index =
         info.component_type == type_u8 || info.component_type == type_u16 || info.component_type == type_u32;
     if (info.type != "SCALAR" || !is_index || info.normalized) {
         indices.fail("indices must be a SCALAR accessor of unsigned integers, not normalized");
     }
     if (info.interleaved) indices.fail("the view of indices must not have a byteStride");
-    if (info.count % 3 != 0) indices.fail(fmt::format("{} indices do not make whole triangles", info.count));
+    check_element_count(indices, mode, info.count);
 }
 
-void check_primitive(const GltfCheck& check, const JsonRef& primitive) {
-    if (const std::optional<JsonRef> targets = primitive.find("targets"))
-        targets->fail("morph targets are not supported");
-    if (const std::optional<JsonRef> mode = primitive.find("mode"); mode && mode->integer(0, 6) != 4) {
-        mode->fail(fmt::format("primitive mode {} is not supported, only triangles (4)", mode->integer(0, 6)));
+/// Morph targets: displacements of what the primitive itself has.
+void check_target(const GltfCheck& check, const JsonRef& target, const JsonRef& attributes, std::int64_t vertices) {
+    target.expect_object();
+    for (const auto& [name, value] : target.json().items()) {
+        const JsonRef displacement = target.require(name);
+        const AccessorInfo& info = check.accessor(displacement);
+        check_accessor_use(displacement, info, vertices);
+        const bool is_vector = name == "POSITION" || name == "NORMAL" || name == "TANGENT";
+        if (!is_vector) continue;
+        if (!attributes.has(name)) displacement.fail(fmt::format("the primitive itself has no {}", name));
+        const bool fits = name == "POSITION" ? is_position(check, info) : is_direction(check, info);
+        if (info.type != "VEC3" || !fits) displacement.fail(fmt::format("{} must be a float VEC3 accessor", name));
     }
+}
+
+/// JOINTS_n and WEIGHTS_n come in pairs, without gaps.
+void check_joint_sets(const JsonRef& attributes) {
+    for (const char* set : {"0", "1"}) {
+        const bool joints = attributes.has(std::string("JOINTS_") + set);
+        const bool weights = attributes.has(std::string("WEIGHTS_") + set);
+        if (joints != weights) attributes.fail(fmt::format("JOINTS_{} and WEIGHTS_{} must stand together", set, set));
+    }
+    if (attributes.has("JOINTS_1") && !attributes.has("JOINTS_0")) attributes.fail("JOINTS_1 without JOINTS_0");
+}
+
+/// @return the number of morph targets
+std::size_t check_primitive(const GltfCheck& check, const JsonRef& primitive) {
+    const std::int64_t mode = primitive.find_integer("mode", 0, 6).value_or(4);
     primitive.find_index("material", check.counts.materials, "material");
 
     const JsonRef attributes = primitive.require("attributes");
     attributes.expect_object();
     const JsonRef position = attributes.require("POSITION");
-    const AccessorInfo& points = check.accessors[position.index(check.counts.accessors, "accessor")];
+    const std::int64_t vertices = check.accessor(position).count;
     for (const auto& [name, value] : attributes.json().items()) {
         const JsonRef attribute = attributes.require(name);
-        const AccessorInfo& info = check.accessors[attribute.index(check.counts.accessors, "accessor")];
-        check_attribute(attribute, name, info);
-        if (info.count != points.count) {
-            attribute.fail(fmt::format("{} elements, POSITION has {}", info.count, points.count));
-        }
+        const AccessorInfo& info = check.accessor(attribute);
+        check_attribute(check, attribute, name, info);
+        check_accessor_use(attribute, info, vertices);
     }
-    const std::optional<JsonRef> indices = primitive.find("indices");
-    if (!indices) primitive.fail("meshes without indices are not supported");
-    check_indices(check, *indices);
-}
-
-void check_channel(const GltfCheck& check, const JsonRef& channel, const JsonRef& samplers,
-                   std::set<std::pair<std::size_t, std::string>>& targets) {
-    const JsonRef sampler_index = channel.require("sampler");
-    const std::size_t sampler_number = sampler_index.index(samplers.array_size(), "sampler");
-    const JsonRef target = channel.require("target");
-    const JsonRef path = target.require("path");
-    const std::string& name = path.string();
-    const std::optional<std::size_t> node_number = target.find_index("node", check.counts.nodes, "node");
-    if (!node_number) return;  // glTF: such a channel is ignored; the reader says so
-
-    if (name == "weights") path.fail("animated morph target weights are not supported");
-    const bool is_rotation = name == "rotation";
-    if (!is_rotation && name != "translation" && name != "scale") {
-        path.fail(fmt::format("\"{}\" is no animated property", printable(name)));
+    check_joint_sets(attributes);
+    if (const std::optional<JsonRef> indices = primitive.find("indices")) {
+        check_indices(check, *indices, mode);
+    } else {
+        check_element_count(position, mode, vertices);
     }
-    const JsonRef nodes = check.root.require("nodes");
-    if (nodes[*node_number].has("matrix"))
-        path.fail(fmt::format("node {} has a matrix and cannot be animated", *node_number));
-    if (!targets.emplace(*node_number, name).second) {
-        path.fail(fmt::format("a second channel animates the {} of node {}", name, *node_number));
-    }
-    const JsonRef sampler = samplers[sampler_number];
-    const JsonRef output = sampler.require("output");
-    const AccessorInfo& info = check.accessors[output.index(check.counts.accessors, "accessor")];
-    if (is_rotation && (info.type != "VEC4" || !(is_float(info) || info.normalized))) {
-        output.fail("rotation keys must be a VEC4 accessor of floats or normalized integers");
-    }
-    if (!is_rotation && (info.type != "VEC3" || !is_float(info))) {
-        output.fail(fmt::format("{} keys must be a float VEC3 accessor", name));
-    }
-}
-
-void check_sampler(const GltfCheck& check, const JsonRef& sampler) {
-    if (const std::optional<JsonRef> interpolation = sampler.find("interpolation")) {
-        const std::string& name = interpolation->string();
-        if (name == "CUBICSPLINE") interpolation->fail("CUBICSPLINE interpolation is not supported");
-        if (name != "LINEAR" && name != "STEP") {
-            interpolation->fail(fmt::format("\"{}\" is no interpolation", printable(name)));
-        }
-    }
-    const JsonRef input = sampler.require("input");
-    const AccessorInfo& times = check.accessors[input.index(check.counts.accessors, "accessor")];
-    if (times.type != "SCALAR" || !is_float(times)) input.fail("key times must be a float SCALAR accessor");
-    const JsonRef output = sampler.require("output");
-    const AccessorInfo& values = check.accessors[output.index(check.counts.accessors, "accessor")];
-    if (values.count != times.count) output.fail(fmt::format("{} values for {} key times", values.count, times.count));
+    const std::optional<JsonRef> targets = primitive.find("targets");
+    if (!targets) return 0;
+    const std::size_t count = targets->array_size(1);
+    for (std::size_t i = 0; i < count; ++i) check_target(check, (*targets)[i], attributes, vertices);
+    return count;
 }
 
 }  // namespace
+
+void check_weights(const JsonRef& owner, std::size_t target_count) {
+    const std::optional<JsonRef> weights = owner.find("weights");
+    if (!weights) return;
+    if (const std::size_t count = weights->array_size(); count != target_count) {
+        weights->fail(fmt::format("{} weights for {} morph targets", count, target_count));
+    }
+    weights->numbers(target_count);
+}
 
 void check_meshes(GltfCheck& check) {
     for_each_object(check.root, "meshes", [&](const JsonRef& mesh, std::size_t) {
         mesh.find_string("name");
         const JsonRef primitives = mesh.require("primitives");
         primitives.array_size(1);
-        for_each_object(mesh, "primitives",
-                        [&](const JsonRef& primitive, std::size_t) { check_primitive(check, primitive); });
-        if (const std::optional<JsonRef> weights = mesh.find("weights"))
-            weights->fail("morph targets are not supported");
-    });
-}
-
-void check_animations(GltfCheck& check) {
-    std::set<std::pair<std::size_t, std::string>> targets;  // over all animations: they play together
-    for_each_object(check.root, "animations", [&](const JsonRef& animation, std::size_t) {
-        animation.find_string("name");
-        const JsonRef samplers = animation.require("samplers");
-        const JsonRef channels = animation.require("channels");
-        samplers.array_size(1);
-        channels.array_size(1);
-        // Channels first: a file that animates weights is refused for that, not for how many weights it has.
-        for_each_object(animation, "channels",
-                        [&](const JsonRef& channel, std::size_t) { check_channel(check, channel, samplers, targets); });
-        for_each_object(animation, "samplers",
-                        [&](const JsonRef& sampler, std::size_t) { check_sampler(check, sampler); });
+        std::size_t targets = 0;
+        for_each_object(mesh, "primitives", [&](const JsonRef& primitive, std::size_t k) {
+            const std::size_t count = check_primitive(check, primitive);
+            if (k > 0 && count != targets) {
+                primitive.fail(fmt::format("{} morph targets, the mesh's first primitive has {}", count, targets));
+            }
+            targets = count;
+        });
+        check_weights(mesh, targets);
+        check.target_counts.push_back(targets);
     });
 }
 

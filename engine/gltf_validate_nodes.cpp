@@ -24,8 +24,6 @@ void check_node_transform(const JsonRef& node) {
 
 void check_node(const GltfCheck& check, const JsonRef& node) {
     node.find_string("name");
-    if (const std::optional<JsonRef> skin = node.find("skin")) skin->fail("skins are not supported");
-    if (const std::optional<JsonRef> weights = node.find("weights")) weights->fail("morph targets are not supported");
     node.find_index("mesh", check.counts.meshes, "mesh");
     node.find_index("camera", check.counts.cameras, "camera");
     check_node_transform(node);

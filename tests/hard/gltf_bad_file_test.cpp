@@ -133,7 +133,7 @@ TEST_F(GltfBadFile, KF10_DuplicateKeyTimes) {
 TEST_F(GltfBadFile, KF05_ZeroOrNaNRotationKey) {
     GltfDraft draft = triangle_draft();
     draft.animate(0, "rotation", {0, 1}, {0, 0, 0, 1, 0, 0, 0, 0});
-    expect_draft_refused(draft, "/animations/0/samplers/0: node 0 key 1", "is zero");
+    expect_draft_refused(draft, "/animations/0/samplers/0: node 0 \"node0\" key 1", "is zero");
     GltfDraft nan = triangle_draft();
     nan.animate(0, "rotation", {0, 1}, {0, 0, 0, 1, 0, std::numeric_limits<float>::quiet_NaN(), 0, 1});
     expect_draft_refused(nan, "/accessors/3", "element 1 is nan");

@@ -81,18 +81,6 @@ TEST_F(GltfAnimation, ChannelWithoutNodeIsIgnoredWithAWarning) {
     EXPECT_EQ(scene.nodes[0].translation.key_count(), 2u);
 }
 
-TEST_F(GltfAnimation, OptionalPointerAnimationIsIgnoredWithWarnings) {
-    GltfDraft draft = triangle_draft();
-    draft.animate(0, "translation", {0.0f, 1.0f}, {0, 0, 0, 1, 0, 0});
-    draft.json["extensionsUsed"] = {"KHR_animation_pointer"};
-    draft.json["animations"][0]["channels"][0]["target"] = {
-        {"path", "pointer"}, {"extensions", {{"KHR_animation_pointer", {{"pointer", "/nodes/0/scale"}}}}}};
-    const Scene scene = load(draft);
-    EXPECT_TRUE(warns(scene, "the extension KHR_animation_pointer is ignored"));
-    EXPECT_TRUE(warns(scene, "1 channels animate no node"));
-    EXPECT_EQ(scene.nodes[0].translation.key_count(), 1u);
-}
-
 TEST_F(GltfAnimation, KF04_QuaternionsOfAnyLengthBecomeUnitWithAWarning) {
     for (const double length : {0.5, 2.0, 1e-20, 1e17}) {
         GltfDraft draft = triangle_draft();

@@ -74,12 +74,37 @@ struct GltfDraft {
     /// An animation of its own for one property of one node.
     void animate(int node, const char* path, const std::vector<float>& times, const std::vector<float>& values,
                  const char* interpolation = "LINEAR") {
-        const std::size_t components = std::string(path) == "rotation" ? 4 : 3;
+        const std::string name = path;
+        const std::size_t components = name == "weights" ? 1 : name == "rotation" ? 4 : 3;
         const int input = add_accessor(times, "SCALAR", 1);
-        const int output = add_accessor(values, components == 4 ? "VEC4" : "VEC3", components);
+        const int output = add_accessor(values, type_of(components), components);
         json["animations"].push_back(
             {{"samplers", {{{"input", input}, {"output", output}, {"interpolation", interpolation}}}},
              {"channels", {{{"sampler", 0}, {"target", {{"node", node}, {"path", path}}}}}}});
+    }
+
+    /// An animation of its own for what a KHR_animation_pointer leads to.
+    void animate_pointer(const char* pointer, const std::vector<float>& times, const std::vector<float>& values,
+                         const char* interpolation = "LINEAR") {
+        const std::size_t per_key = values.size() / times.size();
+        const std::size_t components = std::string(interpolation) == "CUBICSPLINE" ? per_key / 3 : per_key;
+        const int input = add_accessor(times, "SCALAR", 1);
+        const int output = add_accessor(values, type_of(components), components);
+        add_pointer_channel(pointer, input, output, interpolation);
+    }
+    void add_pointer_channel(const char* pointer, int input, int output, const char* interpolation) {
+        json["extensionsUsed"].push_back("KHR_animation_pointer");
+        json["animations"].push_back(
+            {{"samplers", {{{"input", input}, {"output", output}, {"interpolation", interpolation}}}},
+             {"channels",
+              {{{"sampler", 0},
+                {"target",
+                 {{"path", "pointer"}, {"extensions", {{"KHR_animation_pointer", {{"pointer", pointer}}}}}}}}}}});
+    }
+
+    static const char* type_of(std::size_t components) {
+        constexpr const char* types[] = {"SCALAR", "VEC2", "VEC3", "VEC4"};
+        return types[components - 1];
     }
 
     Json& primitive() { return json["meshes"][0]["primitives"][0]; }

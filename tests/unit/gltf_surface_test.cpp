@@ -210,13 +210,75 @@ TEST_F(GltfSurface, NormalAndOcclusionTexturesGiveOneWarningAndAreNotDecoded) {
     EXPECT_TRUE(scene.images.empty());
 }
 
-TEST_F(GltfSurface, AlphaModesCountAsOpaqueWithAWarning) {
+TEST_F(GltfSurface, AlphaModesAndCutoff) {
     GltfDraft draft = triangle_draft();
     draft.json["materials"] = {
         {{"alphaMode", "MASK"}, {"alphaCutoff", 0.3}}, {{"alphaMode", "BLEND"}}, {{"alphaMode", "OPAQUE"}}};
     const Scene scene = load(draft);
-    EXPECT_EQ(scene.warnings.size(), 2u);
-    EXPECT_EQ(count_warnings(scene, "counts as opaque"), 2u);
+    EXPECT_EQ(scene.materials[0].alpha_mode, Material::AlphaMode::mask);
+    EXPECT_EQ(scene.materials[0].alpha_cutoff, 0.3);
+    EXPECT_EQ(scene.materials[1].alpha_mode, Material::AlphaMode::blend);
+    EXPECT_EQ(scene.materials[2].alpha_mode, Material::AlphaMode::opaque);
+    EXPECT_EQ(scene.materials[2].alpha_cutoff, 0.5);
+    EXPECT_TRUE(scene.warnings.empty());
+}
+
+TEST_F(GltfSurface, TextureTransformsOfEveryTexture) {
+    GltfDraft draft = triangle_draft();
+    const int view = draft.add_view(png());
+    draft.json["images"] = {{{"bufferView", view}, {"mimeType", "image/png"}}};
+    draft.json["textures"] = {{{"source", 0}}};
+    draft.json["extensionsUsed"] = {"KHR_texture_transform"};
+    draft.json["extensionsRequired"] = {"KHR_texture_transform"};
+    const auto info = [](double offset, Json more) {
+        more["offset"] = {offset, -offset};
+        return Json{{"index", 0}, {"extensions", {{"KHR_texture_transform", more}}}};
+    };
+    Json moved = info(0.25, {{"texCoord", 1}, {"rotation", 0.5}});
+    moved["texCoord"] = 0;  // overridden by the transform's
+    draft.json["materials"] = {
+        {{"pbrMetallicRoughness",
+          {{"baseColorTexture", moved}, {"metallicRoughnessTexture", info(0.5, {{"scale", {2, -3}}})}}},
+         {"emissiveTexture", info(0.75, Json::object())},
+         {"extensions",
+          {{"KHR_materials_specular",
+            {{"specularTexture", info(1.0, Json::object())}, {"specularColorTexture", {{"index", 0}}}}},
+           {"KHR_materials_transmission",
+            {{"transmissionFactor", 0.25}, {"transmissionTexture", info(1.25, Json::object())}}}}}}};
+    const Scene scene = load(draft);
+    const Material& material = scene.materials[0];
+    EXPECT_EQ(material.base_color_texture.uv_offset, glm::dvec2(0.25, -0.25));
+    EXPECT_EQ(material.base_color_texture.uv_scale, glm::dvec2(1.0));
+    EXPECT_EQ(material.base_color_texture.uv_rotation, 0.5);
+    EXPECT_EQ(material.base_color_texture.uv_set, 1);
+    EXPECT_EQ(material.metallic_roughness_texture.uv_scale, glm::dvec2(2.0, -3.0));
+    EXPECT_EQ(material.metallic_roughness_texture.uv_rotation, 0.0);
+    EXPECT_EQ(material.emission_texture.uv_offset, glm::dvec2(0.75, -0.75));
+    EXPECT_EQ(material.specular_texture.uv_offset, glm::dvec2(1.0, -1.0));
+    EXPECT_EQ(material.specular_color_texture.uv_offset, glm::dvec2(0.0));
+    EXPECT_EQ(material.transmission, Track<double>(0.25));
+    EXPECT_EQ(material.transmission_texture.uv_offset, glm::dvec2(1.25, -1.25));
+    EXPECT_TRUE(scene.warnings.empty());
+}
+
+TEST_F(GltfSurface, UnlitTransmissionIorAndWhatIsIgnored) {
+    GltfDraft draft = triangle_draft();
+    draft.json["materials"] = {{{"extensions", {{"KHR_materials_unlit", Json::object()}}}},
+                               {{"extensions",
+                                 {{"KHR_materials_transmission", {{"transmissionFactor", 2}}},
+                                  {"KHR_materials_ior", {{"ior", 0}}},
+                                  {"KHR_materials_volume", {{"thicknessFactor", 1}}},
+                                  {"KHR_materials_clearcoat", {{"clearcoatFactor", 1}}}}}}};
+    const Scene scene = load(draft);
+    EXPECT_TRUE(scene.materials[0].unlit);
+    EXPECT_EQ(scene.materials[0].transmission, Track<double>(0.0));
+    EXPECT_FALSE(scene.materials[1].unlit);
+    EXPECT_EQ(scene.materials[1].transmission, Track<double>(1.0));
+    EXPECT_EQ(scene.materials[1].ior, Track<double>(0.0));  // allowed: reflects everything
+    EXPECT_EQ(count_warnings(scene, "transmissionFactor 2 is clamped to 1"), 1u);
+    EXPECT_EQ(count_warnings(scene, "KHR_materials_volume is ignored"), 1u);
+    EXPECT_EQ(count_warnings(scene, "KHR_materials_clearcoat is ignored"), 1u);
+    EXPECT_EQ(scene.warnings.size(), 3u);
 }
 
 }  // namespace

@@ -166,6 +166,64 @@ TEST_F(Gltf, PunctualLightsKeepTheirUnits) {
     EXPECT_EQ(frame.lights[2].position, glm::dvec3(0, 0, 0));
 }
 
+TEST_F(Gltf, SpotLightsHaveTheirCones) {
+    GltfDraft draft = triangle_draft();
+    draft.json["extensions"]["KHR_lights_punctual"]["lights"] = {
+        {{"type", "spot"}, {"range", 3}, {"spot", {{"innerConeAngle", 0.25}, {"outerConeAngle", 0.5}}}},
+        {{"type", "spot"}, {"spot", Json::object()}},
+        {{"type", "spot"}, {"spot", {{"outerConeAngle", 1.57079637}}}}};  // the float next above a quarter turn
+    draft.json["nodes"][0]["extensions"]["KHR_lights_punctual"]["light"] = 0;
+    const Scene scene = load(draft);
+    ASSERT_EQ(scene.lights.size(), 3u);
+    EXPECT_EQ(scene.lights[0].kind, Light::Kind::spot);
+    EXPECT_EQ(scene.lights[0].inner_cone, Track<double>(0.25));
+    EXPECT_EQ(scene.lights[0].outer_cone, Track<double>(0.5));
+    EXPECT_EQ(scene.lights[0].range, Track<double>(3.0));
+    EXPECT_EQ(scene.lights[1].inner_cone, Track<double>(0.0));
+    EXPECT_EQ(scene.lights[1].outer_cone, Track<double>(std::acos(-1.0) / 4.0));
+    EXPECT_EQ(scene.lights[1].range, Track<double>(0.0));
+    EXPECT_EQ(scene.lights[2].outer_cone, Track<double>(std::acos(0.0)));
+    EXPECT_EQ(pose(scene, 0.0).lights[0].outer_cone, 0.5);
+}
+
+TEST_F(Gltf, InstancesBecomeChildNodes) {
+    GltfDraft draft = triangle_draft();
+    const int moves = draft.add_accessor<float>({0, 0, 0, 5, 0, 0}, "VEC3", 3);
+    const int turns = draft.add_accessor<std::int16_t>({0, 0, 0, 32767, 0, 0, 32767, 0}, "VEC4", 4, true);
+    const int sizes = draft.add_accessor<float>({1, 1, 1, 2, 3, 4}, "VEC3", 3);
+    draft.json["nodes"] = {
+        {{"mesh", 0},
+         {"name", "tree"},
+         {"children", {1}},
+         {"translation", {0, 0, 10}},
+         {"extensions",
+          {{"EXT_mesh_gpu_instancing",
+            {{"attributes", {{"TRANSLATION", moves}, {"ROTATION", turns}, {"SCALE", sizes}, {"_ID", sizes}}}}}}}},
+        {{"name", "child"}}};
+    const Scene scene = load(draft);
+    ASSERT_EQ(scene.nodes.size(), 4u);
+    EXPECT_TRUE(scene.nodes[0].meshes.empty());
+    EXPECT_EQ(scene.nodes[1].name, "tree.0");
+    EXPECT_EQ(scene.nodes[2].name, "tree.1");
+    EXPECT_EQ(scene.nodes[2].parent, 0);
+    EXPECT_EQ(scene.nodes[2].meshes, std::vector<int>{0});
+    EXPECT_EQ(scene.meshes.size(), 1u);
+    EXPECT_EQ(scene.nodes[3].name, "child");
+    EXPECT_EQ(scene.nodes[3].parent, 0);
+    EXPECT_TRUE(scene.warnings.empty());
+    // Half a turn about z, then the instance's place, then the node's.
+    expect_near(pose(scene, 0.0).world[2], glm::dmat4(-2, 0, 0, 0, 0, -3, 0, 0, 0, 0, 4, 0, 5, 0, 10, 1), 1e-15);
+}
+
+TEST_F(Gltf, NodeVisibilityHidesWhatIsBelow) {
+    GltfDraft draft = triangle_draft();
+    draft.json["nodes"] = {{{"children", {1}}, {"extensions", {{"KHR_node_visibility", {{"visible", false}}}}}},
+                           {{"mesh", 0}, {"extensions", {{"KHR_node_visibility", Json::object()}}}}};
+    const Scene scene = load(draft);
+    EXPECT_EQ(scene.nodes[1].visible, Track<double>(1.0));
+    EXPECT_EQ(pose(scene, 0.0).visible, (std::vector<std::uint8_t>{0, 0}));
+}
+
 TEST_F(Gltf, IncludeHangsBelowItsNodeBehindTheScenesOwn) {
     GltfDraft draft = triangle_draft();
     draft.json["materials"] = {{{"name", "m"}}};

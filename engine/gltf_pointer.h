@@ -1,0 +1,62 @@
+#pragma once
+// KHR_animation_pointer: which property a JSON pointer means. Node channels are named by the same pointers, so that
+// every animated property has one name.
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace aleph {
+
+enum class GltfProperty {
+    node_translation,
+    node_rotation,
+    node_scale,
+    node_weights,
+    node_visible,
+    camera_yfov,
+    camera_ymag,
+    light_color,
+    light_intensity,
+    light_range,
+    light_inner_cone,
+    light_outer_cone,
+    material_base_color,
+    material_metallic,
+    material_roughness,
+    material_emission,
+    material_emission_strength,
+    material_ior,
+    material_specular,
+    material_specular_color,
+    material_transmission,
+};
+
+/// What owns a property: the array whose length limits the pointer's index.
+enum class GltfOwner { node, camera, light, material };
+
+/// A property that can be animated, and what its keys must be.
+struct GltfPropertyInfo {
+    GltfProperty property;
+    GltfOwner owner;
+    std::string_view pointer;  ///< "{}" stands for the owner's index
+    std::string_view type;     ///< of the accessor
+    double low, high;          ///< keys beyond are clamped
+};
+
+struct GltfPointer {
+    const GltfPropertyInfo* info;
+    std::size_t index;  ///< of the owner
+};
+
+/// Nothing for what cannot be animated here, or is no such pointer: indices are digits without leading zeros.
+std::optional<GltfPointer> find_gltf_property(std::string_view pointer);
+
+/// The property of a channel that names a node and a path; nothing for a path that glTF does not have.
+std::optional<GltfPointer> find_node_property(std::size_t node, std::string_view path);
+
+/// The pointer itself, "/nodes/3/translation".
+std::string pointer_text(const GltfPointer& pointer);
+
+}  // namespace aleph
