@@ -15,7 +15,7 @@ constexpr std::uint64_t hash_bytes = 32;        // at the end of object headers
 constexpr std::uint64_t inline_metadata = 255;  // the string stands in the header
 constexpr double acyclic_period = 1e300;        // periods above it say that there is none
 constexpr std::uint64_t smallest_budget = std::uint64_t{128} << 20;
-constexpr std::uint64_t budget_per_byte = 16;
+constexpr std::uint64_t budget_per_byte = 32;
 
 std::uint64_t budget_of(std::uint64_t file_size) {
     return std::max(smallest_budget, file_size * budget_per_byte);

@@ -6,6 +6,7 @@
 #include <cctype>
 #include <system_error>
 
+#include "engine/alembic.h"
 #include "engine/atomic_file.h"
 #include "engine/base/errors.h"
 #include "engine/framing_camera.h"
@@ -31,13 +32,12 @@ std::string extension_of(const fs::path& path) {
 }
 
 /// @param accepted  what the place takes, for the message
-void check_gltf_name(const fs::path& path, const std::string& file, const std::string& place, const char* accepted) {
+void check_asset_name(const fs::path& path, const std::string& file, const std::string& place, const char* accepted) {
     const std::string extension = extension_of(path);
-    if (extension == ".gltf" || extension == ".glb") return;
-    throw InputError(file, place,
-                     extension == ".abc" ? "Alembic files (.abc) are not read by this version"
-                                         : fmt::format("\"{}\" is no kind of file that is read here; expected {}",
-                                                       printable(extension), accepted));
+    if (extension == ".gltf" || extension == ".glb" || extension == ".abc") return;
+    throw InputError(
+        file, place,
+        fmt::format("\"{}\" is no kind of file that is read here; expected {}", printable(extension), accepted));
 }
 
 void check_regular_file(const fs::path& path, const std::string& file, const std::string& place) {
@@ -75,6 +75,12 @@ void load_images(SceneText& text, const fs::path& folder, const std::string& fil
     }
 }
 
+AlembicTiming append_asset(const fs::path& path, Scene& scene, int parent_node, int include) {
+    if (extension_of(path) == ".abc") return append_alembic(path, scene, parent_node, include);
+    append_gltf(path, scene, parent_node, include);
+    return {};
+}
+
 Scene load_scene_file(const fs::path& path, const std::string& file) {
     check_regular_file(path, file, "");
     if (std::error_code error; fs::file_size(path, error) > max_json_bytes) {
@@ -86,12 +92,12 @@ Scene load_scene_file(const fs::path& path, const std::string& file) {
     scene.file = file;
     const fs::path folder = path.parent_path();
     for (std::size_t i = 0; i < scene.includes.size(); ++i) {
-        check_gltf_name(scene.includes[i].path, file, text.include_places[i], "a .gltf or .glb file");
+        check_asset_name(scene.includes[i].path, file, text.include_places[i], "a .gltf, .glb or .abc file");
         check_regular_file(folder / scene.includes[i].path, file, text.include_places[i]);
     }
     load_images(text, folder, file);
     for (std::size_t i = 0; i < scene.includes.size(); ++i) {
-        append_gltf(folder / scene.includes[i].path, scene, scene.includes[i].node, static_cast<int>(i));
+        append_asset(folder / scene.includes[i].path, scene, scene.includes[i].node, static_cast<int>(i));
     }
     if (!scene.camera.empty()) {
         try {
@@ -103,14 +109,29 @@ Scene load_scene_file(const fs::path& path, const std::string& file) {
     return std::move(scene);
 }
 
-Scene load_gltf_file(const fs::path& path, const std::string& file) {
-    check_gltf_name(path, file, "", "a .json, .gltf or .glb file");
+/// An archive says at what rate it was sampled, and its range is what it holds, still parts at both ends included.
+void set_timing(const AlembicTiming& timing, Scene& scene) {
+    if (timing.frame_rate) {
+        scene.frame_rate = *timing.frame_rate;
+        scene.viewing.frames_per_second = scene.frame_rate.per_second();
+    }
+    if (!timing.first) return;
+    Scene ends;  // two keys: frame_range knows how times become frames
+    ends.frame_rate = scene.frame_rate;
+    ends.nodes.emplace_back().visible.values = {1.0, 0.0};
+    ends.nodes.back().visible.sampling.kind = TimeSampling::Kind::acyclic;
+    ends.nodes.back().visible.sampling.times = {*timing.first, *timing.last};
+    scene.range = frame_range(ends);
+}
+
+Scene load_asset_file(const fs::path& path, const std::string& file) {
+    check_asset_name(path, file, "", "a .json, .gltf, .glb or .abc file");
     check_regular_file(path, file, "");
     Scene scene;
     scene.file = file;
     scene.name = path.stem().string();
     scene.includes.push_back({path.filename().string(), no_index});
-    append_gltf(path, scene, no_index, 0);
+    set_timing(append_asset(path, scene, no_index, 0), scene);
     const bool has_camera =
         std::any_of(scene.nodes.begin(), scene.nodes.end(), [](const Node& node) { return node.camera != no_index; });
     if (!has_camera) add_framing_camera(scene);
@@ -132,7 +153,7 @@ fs::path folder_of(const fs::path& file) {
 
 Scene load_scene(const std::filesystem::path& path) {
     const std::string file = path.string();
-    Scene scene = extension_of(path) == ".json" ? load_scene_file(path, file) : load_gltf_file(path, file);
+    Scene scene = extension_of(path) == ".json" ? load_scene_file(path, file) : load_asset_file(path, file);
     add_rotation_warnings(scene);
     add_missing_light(scene);
     return scene;

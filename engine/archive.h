@@ -7,9 +7,10 @@
 
 namespace aleph {
 
-/// Reads a keyframed scene file (.json) or a .gltf or .glb, includes and images with it.
-/// A glTF without a camera gets one that frames its bounds over the whole range; a scene without light gets a constant
-/// white environment; both are said in Scene::warnings.
+/// Reads a keyframed scene file (.json), a .gltf or .glb, or an .abc, includes and images with it. An .abc by itself
+/// brings its frame rate and range; included, the scene file's count.
+/// A glTF or Alembic archive without a camera gets one that frames its bounds over the whole range; a scene without
+/// light gets a constant white environment; both are said in Scene::warnings.
 /// @throws InputError with file, place and reason; nothing is half loaded
 Scene load_scene(const std::filesystem::path& path);
 

@@ -1,0 +1,49 @@
+#pragma once
+// What an Alembic camera's numbers mean for a picture.
+
+#include <glm/mat3x3.hpp>
+#include <glm/vec2.hpp>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace aleph {
+
+/// The 16 numbers of `.core`, by position.
+enum AlembicCameraChannel {
+    focal_length,         ///< mm
+    horizontal_aperture,  ///< cm
+    horizontal_offset,    ///< cm
+    vertical_aperture,    ///< cm
+    vertical_offset,      ///< cm
+    lens_squeeze,
+    overscan_left,  ///< fractions of the half frame
+    overscan_right,
+    overscan_top,
+    overscan_bottom,
+    f_stop,
+    focus_distance,  ///< scene units
+    shutter_open,    ///< s, relative to the frame
+    shutter_close,   ///< s
+    near_plane,      ///< scene units
+    far_plane,       ///< scene units
+    camera_channel_count
+};
+
+/// What the picture shows, in units of half the frame's width.
+struct FilmWindow {
+    double left = -1.0, right = 1.0, bottom = -1.0, top = 1.0;
+};
+
+/// Of a camera's 16 numbers. @param film_back  applied to the corners (column vectors)
+/// @param overscan  false: the film's frame alone, which is what a picture shows
+FilmWindow film_window(std::span<const double> core, const glm::dmat3& film_back, bool overscan);
+
+/// Radians; the frame without overscan, squeeze and film back.
+double horizontal_field_of_view(std::span<const double> core);
+
+/// Film-back operations in file order: each text starts with t (2 channels), s (2) or m (9).
+/// @throws std::invalid_argument for an unknown operation or channels that do not fit
+glm::dmat3 film_back_matrix(const std::vector<std::string>& operations, std::span<const double> channels);
+
+}  // namespace aleph
