@@ -1,9 +1,12 @@
 #include "scenes/common/build.h"
 
 #include <cmath>
+#include <glm/geometric.hpp>
+#include <glm/trigonometric.hpp>
 
 #include "engine/base/color.h"
 #include "engine/base/errors.h"
+#include "scenes/common/keys.h"
 
 namespace aleph {
 
@@ -22,7 +25,27 @@ int add_material(Scene& scene, const Material& material) {
     return static_cast<int>(scene.materials.size()) - 1;
 }
 
+glm::dquat six_digits(const glm::dquat& q) {
+    return {to_millionth(q.w), to_millionth(q.x), to_millionth(q.y), to_millionth(q.z)};
+}
+
 }  // namespace
+
+glm::dquat turn(const glm::dvec3& axis, double degrees) {
+    return six_digits(glm::angleAxis(glm::radians(degrees), axis));
+}
+
+glm::dquat y_towards(const glm::dvec3& direction) {
+    const glm::dvec3 to = glm::normalize(direction), up(0.0, 1.0, 0.0);
+    if (to.y < -0.999999) return {0.0, 1.0, 0.0, 0.0};
+    return six_digits(glm::normalize(glm::dquat(1.0 + glm::dot(up, to), glm::cross(up, to))));
+}
+
+int add_rod(Scene& scene, const std::string& name, int parent, const glm::dvec3& from, const glm::dvec3& to,
+            double radius, int material, int segments) {
+    return add_shape(scene, name, parent, cylinder(radius, to_millionth(glm::distance(from, to)), segments), material,
+                     to_millionth(0.5 * (from + to)), y_towards(to - from));
+}
 
 int add_lambert(Scene& scene, const std::string& name, const glm::dvec3& srgb) {
     Material material = make_lambert(name);

@@ -42,6 +42,25 @@ inline Shape cylinder(double radius, double height, int segments = 24) {
     return {.kind = Shape::Kind::cylinder, .radius = radius, .height = height, .segments = segments};
 }
 
+/// About the y axis.
+inline Shape torus(double radius, double tube_radius, int segments = 48) {
+    return {.kind = Shape::Kind::torus, .radius = radius, .tube_radius = tube_radius, .segments = segments};
+}
+/// The outline of (distance from the axis, height); a repeated point is a sharp edge.
+inline Shape lathe(const std::vector<glm::dvec2>& profile, int segments = 48,
+                   const glm::dvec2& uv_scale = glm::dvec2(1.0)) {
+    return {.kind = Shape::Kind::lathe, .segments = segments, .profile = profile, .uv_scale = uv_scale};
+}
+
+/// A turn as a quaternion of six digits.
+glm::dquat turn(const glm::dvec3& axis, double degrees);
+/// The turn that sends +y to a direction, of six digits.
+glm::dquat y_towards(const glm::dvec3& direction);
+
+/// A straight round bar between two points.
+int add_rod(Scene& scene, const std::string& name, int parent, const glm::dvec3& from, const glm::dvec3& to,
+            double radius, int material, int segments = 12);
+
 /// Turns that send a quad's +z, or a cylinder's y, where its name says. Constants, so that no rounding of sines shows.
 inline constexpr double half_root = 0.70710678118654752440;
 inline const glm::dquat z_to_up(half_root, -half_root, 0.0, 0.0);

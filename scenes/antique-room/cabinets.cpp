@@ -1,0 +1,243 @@
+// The bookcase, the tall clock, the globe.
+
+#include <fmt/format.h>
+
+#include "scenes/antique-room/antique_room.h"
+#include "scenes/common/build.h"
+#include "scenes/common/cages.h"
+#include "scenes/common/keys.h"
+#include "scenes/common/texture_tools.h"
+
+namespace aleph {
+
+namespace {
+
+/// Books side by side on a shelf, some leaning, until it is full.
+void add_books(Scene& scene, int shelf, const std::string& name, double from, double to, double height,
+               const std::vector<int>& bindings, std::uint32_t seed) {
+    double x = from;
+    for (int i = 0;; ++i) {
+        const auto value = [&](int k) { return lattice_value(i, k, seed); };
+        const double thick = 0.022 + 0.03 * value(0), tall = height * (0.72 + 0.22 * value(1)),
+                     deep = 0.15 + 0.05 * value(2);
+        if (x + thick + 0.05 > to) break;
+        const bool leans = value(3) < 0.08 && i > 2;
+        const auto binding = static_cast<std::size_t>(value(4) * static_cast<double>(bindings.size()));
+        const glm::dvec3 size = to_millionth(glm::dvec3(thick, tall, deep));
+        const double lean = leans ? 9.0 : 0.0;
+        add_shape(scene, fmt::format("{}_{}", name, i), shelf, box(size), bindings[binding],
+                  to_millionth(glm::dvec3(x + 0.5 * thick + (leans ? 0.5 * tall * 0.16 : 0.0),
+                                          0.5 * tall * (leans ? 1.0 : 1.0), 0.14 - 0.5 * deep + 0.02)),
+                  turn({0.0, 0.0, 1.0}, lean));
+        x += thick + 0.001 + (leans ? tall * 0.17 : 0.0);
+        if (value(5) < 0.07) x += 0.09;
+    }
+}
+
+}  // namespace
+
+void add_bookcase(Scene& scene, const AntiqueMaterials& materials) {
+    const int wood = materials.walnut;
+    const double width = 1.5, height = 2.2, depth = 0.36;
+    const int bookcase = add_node(scene, "bookcase", no_index, {1.55, 0.0, antique_low.z + 0.05 + 0.5 * depth});
+    add_shape(scene, "bookcase_back", bookcase, box({width, height, 0.02}, {2.0, 3.0}), wood,
+              {0.0, 0.5 * height, -0.5 * depth});
+    add_shape(scene, "bookcase_base", bookcase, box({width + 0.08, 0.12, depth + 0.06}, {2.0, 0.3}), wood,
+              {0.0, 0.06, 0.0});
+    for (const double side : {-1.0, 1.0}) {
+        const char* which = side < 0.0 ? "a" : "b";
+        add_shape(scene, fmt::format("bookcase_side_{}", which), bookcase,
+                  box({0.04, height - 0.12, depth}, {0.6, 3.0}), wood,
+                  {side * (0.5 * width - 0.02), 0.06 + 0.5 * height, 0.0});
+        add_shape(scene, fmt::format("bookcase_column_{}", which), bookcase,
+                  lathe({{0.0, 0.0},
+                         {0.04, 0.0},
+                         {0.04, 0.0},
+                         {0.04, 0.04},
+                         {0.026, 0.06},
+                         {0.034, 0.08},
+                         {0.024, 0.1},
+                         {0.03, 0.6},
+                         {0.024, 1.72},
+                         {0.036, 1.75},
+                         {0.026, 1.78},
+                         {0.042, 1.82},
+                         {0.042, 1.88},
+                         {0.042, 1.88},
+                         {0.0, 1.88}},
+                        32),
+                  materials.mahogany, {side * (0.5 * width - 0.02), 0.12, 0.5 * depth + 0.02});
+        // Doors below.
+        const double door = 0.5 * width - 0.06;
+        add_shape(scene, fmt::format("bookcase_door_{}", which), bookcase, box({door, 0.5, 0.03}, {1.0, 0.8}), wood,
+                  {side * 0.5 * (door + 0.01), 0.38, 0.5 * depth - 0.03});
+        add_shape(scene, fmt::format("bookcase_knob_{}", which), bookcase, sphere(0.018), materials.brass,
+                  {side * 0.05, 0.4, 0.5 * depth + 0.002});
+    }
+    const glm::dvec2 h(0.27, 0.19);
+    const int panel =
+        add_cage(scene, "bookcase_panel",
+                 make_moulding({{-h.x, -h.y}, {h.x, -h.y}, {h.x, h.y}, {-h.x, h.y}}, true,
+                               {{0.0, 0.0}, {0.0, 0.01}, {0.0, 0.01}, {0.012, 0.017}, {0.026, 0.012}, {0.034, 0.0}}),
+                 materials.mahogany);
+    for (const double side : {-1.0, 1.0})
+        add_mesh_node(scene, side < 0.0 ? "bookcase_panel_a" : "bookcase_panel_b", bookcase, panel,
+                      {side * 0.35, 0.38, 0.5 * depth - 0.015});
+    // Three sides of a cornice.
+    const double x = 0.5 * width + 0.02, z = 0.5 * depth;
+    const int crown = add_cage(scene, "bookcase_crown",
+                               make_moulding({{x, z + 0.1}, {x, -z - 0.02}, {-x, -z - 0.02}, {-x, z + 0.1}}, false,
+                                             {{0.0, -0.1},
+                                              {0.015, -0.09},
+                                              {0.02, -0.06},
+                                              {0.05, -0.03},
+                                              {0.07, 0.0},
+                                              {0.07, 0.0},
+                                              {0.07, 0.03},
+                                              {0.07, 0.03},
+                                              {-0.1, 0.03}}),
+                               materials.mahogany);
+    add_mesh_node(scene, "bookcase_crown", bookcase, crown, {0.0, height, 0.0}, z_to_up);
+    add_shape(scene, "bookcase_top", bookcase, box({width, 0.03, depth}), wood, {0.0, height + 0.005, 0.0});
+
+    std::vector<int> bindings;
+    const glm::dvec3 tints[] = {{0.42, 0.06, 0.05}, {0.07, 0.16, 0.1}, {0.08, 0.1, 0.26}, {0.5, 0.28, 0.1},
+                                {0.22, 0.1, 0.06},  {0.55, 0.46, 0.3}, {0.3, 0.05, 0.16}};
+    for (int i = 0; i < 7; ++i) {
+        bindings.push_back(add_textured(scene, fmt::format("binding_{}", i), "spine"));
+        scene.materials.back().base_color = tints[i] * 1.6;
+        add_gloss(scene, 0.3);
+    }
+    const double levels[] = {0.66, 1.05, 1.43, 1.81};
+    for (int i = 0; i < 4; ++i) {
+        add_shape(scene, fmt::format("bookcase_shelf_{}", i), bookcase,
+                  box({width - 0.08, 0.025, depth - 0.02}, {2.0, 0.4}), wood, {0.0, levels[i], -0.01});
+        const int shelf = add_node(scene, fmt::format("shelf_{}", i), bookcase, {0.0, levels[i] + 0.0125, 0.0});
+        const double stop = i == 1 ? 0.26 : i == 3 ? 0.42 : 0.7;
+        add_books(scene, shelf, fmt::format("book_{}", i), -0.69, stop, 0.33, bindings,
+                  401u + static_cast<std::uint32_t>(i));
+    }
+    add_shape(scene, "bookcase_jar", bookcase,
+              lathe({{0.0, 0.0},
+                     {0.06, 0.0},
+                     {0.06, 0.0},
+                     {0.09, 0.05},
+                     {0.1, 0.12},
+                     {0.07, 0.19},
+                     {0.05, 0.2},
+                     {0.06, 0.215},
+                     {0.03, 0.24},
+                     {0.014, 0.25},
+                     {0.016, 0.27},
+                     {0.0, 0.28}},
+                    48),
+              materials.porcelain, {0.48, 1.0625, 0.03});
+    add_shape(scene, "bookcase_bowl", bookcase,
+              lathe({{0.0, 0.0},
+                     {0.05, 0.0},
+                     {0.05, 0.0},
+                     {0.045, 0.015},
+                     {0.09, 0.06},
+                     {0.12, 0.12},
+                     {0.113, 0.12},
+                     {0.08, 0.06},
+                     {0.0, 0.03}},
+                    48),
+              materials.brass, {0.57, 1.8225, 0.03});
+}
+
+void add_tall_clock(Scene& scene, const AntiqueMaterials& materials) {
+    const int wood = materials.mahogany;
+    const int clock = add_node(scene, "tall_clock", no_index, {-1.75, 0.0, antique_low.z + 0.27});
+    add_shape(scene, "clock_plinth", clock, box({0.54, 0.12, 0.34}), wood, {0.0, 0.06, 0.0});
+    add_shape(scene, "clock_base", clock, box({0.48, 0.46, 0.3}), wood, {0.0, 0.35, 0.0});
+    add_shape(scene, "clock_step", clock, box({0.44, 0.05, 0.27}), wood, {0.0, 0.605, 0.0});
+    add_shape(scene, "clock_trunk_back", clock, box({0.36, 0.84, 0.04}), wood, {0.0, 1.05, -0.1});
+    for (const double side : {-1.0, 1.0}) {
+        const char* which = side < 0.0 ? "a" : "b";
+        add_shape(scene, fmt::format("clock_stile_{}", which), clock, box({0.06, 0.84, 0.22}), wood,
+                  {side * 0.15, 1.05, 0.0});
+        add_shape(scene, fmt::format("clock_column_{}", which), clock,
+                  lathe({{0.0, 0.0},
+                         {0.026, 0.0},
+                         {0.026, 0.02},
+                         {0.016, 0.035},
+                         {0.02, 0.05},
+                         {0.015, 0.07},
+                         {0.017, 0.38},
+                         {0.022, 0.4},
+                         {0.016, 0.415},
+                         {0.028, 0.44},
+                         {0.028, 0.46},
+                         {0.0, 0.46}},
+                        28),
+                  materials.brass, {side * 0.2, 1.5, 0.14});
+        add_shape(scene, fmt::format("clock_finial_{}", which), clock,
+                  lathe({{0.0, 0.0},
+                         {0.02, 0.0},
+                         {0.014, 0.02},
+                         {0.034, 0.05},
+                         {0.03, 0.075},
+                         {0.012, 0.09},
+                         {0.008, 0.13},
+                         {0.0, 0.14}},
+                        28),
+                  materials.brass, {side * 0.2, 2.09, 0.06});
+    }
+    // The pendulum hangs still: the clock has stopped.
+    add_rod(scene, "clock_pendulum_rod", clock, {0.0, 0.86, -0.03}, {0.0, 1.46, -0.03}, 0.006, materials.brass);
+    add_shape(scene, "clock_pendulum", clock,
+              lathe({{0.0, -0.012}, {0.05, -0.009}, {0.075, 0.0}, {0.05, 0.009}, {0.0, 0.012}}, 48), materials.brass,
+              {0.0, 0.84, -0.03}, turn({1.0, 0.0, 0.0}, 90.0));
+    add_shape(scene, "clock_hood", clock, box({0.44, 0.5, 0.26}), wood, {0.0, 1.73, 0.0});
+    add_shape(scene, "clock_hood_foot", clock, box({0.5, 0.05, 0.34}), wood, {0.0, 1.475, 0.0});
+    add_shape(scene, "clock_cornice", clock, box({0.52, 0.05, 0.36}), wood, {0.0, 2.005, 0.0});
+    add_shape(scene, "clock_cornice_top", clock, box({0.47, 0.07, 0.32}), wood, {0.0, 2.06, 0.0});
+    add_shape(scene, "clock_bonnet", clock, cylinder(0.17, 0.24, 64), wood, {0.0, 2.08, 0.0},
+              turn({1.0, 0.0, 0.0}, 90.0));
+    int dial = no_index;
+    for (std::size_t i = 0; i < scene.materials.size(); ++i)
+        if (scene.materials[i].name == "dial") dial = static_cast<int>(i);
+    add_shape(scene, "clock_dial", clock, quad(0.32, 0.32), dial, {0.0, 1.74, 0.133});
+    add_shape(scene, "clock_bezel", clock, torus(0.165, 0.014, 64), materials.brass, {0.0, 1.74, 0.134},
+              turn({1.0, 0.0, 0.0}, 90.0));
+}
+
+void add_globe(Scene& scene, const AntiqueMaterials& materials) {
+    const int map = add_textured(scene, "globe", "globe");
+    add_gloss(scene, 0.2);
+    const int stand = add_node(scene, "globe_stand", no_index, {-2.15, 0.0, 1.0});
+    for (int i = 0; i < 3; ++i) {
+        const int arm =
+            add_node(scene, fmt::format("globe_leg_{}", i), stand, glm::dvec3(0.0), turn({0.0, 1.0, 0.0}, 120.0 * i));
+        add_rod(scene, fmt::format("globe_leg_rod_{}", i), arm, {0.0, 0.0, 0.3}, {0.0, 0.46, 0.08}, 0.018,
+                materials.mahogany, 20);
+        add_shape(scene, fmt::format("globe_foot_{}", i), arm, sphere(0.03), materials.brass, {0.0, 0.03, 0.3});
+    }
+    add_shape(scene, "globe_column", stand,
+              lathe({{0.0, 0.38},
+                     {0.04, 0.38},
+                     {0.075, 0.42},
+                     {0.07, 0.47},
+                     {0.03, 0.52},
+                     {0.045, 0.55},
+                     {0.025, 0.58},
+                     {0.04, 0.63},
+                     {0.0, 0.64}},
+                    40),
+              materials.mahogany, glm::dvec3(0.0));
+    const int tilt = add_node(scene, "globe_tilt", stand, {0.0, 0.93, 0.0}, turn({0.0, 0.0, 1.0}, 23.5));
+    add_shape(scene, "globe", tilt, sphere(0.25), map, glm::dvec3(0.0), turn({0.0, 1.0, 0.0}, 60.0));
+    add_rod(scene, "globe_axis", tilt, {0.0, -0.29, 0.0}, {0.0, 0.29, 0.0}, 0.008, materials.brass);
+    add_shape(scene, "globe_meridian", stand, torus(0.285, 0.012, 72), materials.brass, {0.0, 0.93, 0.0},
+              turn({1.0, 0.0, 0.0}, 90.0));
+    add_shape(scene, "globe_horizon", stand, torus(0.33, 0.02, 72), materials.mahogany, {0.0, 0.93, 0.0});
+    for (int i = 0; i < 3; ++i) {
+        const int arm = add_node(scene, fmt::format("globe_arm_{}", i), stand, glm::dvec3(0.0),
+                                 turn({0.0, 1.0, 0.0}, 120.0 * i + 60.0));
+        add_rod(scene, fmt::format("globe_arm_rod_{}", i), arm, {0.0, 0.6, 0.02}, {0.0, 0.92, 0.33}, 0.012,
+                materials.brass, 16);
+    }
+}
+
+}  // namespace aleph

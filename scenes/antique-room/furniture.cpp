@@ -1,0 +1,237 @@
+// Table and chairs with turned legs, the armchair, the side table with its lamp.
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "scenes/antique-room/antique_room.h"
+#include "scenes/common/build.h"
+#include "scenes/common/cages.h"
+#include "scenes/common/keys.h"
+
+namespace aleph {
+
+namespace {
+
+constexpr double pi = std::numbers::pi;
+
+/// A turned leg: rings, a baluster and a bun foot, in steps of its height.
+Shape turned_leg(double height, double radius) {
+    std::vector<glm::dvec2> profile = {{0.0, 0.0},  {0.55, 0.0},  {0.55, 0.0},  {0.8, 0.03},   {0.75, 0.07},
+                                       {0.45, 0.1}, {0.6, 0.12},  {0.42, 0.14}, {0.5, 0.25},   {0.85, 0.5},
+                                       {1.0, 0.6},  {0.85, 0.68}, {0.5, 0.72},  {0.75, 0.745}, {0.5, 0.77},
+                                       {0.9, 0.8},  {0.95, 0.82}, {0.95, 1.0},  {0.95, 1.0},   {0.0, 1.0}};
+    for (glm::dvec2& point : profile) point = to_millionth(glm::dvec3(point.x * radius, point.y * height, 0.0));
+    return lathe(profile, 28);
+}
+
+void add_chair(Scene& scene, const std::string& name, const glm::dvec3& place, double degrees, int seat,
+               const AntiqueMaterials& materials) {
+    const int chair = add_node(scene, name, no_index, place, turn({0.0, 1.0, 0.0}, degrees));
+    const int wood = materials.mahogany;
+    const Shape leg = turned_leg(0.43, 0.026), spindle = turned_leg(0.4, 0.014);
+    for (const double x : {-1.0, 1.0}) {
+        const char* which = x < 0.0 ? "a" : "b";
+        add_shape(scene, fmt::format("{}_leg_front_{}", name, which), chair, leg, wood, {x * 0.2, 0.0, 0.19});
+        add_rod(scene, fmt::format("{}_leg_back_{}", name, which), chair, {x * 0.19, 0.0, -0.22},
+                {x * 0.18, 0.44, -0.19}, 0.019, wood, 20);
+        add_rod(scene, fmt::format("{}_post_{}", name, which), chair, {x * 0.18, 0.44, -0.19}, {x * 0.19, 0.98, -0.27},
+                0.018, wood, 20);
+        add_shape(scene, fmt::format("{}_knob_{}", name, which), chair, sphere(0.026), wood, {x * 0.19, 0.995, -0.272});
+        add_rod(scene, fmt::format("{}_stretcher_{}", name, which), chair, {x * 0.2, 0.16, 0.19},
+                {x * 0.188, 0.16, -0.21}, 0.011, wood, 16);
+    }
+    add_rod(scene, name + "_stretcher", chair, {-0.195, 0.16, 0.0}, {0.195, 0.16, 0.0}, 0.011, wood, 16);
+    add_shape(scene, name + "_frame", chair, box({0.46, 0.055, 0.44}), wood, {0.0, 0.43, 0.0});
+    add_mesh_node(scene, name + "_seat", chair, seat, {0.0, 0.475, 0.0});
+    const double lean = -std::atan2(0.08, 0.54) * 180.0 / pi;
+    for (int i = 0; i < 4; ++i)
+        add_shape(scene, fmt::format("{}_spindle_{}", name, i), chair, spindle, wood, {-0.108 + 0.072 * i, 0.53, -0.2},
+                  turn({1.0, 0.0, 0.0}, lean));
+    add_shape(scene, name + "_rail_low", chair, box({0.36, 0.035, 0.02}), wood, {0.0, 0.53, -0.2});
+    add_shape(scene, name + "_rail_high", chair, box({0.37, 0.09, 0.022}), wood, {0.0, 0.94, -0.262},
+              turn({1.0, 0.0, 0.0}, lean));
+}
+
+}  // namespace
+
+void add_table_and_chairs(Scene& scene, const AntiqueMaterials& materials) {
+    const glm::dvec3 place(-0.35, 0.012, 0.15);
+    const int table = add_node(scene, "table", no_index, place);
+    add_shape(scene, "table_top", table,
+              lathe({{0.0, 0.71},
+                     {0.5, 0.71},
+                     {0.54, 0.715},
+                     {0.56, 0.725},
+                     {0.565, 0.735},
+                     {0.56, 0.745},
+                     {0.55, 0.75},
+                     {0.55, 0.75},
+                     {0.0, 0.75}},
+                    96, {4.0, 1.0}),
+              materials.walnut, glm::dvec3(0.0));
+    add_shape(scene, "table_column", table,
+              lathe({{0.0, 0.12},
+                     {0.05, 0.12},
+                     {0.1, 0.15},
+                     {0.11, 0.2},
+                     {0.08, 0.26},
+                     {0.05, 0.29},
+                     {0.065, 0.31},
+                     {0.045, 0.33},
+                     {0.05, 0.4},
+                     {0.085, 0.5},
+                     {0.09, 0.54},
+                     {0.05, 0.6},
+                     {0.07, 0.62},
+                     {0.05, 0.64},
+                     {0.1, 0.69},
+                     {0.2, 0.71}},
+                    56),
+              materials.mahogany, glm::dvec3(0.0));
+    const int foot =
+        add_cage(scene, "table_foot", make_cushion({0.07, 0.09, 0.44}, 0.03, {0.0, 0.02, 0.0}, 2), materials.mahogany);
+    for (int i = 0; i < 3; ++i) {
+        const double angle = 120.0 * i + 20.0, a = angle * pi / 180.0;
+        add_mesh_node(scene, fmt::format("table_foot_{}", i), table, foot,
+                      to_millionth(glm::dvec3(0.25 * std::sin(a), 0.125, 0.25 * std::cos(a))),
+                      turn({0.0, 1.0, 0.0}, angle) * turn({1.0, 0.0, 0.0}, 20.0));
+    }
+
+    // A vase of irises, tea for two, an open place for books.
+    add_shape(scene, "vase", table,
+              lathe({{0.0, 0.0},
+                     {0.06, 0.0},
+                     {0.06, 0.0},
+                     {0.055, 0.01},
+                     {0.08, 0.06},
+                     {0.095, 0.12},
+                     {0.08, 0.19},
+                     {0.045, 0.24},
+                     {0.04, 0.27},
+                     {0.055, 0.3},
+                     {0.05, 0.3},
+                     {0.034, 0.27}},
+                    56),
+              materials.porcelain, {0.0, 0.75, -0.05});
+    const int petal_paint = add_lambert(scene, "petal", {124, 92, 190});
+    scene.materials.back().double_sided = true;
+    const int petal = add_cage(scene, "petal", make_leaf(0.1, 0.055, 0.7), petal_paint);
+    const int blade = add_cage(scene, "blade", make_leaf(0.4, 0.03, 0.35), materials.green);
+    for (int i = 0; i < 7; ++i) {
+        const double around = 137.5 * i, a = around * pi / 180.0, wide = 0.05 + 0.03 * (i % 3),
+                     high = 0.26 + 0.045 * ((i * 3) % 5);
+        const glm::dvec3 root(0.0, 1.0, -0.05),
+            tip = to_millionth(root + glm::dvec3(wide * 1.8 * std::sin(a), high, wide * 1.8 * std::cos(a)));
+        add_rod(scene, fmt::format("iris_stem_{}", i), table, root, tip, 0.005, materials.green, 8);
+        for (int k = 0; k < 6; ++k) {
+            const double lean = k % 2 == 0 ? 88.0 : 22.0;
+            add_mesh_node(scene, fmt::format("iris_{}_petal_{}", i, k), table, petal, tip,
+                          turn({0.0, 1.0, 0.0}, 60.0 * k + 20.0 * i) * turn({1.0, 0.0, 0.0}, lean));
+        }
+        add_mesh_node(
+            scene, fmt::format("iris_blade_{}", i), table, blade, root,
+            turn({0.0, 1.0, 0.0}, std::fmod(around + 60.0, 360.0)) * turn({1.0, 0.0, 0.0}, 18.0 + 4.0 * (i % 4)));
+    }
+    const Shape cup = lathe({{0.0, 0.006},
+                             {0.02, 0.006},
+                             {0.024, 0.0},
+                             {0.03, 0.01},
+                             {0.038, 0.035},
+                             {0.042, 0.055},
+                             {0.04, 0.055},
+                             {0.035, 0.035},
+                             {0.0, 0.012}},
+                            40);
+    const Shape saucer = lathe(
+        {{0.0, 0.0}, {0.035, 0.0}, {0.05, 0.005}, {0.072, 0.014}, {0.07, 0.017}, {0.045, 0.009}, {0.0, 0.006}}, 40);
+    const glm::dvec3 cups[] = {{0.34, 0.75, 0.16}, {-0.3, 0.75, 0.26}};
+    for (int i = 0; i < 2; ++i) {
+        add_shape(scene, fmt::format("saucer_{}", i), table, saucer, materials.porcelain, cups[i]);
+        add_shape(scene, fmt::format("cup_{}", i), table, cup, materials.porcelain,
+                  cups[i] + glm::dvec3(0.0, 0.007, 0.0));
+        add_shape(scene, fmt::format("cup_handle_{}", i), table, torus(0.016, 0.004, 32), materials.porcelain,
+                  cups[i] + glm::dvec3(0.05, 0.037, 0.0), turn({1.0, 0.0, 0.0}, 90.0));
+    }
+    add_shape(scene, "table_book_a", table, box({0.19, 0.035, 0.26}), materials.leather, {0.12, 0.768, 0.34},
+              turn({0.0, 1.0, 0.0}, 24.0));
+    add_shape(scene, "table_book_b", table, box({0.15, 0.028, 0.21}), materials.cloth, {0.125, 0.8, 0.335},
+              turn({0.0, 1.0, 0.0}, 41.0));
+
+    const int seat =
+        add_cage(scene, "chair_seat", make_cushion({0.44, 0.07, 0.42}, 0.03, {0.0, 0.025, 0.0}, 2), materials.cloth);
+    add_chair(scene, "chair_a", {0.5, 0.012, 0.62}, -118.0, seat, materials);
+    add_chair(scene, "chair_b", {-1.2, 0.012, 0.32}, 98.0, seat, materials);
+    add_chair(scene, "chair_c", {-0.2, 0.012, -0.72}, -6.0, seat, materials);
+}
+
+void add_armchair(Scene& scene, const AntiqueMaterials& materials) {
+    const int chair = add_node(scene, "armchair", no_index, {1.55, 0.0, -0.95}, turn({0.0, 1.0, 0.0}, -52.0));
+    const int leather = materials.leather;
+    const auto add = [&](const char* name, const CageShape& shape, const glm::dvec3& at,
+                         const glm::dquat& turned = glm::dquat(1.0, 0.0, 0.0, 0.0)) {
+        add_mesh_node(scene, std::string("armchair_") + name, chair,
+                      add_cage(scene, std::string("armchair_") + name, shape, leather), at, turned);
+    };
+    add("base", make_cushion({0.72, 0.2, 0.7}, 0.04, {0.0, 0.0, 0.01}), {0.0, 0.24, 0.0});
+    add("seat", make_cushion({0.56, 0.16, 0.62}, 0.05, {0.01, 0.04, 0.02}, 2), {0.0, 0.41, 0.05});
+    add("back", make_cushion({0.7, 0.86, 0.18}, 0.07, {0.01, 0.04, 0.035}, 2), {0.0, 0.72, -0.3},
+        turn({1.0, 0.0, 0.0}, -12.0));
+    const int wing =
+        add_cage(scene, "armchair_wing", make_cushion({0.1, 0.46, 0.26}, 0.045, {0.015, 0.02, 0.03}, 2), leather);
+    const int arm =
+        add_cage(scene, "armchair_arm", make_cushion({0.15, 0.36, 0.66}, 0.05, {0.015, 0.01, 0.02}, 2), leather);
+    for (const double side : {-1.0, 1.0}) {
+        const char* which = side < 0.0 ? "a" : "b";
+        add_mesh_node(scene, fmt::format("armchair_arm_{}", which), chair, arm, {side * 0.355, 0.46, 0.02});
+        add_shape(scene, fmt::format("armchair_roll_{}", which), chair, cylinder(0.085, 0.66, 40), leather,
+                  {side * 0.37, 0.64, 0.03}, turn({1.0, 0.0, 0.0}, 90.0));
+        add_mesh_node(scene, fmt::format("armchair_wing_{}", which), chair, wing, {side * 0.34, 0.9, -0.24},
+                      turn({1.0, 0.0, 0.0}, -12.0));
+        for (const double end : {-1.0, 1.0})
+            add_shape(scene, fmt::format("armchair_foot_{}{}", which, end < 0.0 ? "a" : "b"), chair,
+                      turned_leg(0.15, 0.032), materials.mahogany, {side * 0.31, 0.0, end * 0.29});
+    }
+    add("pillow", make_cushion({0.38, 0.3, 0.07}, 0.03, {-0.02, -0.015, 0.09}, 2), {0.02, 0.62, -0.1},
+        turn({1.0, 0.0, 0.0}, -20.0));
+    scene.meshes.back().material = materials.cloth;
+}
+
+void add_side_table(Scene& scene, const AntiqueMaterials& materials) {
+    const int table = add_node(scene, "side_table", no_index, {2.2, 0.0, -1.85});
+    add_shape(scene, "side_table_top", table,
+              lathe({{0.0, 0.6}, {0.26, 0.6}, {0.28, 0.61}, {0.28, 0.62}, {0.27, 0.63}, {0.27, 0.63}, {0.0, 0.63}}, 64),
+              materials.mahogany, glm::dvec3(0.0));
+    add_shape(scene, "side_table_stem", table, turned_leg(0.6, 0.05), materials.mahogany, glm::dvec3(0.0));
+    add_shape(scene, "side_table_base", table,
+              lathe({{0.0, 0.0}, {0.22, 0.0}, {0.22, 0.0}, {0.21, 0.025}, {0.1, 0.045}, {0.0, 0.05}}, 48),
+              materials.mahogany, glm::dvec3(0.0));
+    const int shade = add_lambert(scene, "lamp_shade", {226, 196, 142});
+    scene.materials.back().double_sided = true;
+    const int glow = add_emitter(scene, "lamp_glow", {1.0, 0.76, 0.46}, 60.0);
+    add_shape(scene, "lamp_foot", table,
+              lathe({{0.0, 0.0},
+                     {0.09, 0.0},
+                     {0.09, 0.0},
+                     {0.085, 0.015},
+                     {0.05, 0.03},
+                     {0.08, 0.09},
+                     {0.09, 0.14},
+                     {0.06, 0.2},
+                     {0.025, 0.24},
+                     {0.02, 0.3},
+                     {0.0, 0.3}},
+                    48),
+              materials.porcelain, {0.0, 0.63, 0.0});
+    add_rod(scene, "lamp_stem", table, {0.0, 0.93, 0.0}, {0.0, 1.1, 0.0}, 0.008, materials.brass, 16);
+    Shape cone = lathe({{0.21, 0.94}, {0.12, 1.22}}, 64);
+    cone.smooth = false;
+    add_shape(scene, "lamp_shade", table, cone, shade, glm::dvec3(0.0));
+    add_shape(scene, "lamp_down", table, quad(0.09, 0.09), glow, {0.0, 1.06, 0.0}, z_to_down);
+    add_shape(scene, "lamp_up", table, quad(0.09, 0.09), glow, {0.0, 1.105, 0.0}, z_to_up);
+    add_shape(scene, "side_table_book", table, box({0.14, 0.03, 0.2}), materials.cloth, {-0.14, 0.645, 0.1},
+              turn({0.0, 1.0, 0.0}, 30.0));
+}
+
+}  // namespace aleph

@@ -1,0 +1,265 @@
+// Walls with panels and paper, floor, ceiling, window, fireplace and pictures.
+
+#include <fmt/format.h>
+
+#include "scenes/antique-room/antique_room.h"
+#include "scenes/common/build.h"
+#include "scenes/common/cages.h"
+
+namespace aleph {
+
+namespace {
+
+constexpr double dado = 0.92;       // m, height of the panelling
+constexpr double paper_tile = 0.7;  // m, one repeat of the damask
+
+const std::vector<glm::dvec2> cornice_profile = {{0.16, 0.0},    {0.16, -0.02}, {0.16, -0.02},  {0.14, -0.03},
+                                                 {0.11, -0.07},  {0.07, -0.1},  {0.05, -0.12},  {0.05, -0.12},
+                                                 {0.035, -0.13}, {0.03, -0.17}, {0.012, -0.18}, {0.0, -0.2}};
+const std::vector<glm::dvec2> rail_profile = {{0.02, 0.05},  {0.045, 0.05}, {0.045, 0.05}, {0.055, 0.035},
+                                              {0.05, 0.015}, {0.035, 0.0},  {0.02, -0.02}, {0.02, -0.02}};
+const std::vector<glm::dvec2> skirting_profile = {{0.02, 0.16},  {0.03, 0.16},  {0.03, 0.16}, {0.036, 0.145},
+                                                  {0.045, 0.13}, {0.045, 0.13}, {0.045, 0.0}};
+const std::vector<glm::dvec2> panel_profile = {{0.0, 0.0},     {0.0, 0.012},   {0.0, 0.012}, {0.012, 0.02},
+                                               {0.026, 0.016}, {0.036, 0.004}, {0.04, 0.0}};
+const std::vector<glm::dvec2> frame_profile = {
+    {0.0, 0.006},  {0.0, 0.016},   {0.0, 0.016},  {0.01, 0.02}, {0.02, 0.03},   {0.035, 0.03}, {0.05, 0.05},
+    {0.07, 0.058}, {0.085, 0.045}, {0.092, 0.03}, {0.1, 0.025}, {0.105, 0.012}, {0.105, 0.0}};
+
+/// A closed moulding around a rectangle, its profile inwards.
+CageShape make_rectangle(const glm::dvec2& size, const std::vector<glm::dvec2>& profile, bool outwards) {
+    const glm::dvec2 h = 0.5 * size;
+    std::vector<glm::dvec2> path = {{-h.x, -h.y}, {h.x, -h.y}, {h.x, h.y}, {-h.x, h.y}};
+    if (outwards) std::swap(path[1], path[3]);
+    return make_moulding(path, true, profile);
+}
+
+/// Paper above, panelled wood below; x along the wall, z into the room.
+void add_wall(Scene& scene, int room, const std::string& name, const glm::dvec3& middle, double length,
+              const glm::dquat& facing, int panels, int panel_mesh, const AntiqueMaterials& materials) {
+    const int wall = add_node(scene, name, room, middle, facing);
+    const double paper = antique_high.y - dado;
+    add_shape(scene, name + "_paper", wall, quad(length, paper, {length / paper_tile, paper / paper_tile}),
+              materials.paper, {0.0, dado + 0.5 * paper, 0.0});
+    add_shape(scene, name + "_dado", wall, quad(length, dado, {0.5 * length, 0.5}), materials.panel,
+              {0.0, 0.5 * dado, 0.02});
+    for (int i = 0; i < panels; ++i) {
+        add_mesh_node(scene, fmt::format("{}_panel_{}", name, i), wall, panel_mesh,
+                      {(i + 0.5 - 0.5 * panels) * length / panels, 0.53, 0.02});
+    }
+}
+
+}  // namespace
+
+void add_antique_shell(Scene& scene, const AntiqueMaterials& materials) {
+    const int room = add_node(scene, "room");
+    const glm::dvec3 size = antique_high - antique_low, middle = 0.5 * (antique_low + antique_high);
+    add_shape(scene, "floor", room, quad(size.x, size.z, {size.x / 1.5, size.z / 1.2}), materials.boards,
+              {middle.x, 0.0, middle.z}, z_to_up);
+    add_shape(scene, "ceiling", room, quad(size.x, size.z), materials.ceiling, {middle.x, antique_high.y, middle.z},
+              z_to_down);
+    const int panel = add_cage(scene, "panel", make_rectangle({0.66, 0.58}, panel_profile, false), materials.walnut);
+    add_wall(scene, room, "wall_fire", {middle.x, 0.0, antique_low.z}, size.x, {1.0, 0.0, 0.0, 0.0}, 7, panel,
+             materials);
+    add_wall(scene, room, "wall_back", {middle.x, 0.0, antique_high.z}, size.x, z_to_minus_z, 7, panel, materials);
+    add_wall(scene, room, "wall_window", {antique_low.x, 0.0, middle.z}, size.z, z_to_plus_x, 6, panel, materials);
+    add_wall(scene, room, "wall_right", {antique_high.x, 0.0, middle.z}, size.z, z_to_minus_x, 6, panel, materials);
+
+    const std::vector<glm::dvec2> around = {{antique_low.x, -antique_high.z},
+                                            {antique_high.x, -antique_high.z},
+                                            {antique_high.x, -antique_low.z},
+                                            {antique_low.x, -antique_low.z}};
+    struct Moulding {
+        const char* name;
+        const std::vector<glm::dvec2>& profile;
+        double height;
+        int material;
+    };
+    for (const Moulding& moulding : {Moulding{"cornice", cornice_profile, antique_high.y, materials.ceiling},
+                                     Moulding{"dado_rail", rail_profile, dado, materials.walnut},
+                                     Moulding{"skirting", skirting_profile, 0.0, materials.walnut}}) {
+        const int mesh =
+            add_cage(scene, moulding.name, make_moulding(around, true, moulding.profile), moulding.material);
+        add_mesh_node(scene, moulding.name, room, mesh, {0.0, moulding.height, 0.0}, z_to_up);
+    }
+    // A rose of rings on the ceiling.
+    add_shape(scene, "ceiling_rose", room,
+              lathe({{0.45, 0.0},
+                     {0.44, -0.02},
+                     {0.4, -0.03},
+                     {0.36, -0.02},
+                     {0.33, -0.02},
+                     {0.28, -0.04},
+                     {0.2, -0.03},
+                     {0.14, -0.05},
+                     {0.06, -0.08},
+                     {0.0, -0.085}},
+                    72),
+              materials.ceiling, {0.0, antique_high.y, 0.1});
+    const int rug = add_textured(scene, "rug", "rug");
+    add_shape(scene, "rug", room, box({3.0, 0.012, 2.0}), rug, {-0.1, 0.006, 0.1});
+}
+
+void add_antique_window(Scene& scene, const AntiqueMaterials& materials) {
+    const int sky = add_emitter(scene, "daylight", {0.9, 0.95, 1.0}, 8.0);
+    const int white = add_lambert(scene, "window_paint", {222, 216, 202});
+    const int curtain = add_lambert(scene, "curtain", {128, 34, 40});
+    scene.materials.back().double_sided = true;
+    const double width = 1.5, height = 1.75, bottom = 0.98;
+    const int window = add_node(scene, "window", no_index, {antique_low.x, bottom + 0.5 * height, -0.35}, z_to_plus_x);
+    add_shape(scene, "window_sky", window, quad(width, height), sky, {0.0, 0.0, 0.012});
+    const std::vector<glm::dvec2> casing = {{-0.02, 0.0},  {-0.02, 0.09}, {-0.02, 0.09}, {0.0, 0.1},   {0.06, 0.1},
+                                            {0.08, 0.085}, {0.1, 0.09},   {0.12, 0.07},  {0.12, 0.07}, {0.12, 0.0}};
+    add_mesh_node(scene, "window_casing", window,
+                  add_cage(scene, "window_casing", make_rectangle({width, height}, casing, true), white),
+                  glm::dvec3(0.0));
+    for (int i = -1; i <= 1; ++i)
+        add_shape(scene, fmt::format("window_post_{}", i + 1), window, box({i == 0 ? 0.06 : 0.025, height, 0.035}),
+                  white, {0.25 * width * i, 0.0, 0.07});
+    for (int i = -1; i <= 1; ++i)
+        add_shape(scene, fmt::format("window_bar_{}", i + 1), window, box({width, 0.025, 0.03}), white,
+                  {0.0, 0.25 * height * i, 0.07});
+    add_shape(scene, "window_sill", window, box({width + 0.36, 0.04, 0.2}), white, {0.0, -0.5 * height - 0.1, 0.1});
+
+    // Curtains: a wavy line, lifted; a profile of two points is a sheet.
+    for (const double side : {-1.0, 1.0}) {
+        std::vector<glm::dvec2> path;
+        for (int i = 0; i <= 28; ++i)
+            path.emplace_back(side * 0.95 + (i - 14) * 0.0135, -0.17 + (i % 2 == 0 ? 0.035 : -0.035));
+        const std::string name = side < 0.0 ? "curtain_a" : "curtain_b";
+        const CageShape sheet = make_moulding(path, false, {{0.0, -1.86}, {0.004, -0.8}, {0.0, 1.01}}, 2);
+        add_mesh_node(scene, name, window, add_cage(scene, name, sheet, curtain), glm::dvec3(0.0), z_to_up);
+    }
+    add_rod(scene, "curtain_rod", window, {-1.3, 1.01, 0.17}, {1.3, 1.01, 0.17}, 0.018, materials.brass, 24);
+    for (const double side : {-1.0, 1.0})
+        add_shape(scene, side < 0.0 ? "curtain_knob_a" : "curtain_knob_b", window, sphere(0.04), materials.brass,
+                  {side * 1.32, 1.01, 0.17});
+}
+
+void add_fireplace(Scene& scene, const AntiqueMaterials& materials) {
+    const int place = add_node(scene, "fireplace", no_index, {-0.15, 0.0, antique_low.z});
+    const int soot = add_lambert(scene, "soot", {36, 30, 28});
+    const int embers = add_emitter(scene, "embers", {1.0, 0.36, 0.1}, 5.0);
+    const int bark = add_lambert(scene, "bark", {74, 52, 38});
+    const double half = 0.46, top = 0.78;
+    add_shape(scene, "fire_back", place, quad(2.0 * half, top), soot, {0.0, 0.5 * top, 0.03});
+    add_shape(scene, "hearth", place, box({1.7, 0.04, 0.5}), materials.stone, {0.0, 0.02, 0.42});
+    for (const double side : {-1.0, 1.0}) {
+        const char* which = side < 0.0 ? "a" : "b";
+        add_shape(scene, fmt::format("fire_cheek_{}", which), place, box({0.02, top, 0.2}), soot,
+                  {side * (half - 0.01), 0.5 * top, 0.13});
+        add_shape(scene, fmt::format("fire_pier_{}", which), place, box({0.2, top, 0.24}, {0.4, 1.2}), materials.stone,
+                  {side * (half + 0.1), 0.5 * top, 0.12});
+        add_shape(scene, fmt::format("fire_column_{}", which), place,
+                  lathe({{0.0, 0.0},
+                         {0.075, 0.0},
+                         {0.075, 0.0},
+                         {0.075, 0.03},
+                         {0.06, 0.05},
+                         {0.068, 0.07},
+                         {0.052, 0.09},
+                         {0.056, 0.3},
+                         {0.048, 0.62},
+                         {0.05, 0.64},
+                         {0.066, 0.66},
+                         {0.052, 0.68},
+                         {0.078, 0.71},
+                         {0.078, 0.74},
+                         {0.078, 0.74},
+                         {0.0, 0.74}},
+                        40),
+                  materials.stone, {side * (half + 0.1), 0.04, 0.29});
+    }
+    add_shape(scene, "fire_lintel", place, box({2.0 * half + 0.4, 0.3, 0.26}, {2.0, 0.5}), materials.stone,
+              {0.0, top + 0.15, 0.13});
+    add_mesh_node(scene, "fire_tablet", place,
+                  add_cage(scene, "fire_tablet", make_rectangle({0.7, 0.2}, panel_profile, false), materials.stone),
+                  {0.0, top + 0.15, 0.26});
+    add_shape(scene, "mantel_shelf", place, box({1.75, 0.05, 0.42}, {2.0, 0.5}), materials.stone,
+              {0.0, top + 0.345, 0.21});
+    add_shape(scene, "mantel_under", place, box({1.6, 0.04, 0.36}, {2.0, 0.5}), materials.stone,
+              {0.0, top + 0.3, 0.18});
+    // Embers shine up from the grate.
+    add_shape(scene, "embers", place, quad(0.46, 0.14), embers, {0.0, 0.13, 0.17}, z_to_up);
+    for (int i = 0; i < 3; ++i)
+        add_rod(scene, fmt::format("log_{}", i), place, {-0.27 + 0.03 * i, 0.16 + 0.05 * (i % 2), 0.1 + 0.07 * i},
+                {0.25 + 0.02 * i, 0.19 + 0.04 * (i % 2), 0.12 + 0.06 * i}, 0.04, bark, 16);
+    add_shape(scene, "grate", place, box({0.56, 0.02, 0.2}), materials.black, {0.0, 0.11, 0.17});
+    for (int i = 0; i < 7; ++i)
+        add_rod(scene, fmt::format("grate_bar_{}", i), place, {-0.27 + 0.09 * i, 0.04, 0.28},
+                {-0.27 + 0.09 * i, 0.24, 0.3}, 0.008, materials.black, 10);
+
+    // On the shelf: a clock between candlesticks, two urns.
+    const double shelf = top + 0.37;
+    const int clock = add_node(scene, "mantel_clock", place, {0.0, shelf, 0.2});
+    add_shape(scene, "mantel_clock_base", clock, box({0.3, 0.05, 0.15}), materials.mahogany, {0.0, 0.025, 0.0});
+    add_shape(scene, "mantel_clock_body", clock, box({0.23, 0.22, 0.12}), materials.mahogany, {0.0, 0.16, 0.0});
+    const int dial = add_textured(scene, "dial", "dial");
+    add_shape(scene, "mantel_clock_face", clock, quad(0.15, 0.15), dial, {0.0, 0.165, 0.062});
+    add_shape(scene, "mantel_clock_ring", clock, torus(0.078, 0.009, 48), materials.brass, {0.0, 0.165, 0.062},
+              turn({1.0, 0.0, 0.0}, 90.0));
+    add_shape(scene, "mantel_clock_top", clock,
+              lathe({{0.12, 0.0}, {0.1, 0.03}, {0.05, 0.05}, {0.02, 0.06}, {0.025, 0.08}, {0.0, 0.1}}, 40),
+              materials.mahogany, {0.0, 0.27, 0.0});
+    const Shape stick = lathe({{0.0, 0.0},
+                               {0.06, 0.0},
+                               {0.06, 0.0},
+                               {0.058, 0.012},
+                               {0.03, 0.025},
+                               {0.015, 0.05},
+                               {0.024, 0.075},
+                               {0.012, 0.1},
+                               {0.012, 0.17},
+                               {0.022, 0.19},
+                               {0.014, 0.205},
+                               {0.035, 0.215},
+                               {0.035, 0.22},
+                               {0.0, 0.222}},
+                              36);
+    const Shape urn = lathe({{0.0, 0.0},
+                             {0.06, 0.0},
+                             {0.06, 0.0},
+                             {0.05, 0.02},
+                             {0.025, 0.045},
+                             {0.07, 0.1},
+                             {0.1, 0.17},
+                             {0.095, 0.22},
+                             {0.06, 0.26},
+                             {0.075, 0.29},
+                             {0.065, 0.292},
+                             {0.05, 0.26}},
+                            48);
+    for (const double side : {-1.0, 1.0}) {
+        const char* which = side < 0.0 ? "a" : "b";
+        add_shape(scene, fmt::format("candlestick_{}", which), place, stick, materials.brass,
+                  {side * 0.36, shelf, 0.2});
+        add_shape(scene, fmt::format("candle_{}", which), place, cylinder(0.014, 0.2, 20), materials.ivory,
+                  {side * 0.36, shelf + 0.32, 0.2});
+        add_shape(scene, fmt::format("mantel_urn_{}", which), place, urn, materials.porcelain,
+                  {side * 0.68, shelf, 0.2});
+    }
+}
+
+void add_antique_pictures(Scene& scene, const AntiqueMaterials& materials) {
+    struct Hanging {
+        const char* image;
+        glm::dvec3 middle;
+        glm::dvec2 size;
+        glm::dquat facing;
+    };
+    const int pictures = add_node(scene, "pictures");
+    for (const Hanging& hanging : {Hanging{"ship", {-0.15, 1.98, antique_low.z}, {1.0, 0.75}, {1.0, 0.0, 0.0, 0.0}},
+                                   Hanging{"iris", {antique_low.x, 1.72, 1.25}, {0.42, 0.56}, z_to_plus_x},
+                                   Hanging{"valley", {antique_high.x, 1.75, -0.2}, {1.1, 0.77}, z_to_minus_x}}) {
+        const std::string name = hanging.image;
+        const int paint = add_textured(scene, name, name);
+        const int node = add_node(scene, "picture_" + name, pictures, hanging.middle, hanging.facing);
+        add_shape(scene, name + "_canvas", node, quad(hanging.size.x, hanging.size.y), paint, {0.0, 0.0, 0.01});
+        add_mesh_node(
+            scene, name + "_frame", node,
+            add_cage(scene, name + "_frame", make_rectangle(hanging.size, frame_profile, true), materials.gilt),
+            glm::dvec3(0.0));
+    }
+}
+
+}  // namespace aleph

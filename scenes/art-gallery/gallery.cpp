@@ -1,0 +1,48 @@
+#include "scenes/art-gallery/gallery.h"
+
+#include "scenes/art-gallery/pictures.h"
+#include "scenes/common/build.h"
+
+namespace aleph {
+
+Scene make_art_gallery(const std::string& textures) {
+    Scene scene;
+    scene.name = "art-gallery";
+    scene.range = FrameRange{0, gallery_last_frame};
+    scene.camera = "camera";
+    // By eye: the automatic exposure goes by direct light alone, of which ceiling and corners get little.
+    scene.exposure = 2.2;
+    add_images(scene, textures, make_painted_pictures());
+    add_images(scene, textures, make_computed_pictures());
+    add_images(scene, textures, make_gallery_surfaces());
+
+    GalleryMaterials materials{};
+    materials.wall = add_lambert(scene, "wall", {236, 232, 224});
+    materials.blue_wall = add_lambert(scene, "blue_wall", {52, 96, 128});
+    materials.ceiling = add_lambert(scene, "ceiling", {240, 238, 232});
+    materials.parquet = add_textured(scene, "parquet", "parquet");
+    materials.trim = add_lambert(scene, "trim", {228, 222, 210});
+    materials.plinth = add_lambert(scene, "plinth", {238, 236, 230});
+    materials.marble = add_textured(scene, "marble", "marble");
+    materials.oak = add_textured(scene, "oak", "oak");
+    materials.dark = add_lambert(scene, "dark_wood", {66, 46, 34});
+    materials.steel = add_lambert(scene, "steel", {150, 152, 156});
+    materials.gilt = add_lambert(scene, "gilt", {204, 160, 84});
+    add_gloss(scene, 0.35);
+    materials.black_frame = add_lambert(scene, "black_frame", {34, 32, 32});
+    materials.white_frame = add_lambert(scene, "white_frame", {240, 236, 226});
+
+    add_rooms(scene, materials);
+    add_lamps(scene, materials);
+    add_pictures(scene, materials);
+    add_furniture(scene, materials);
+    add_sculptures(scene, materials);
+    add_ball_work(scene, materials);
+    add_top(scene, materials);
+    add_kinetic_work(scene, materials);
+    add_mobile(scene, materials);
+    add_gallery_camera(scene);
+    return scene;
+}
+
+}  // namespace aleph

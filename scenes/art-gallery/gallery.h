@@ -1,0 +1,40 @@
+#pragma once
+// The scene `art-gallery`, part by part. Metres; the floor is y = 0; the hall lies along x, a cabinet beyond its far
+// wall.
+
+#include "engine/scene.h"
+#include "scenes/art-gallery/balls.h"
+
+namespace aleph {
+
+inline constexpr int gallery_last_frame = 749;  ///< the first is 0; 30 a second
+inline constexpr double gallery_seconds = 749.0 / 30.0;
+
+/// Inner faces of the hall and of the cabinet.
+inline constexpr glm::dvec3 hall_low{-6.0, 0.0, -3.8}, hall_high{6.0, 4.2, 3.8};
+inline constexpr glm::dvec3 cabinet_low{-10.2, 0.0, -2.6}, cabinet_high{-6.25, 3.6, 2.6};
+inline constexpr double door_half_width = 1.1, door_height = 2.9;
+
+/// @param textures  folder of the textures as the scene file is to name it
+Scene make_art_gallery(const std::string& textures);
+
+/// Balls of the work under the ring, then those that come through the door.
+std::vector<BallDrop> make_ball_drops();
+
+/// Materials that several parts use.
+struct GalleryMaterials {
+    int wall, blue_wall, ceiling, parquet, trim, plinth, marble, oak, dark, steel, gilt, black_frame, white_frame;
+};
+
+void add_rooms(Scene& scene, const GalleryMaterials& materials);
+void add_lamps(Scene& scene, const GalleryMaterials& materials);
+void add_pictures(Scene& scene, const GalleryMaterials& materials);
+void add_furniture(Scene& scene, const GalleryMaterials& materials);
+void add_sculptures(Scene& scene, const GalleryMaterials& materials);
+void add_ball_work(Scene& scene, const GalleryMaterials& materials);
+void add_top(Scene& scene, const GalleryMaterials& materials);
+void add_kinetic_work(Scene& scene, const GalleryMaterials& materials);
+void add_mobile(Scene& scene, const GalleryMaterials& materials);
+void add_gallery_camera(Scene& scene);
+
+}  // namespace aleph

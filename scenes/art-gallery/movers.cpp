@@ -1,0 +1,335 @@
+// What moves: the balls, the top, the kinetic work, the mobile, and the camera.
+
+#include <fmt/format.h>
+
+#include <glm/geometric.hpp>
+#include <glm/trigonometric.hpp>
+#include <numbers>
+
+#include "scenes/art-gallery/gallery.h"
+#include "scenes/common/build.h"
+
+namespace aleph {
+
+namespace {
+
+constexpr double pi = std::numbers::pi;
+
+Node& node_of(Scene& scene, int index) {
+    return scene.nodes[static_cast<std::size_t>(index)];
+}
+
+void turn_about(Scene& scene, int node, const glm::dvec3& axis, const Track<double>& angle) {
+    node_of(scene, node).axis_rotation = AxisRotation{axis, angle};
+}
+
+// The work under the ring: nine balls hang in a circle and fall one after the other.
+const glm::dvec3 ring_place(-3.55, 0.0, 1.75);
+constexpr double ring_radius = 0.95, ring_height = 2.62, ring_base = 0.08;
+constexpr int ring_balls = 9;
+
+glm::dvec3 ring_point(int i) {
+    const double angle = 2.0 * pi * i / ring_balls;
+    return ring_place + ring_radius * glm::dvec3(std::sin(angle), 0.0, std::cos(angle));
+}
+
+}  // namespace
+
+std::vector<BallDrop> make_ball_drops() {
+    const double releases[] = {-2.9, -0.7, 1.6, 4.4, 8.0, 12.2, 15.4, 17.1, 18.8};
+    std::vector<BallDrop> drops;
+    for (int i = 0; i < ring_balls; ++i) {
+        BallDrop drop;
+        drop.release = releases[i];
+        drop.radius = 0.1 + 0.015 * (i % 3);
+        // Neighbours in time stand apart.
+        drop.position =
+            to_millionth(ring_point(i * 4 % ring_balls)) + glm::dvec3(0.0, ring_height - 0.12 - drop.radius, 0.0);
+        drop.ground = ring_base;
+        drop.restitution = 0.91 - 0.02 * (i % 3);
+        drops.push_back(drop);
+    }
+    // Two come out of the cabinet and cross the hall.
+    BallDrop beach;
+    beach.release = 2.4;
+    beach.position = {-7.6, 1.25, 0.55};
+    beach.velocity = {1.15, 0.6, 0.0};
+    beach.radius = 0.2;
+    beach.restitution = 0.82;
+    beach.grip = 0.985;
+    beach.rolling = 0.16;
+    drops.push_back(beach);
+    BallDrop late = beach;
+    late.release = 19.4;
+    late.position = {-9.1, 1.1, -0.78};
+    late.velocity = {1.25, 1.4, 0.0};
+    late.radius = 0.15;
+    drops.push_back(late);
+    return drops;
+}
+
+void add_ball_work(Scene& scene, const GalleryMaterials& materials) {
+    const int work = add_node(scene, "ball_work");
+    add_shape(scene, "ball_base", work,
+              lathe({{0.0, 0.0},
+                     {1.3, 0.0},
+                     {1.3, 0.0},
+                     {1.3, 0.05},
+                     {1.29, 0.072},
+                     {1.265, ring_base},
+                     {1.265, ring_base},
+                     {0.0, ring_base}},
+                    96),
+              materials.plinth, ring_place);
+    add_shape(scene, "ball_ring", work, torus(ring_radius, 0.035, 96), materials.steel,
+              ring_place + glm::dvec3(0.0, ring_height, 0.0));
+    for (int i = 0; i < 3; ++i) {
+        const double angle = 2.0 * pi * (i + 0.5) / 3.0;
+        const glm::dvec3 at =
+            to_millionth(ring_place + ring_radius * glm::dvec3(std::sin(angle), 0.0, std::cos(angle)));
+        add_rod(scene, fmt::format("ball_post_{}", i), work, at + glm::dvec3(0.0, ring_base, 0.0),
+                at + glm::dvec3(0.0, ring_height, 0.0), 0.016, materials.steel, 16);
+    }
+    for (int i = 0; i < ring_balls; ++i) {
+        const glm::dvec3 at = to_millionth(ring_point(i)) + glm::dvec3(0.0, ring_height, 0.0);
+        add_rod(scene, fmt::format("ball_holder_{}", i), work, at - glm::dvec3(0.0, 0.11, 0.0), at, 0.02,
+                materials.steel, 16);
+    }
+
+    const int balls = add_node(scene, "balls");
+    const std::vector<BallDrop> drops = make_ball_drops();
+    for (std::size_t i = 0; i < drops.size(); ++i) {
+        const std::string name = fmt::format("ball_{}", i);
+        const bool rolls = glm::length(drops[i].velocity) > 0.0;
+        const int texture = rolls ? (i % 2 == 1 ? 0 : 2) : static_cast<int>(i) % 5 + 1;
+        const int material = add_textured(scene, name, fmt::format("ball_{}", texture));
+        add_gloss(scene, 0.3);
+        const int index = add_shape(scene, name, balls, sphere(drops[i].radius), material, glm::dvec3(0.0));
+        const auto path = simulate_drop(drops[i], gallery_seconds);
+        node_of(scene, index).translation = cubic_track(path);
+        if (rolls) {
+            const glm::dvec3 v = drops[i].velocity;
+            turn_about(scene, index, glm::normalize(glm::cross(glm::dvec3(0.0, 1.0, 0.0), v)),
+                       cubic_track(simulate_spin(drops[i], path)));
+        } else {
+            // A spin about the upright survives impacts; it dies with the bouncing.
+            const double spin = (i % 2 == 0 ? 1.0 : -1.0) * (2.2 + 0.4 * static_cast<double>(i));
+            const double from = path.front().seconds, time = path.back().seconds - from;
+            turn_about(
+                scene, index, {0.0, 1.0, 0.0},
+                cubic_track<double>({{from, 0.0, 0.0, spin}, {from + time, 0.1 * spin, 0.55 * spin * time, 0.0}}));
+        }
+    }
+}
+
+void add_top(Scene& scene, const GalleryMaterials& materials) {
+    const int work = add_node(scene, "top_work", no_index, {2.15, 0.0, -0.95});
+    add_shape(scene, "top_stand", work,
+              lathe({{0.0, 0.0},
+                     {0.34, 0.0},
+                     {0.34, 0.0},
+                     {0.34, 0.03},
+                     {0.3, 0.06},
+                     {0.16, 0.09},
+                     {0.09, 0.16},
+                     {0.075, 0.3},
+                     {0.075, 0.62},
+                     {0.1, 0.74},
+                     {0.22, 0.81},
+                     {0.4, 0.83},
+                     {0.42, 0.845},
+                     {0.42, 0.865},
+                     {0.41, 0.875},
+                     {0.41, 0.875},
+                     {0.38, 0.868},
+                     {0.15, 0.852},
+                     {0.0, 0.85}},
+                    80),
+              materials.marble, glm::dvec3(0.0));
+    const int skin = add_textured(scene, "top", "top");
+    add_gloss(scene, 0.25);
+
+    // A top that slows down: the spin falls evenly, precession runs at a rate that goes as one over the spin, and it
+    // leans farther as it tires, nodding a little.
+    const double first = 2.0 * pi * 2.3, last = 2.0 * pi * 1.25, slowing = (first - last) / gallery_seconds;
+    const double strength = 2.0 * pi * 0.2 * first;
+    std::vector<MotionKey<double>> precession, lean;
+    for (int i = 0; i <= 30; ++i) {
+        const double t = gallery_seconds * i / 30.0, spin = first - slowing * t;
+        precession.push_back({t, strength / spin, strength / slowing * std::log(first / spin), strength / spin});
+    }
+    for (int i = 0; i <= 100; ++i) {
+        const double t = gallery_seconds * i / 100.0, grown = t / gallery_seconds, nod = 2.0 * pi * 0.9;
+        const double rate = glm::radians(9.0) / gallery_seconds + glm::radians(0.9) * nod * std::cos(nod * t);
+        lean.push_back({t, rate, glm::radians(10.0 + 9.0 * grown + 0.9 * std::sin(nod * t)), rate});
+    }
+    const int turning = add_node(scene, "top_precession", work, {0.0, 0.85, 0.0});
+    turn_about(scene, turning, {0.0, 1.0, 0.0}, cubic_track(precession));
+    const int leaning = add_node(scene, "top_lean", turning);
+    turn_about(scene, leaning, {1.0, 0.0, 0.0}, cubic_track(lean));
+    const int top = add_shape(scene, "top", leaning,
+                              lathe({{0.0, 0.0},
+                                     {0.012, 0.012},
+                                     {0.03, 0.05},
+                                     {0.1, 0.105},
+                                     {0.19, 0.175},
+                                     {0.215, 0.215},
+                                     {0.2, 0.25},
+                                     {0.12, 0.285},
+                                     {0.035, 0.3},
+                                     {0.024, 0.32},
+                                     {0.024, 0.4},
+                                     {0.032, 0.42},
+                                     {0.026, 0.44},
+                                     {0.0, 0.447}},
+                                    96),
+                              skin, glm::dvec3(0.0));
+    const double angle = first * gallery_seconds - 0.5 * slowing * gallery_seconds * gallery_seconds;
+    turn_about(scene, top, {0.0, 1.0, 0.0},
+               cubic_track<double>({{0.0, first, 0.0, first}, {gallery_seconds, last, angle, last}}));
+}
+
+void add_kinetic_work(Scene& scene, const GalleryMaterials& materials) {
+    // Saturated vanes turn before a white wall. White vanes stand beside them like the other page of an open book,
+    // white balls ride between the books, and both take their colours.
+    const int work = add_node(scene, "kinetic", no_index, {-2.75, 0.0, -2.35});
+    add_shape(scene, "kinetic_plinth", work,
+              lathe({{0.0, 0.0},
+                     {1.12, 0.0},
+                     {1.12, 0.0},
+                     {1.12, 0.34},
+                     {1.11, 0.355},
+                     {1.09, 0.36},
+                     {1.09, 0.36},
+                     {0.0, 0.36}},
+                    96),
+              materials.plinth, glm::dvec3(0.0));
+    const int table = add_node(scene, "kinetic_table", work, {0.0, 0.375, 0.0});
+    turn_about(scene, table, {0.0, 1.0, 0.0}, even_track(0.0, gallery_seconds, 0.0, 2.0 * pi * 2.5));
+    add_shape(scene, "kinetic_disc", table, cylinder(1.02, 0.03, 96), materials.plinth, glm::dvec3(0.0));
+    // Under the roof light comes from the vanes alone.
+    add_shape(scene, "kinetic_roof", table,
+              lathe({{0.0, 1.9}, {1.08, 1.9}, {1.08, 1.9}, {1.1, 1.915}, {1.08, 1.93}, {1.08, 1.93}, {0.0, 1.97}}, 96),
+              materials.plinth, glm::dvec3(0.0));
+    add_rod(scene, "kinetic_axle", table, {0.0, 0.0, 0.0}, {0.0, 2.0, 0.0}, 0.03, materials.steel, 24);
+
+    struct Vane {
+        const char* name;
+        glm::dvec3 color;
+    };
+    const Vane vanes[] = {{"red", {242, 40, 24}},
+                          {"yellow", {254, 200, 12}},
+                          {"green", {46, 192, 66}},
+                          {"blue", {30, 116, 240}},
+                          {"magenta", {240, 40, 150}}};
+    const int white = add_lambert(scene, "kinetic_white", {242, 240, 234});
+    for (int i = 0; i < 5; ++i) {
+        const int paint = add_lambert(scene, fmt::format("vane_{}", vanes[i].name), vanes[i].color);
+        const int arm = add_node(scene, fmt::format("vane_arm_{}", vanes[i].name), table, glm::dvec3(0.0),
+                                 turn({0.0, 1.0, 0.0}, 72.0 * i));
+        // Each vane also swings about its own upright.
+        const int pivot = add_node(scene, fmt::format("vane_{}", vanes[i].name), arm, {0.0, 0.0, 0.62});
+        std::vector<double> times, angles;
+        for (int k = 0; k <= 10; ++k) {
+            times.push_back(gallery_seconds * k / 10.0);
+            angles.push_back(glm::radians((k + i) % 2 == 0 ? 14.0 : -14.0));
+        }
+        turn_about(scene, pivot, {0.0, 1.0, 0.0}, eased_track(times, angles));
+        const double height = 1.3 + 0.1 * ((i * 2) % 5);
+        add_shape(scene, fmt::format("vane_panel_{}", vanes[i].name), pivot, box({0.025, height, 0.7}), paint,
+                  {0.0, 0.06 + 0.5 * height, 0.0});
+
+        const int page =
+            add_node(scene, fmt::format("page_{}", i), table, glm::dvec3(0.0), turn({0.0, 1.0, 0.0}, 72.0 * i + 27.0));
+        add_shape(scene, fmt::format("page_panel_{}", i), page, box({0.025, height, 0.7}), white,
+                  {0.0, 0.06 + 0.5 * height, 0.62});
+
+        const int rider =
+            add_node(scene, fmt::format("rider_{}", i), table, glm::dvec3(0.0), turn({0.0, 1.0, 0.0}, 72.0 * i + 50.0));
+        const int lift = add_shape(scene, fmt::format("rider_ball_{}", i), rider, sphere(0.12), white, {0.0, 0.6, 0.8});
+        std::vector<glm::dvec3> places;
+        times.clear();
+        for (int k = 0; k <= 12; ++k) {
+            times.push_back(gallery_seconds * k / 12.0);
+            places.emplace_back(0.0, (k + i) % 2 == 0 ? 0.32 : 1.1, 0.8);
+        }
+        node_of(scene, lift).translation = eased_track(times, places);
+        add_rod(scene, fmt::format("rider_rod_{}", i), rider, {0.0, 0.0, 0.8}, {0.0, 1.9, 0.8}, 0.01, materials.steel,
+                12);
+    }
+}
+
+void add_mobile(Scene& scene, const GalleryMaterials& materials) {
+    // Arms that hang from one another, each turning at its own pace.
+    struct Arm {
+        double left, right, drop;  ///< m: lengths to both sides, wire below the point it hangs from
+        double turns;              ///< over the whole shot
+        glm::dvec3 color;
+        double size;
+    };
+    const Arm arms[] = {{0.62, 1.05, 1.38, 1.5, {214, 40, 34}, 0.3},
+                        {0.5, 0.8, 0.22, -2.5, {246, 184, 28}, 0.25},
+                        {0.42, 0.62, 0.2, 3.5, {28, 86, 180}, 0.21},
+                        {0.36, 0.42, 0.18, -4.5, {232, 110, 30}, 0.17}};
+    const Shape leaf =
+        lathe({{0.0, -0.02}, {0.5, -0.012}, {0.92, -0.006}, {1.0, 0.0}, {0.92, 0.006}, {0.5, 0.012}, {0.0, 0.02}}, 40);
+    int parent = add_node(scene, "mobile", no_index, {1.4, hall_high.y, 1.15});
+    const int black = materials.black_frame;
+    glm::dvec3 hook(0.0);
+    for (int i = 0; i < 4; ++i) {
+        const Arm& arm = arms[i];
+        const int node =
+            add_node(scene, fmt::format("mobile_arm_{}", i), parent, hook - glm::dvec3(0.0, arm.drop, 0.0));
+        turn_about(scene, node, {0.0, 1.0, 0.0}, even_track(0.0, gallery_seconds, 0.0, 2.0 * pi * arm.turns));
+        add_rod(scene, fmt::format("mobile_wire_{}", i), node, glm::dvec3(0.0), {0.0, arm.drop, 0.0}, 0.004, black, 8);
+        add_rod(scene, fmt::format("mobile_rod_{}", i), node, {-arm.left, -0.05, 0.0}, {arm.right, 0.03, 0.0}, 0.008,
+                black);
+        const auto add_paddle = [&](const std::string& name, double x, double y, double size, const glm::dvec3& color,
+                                    double tilt) {
+            const int paint = add_lambert(scene, name, color);
+            Shape shape = leaf;
+            for (glm::dvec2& point : shape.profile) point = to_millionth(glm::dvec3(point * size, 0.0));
+            const int paddle = add_shape(scene, name, node, shape, paint, {x, y, 0.0}, turn({0.0, 0.0, 1.0}, tilt));
+            node_of(scene, paddle).scale = glm::dvec3(1.0, 1.0, 0.72);
+        };
+        add_paddle(fmt::format("mobile_paddle_{}", i), -arm.left - 0.8 * arm.size, -0.07, arm.size, arm.color,
+                   62.0 + 6.0 * i);
+        if (i == 3) add_paddle("mobile_paddle_4", arm.right + 0.12, 0.03, 0.15, {240, 240, 236}, 70.0);
+        parent = node;
+        hook = {arm.right, 0.03, 0.0};
+    }
+}
+
+void add_gallery_camera(Scene& scene) {
+    // Where it is and what it looks at, on these frames; eased in between.
+    struct Stop {
+        double frame;
+        glm::dvec3 eye, target;
+    };
+    const Stop stops[] = {
+        {0, {5.1, 1.6, -0.75}, {0.6, 1.2, 2.3}},         {120, {5.0, 1.6, 0.95}, {-1.4, 1.4, -0.1}},
+        {235, {3.75, 1.45, 0.35}, {1.75, 1.2, -1.35}},   {340, {1.9, 1.5, 0.75}, {-1.2, 1.2, -2.2}},
+        {450, {-0.55, 1.45, -0.4}, {-2.75, 1.05, -2.5}}, {560, {-0.9, 1.55, -0.75}, {-3.9, 1.2, 0.95}},
+        {650, {-1.6, 1.6, -0.5}, {-5.4, 1.35, 0.45}},    {749, {-4.1, 1.55, -0.15}, {-8.1, 1.35, 0.0}}};
+    std::vector<double> times, yaws, pitches;
+    std::vector<glm::dvec3> eyes;
+    for (const Stop& stop : stops) {
+        const glm::dvec3 look = glm::normalize(stop.target - stop.eye);
+        times.push_back(stop.frame / 30.0);
+        eyes.push_back(stop.eye);
+        yaws.push_back(std::atan2(-look.x, -look.z));
+        pitches.push_back(std::asin(look.y));
+    }
+    const int rig = add_node(scene, "camera_rig");
+    node_of(scene, rig).translation = eased_track(times, eyes);
+    turn_about(scene, rig, {0.0, 1.0, 0.0}, eased_track(times, yaws));
+    const int head = add_node(scene, "camera", rig);
+    turn_about(scene, head, {1.0, 0.0, 0.0}, eased_track(times, pitches));
+    Camera camera;
+    camera.name = "camera";
+    camera.fov = glm::radians(50.0);
+    scene.cameras.push_back(camera);
+    node_of(scene, head).camera = 0;
+}
+
+}  // namespace aleph

@@ -1,0 +1,17 @@
+#pragma once
+// The gallery's paintings and surfaces, drawn by formulas: always the same bytes.
+
+#include <vector>
+
+#include "scenes/common/textures.h"
+
+namespace aleph {
+
+/// Fourteen paintings, each of the shape that it hangs in.
+std::vector<DrawnTexture> make_painted_pictures();   ///< strokes and marks on a ground
+std::vector<DrawnTexture> make_computed_pictures();  ///< a colour for every point
+
+/// "parquet", "marble", "oak", "weave", "terracotta", "top", "ball_0" to "ball_5": all repeat without a seam.
+std::vector<DrawnTexture> make_gallery_surfaces();
+
+}  // namespace aleph

@@ -1,0 +1,137 @@
+// Hall and cabinet: walls, floor, ceiling with beams, mouldings, the doorway, and the eight lamps.
+
+#include <fmt/format.h>
+
+#include "scenes/art-gallery/gallery.h"
+#include "scenes/common/build.h"
+#include "scenes/common/cages.h"
+
+namespace aleph {
+
+namespace {
+
+const std::vector<glm::dvec2> skirting_profile = {{0.0, 0.17},  {0.0, 0.17},   {0.008, 0.17}, {0.018, 0.16},
+                                                  {0.02, 0.14}, {0.028, 0.13}, {0.028, 0.13}, {0.03, 0.12},
+                                                  {0.03, 0.02}, {0.034, 0.0},  {0.034, 0.0}};
+const std::vector<glm::dvec2> cornice_profile = {{0.2, 0.0},     {0.2, -0.025}, {0.2, -0.025}, {0.17, -0.035},
+                                                 {0.12, -0.06},  {0.08, -0.11}, {0.06, -0.15}, {0.06, -0.15},
+                                                 {0.035, -0.16}, {0.03, -0.2},  {0.0, -0.205}, {0.0, -0.205}};
+const std::vector<glm::dvec2> architrave_profile = {{0.0, 0.0},   {0.0, 0.03},   {0.0, 0.03},  {0.02, 0.04},
+                                                    {0.06, 0.04}, {0.08, 0.025}, {0.1, 0.03},  {0.13, 0.05},
+                                                    {0.15, 0.05}, {0.15, 0.05},  {0.155, 0.0}, {0.155, 0.0}};
+
+/// Skirting and cornice of a room; both start and end at its doorway. Seen from above, x to the right and -z up.
+void add_trim(Scene& scene, int parent, const std::string& name, const glm::dvec3& low, const glm::dvec3& high,
+              double door_x, int trim, int cornice) {
+    const double far = door_x == low.x ? high.x : low.x, turn_sign = door_x == low.x ? 1.0 : -1.0;
+    const glm::dvec2 half(door_half_width + 0.15, high.z);
+    const std::vector<glm::dvec2> around = {{door_x, -turn_sign * half.x}, {door_x, -turn_sign * half.y},
+                                            {far, -turn_sign * half.y},    {far, turn_sign * half.y},
+                                            {door_x, turn_sign * half.y},  {door_x, turn_sign * half.x}};
+    const int skirting = add_cage(scene, name + "_skirting", make_moulding(around, false, skirting_profile), trim);
+    add_mesh_node(scene, name + "_skirting", parent, skirting, glm::dvec3(0.0), z_to_up);
+    const std::vector<glm::dvec2> whole = {{low.x, low.z}, {high.x, low.z}, {high.x, high.z}, {low.x, high.z}};
+    const int top = add_cage(scene, name + "_cornice", make_moulding(whole, true, cornice_profile), cornice);
+    add_mesh_node(scene, name + "_cornice", parent, top, {0.0, high.y, 0.0}, z_to_up);
+}
+
+/// Walls of a room but the one with the doorway, floor and ceiling.
+void add_shell(Scene& scene, int parent, const std::string& name, const glm::dvec3& low, const glm::dvec3& high,
+               double door_x, int wall, const GalleryMaterials& materials) {
+    const glm::dvec3 size = high - low, middle = 0.5 * (low + high);
+    const double tile = 1.1;  // m, one repeat of the parquet
+    add_shape(scene, name + "_floor", parent, quad(size.x, size.z, {size.x / tile, size.z / tile}), materials.parquet,
+              {middle.x, 0.0, middle.z}, z_to_up);
+    add_shape(scene, name + "_ceiling", parent, quad(size.x, size.z), materials.ceiling, {middle.x, high.y, middle.z},
+              z_to_down);
+    add_shape(scene, name + "_wall_north", parent, quad(size.x, size.y), wall, {middle.x, middle.y, low.z});
+    add_shape(scene, name + "_wall_south", parent, quad(size.x, size.y), wall, {middle.x, middle.y, high.z},
+              z_to_minus_z);
+    const bool at_high = door_x == low.x;
+    add_shape(scene, name + "_wall_end", parent, quad(size.z, size.y), wall,
+              {at_high ? high.x : low.x, middle.y, middle.z}, at_high ? z_to_minus_x : z_to_plus_x);
+}
+
+/// The wall between the two rooms, its faces in the colours of the rooms; jambs and floor of the doorway.
+void add_doorway(Scene& scene, int parent, const GalleryMaterials& materials) {
+    const double front = hall_low.x, back = cabinet_high.x, depth = front - back;
+    const auto side = [&](const std::string& name, double x, double half, double top, int wall,
+                          const glm::dquat& facing) {
+        for (const double sign : {-1.0, 1.0}) {
+            add_shape(scene, fmt::format("{}_{}", name, sign < 0.0 ? "a" : "b"), parent,
+                      quad(half - door_half_width, top), wall, {x, 0.5 * top, sign * 0.5 * (half + door_half_width)},
+                      facing);
+        }
+        add_shape(scene, name + "_over", parent, quad(2.0 * door_half_width, top - door_height), wall,
+                  {x, 0.5 * (top + door_height), 0.0}, facing);
+    };
+    side("door_wall_hall", front, hall_high.z, hall_high.y, materials.wall, z_to_plus_x);
+    side("door_wall_cabinet", back, cabinet_high.z, cabinet_high.y, materials.blue_wall, z_to_minus_x);
+    const double x = 0.5 * (front + back);
+    add_shape(scene, "door_sill", parent, quad(depth, 2.0 * door_half_width), materials.dark, {x, 0.0, 0.0}, z_to_up);
+    add_shape(scene, "door_head", parent, quad(depth, 2.0 * door_half_width), materials.trim, {x, door_height, 0.0},
+              z_to_down);
+    add_shape(scene, "door_jamb_a", parent, quad(depth, door_height), materials.trim,
+              {x, 0.5 * door_height, -door_half_width});
+    add_shape(scene, "door_jamb_b", parent, quad(depth, door_height), materials.trim,
+              {x, 0.5 * door_height, door_half_width}, z_to_minus_z);
+    const double h = door_half_width;
+    const std::vector<glm::dvec2> path = {{-h, 0.0}, {-h, door_height}, {h, door_height}, {h, 0.0}};
+    const int mesh = add_cage(scene, "architrave", make_moulding(path, false, architrave_profile), materials.trim);
+    add_mesh_node(scene, "architrave_hall", parent, mesh, {front, 0.0, 0.0}, z_to_plus_x);
+    add_mesh_node(scene, "architrave_cabinet", parent, mesh, {back, 0.0, 0.0}, z_to_minus_x);
+}
+
+/// A flat lamp that hangs from the ceiling and shines down, or leaning towards a wall.
+void add_lamp(Scene& scene, int parent, const std::string& name, const glm::dvec3& place, const glm::dvec2& size,
+              double lean_degrees, double ceiling, int glow, const GalleryMaterials& materials) {
+    const int lamp = add_node(scene, name, parent, place, turn({1.0, 0.0, 0.0}, lean_degrees));
+    add_shape(scene, name + "_box", lamp, box({size.x + 0.06, 0.06, size.y + 0.06}), materials.steel,
+              {0.0, 0.031, 0.0});
+    add_shape(scene, name + "_glow", lamp, quad(size.x, size.y), glow, glm::dvec3(0.0), z_to_down);
+    for (const double side : {-1.0, 1.0}) {
+        const glm::dvec3 foot = place + glm::dvec3(side * 0.4 * size.x, 0.05, 0.0);
+        add_rod(scene, fmt::format("{}_rod_{}", name, side < 0.0 ? "a" : "b"), parent, foot, {foot.x, ceiling, foot.z},
+                0.008, materials.steel);
+    }
+}
+
+}  // namespace
+
+void add_rooms(Scene& scene, const GalleryMaterials& materials) {
+    const int rooms = add_node(scene, "rooms");
+    add_shell(scene, rooms, "hall", hall_low, hall_high, hall_low.x, materials.wall, materials);
+    add_shell(scene, rooms, "cabinet", cabinet_low, cabinet_high, cabinet_high.x, materials.blue_wall, materials);
+    add_doorway(scene, rooms, materials);
+    add_trim(scene, rooms, "hall", hall_low, hall_high, hall_low.x, materials.trim, materials.ceiling);
+    add_trim(scene, rooms, "cabinet", cabinet_low, cabinet_high, cabinet_high.x, materials.trim, materials.ceiling);
+
+    // Beams: four across, two along.
+    for (int i = 0; i < 4; ++i) {
+        add_shape(scene, fmt::format("beam_across_{}", i), rooms, box({0.22, 0.26, hall_high.z - hall_low.z}),
+                  materials.ceiling, {-4.5 + 3.0 * i, hall_high.y - 0.13, 0.0});
+    }
+    for (const double side : {-1.0, 1.0}) {
+        add_shape(scene, fmt::format("beam_along_{}", side < 0.0 ? "a" : "b"), rooms,
+                  box({hall_high.x - hall_low.x, 0.2, 0.22}), materials.ceiling, {0.0, hall_high.y - 0.1, side * 1.5});
+    }
+}
+
+void add_lamps(Scene& scene, const GalleryMaterials& materials) {
+    const int warm = add_emitter(scene, "warm_glow", {1.0, 0.88, 0.7}, 13.0);
+    const int day = add_emitter(scene, "day_glow", {0.86, 0.94, 1.0}, 7.0);
+    const int cabinet = add_emitter(scene, "cabinet_glow", {1.0, 0.8, 0.58}, 15.0);
+    const int lamps = add_node(scene, "lamps");
+    // Six wash the long walls, one stands for a skylight, one hangs in the cabinet.
+    for (int i = 0; i < 3; ++i) {
+        const double x = -3.9 + 3.9 * i;
+        add_lamp(scene, lamps, fmt::format("lamp_north_{}", i), {x, 3.62, hall_low.z + 1.35}, {1.5, 0.28}, 28.0,
+                 hall_high.y, warm, materials);
+        add_lamp(scene, lamps, fmt::format("lamp_south_{}", i), {x, 3.62, hall_high.z - 1.35}, {1.5, 0.28}, -28.0,
+                 hall_high.y, warm, materials);
+    }
+    add_lamp(scene, lamps, "lamp_skylight", {0.0, 3.85, 0.0}, {3.2, 1.1}, 0.0, hall_high.y, day, materials);
+    add_lamp(scene, lamps, "lamp_cabinet", {-8.1, 3.1, 0.0}, {0.9, 0.9}, 0.0, cabinet_high.y, cabinet, materials);
+}
+
+}  // namespace aleph

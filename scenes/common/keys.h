@@ -1,0 +1,66 @@
+#pragma once
+// Tracks from keys.
+
+#include <cmath>
+#include <vector>
+
+#include "engine/track.h"
+
+namespace aleph {
+
+/// To a millionth: a micrometre, or what a viewer could see of a turn, in few characters.
+inline double to_millionth(double value) {
+    return std::round(value * 1e6) / 1e6;
+}
+inline glm::dvec3 to_millionth(const glm::dvec3& v) {
+    return {to_millionth(v.x), to_millionth(v.y), to_millionth(v.z)};
+}
+
+/// A key of a track that is a cubic between keys. Velocities are per second; before and after differ at an impact.
+template <class T>
+struct MotionKey {
+    double seconds = 0.0;
+    T before{};  ///< velocity as the key is reached
+    T value{};
+    T after{};  ///< velocity as it is left
+};
+
+template <class T>
+Track<T> cubic_track(const std::vector<MotionKey<T>>& keys) {
+    Track<T> track;
+    track.interpolation = Interpolation::cubic;
+    track.sampling.kind = TimeSampling::Kind::acyclic;
+    for (const MotionKey<T>& key : keys) {
+        track.sampling.times.push_back(key.seconds);
+        for (const T& value : {key.before, key.value, key.after}) track.values.push_back(to_millionth(value));
+    }
+    return track;
+}
+
+/// A smooth course through values: it starts and ends at rest, and passes each key with the mean velocity of the two
+/// stretches beside it.
+template <class T>
+Track<T> eased_track(const std::vector<double>& seconds, const std::vector<T>& values) {
+    std::vector<MotionKey<T>> keys;
+    for (std::size_t i = 0; i < values.size(); ++i) {
+        T velocity{};
+        if (i > 0 && i + 1 < values.size()) {
+            velocity = 0.5 * ((values[i] - values[i - 1]) / (seconds[i] - seconds[i - 1]) +
+                              (values[i + 1] - values[i]) / (seconds[i + 1] - seconds[i]));
+        }
+        keys.push_back({seconds[i], velocity, values[i], velocity});
+    }
+    return cubic_track(keys);
+}
+
+/// An even turn or drift: two keys.
+template <class T>
+Track<T> even_track(double from, double to, const T& first, const T& last) {
+    Track<T> track;
+    track.sampling.kind = TimeSampling::Kind::acyclic;
+    track.sampling.times = {from, to};
+    track.values = {to_millionth(first), to_millionth(last)};
+    return track;
+}
+
+}  // namespace aleph
