@@ -22,17 +22,12 @@ void add_rotation_warnings(const Node& node, std::vector<std::string>& warnings)
         break;
     }
     if (track.interpolation == Interpolation::step) return;
-    for (std::size_t key = 1; key < track.key_count(); ++key) {
-        const glm::dquat a = key_value(track, key - 1), b = key_value(track, key);
-        const double cosine = std::abs(glm::dot(a, b)) / (glm::length(a) * glm::length(b));
-        const double degrees = glm::degrees(2.0 * std::acos(std::min(cosine, 1.0)));
-        if (!(degrees > 170.0)) continue;
-        warnings.push_back(
-            fmt::format("{}: rotation keys {} and {} are {:.4g} degrees apart, and the rotation takes the "
-                        "short way; for a longer turn give an axis and degrees",
-                        name, key - 1, key, degrees));
-        break;
-    }
+    const double turn = largest_turn_degrees(track);
+    if (!(turn > 170.0)) return;
+    warnings.push_back(fmt::format(
+        "{}: neighbouring rotation keys are {:.4g} degrees apart, and the rotation takes the short way; for a "
+        "longer turn give an axis and degrees",
+        name, turn));
 }
 
 template <class T>
@@ -50,7 +45,9 @@ bool is_positive_somewhere(const Track<T>& track) {
 
 void add_rotation_warnings(Scene& scene) {
     for (const Node& node : scene.nodes) {
-        if (!node.matrix && !node.axis_rotation) add_rotation_warnings(node, scene.warnings);
+        // Readers of other formats say it of theirs, with the place in the file.
+        if (node.include == no_index && !node.matrix && !node.axis_rotation)
+            add_rotation_warnings(node, scene.warnings);
     }
 }
 

@@ -102,6 +102,6 @@ int main() {
     const double velocity = speed - std::min(0.82 * speed + 0.15, 80.0);
     const double peak = 45.9 / (1.7 * velocity + 2.0) / (2.0 * std::numbers::pi * 0.67);
     const double elevation = contrast_sensitivity(peak, velocity) / std::max(contrast_sensitivity(0.25, velocity), 1.0);
-    expect_near("aleph of the wall", output.perception.aleph(40, 30), elevation, 0.01 * elevation);
+    expect_near("aleph of the wall", output.perception.aleph(40, 30), elevation, 1e-3 * elevation);
     return failures == 0 ? 0 : 1;
 }
