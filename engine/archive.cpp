@@ -14,6 +14,7 @@
 #include "engine/gltf_files.h"
 #include "engine/gltf_json.h"
 #include "engine/image_io.h"
+#include "engine/json_text.h"
 #include "engine/pose.h"
 #include "engine/scene_json.h"
 #include "engine/scene_warnings.h"
@@ -83,8 +84,11 @@ AlembicTiming append_asset(const fs::path& path, Scene& scene, int parent_node, 
 
 Scene load_scene_file(const fs::path& path, const std::string& file) {
     check_regular_file(path, file, "");
-    if (std::error_code error; fs::file_size(path, error) > max_json_bytes) {
-        throw InputError(file, "", fmt::format("the file is larger than {} bytes", max_json_bytes));
+    if (std::error_code error; fs::file_size(path, error) > max_scene_text_bytes) {
+        throw InputError(file, "",
+                         fmt::format("the file is larger than {} MiB; keep large meshes in a .glb or .abc file and "
+                                     "include that",
+                                     max_scene_text_bytes >> 20));
     }
     const Bytes bytes = read_regular_file(path, file, "");
     SceneText text = read_scene_text({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, file);

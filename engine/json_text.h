@@ -9,14 +9,29 @@
 
 namespace aleph {
 
+/// Longest text of a scene file, bytes.
+inline constexpr std::size_t max_scene_text_bytes = std::size_t{64} << 20;
+/// Most memory that the values of a JSON text may take.
+inline constexpr std::size_t max_json_memory = std::size_t{192} << 20;
+
+/// About the memory that nlohmann's values take, from above, without parsing: a number of two bytes becomes 48 (16 in
+/// a list that may have grown to twice its length, 16 again where it is destroyed), the member of an object 250.
+/// @param comments  the text may hold // and /* */
+std::size_t estimate_json_memory(std::string_view text, bool comments);
+
+/// Refuses a text whose values would take more than max_json_memory.
+/// @param advice  what to do about it
+/// @throws InputError
+void check_json_memory(std::string_view text, bool comments, const std::string& file, std::string_view advice);
+
 struct JsonText {
     nlohmann::json root;  ///< objects sorted by key
     /// Keys of the root's own objects as they stand in the file, by the object's name: where order counts.
     std::map<std::string, std::vector<std::string>> key_order;
 };
 
-/// Parses the text of a file, whatever the process's locale. Size and nesting are limited (gltf_json.h names the
-/// limits).
+/// Parses the text of a scene file, whatever the process's locale. Size, memory and nesting (max_json_depth) are
+/// limited.
 /// @throws InputError with place "line L, column C" for a syntax error or a number too large for a double, else a JSON
 /// pointer
 JsonText parse_json_text(std::string_view text, const std::string& file);

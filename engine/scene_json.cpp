@@ -107,6 +107,12 @@ int NameIndex::require(const JsonRef& at) const {
         fmt::format("there is no {} called \"{}\"{}", kind_, printable(at.string()), suggestion(at.string(), names_)));
 }
 
+void SceneReader::charge(std::size_t bytes, const JsonRef& at, const char* advice) {
+    memory += bytes;
+    if (memory <= max_scene_memory) return;
+    at.fail(fmt::format("up to here the scene takes more than {} MiB; {}", max_scene_memory >> 20, advice));
+}
+
 SceneText read_scene_text(std::string_view text, const std::string& file) {
     const JsonText parsed = parse_json_text(text, file);
     check_version(parsed.root, file);

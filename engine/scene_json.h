@@ -12,6 +12,8 @@ namespace aleph {
 
 /// Limits of a file, so that a small text cannot ask for all memory.
 inline constexpr std::size_t max_scene_nodes = 1000000;
+/// What is made of a text may take, bytes, beside the text and its values (json_text.h limits those).
+inline constexpr std::size_t max_scene_memory = std::size_t{192} << 20;
 inline constexpr std::size_t max_scene_cages = 4096;
 
 /// A scene without the content of its pictures and includes, and where the text names them.

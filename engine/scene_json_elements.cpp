@@ -20,6 +20,7 @@ std::string read_path(const JsonRef& at) {
 
 int add_image(SceneReader& reader, const JsonRef& at, const std::string& name) {
     const int index = static_cast<int>(reader.scene.images.size());
+    reader.charge(sizeof(SceneImage) + 300, at, "it has too many images");
     SceneImage image;
     image.name = name;
     image.path = read_path(at);
@@ -56,11 +57,18 @@ TextureRef read_texture(SceneReader& reader, const JsonRef& at) {
         }
     }
     texture.nearest = at.find_string("filter").value_or("linear") == "nearest";
+    if (const auto value = at.find("offset")) texture.uv_offset = read_dvec2(*value);
+    if (const auto value = at.find("scale")) texture.uv_scale = read_dvec2(*value);
+    const auto rotation = at.find("rotation"), radians = at.find("rotation_radians");
+    if (rotation && radians) radians->fail("either \"rotation\" or \"rotation_radians\", not both");
+    if (rotation) texture.uv_rotation = to_radians(rotation->number());
+    if (radians) texture.uv_rotation = radians->number();
     return texture;
 }
 
 int add_material(SceneReader& reader, const JsonRef& at, const std::string& name) {
     const FrameRate& rate = reader.scene.frame_rate;
+    reader.charge(sizeof(Material) + 600, at, "let shapes share materials");
     Material material = absent_material();
     material.name = name;
     for (const auto& field : material_numbers) {
@@ -72,6 +80,16 @@ int add_material(SceneReader& reader, const JsonRef& at, const std::string& name
     for (const auto& field : material_textures) {
         if (const auto value = at.find(field.key)) material.*field.member = read_texture(reader, *value);
     }
+    if (const auto value = at.find("alpha_mode")) {
+        material.alpha_mode = static_cast<Material::AlphaMode>(read_word(*value, alpha_words));
+    }
+    if (const auto value = at.find("alpha_cutoff")) {
+        material.alpha_cutoff = value->number();
+        if (material.alpha_mode != Material::AlphaMode::mask) {
+            value->fail("\"alpha_cutoff\" needs \"alpha_mode\": \"mask\"");
+        }
+    }
+    if (const auto value = at.find("unlit")) material.unlit = value->boolean();
     if (const auto value = at.find("double_sided")) material.double_sided = value->boolean();
     reader.materials.add(name, static_cast<int>(reader.scene.materials.size()));
     reader.scene.materials.push_back(std::move(material));
@@ -80,6 +98,7 @@ int add_material(SceneReader& reader, const JsonRef& at, const std::string& name
 
 int add_light(SceneReader& reader, const JsonRef& at, const std::string& name) {
     const FrameRate& rate = reader.scene.frame_rate;
+    reader.charge(sizeof(Light) + 300, at, "it has too many lights");
     Light light;
     light.name = name;
     const JsonRef type = at.require("type");
@@ -87,8 +106,22 @@ int add_light(SceneReader& reader, const JsonRef& at, const std::string& name) {
     if (const auto value = at.find("color")) light.color = read_vector(*value, rate, not_negative);
     if (const auto value = at.find("intensity")) light.intensity = read_number(*value, rate, not_negative);
     if (const auto value = at.find("range")) {
-        light.range = value->number();
+        light.range = read_number(*value, rate, not_negative);
         if (light.kind == Light::Kind::directional) value->fail("a directional light has no range");
+    }
+    for (const auto& field : light_cones) {
+        const auto degrees = at.find(field.key), radians = at.find(field.key_in_radians);
+        if (degrees && radians) {
+            radians->fail(fmt::format("either \"{}\" or \"{}\", not both", field.key, field.key_in_radians));
+        }
+        if (!degrees && !radians) continue;
+        if (light.kind != Light::Kind::spot) (degrees ? *degrees : *radians).fail("only a spot light has cones");
+        light.*field.member = degrees ? read_degrees(*degrees, rate, cone_degrees)
+                                      : read_number(*radians, rate, {0.0, std::numbers::pi / 2.0, false});
+    }
+    const bool constant = light.inner_cone.values.size() == 1 && light.outer_cone.values.size() == 1;
+    if (constant && light.inner_cone.values[0] > light.outer_cone.values[0]) {
+        at.fail("\"inner_cone\", where the light begins to fade, cannot be wider than \"outer_cone\", where it ends");
     }
     reader.lights.add(name, static_cast<int>(reader.scene.lights.size()));
     reader.scene.lights.push_back(std::move(light));
@@ -97,6 +130,7 @@ int add_light(SceneReader& reader, const JsonRef& at, const std::string& name) {
 
 int add_camera(SceneReader& reader, const JsonRef& at, const std::string& name) {
     const FrameRate& rate = reader.scene.frame_rate;
+    reader.charge(sizeof(Camera) + 400, at, "it has too many cameras");
     Camera camera;
     camera.name = name;
     const auto fov = at.find("fov"), fov_radians = at.find("fov_radians"), orthographic = at.find("orthographic");

@@ -24,6 +24,7 @@ inline constexpr ValueRange not_negative{0.0, std::numeric_limits<double>::infin
 inline constexpr ValueRange at_least_one{1.0, std::numeric_limits<double>::infinity(), false};
 inline constexpr ValueRange above_zero{0.0, std::numeric_limits<double>::infinity(), true};
 inline constexpr ValueRange field_of_view_degrees{0.0, 180.0, true};
+inline constexpr ValueRange cone_degrees{0.0, 90.0, false};
 
 template <class Element, class T>
 struct TrackField {
@@ -39,6 +40,7 @@ inline constexpr std::array material_numbers{
     TrackField<Material, double>{"specular", &Material::specular, zero_to_one},
     TrackField<Material, double>{"ior", &Material::ior, at_least_one},
     TrackField<Material, double>{"emission_strength", &Material::emission_strength, not_negative},
+    TrackField<Material, double>{"transmission", &Material::transmission, zero_to_one},
 };
 inline constexpr std::array material_colors{
     TrackField<Material, glm::dvec3>{"base_color", &Material::base_color, zero_to_one},
@@ -55,12 +57,25 @@ inline constexpr std::array material_textures{
     TextureField{"emission_texture", &Material::emission_texture},
     TextureField{"specular_texture", &Material::specular_texture},
     TextureField{"specular_color_texture", &Material::specular_color_texture},
+    TextureField{"transmission_texture", &Material::transmission_texture},
 };
 
 inline constexpr std::array camera_numbers{
     TrackField<Camera, double>{"half_height", &Camera::half_height, above_zero},
+    TrackField<Camera, double>{"shift_x", &Camera::shift_x, any_value},
+    TrackField<Camera, double>{"shift_y", &Camera::shift_y, any_value},
     TrackField<Camera, double>{"aperture", &Camera::aperture, not_negative},
     TrackField<Camera, double>{"focus", &Camera::focus_distance, above_zero},
+};
+
+struct ConeField {
+    const char* key;
+    const char* key_in_radians;
+    Track<double> Light::*member;
+};
+inline constexpr std::array light_cones{
+    ConeField{"inner_cone", "inner_cone_radians", &Light::inner_cone},
+    ConeField{"outer_cone", "outer_cone_radians", &Light::outer_cone},
 };
 
 struct ShapeNumber {
@@ -82,6 +97,7 @@ inline Material absent_material() {
 
 // Words of enumerations, in the order of their values.
 inline constexpr std::array interpolation_words{"step", "linear", "nearest", "cubic"};
+inline constexpr std::array alpha_words{"opaque", "mask", "blend"};
 inline constexpr std::array wrap_words{"repeat", "clamp", "mirror"};
 inline constexpr std::array shape_words{"quad", "box", "sphere", "cylinder", "torus", "lathe"};
 /// What each kind of shape takes, in the order of shape_words.

@@ -160,13 +160,9 @@ void read_triangles(SceneReader& reader, const JsonRef& at, Mesh& mesh) {
     }
 }
 
-/// Counts the triangles of a mesh that is not made yet.
-void count_triangles(SceneReader& reader, const JsonRef& at, std::size_t triangles, const char* advice) {
-    reader.shape_triangles += triangles;
-    if (reader.shape_triangles > max_shape_triangles) {
-        at.fail(fmt::format("with this shape there are more than {} triangles; {}", max_shape_triangles, advice));
-    }
-}
+// Bytes of a triangle with its share of vertices; OpenSubdiv's tables on top.
+constexpr std::size_t shape_triangle_bytes = 28, cage_triangle_bytes = 200;
+constexpr std::size_t mesh_bytes = sizeof(Mesh) + 1000;
 
 }  // namespace
 
@@ -195,6 +191,7 @@ void read_points(SceneReader& reader, const JsonRef& at, const std::string& name
 
 int read_mesh(SceneReader& reader, const JsonRef& at, const std::optional<JsonRef>& material,
               const std::optional<JsonRef>& present, const std::string& name) {
+    reader.charge(mesh_bytes, at, "let nodes share meshes");
     Mesh mesh;
     mesh.name = name;
     const JsonRef type = at.require("type");
@@ -207,11 +204,12 @@ int read_mesh(SceneReader& reader, const JsonRef& at, const std::optional<JsonRe
         const auto parts =
             static_cast<std::int64_t>(count_parts(reader.scene.cages[static_cast<std::size_t>(mesh.cage)]));
         mesh.cage_part = static_cast<int>(at.find_integer("part", 0, parts - 1).value_or(0));
-        count_triangles(reader, at, count_cage_triangles(reader.scene.cages[static_cast<std::size_t>(mesh.cage)]),
-                        "lower the cage's \"level\"");
+        reader.charge(
+            cage_triangle_bytes * count_cage_triangles(reader.scene.cages[static_cast<std::size_t>(mesh.cage)]), at,
+            "lower the cage's \"level\"");
     } else {
         mesh.shape = read_shape(at, static_cast<Shape::Kind>(read_word(type, shape_words)));
-        count_triangles(reader, at, shape_triangle_count(*mesh.shape), "lower \"segments\"");
+        reader.charge(shape_triangle_bytes * shape_triangle_count(*mesh.shape), at, "lower \"segments\"");
     }
     if (material) mesh.material = read_material_use(reader, *material, name);
     if (present) mesh.present = read_visibility(*present, reader.scene.frame_rate);

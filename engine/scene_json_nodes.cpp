@@ -2,7 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <unordered_set>
+
 #include "engine/base/errors.h"
+#include "engine/scene_json_operations.h"
 #include "engine/scene_json_reader.h"
 #include "engine/scene_json_tracks.h"
 #include "engine/transforms.h"
@@ -42,6 +45,7 @@ class NodeReader {
 
   private:
     void read(const JsonRef& at, int parent) {
+        reader_.charge(node_bytes, at, "it has too many nodes");
         const int index = static_cast<int>(scene_.nodes.size());
         Node node;
         node.parent = parent;
@@ -51,15 +55,18 @@ class NodeReader {
         if (!name) all_names_.add(node.name, index);
 
         read_transform(at, node);
+        if (const auto value = at.find("inherits")) node.inherits = read_visibility(*value, scene_.frame_rate);
         if (const auto value = at.find("visible")) node.visible = read_visibility(*value, scene_.frame_rate);
         const std::string inner = node.name.empty() ? fmt::format("node {}", index) : node.name;
         read_meshes(at, node, inner);
         if (const auto value = at.find("camera")) node.camera = read_camera_use(reader_, *value, inner);
         if (const auto value = at.find("light")) node.light = read_light_use(reader_, *value, inner);
 
-        if (!node.name.empty()) reader_.nodes.add(node.name, index);
-        scene_.nodes.push_back(std::move(node));
+        add_node(std::move(node));
+        if (const auto instance = at.find("instance")) read_instance(*instance, index);
+        const std::size_t includes = scene_.includes.size();
         read_includes(reader_, at, index);
+        if (scene_.includes.size() > includes) with_include_.insert(index);
         if (const auto children = at.find("children")) read_list(*children, index);
     }
 
@@ -77,14 +84,16 @@ class NodeReader {
 
     void read_transform(const JsonRef& at, Node& node) const {
         const FrameRate& rate = scene_.frame_rate;
-        if (const auto value = at.find("matrix")) {
-            for (const char* other : {"translation", "rotation", "scale"}) {
-                if (const auto found = at.find(other)) {
-                    found->fail(fmt::format("a node has either \"matrix\" or \"{}\", not both", other));
-                }
+        for (const char* whole : {"matrix", "operations"}) {
+            if (!at.has(whole)) continue;
+            for (const char* other : {"translation", "rotation", "scale", "operations"}) {
+                const auto found = at.find(other);
+                if (!found || std::string(other) == whole) continue;
+                found->fail(fmt::format("a node has either \"{}\" or \"{}\", not both", whole, other));
             }
-            node.matrix = read_matrix(*value, rate);
         }
+        if (const auto value = at.find("matrix")) node.matrix = read_matrix(*value, rate);
+        if (const auto value = at.find("operations")) node.operations = read_operations(*value, rate);
         if (const auto value = at.find("translation")) node.translation = read_vector(*value, rate, any_value);
         if (const auto value = at.find("scale")) node.scale = read_scale(*value, rate);
         if (const auto value = at.find("rotation")) read_rotation(*value, node);
@@ -121,16 +130,79 @@ class NodeReader {
                 node.meshes.push_back(reader_.meshes.require(mesh));
             }
         }
-        if (const auto instance = at.find("instance")) {
-            const Node& other = scene_.nodes[static_cast<std::size_t>(require_earlier(*instance, "what it shares"))];
-            if (other.meshes.empty()) instance->fail("that node has no meshes of its own to share");
-            node.meshes.insert(node.meshes.end(), other.meshes.begin(), other.meshes.end());
+    }
+
+    /// What the named node shows is shown here too: its meshes and light at this node, all that stands below it as
+    /// copies of those nodes.
+    void read_instance(const JsonRef& at, int index) {
+        const int source = require_earlier(at, "what it shows");
+        if (!children_[static_cast<std::size_t>(source)].empty()) refuse_ancestor(at, source, index);
+        bool shows = share(at, source, index);
+        struct Copy {
+            int source, parent;
+        };
+        std::vector<Copy> left;
+        const auto add_children = [&](int node, int parent) {
+            const std::vector<int>& below = children_[static_cast<std::size_t>(node)];
+            for (auto child = below.rbegin(); child != below.rend(); ++child) left.push_back({*child, parent});
+        };
+        add_children(source, index);
+        while (!left.empty()) {
+            const Copy next = left.back();
+            left.pop_back();
+            reader_.charge(node_bytes, at, "too many nodes are copied");
+            Node copy = scene_.nodes[static_cast<std::size_t>(next.source)];
+            copy.parent = next.parent;
+            copy.meshes.clear();
+            copy.light = copy.camera = no_index;
+            copy.name =
+                all_names_.unused(fmt::format("{}/{}", scene_.nodes[static_cast<std::size_t>(index)].name, copy.name));
+            const int made = add_node(std::move(copy));
+            all_names_.add(scene_.nodes.back().name, made);
+            shows = share(at, next.source, made) || shows;
+            add_children(next.source, made);
+        }
+        if (!shows) at.fail("neither that node nor one below it has meshes or a light to show");
+    }
+
+    void refuse_ancestor(const JsonRef& at, int source, int index) {
+        for (int above = index; above != no_index; above = scene_.nodes[static_cast<std::size_t>(above)].parent) {
+            if (above == source) at.fail("this node lies below the one it names: it would hold itself");
+            if (++ancestors_seen_ > max_ancestors_seen) at.fail("too many instances of sub-trees stand too deep");
         }
     }
+
+    /// True if the source has something to show.
+    bool share(const JsonRef& at, int source, int index) {
+        if (with_include_.contains(source)) {
+            at.fail("what an include brings cannot be shown twice: include the file again");
+        }
+        const Node& from = scene_.nodes[static_cast<std::size_t>(source)];
+        Node& to = scene_.nodes[static_cast<std::size_t>(index)];
+        reader_.charge(from.meshes.size() * sizeof(int), at, "too many meshes are shared");
+        to.meshes.insert(to.meshes.end(), from.meshes.begin(), from.meshes.end());
+        if (to.light == no_index) to.light = from.light;
+        return !from.meshes.empty() || from.light != no_index;
+    }
+
+    int add_node(Node node) {
+        const int index = static_cast<int>(scene_.nodes.size());
+        if (node.parent != no_index) children_[static_cast<std::size_t>(node.parent)].push_back(index);
+        if (!node.name.empty()) reader_.nodes.add(node.name, index);
+        children_.emplace_back();
+        scene_.nodes.push_back(std::move(node));
+        return index;
+    }
+
+    static constexpr std::size_t node_bytes = sizeof(Node) + 600;  // with values of tracks and names to look up
+    static constexpr std::size_t max_ancestors_seen = 10'000'000;
 
     SceneReader& reader_;
     Scene& scene_;
     NameIndex all_names_{"node"};
+    std::size_t ancestors_seen_ = 0;
+    std::vector<std::vector<int>> children_;  ///< by node
+    std::unordered_set<int> with_include_;
 };
 
 }  // namespace

@@ -37,7 +37,11 @@ struct SceneReader {
     NameIndex points{"list of points"}, cages{"cage"};
     std::vector<std::string> cage_places;  ///< JSON pointer per scene.cages
     std::unordered_map<std::string, int> image_of_path;
-    std::size_t shape_triangles = 0;
+    std::size_t memory = 0;  ///< that the elements take, about
+
+    /// Counts what is about to be made.
+    /// @throws InputError at `at` beyond max_scene_memory
+    void charge(std::size_t bytes, const JsonRef& at, const char* advice);
 };
 
 using KeyOrder = std::map<std::string, std::vector<std::string>>;
@@ -83,7 +87,7 @@ void make_cage_meshes(SceneReader& reader);
 
 /// Parts that a cage's faces belong to.
 std::size_t count_parts(const Cage& cage);
-/// Triangles of all parts at the cage's level, within a factor of 2.
+/// Triangles of all parts at the cage's level.
 std::size_t count_cage_triangles(const Cage& cage);
 
 /// Where a cache's first sample puts the vertices of a mesh.

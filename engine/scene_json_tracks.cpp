@@ -258,7 +258,10 @@ Track<glm::dmat4> read_matrix(const JsonRef& at, const FrameRate& rate) {
 }
 
 Track<double> read_visibility(const JsonRef& at, const FrameRate& rate) {
-    const auto read = [](const JsonRef& value, const ValueRange&) { return value.boolean() ? 1.0 : 0.0; };
+    const auto read = [](const JsonRef& value, const ValueRange&) {
+        if (value.json().is_string()) return 2.0;  // "always", by the schema
+        return value.boolean() ? 1.0 : 0.0;
+    };
     return read_track<double>(at, rate, {read}, Interpolation::step);
 }
 

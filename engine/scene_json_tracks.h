@@ -17,6 +17,7 @@ Track<glm::dvec3> read_vector(const JsonRef& at, const FrameRate& rate, const Va
 Track<glm::dvec3> read_scale(const JsonRef& at, const FrameRate& rate);
 Track<glm::dquat> read_quaternion(const JsonRef& at, const FrameRate& rate);
 Track<glm::dmat4> read_matrix(const JsonRef& at, const FrameRate& rate);
+/// false, true and "always" as 0, 1 and 2; step.
 Track<double> read_visibility(const JsonRef& at, const FrameRate& rate);
 /// Degrees in the file, radians in the track. @param range  degrees
 Track<double> read_degrees(const JsonRef& at, const FrameRate& rate, const ValueRange& range);

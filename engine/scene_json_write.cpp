@@ -8,6 +8,7 @@
 #include "engine/cage_validate.h"
 #include "engine/json_text.h"
 #include "engine/scene_json.h"
+#include "engine/scene_json_operations.h"
 #include "engine/scene_json_tracks.h"
 #include "engine/scene_json_write_meshes.h"
 #include "engine/shapes.h"
@@ -152,6 +153,12 @@ class Writer {
             out["wrap"] = word(texture.wrap_u);
         }
         if (texture.nearest) out["filter"] = "nearest";
+        if (texture.uv_offset != glm::dvec2(0.0)) out["offset"] = {texture.uv_offset.x, texture.uv_offset.y};
+        if (texture.uv_scale != glm::dvec2(1.0)) out["scale"] = {texture.uv_scale.x, texture.uv_scale.y};
+        if (texture.uv_rotation != 0.0) {
+            const auto degrees = exact_degrees(texture.uv_rotation);
+            out[degrees ? "rotation" : "rotation_radians"] = degrees.value_or(texture.uv_rotation);
+        }
         return out;
     }
 
@@ -167,6 +174,11 @@ class Writer {
         for (const auto& field : material_textures) {
             if ((material.*field.member).image != no_index) out[field.key] = write_texture(material.*field.member);
         }
+        if (material.alpha_mode != absent.alpha_mode) {
+            out["alpha_mode"] = alpha_words[static_cast<std::size_t>(material.alpha_mode)];
+        }
+        if (material.alpha_cutoff != absent.alpha_cutoff) out["alpha_cutoff"] = material.alpha_cutoff;
+        if (material.unlit) out["unlit"] = true;
         if (material.double_sided) out["double_sided"] = true;
         return out;
     }
@@ -222,7 +234,12 @@ class Writer {
         ordered_json out = {{"type", light_words[static_cast<std::size_t>(light.kind)]}};
         track(out, "color", light.color, absent.color, write_vector);
         track(out, "intensity", light.intensity, absent.intensity, write_number);
-        if (light.range.values.front() != 0.0) out["range"] = light.range.values.front();
+        track(out, "range", light.range, absent.range, write_number);
+        for (const auto& field : light_cones) {
+            if (light.*field.member != absent.*field.member) {
+                angle(out, field.key, field.key_in_radians, light.*field.member);
+            }
+        }
         return out;
     }
 
@@ -260,6 +277,9 @@ class Writer {
             validate(*node.matrix, file_, place_ + " matrix");
             out["matrix"] = write_matrix(*node.matrix, rate_);
         }
+        if (node.operations)
+            out["operations"] = write_operations(*node.operations, rate_, file_, place_ + " operations");
+        track(out, "inherits", node.inherits, absent.inherits, write_visibility);
         track(out, "visible", node.visible, absent.visible, write_visibility);
         if (node.meshes.size() == 1) {
             out["mesh"] = name_in(scene_.meshes, node.meshes.front());

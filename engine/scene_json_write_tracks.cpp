@@ -128,7 +128,9 @@ ordered_json write_matrix(const Track<glm::dmat4>& track, const FrameRate& rate)
 
 ordered_json write_visibility(const Track<double>& track, const FrameRate& rate) {
     return write_track(
-        track, rate, [](double visible) { return ordered_json(visible != 0.0); }, Interpolation::step);
+        track, rate,
+        [](double visible) { return visible == 2.0 ? ordered_json("always") : ordered_json(visible != 0.0); },
+        Interpolation::step);
 }
 
 std::optional<double> exact_degrees(double radians) {

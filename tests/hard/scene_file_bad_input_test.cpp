@@ -89,18 +89,14 @@ TEST(BadSceneFile, Limits) {
         {nested(100000, "[", "", ""), "", "128 deep"},
         {nested(200, "{\"a\":", "1", "}"), "", "128 deep"},
         scene("\"nodes\": [" + nested(70, "{\"children\": [", "", "]}") + "]", "", "128 deep"),
-        scene(R"("nodes": [{"shape": {"type": "sphere", "segments": 4096}},
-            {"shape": {"type": "sphere", "segments": 4096}}, {"shape": {"type": "sphere", "segments": 4096}},
-            {"shape": {"type": "sphere", "segments": 4096}}, {"shape": {"type": "sphere", "segments": 4096}}])",
-              "/nodes/1/shape", "triangles"),
+        scene(R"("nodes": [{"shape": {"type": "sphere", "segments": 1024}},
+            {"shape": {"type": "sphere", "segments": 4096}}])",
+              "/nodes/1/shape", "lower \"segments\""),
     });
     // Memory that nobody touches: the size is looked at before the text.
-    constexpr std::size_t too_large = (std::size_t{256} << 20) + 1;
+    constexpr std::size_t too_large = (std::size_t{64} << 20) + 1;
     const std::unique_ptr<char, void (*)(void*)> text(static_cast<char*>(std::calloc(too_large, 1)), std::free);
     EXPECT_THROW(read_scene_text({text.get(), too_large}, "broken.json"), InputError);
-    std::string many = "{\"aleph\": 1, \"nodes\": [{}";
-    for (int i = 0; i < 1000000; ++i) many += ",{}";
-    expect_refused({many + "]}", "/nodes/1000000", "more than 1000000 nodes"});
 }
 
 TEST(BadSceneFile, TopLevel) {
@@ -183,6 +179,14 @@ TEST(BadSceneFile, Materials) {
                  "from 0 to 1"),
         material("\"base_color_texture\": {\"image\": \"a.png\", \"wrap\": \"tile\"}", "/base_color_texture/wrap",
                  "\"repeat\""),
+        material("\"alpha_mode\": \"clip\"", "/alpha_mode", "\"mask\""),
+        material("\"alpha_cutoff\": 0.5", "/alpha_cutoff", "needs \"alpha_mode\""),
+        material("\"transmission\": 2", "/transmission", "between 0 and 1"),
+        material("\"unlit\": 1", "/unlit", "true or false"),
+        material("\"base_color_texture\": {\"image\": \"a.png\", \"scale\": 2}", "/base_color_texture/scale",
+                 "2 numbers"),
+        material("\"base_color_texture\": {\"image\": \"a.png\", \"rotation\": 2, \"rotation_radians\": 1}",
+                 "/base_color_texture/rotation_radians", "either"),
         material("\"base_color_texture\": \"/etc/a.png\"", "/base_color_texture", "absolute"),
         material("\"base_color_texture\": \"http://a.b/c.png\"", "/base_color_texture", "addresses"),
         material("\"base_color_texture\": \"file:a.png\"", "/base_color_texture", "addresses"),
@@ -219,11 +223,15 @@ TEST(BadSceneFile, CamerasAndLights) {
         camera("\"focus\": 0", "/focus", "above 0"),
         camera("\"focal_length\": 35", "/focal_length", "unknown key"),
         light("\"intensity\": 3", "", "\"type\" is missing"),
-        light("\"type\": \"spt\"", "/type", "in this version"),
+        light("\"type\": \"spt\"", "/type", "\"spot\""),
+        light("\"type\": \"point\", \"outer_cone\": 30", "/outer_cone", "only a spot"),
+        light("\"type\": \"spot\", \"outer_cone\": 91", "/outer_cone", "between 0 and 90"),
+        light("\"type\": \"spot\", \"inner_cone\": 50", "", "wider than"),
+        light("\"type\": \"spot\", \"inner_cone\": 5, \"inner_cone_radians\": 0.1", "/inner_cone_radians", "either"),
         light("\"type\": \"point\", \"color\": [1, 1]", "/color", "3 numbers"),
         light("\"type\": \"point\", \"color\": [1, 1, -0.5]", "/color/2", "at least 0"),
         light("\"type\": \"point\", \"intensity\": -1", "/intensity", "at least 0"),
-        light("\"type\": \"point\", \"range\": 0", "/range", "above 0"),
+        light("\"type\": \"point\", \"range\": -1", "/range", "at least 0"),
         light("\"type\": \"directional\", \"range\": 3", "/range", "no range"),
     });
 }
@@ -269,7 +277,26 @@ TEST(BadSceneFile, Nodes) {
         scene(R"("nodes": [{"name": "a", "parent": "b"}, {"name": "b", "parent": "a"}])", "/nodes/0/parent", "before"),
         scene(R"("nodes": [{"name": "a", "parent": "a"}])", "/nodes/0/parent", "below itself"),
         scene(R"("nodes": [{"name": "a", "instance": "b"}, {"name": "b"}])", "/nodes/0/instance", "before"),
-        scene(R"("nodes": [{"name": "a"}, {"instance": "a"}])", "/nodes/1/instance", "no meshes"),
+        scene(R"("nodes": [{"name": "a"}, {"instance": "a"}])", "/nodes/1/instance", "meshes or a light"),
+        scene(R"("nodes": [{"name": "a", "shape": {"type": "box"}, "children": [{"children": [{"instance": "a"}]}]}])",
+              "/nodes/0/children/0/children/0/instance", "hold itself"),
+        scene(R"("nodes": [{"name": "a", "include": "a.glb"}, {"instance": "a"}])", "/nodes/1/instance",
+              "include the file"),
+        node("\"inherits\": 0", "/inherits", "true or false"),
+        node("\"visible\": \"sometimes\"", "/visible", "\"always\""),
+        node("\"operations\": {}", "/operations", "a list of operations"),
+        node("\"operations\": [{}]", "/operations/0", "one key"),
+        node("\"operations\": [{\"rotate_x\": 1, \"rotate_y\": 1}]", "/operations/0", "one key"),
+        node("\"operations\": [{\"turn\": 1}]", "/operations/0/turn", "unknown key"),
+        node("\"operations\": [{\"rotate\": {\"axis\": [0, 1, 0]}}]", "/operations/0/rotate", "either \"degrees\""),
+        node("\"operations\": [], \"scale\": 2", "/scale", "either \"operations\" or \"scale\""),
+        node("\"operations\": [], \"matrix\": [1,0,0,0, 0,1,0,0, 0,0,1,0, 0,0,0,1]", "/operations",
+             "either \"matrix\""),
+        node("\"operations\": [{\"rotate_x\": {\"keys\": [[0, 1], [5, 2]], \"interpolation\": \"step\"}}]",
+             "/operations/0/rotate_x", "linear"),
+        node("\"operations\": [{\"rotate_x\": {\"keys\": [[0, 1], [5, 2]]}}, {\"rotate_y\": {\"keys\": [[0, 1], [6, "
+             "2]]}}]",
+             "/operations/1/rotate_y", "same times"),
         scene(R"("nodes": [{"name": "a"}, {"parent": ""}])", "/nodes/1/parent", "no node called"),
         scene(R"("materials": {"felt": {}, "wood": {}}, "nodes": [{"shape": {"type": "box"}, "material": "flet"}])",
               "/nodes/0/material", "did you mean \"felt\""),

@@ -217,15 +217,16 @@ TEST_F(Archive, FilesThatCannotBeRead) {
     expect_refused(folder_ / "missing.glb", "", "there is no file");
     fs::create_directories(folder_ / "folder.json");
     expect_refused(folder_ / "folder.json", "", "not a regular file");
-    expect_refused(folder_, "", "expected a .json, .gltf or .glb");
-    expect_refused(write("a.abc", "Ogawa"), "", "not read by this version");
+    expect_refused(folder_, "", "expected a .json, .gltf, .glb or .abc");
+    expect_refused(write("a.abc", "Ogawa"), "header", "ends inside its header");
+    expect_refused(write("old.abc", "\x89HDF\r\n"), "", "abcconvert");
     expect_refused(write("a.obj", "v 0 0 0"), "", "\".obj\"");
     expect_refused("/dev/zero", "", "expected a .json");
     fs::create_symlink("/dev/zero", folder_ / "zero.json");
     expect_refused(folder_ / "zero.json", "", "not a regular file");
     write("huge.json", "");
-    fs::resize_file(folder_ / "huge.json", (std::uintmax_t{256} << 20) + 1);
-    expect_refused(folder_ / "huge.json", "", "larger than 268435456 bytes");
+    fs::resize_file(folder_ / "huge.json", (std::uintmax_t{64} << 20) + 1);
+    expect_refused(folder_ / "huge.json", "", "larger than 64 MiB");
 }
 
 TEST_F(Archive, FilesThatASceneNamesAndThatCannotBeRead) {
@@ -237,9 +238,9 @@ TEST_F(Archive, FilesThatASceneNamesAndThatCannotBeRead) {
     write("scene2.json", "{\"aleph\": 1}");
     refused(R"("include": "missing.glb")", "/include", "there is no file");
     refused(R"("nodes": [{}, {"include": ["missing.glb"]}])", "/nodes/1/include/0", "there is no file");
-    refused(R"("include": "scene2.json")", "/include", ".gltf or .glb");
-    refused(R"("include": "a.abc")", "/include", "not read by this version");
-    refused(R"("include": "lib")", "/include", ".gltf or .glb");
+    refused(R"("include": "scene2.json")", "/include", ".gltf, .glb or .abc");
+    refused(R"("include": "a.abc")", "/include", "there is no file");
+    refused(R"("include": "lib")", "/include", ".gltf, .glb or .abc");
     refused(R"("materials": {"m": {"base_color_texture": "missing.png"}})", "/materials/m/base_color_texture",
             "there is no file");
     refused(R"("materials": {"m": {"base_color_texture": "dir.png"}})", "/materials/m/base_color_texture",

@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "engine/base/errors.h"
+#include "engine/pose.h"
 #include "engine/scene_json_tracks.h"
 #include "engine/shapes.h"
 
@@ -125,6 +126,81 @@ TEST(SceneJson, CamerasAndLights) {
     EXPECT_EQ(scene.lights[0].intensity, Track<double>(40.0));
     EXPECT_EQ(scene.lights[0].range, 9.0);
     EXPECT_EQ(scene.lights[1].kind, Light::Kind::directional);
+}
+
+TEST(SceneJson, SpotLightsShiftedLensesAndWhatMaterialsDo) {
+    const Scene scene =
+        read(R"(, "lights": {"s": {"type": "spot", "inner_cone": 20, "outer_cone": {"keys": [[0, 30], [30, 60]]},
+          "range": {"keys": [[0, 5], [30, 0]]}}},
+        "cameras": {"c": {"shift_x": 0.25, "shift_y": {"keys": [[0, 0], [10, -1]]}}},
+        "materials": {"m": {"transmission": 0.75, "transmission_texture": "t.png", "alpha_mode": "mask", "alpha_cutoff": 0.25,
+          "unlit": true, "base_color_texture": {"image": "t.png", "offset": [0.5, 0.25], "scale": [2, -3], "rotation": 90}}})");
+    EXPECT_EQ(scene.lights[0].kind, Light::Kind::spot);
+    EXPECT_EQ(scene.lights[0].inner_cone, Track<double>(to_radians(20.0)));
+    EXPECT_EQ(scene.lights[0].outer_cone.values, (std::vector<double>{to_radians(30.0), to_radians(60.0)}));
+    EXPECT_EQ(scene.lights[0].range.values, (std::vector<double>{5.0, 0.0}));
+    EXPECT_EQ(scene.cameras[0].shift_x, Track<double>(0.25));
+    EXPECT_EQ(scene.cameras[0].shift_y.values, (std::vector<double>{0.0, -1.0}));
+    const Material& m = scene.materials[0];
+    EXPECT_EQ(m.transmission, Track<double>(0.75));
+    EXPECT_EQ(m.transmission_texture, (TextureRef{.image = 0}));
+    EXPECT_EQ(m.alpha_mode, Material::AlphaMode::mask);
+    EXPECT_EQ(m.alpha_cutoff, 0.25);
+    EXPECT_TRUE(m.unlit);
+    EXPECT_EQ(m.base_color_texture.uv_offset, glm::dvec2(0.5, 0.25));
+    EXPECT_EQ(m.base_color_texture.uv_scale, glm::dvec2(2.0, -3.0));
+    EXPECT_EQ(m.base_color_texture.uv_rotation, to_radians(90.0));
+    EXPECT_EQ(again(scene), scene);
+}
+
+TEST(SceneJson, NodesThatDoNotInheritAndAlwaysShow) {
+    const Scene scene =
+        read(R"(, "fps": 10, "nodes": [{"name": "a", "translation": [1, 0, 0], "visible": false, "children": [
+        {"name": "b", "inherits": {"keys": [[0, true], [10, false]]}, "visible": {"keys": [[0, true], [10, "always"]]}}]}])");
+    const SceneFrame before = pose(scene, 0.5), after = pose(scene, 1.0);
+    EXPECT_EQ(before.world[1][3].x, 1.0);
+    EXPECT_EQ(after.world[1][3].x, 0.0);
+    EXPECT_EQ(before.visible[1], 0);
+    EXPECT_EQ(after.visible[1], 1);
+    EXPECT_EQ(again(scene), scene);
+}
+
+TEST(SceneJson, OperationsMultiplyFromLeftToRightAndInterpolateOneByOne) {
+    const Scene scene = read(R"(, "fps": 10, "nodes": [{"operations": [{"translate": [1, 0, 0]},
+        {"rotate_y": {"keys": [[0, 0], [10, 360]]}}, {"rotate_x": 90}, {"scale": 2},
+        {"rotate": {"axis": [0, 0, 1], "degrees": {"keys": [[0, 0], [10, 90]]}}}]}])");
+    ASSERT_TRUE(scene.nodes[0].operations);
+    const OperationStack& stack = *scene.nodes[0].operations;
+    EXPECT_EQ(stack.operations.size(), 5u);
+    EXPECT_EQ(stack.channels.size(), 2u * (3 + 1 + 1 + 3 + 4));
+    // At half time: about z by 45, doubled, about x by 90, about y by 180, then moved.
+    const glm::dvec4 moved = pose(scene, 0.5).world[0] * glm::dvec4(1.0, 0.0, 0.0, 1.0);
+    const double half = std::sqrt(2.0);
+    EXPECT_NEAR(moved.x, 1.0 - half, 1e-12);
+    EXPECT_NEAR(moved.y, 0.0, 1e-12);
+    EXPECT_NEAR(moved.z, -half, 1e-12);
+    EXPECT_EQ(again(scene), scene);
+}
+
+TEST(SceneJson, AnInstanceShowsAWholeSubTree) {
+    const Scene scene = read(R"(, "nodes": [{"name": "tree", "shape": {"type": "cylinder"}, "children": [
+          {"name": "crown", "translation": [0, 2, 0], "shape": {"type": "sphere"}, "camera": {},
+           "children": [{"name": "apple", "light": {"type": "point"}}]},
+          {"name": "root"}]},
+        {"name": "tree 2", "instance": "tree", "translation": [5, 0, 0]},
+        {"name": "tree 3", "instance": "tree 2", "translation": [9, 0, 0]}])");
+    ASSERT_EQ(scene.nodes.size(), 12u);
+    EXPECT_EQ(scene.meshes.size(), 2u) << "meshes are shared";
+    EXPECT_EQ(scene.nodes[4].name, "tree 2");
+    EXPECT_EQ(scene.nodes[4].meshes, scene.nodes[0].meshes);
+    EXPECT_EQ(scene.nodes[5].name, "tree 2/crown");
+    EXPECT_EQ(scene.nodes[5].parent, 4);
+    EXPECT_EQ(scene.nodes[5].camera, no_index) << "cameras are not shared";
+    EXPECT_EQ(scene.nodes[6].light, 0);
+    EXPECT_EQ(scene.nodes[6].parent, 5);
+    EXPECT_EQ(scene.nodes[9].meshes, scene.nodes[1].meshes);
+    EXPECT_EQ(pose(scene, 0.0).world[9][3], glm::dvec4(9.0, 2.0, 0.0, 1.0));
+    EXPECT_EQ(again(scene), scene);
 }
 
 TEST(SceneJson, ShapesOfNodesTakeTheirNames) {

@@ -10,6 +10,7 @@
 #include <random>
 
 #include "engine/base/errors.h"
+#include "engine/operation_stack.h"
 #include "engine/scene_json.h"
 #include "engine/scene_json_tracks.h"
 #include "engine/shapes.h"
@@ -111,24 +112,34 @@ Scene make_full_scene(Numbers& n) {
             material.ior = n.track([&] { return 1.0 + n.unit(); });
             for (const auto& field : material_colors) material.*field.member = n.track(color);
             for (const auto& field : material_textures) {
-                material.*field.member = {n.below(3), n.below(2), static_cast<Wrap>(n.below(3)),
-                                          static_cast<Wrap>(n.below(3)), n.below(2) == 1};
+                material.*field.member = {
+                    n.below(3),      n.below(2),         static_cast<Wrap>(n.below(3)), static_cast<Wrap>(n.below(3)),
+                    n.below(2) == 1, {n.any(), n.any()}, {n.any(), n.unit()},           10.0 * n.unit()};
             }
+            material.alpha_mode = static_cast<Material::AlphaMode>(i % 3);
+            if (material.alpha_mode == Material::AlphaMode::mask) material.alpha_cutoff = n.unit();
+            material.unlit = i == 2;
             material.double_sided = true;
         }
         scene.materials.push_back(material);
         Light light;
         light.name = fmt::format("light {}", i);
-        light.kind = static_cast<Light::Kind>(i % 2);
+        light.kind = static_cast<Light::Kind>(i % 3);
         light.color = n.track(color);
         light.intensity = n.track(positive);
-        light.range = i == 2 ? n.positive() : 0.0;
+        if (light.kind != Light::Kind::directional) light.range = n.track(positive);
+        if (light.kind == Light::Kind::spot) {
+            light.inner_cone = n.track([&] { return 0.5 * n.unit(); });
+            light.outer_cone = n.track([&] { return 0.6 + 0.5 * n.unit(); });
+        }
         scene.lights.push_back(light);
         Camera camera;
         camera.name = fmt::format("camera {}", i);
         camera.orthographic = i == 2;
         camera.fov = n.track([&] { return 0.001 + 3.0 * n.unit(); });
         camera.half_height = n.track(positive);
+        camera.shift_x = n.track(unit);
+        camera.shift_y = n.track(unit);
         camera.near_plane = n.positive();
         camera.shutter = {-n.unit(), n.unit()};
         camera.aperture = n.track(unit);
@@ -155,7 +166,21 @@ Scene make_full_scene(Numbers& n) {
         node.name = i % 7 == 6 ? "" : fmt::format("node {}", 50 - i);
         if (i > 0 && i % 7 != 0) node.parent = i - 1;
         if (node.parent >= 0 && scene.nodes[static_cast<std::size_t>(node.parent)].name.empty()) node.parent = no_index;
-        if (i % 3 == 0) {
+        if (i % 6 == 3) {
+            OperationStack& stack = node.operations.emplace();
+            for (int o = n.below(5); o > 0; --o)
+                stack.operations.push_back(static_cast<OperationStack::Kind>(n.below(7)));
+            const Track<double> times = n.track(unit, false);  // for its sampling
+            for (std::size_t key = 0; key < times.values.size() && !stack.operations.empty(); ++key) {
+                stack.sampling = times.sampling;
+                for (const OperationStack::Kind kind : stack.operations) {
+                    std::vector<double> channels(channel_count(kind));
+                    for (double& channel : channels) channel = i == 9 ? 0.5 : n.unit();  // 9: keys that change nothing
+                    if (channels.size() == 16) channels[3] = channels[7] = channels[11] = 0.0, channels[15] = 1.0;
+                    stack.channels.insert(stack.channels.end(), channels.begin(), channels.end());
+                }
+            }
+        } else if (i % 3 == 0) {
             node.matrix = n.track(
                 [&] {
                     glm::dmat4 m(1.0);
@@ -173,8 +198,10 @@ Scene make_full_scene(Numbers& n) {
                                                   n.track([&] { return 100.0 * n.unit(); })};
             }
         }
-        node.visible = n.track([&] { return static_cast<double>(n.below(2)); }, false);
-        node.visible.interpolation = Interpolation::step;
+        node.visible = n.track([&] { return static_cast<double>(n.below(3)); }, false);
+        node.visible.interpolation = n.below(2) == 0 ? Interpolation::step : Interpolation::nearest;
+        node.inherits = n.track([&] { return static_cast<double>(n.below(2)); }, false);
+        node.inherits.interpolation = Interpolation::step;
         for (int mesh = 0; mesh < i % 4; ++mesh) node.meshes.push_back((i + mesh) % 6);
         if (i % 5 == 0) node.camera = n.below(4);
         if (i % 6 == 0) node.light = n.below(4);
@@ -281,7 +308,23 @@ void expect_spoiled(const Spoil& spoil, const std::string& place, const std::str
 TEST(SceneJsonWrite, WhatTheFormatCannotSayIsRefused) {
     EXPECT_EQ(again(make_good_scene()), make_good_scene());
     const double nan = std::numeric_limits<double>::quiet_NaN(), inf = std::numeric_limits<double>::infinity();
-    expect_spoiled([](Scene& s) { s.meshes[0].shape.reset(); }, "mesh", "shape");
+    expect_spoiled([](Scene& s) { s.meshes[0].points = 0; }, "mesh 0", "points");
+    expect_spoiled([](Scene& s) { s.meshes[0].uv[0].pop_back(), s.meshes[0].shape.reset(); }, "/meshes/a/shape/uv",
+                   "one for each");
+    expect_spoiled([](Scene& s) { s.meshes[0].shape.reset(), s.meshes[0].positions[3].x = NAN; }, "", "finite");
+    expect_spoiled([](Scene& s) { s.point_caches.emplace_back().name = "p"; }, "\"p\"", "no positions");
+    expect_spoiled([](Scene& s) { s.cages.emplace_back().name = "c"; }, "c", "no element -1");
+    expect_spoiled(
+        [](Scene& s) {
+            PointCache& points = s.point_caches.emplace_back();
+            points.name = "p";
+            points.positions = {{{0, 0, 0}}};
+            Cage& cage = s.cages.emplace_back();
+            cage.name = "c";
+            cage.face_sizes = {5};
+            cage.points = 0;
+        },
+        "c", "corners");
     expect_spoiled([](Scene& s) { s.meshes[0].positions[3].x += 1.0f; }, "mesh 0", "exactly");
     expect_spoiled([](Scene& s) { s.images.push_back({.name = "embedded", .path = "", .bytes = {}, .floats = {}}); },
                    "image", "path");
