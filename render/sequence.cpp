@@ -4,6 +4,7 @@
 
 #include "engine/base/errors.h"
 #include "engine/base/parallel.h"
+#include "engine/cage_level.h"
 #include "motion/image_motion.h"
 #include "motion/model_motion.h"
 #include "motion/velocity.h"
@@ -55,6 +56,14 @@ Image<Rgb> estimate_moment(const Scene& scene, const TextureSet& textures, const
     return compute_estimate({shading, lights, rays}, moment.view, centers, kind, exposure, counts);
 }
 
+/// The scene with its subdivision cages at the levels that the picture asks for; null where they are.
+std::unique_ptr<Scene> refine_cages(const Scene& scene, int camera, const RenderSettings& settings) {
+    if (scene.cages.empty()) return nullptr;
+    std::vector<int> levels(scene.cages.size(), settings.subdivision_level);
+    if (settings.subdivision_level < 0) levels = choose_cage_levels(scene, camera, settings.width, settings.height);
+    return make_scene_at_levels(scene, levels);
+}
+
 bool is_cut(const Scene& scene, std::int64_t frame) {
     return std::find(scene.cuts.begin(), scene.cuts.end(), frame) != scene.cuts.end();
 }
@@ -75,7 +84,8 @@ std::array<std::pair<const char*, double>, 10> list_stages(const StageSeconds& s
 }
 
 struct Sequence::State {
-    const Scene& scene;
+    std::unique_ptr<const Scene> refined;  ///< where the picture asks for other levels of cages than the scene has
+    const Scene& scene;                    ///< that, or the caller's
     RenderSettings settings;
     int camera;
     FrameRange range;
@@ -86,9 +96,12 @@ struct Sequence::State {
     double exposure = 1.0;
 };
 
-Sequence::Sequence(const Scene& scene, const RenderSettings& settings, const std::string& camera) {
+Sequence::Sequence(const Scene& authored, const RenderSettings& settings, const std::string& camera) {
     validate(settings);
-    state_.reset(new State{scene, settings, find_camera(scene, camera), frame_range(scene), scene.viewing,
+    const int camera_index = find_camera(authored, camera);
+    std::unique_ptr<const Scene> refined = refine_cages(authored, camera_index, settings);
+    const Scene& scene = refined ? *refined : authored;
+    state_.reset(new State{std::move(refined), scene, settings, camera_index, frame_range(scene), scene.viewing,
                            make_texture_set(scene), RayScene(scene), nullptr, 1.0});
     State& s = *state_;
     s.viewing.frames_per_second = scene.frame_rate.per_second();

@@ -141,6 +141,9 @@ std::vector<Entry> make_entries() {
                              &S::shade_radius, 1.0, 2.0));
     e.push_back(number_entry("min_radius_pixels", "a record reaches at least this far, pixels", &S::min_radius_pixels,
                              0.1, 1000.0));
+    e.push_back(number_entry("subdivision_level",
+                             "of every subdivision cage, 0 to 10, at most its own max_level; -1: as pixels ask for",
+                             &S::subdivision_level, -1, 10));
     return e;
 }
 
