@@ -1,0 +1,355 @@
+// The scenes art-gallery and antique-room: they hold what their READMEs promise, move as physics wants, and come from
+// their programs byte for byte.
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <glm/geometric.hpp>
+#include <map>
+#include <numbers>
+#include <set>
+#include <sstream>
+
+#include "engine/archive.h"
+#include "engine/first_hits.h"
+#include "engine/pose.h"
+#include "scenes/antique-room/antique_room.h"
+#include "scenes/art-gallery/gallery.h"
+#include "scenes/art-gallery/pictures.h"
+
+namespace aleph {
+namespace {
+
+namespace fs = std::filesystem;
+
+const fs::path scenes = fs::path(ALEPH_SOURCE_DIR) / "scenes";
+constexpr double pi = std::numbers::pi;
+
+const Scene& loaded(const std::string& name) {
+    static std::map<std::string, Scene> cache;
+    if (!cache.contains(name)) cache[name] = load_scene(scenes / name / "scene.json");
+    return cache[name];
+}
+
+std::string read_bytes(const fs::path& path) {
+    std::ifstream stream(path, std::ios::binary);
+    EXPECT_TRUE(stream.good()) << path;
+    std::ostringstream text;
+    text << stream.rdbuf();
+    return text.str();
+}
+
+int find_node(const Scene& scene, const std::string& name) {
+    for (std::size_t i = 0; i < scene.nodes.size(); ++i)
+        if (scene.nodes[i].name == name) return static_cast<int>(i);
+    ADD_FAILURE() << "no node " << name;
+    return 0;
+}
+
+const glm::dmat4& world_of(const SceneFrame& frame, int node) {
+    return frame.world[static_cast<std::size_t>(node)];
+}
+
+std::string top_of(const Scene& scene, int node) {
+    while (scene.nodes[static_cast<std::size_t>(node)].parent != no_index)
+        node = scene.nodes[static_cast<std::size_t>(node)].parent;
+    return scene.nodes[static_cast<std::size_t>(node)].name;
+}
+
+std::size_t count_triangles(const Scene& scene) {
+    std::size_t count = 0;
+    for (const Mesh& mesh : scene.meshes) count += mesh.triangles.size();
+    return count;
+}
+
+/// Nodes that shine.
+std::set<std::string> find_lamps(const Scene& scene) {
+    std::set<std::string> lamps;
+    for (const Instance& instance : list_instances(scene)) {
+        const int material = scene.meshes[static_cast<std::size_t>(instance.mesh)].material;
+        if (evaluate(scene.materials[static_cast<std::size_t>(material)].emission, 0.0) != glm::dvec3(0.0))
+            lamps.insert(scene.nodes[static_cast<std::size_t>(instance.node)].name);
+    }
+    return lamps;
+}
+
+Image<Hit> cast(const Scene& scene, const SceneFrame& now, int width, int height) {
+    const CameraView view = make_camera_view(now.cameras.front(), width, height);
+    RayScene rays(scene);
+    rays.update(now, compute_anchor(view));
+    return cast_first_hits(rays, view);
+}
+
+/// Every file that the program writes is the one in the folder, and there are no others of its kind.
+void expect_same_files(const std::string& name, const Scene& made, const std::vector<DrawnTexture>& textures) {
+    const fs::path folder = fs::temp_directory_path() / ("aleph-" + name + "-" + std::to_string(::getpid()));
+    fs::remove_all(folder);
+    fs::create_directories(folder / "textures");
+    save_scene(made, folder / "scene.json");
+    write_textures(folder / "textures", textures);
+    EXPECT_TRUE(read_bytes(folder / "scene.json") == read_bytes(scenes / name / "scene.json"));
+    std::size_t files = 0;
+    for (const auto& entry : fs::directory_iterator(scenes / name / "textures")) {
+        EXPECT_TRUE(read_bytes(entry.path()) == read_bytes(folder / "textures" / entry.path().filename()))
+            << entry.path();
+        ++files;
+    }
+    EXPECT_EQ(files, textures.size());
+    fs::remove_all(folder);
+}
+
+void expect_equal(Scene read, const Scene& made) {
+    EXPECT_TRUE(read.warnings.empty());
+    read.file.clear();
+    EXPECT_TRUE(read.nodes == made.nodes);
+    EXPECT_TRUE(read.meshes == made.meshes);
+    EXPECT_TRUE(read.cages == made.cages);
+    EXPECT_TRUE(read.materials == made.materials);
+    EXPECT_TRUE(read.images == made.images);
+    EXPECT_TRUE(read == made);
+}
+
+std::uintmax_t folder_size(const fs::path& folder) {
+    std::uintmax_t bytes = 0;
+    for (const auto& entry : fs::recursive_directory_iterator(folder))
+        if (entry.is_regular_file()) bytes += entry.file_size();
+    return bytes;
+}
+
+std::vector<DrawnTexture> gallery_textures() {
+    std::vector<DrawnTexture> all = make_painted_pictures();
+    for (const auto& more : {make_computed_pictures(), make_gallery_surfaces()})
+        all.insert(all.end(), more.begin(), more.end());
+    return all;
+}
+
+TEST(ArtGallery, ProgramReproducesTheFiles) {
+    const Scene made = make_art_gallery("textures/");
+    expect_same_files("art-gallery", made, gallery_textures());
+    expect_equal(loaded("art-gallery"), made);
+}
+
+TEST(ArtGallery, HoldsWhatTheThesisAsksFor) {
+    const Scene& scene = loaded("art-gallery");
+    EXPECT_GE(count_triangles(scene), 70'000u);
+    EXPECT_EQ(find_lamps(scene).size(), 8u);
+    EXPECT_TRUE(scene.lights.empty());
+    EXPECT_FALSE(scene.environment.has_value());
+    EXPECT_EQ(frame_range(scene), (FrameRange{0, 749}));
+    EXPECT_EQ(scene.frame_rate, (FrameRate{30, 1}));
+    EXPECT_GE(scene.cages.size(), 6u);
+    int tori = 0, lathes = 0;
+    for (const Mesh& mesh : scene.meshes) {
+        tori += mesh.shape && mesh.shape->kind == Shape::Kind::torus ? 1 : 0;
+        lathes += mesh.shape && mesh.shape->kind == Shape::Kind::lathe ? 1 : 0;
+    }
+    EXPECT_GE(tori, 3);
+    EXPECT_GE(lathes, 8);
+    // Fourteen pictures, each with a texture of its own.
+    const int pictures = find_node(scene, "pictures");
+    std::set<int> shown;
+    for (const Instance& instance : list_instances(scene)) {
+        const Node& node = scene.nodes[static_cast<std::size_t>(instance.node)];
+        if (node.parent == no_index || scene.nodes[static_cast<std::size_t>(node.parent)].parent != pictures) continue;
+        const int material = scene.meshes[static_cast<std::size_t>(instance.mesh)].material;
+        shown.insert(scene.materials[static_cast<std::size_t>(material)].base_color_texture.image);
+    }
+    shown.erase(no_index);
+    EXPECT_EQ(shown.size(), 14u);
+}
+
+TEST(ArtGallery, IsSmall) {
+    EXPECT_LT(folder_size(scenes / "art-gallery"), 3'500'000u);
+    EXPECT_LT(fs::file_size(scenes / "art-gallery" / "scene.json"), 1'000'000u);
+}
+
+TEST(ArtGallery, OnlyItsWorksMove) {
+    const Scene& scene = loaded("art-gallery");
+    const SceneFrame first = pose(scene, 0.0);
+    std::set<std::string> moved;
+    for (const double seconds : {4.0, 9.1, 17.3, 24.9}) {
+        const SceneFrame now = pose(scene, seconds);
+        for (std::size_t i = 0; i < scene.nodes.size(); ++i)
+            if (now.world[i] != first.world[i])
+                moved.insert(top_of(scene, static_cast<int>(i)) == "sculptures" ? scene.nodes[i].name
+                                                                                : top_of(scene, static_cast<int>(i)));
+    }
+    EXPECT_EQ(moved, (std::set<std::string>{"balls", "camera_rig", "kinetic", "knot", "mobile", "top_work"}));
+}
+
+/// Height of the centre of a ball that is dropped from rest, from the laws of fall alone.
+double fallen_height(const BallDrop& drop, double seconds) {
+    const double rest = drop.ground + drop.radius, fall = drop.position.y - rest;
+    double t = seconds - drop.release;
+    if (t <= 0.0) return drop.position.y;
+    const double first = std::sqrt(2.0 * fall / gravity);
+    if (t <= first) return drop.position.y - 0.5 * gravity * t * t;
+    t -= first;
+    double speed = drop.restitution * gravity * first;
+    while (speed >= drop.settled_speed) {
+        const double flight = 2.0 * speed / gravity;
+        if (t <= flight) return rest + speed * t - 0.5 * gravity * t * t;
+        t -= flight;
+        speed *= drop.restitution;
+    }
+    return rest;
+}
+
+TEST(ArtGallery, BallsFallAndBounceAsTheLawsWant) {
+    const Scene& scene = loaded("art-gallery");
+    const std::vector<BallDrop> drops = make_ball_drops();
+    ASSERT_GE(drops.size(), 6u);
+    std::vector<double> highest(drops.size(), 0.0), lowest(drops.size(), 9.0);
+    for (int k = 0; k <= 749 * 4; ++k) {
+        const double seconds = k / 120.0;
+        const SceneFrame now = pose(scene, seconds);
+        for (std::size_t i = 0; i < drops.size(); ++i) {
+            const double y = world_of(now, find_node(scene, "ball_" + std::to_string(i)))[3].y;
+            // Keys are rounded to a micrometre, their velocities to a micrometre a second.
+            if (drops[i].velocity == glm::dvec3(0.0)) {
+                EXPECT_NEAR(y, fallen_height(drops[i], seconds), 4e-6) << i << " at " << seconds;
+            }
+            EXPECT_GE(y, drops[i].ground + drops[i].radius - 4e-6) << i << " at " << seconds;
+            highest[i] = std::max(highest[i], y);
+            lowest[i] = std::min(lowest[i], y);
+        }
+    }
+    int bounced = 0;
+    for (std::size_t i = 0; i < drops.size(); ++i) bounced += highest[i] - lowest[i] > 0.5 ? 1 : 0;
+    EXPECT_GE(bounced, 8);
+}
+
+TEST(ArtGallery, BallsThatTravelFlyOnParabolasAndRollWithoutSliding) {
+    const Scene& scene = loaded("art-gallery");
+    const std::vector<BallDrop> drops = make_ball_drops();
+    int travelling = 0;
+    for (std::size_t i = 0; i < drops.size(); ++i) {
+        if (glm::length(drops[i].velocity) == 0.0) continue;
+        ++travelling;
+        const Node& node = scene.nodes[static_cast<std::size_t>(find_node(scene, "ball_" + std::to_string(i)))];
+        const Track<glm::dvec3>& path = node.translation;
+        ASSERT_EQ(path.interpolation, Interpolation::cubic);
+        const std::size_t keys = path.key_count();
+        ASSERT_GE(keys, 6u);
+        for (std::size_t k = 0; k + 1 < keys; ++k) {
+            const double from = path.sampling.times[k], to = path.sampling.times[k + 1], h = (to - from) / 8.0;
+            const bool flies = path.values[3 * k + 2].y > 0.0;
+            for (int part = 1; part < 8; ++part) {
+                const double t = from + part * h;
+                const glm::dvec3 a =
+                    (evaluate(path, t + h) - 2.0 * evaluate(path, t) + evaluate(path, t - h)) / (h * h);
+                const double tolerance = 1e-5 / (h * h);
+                if (flies) {
+                    EXPECT_LT(glm::length(a - glm::dvec3(0.0, -gravity, 0.0)), tolerance) << i << " key " << k;
+                }
+            }
+            // An impact gives back the share that was asked for, and what is left rolls.
+            if (k > 0 && flies) {
+                EXPECT_NEAR(path.values[3 * k + 2].y, -drops[i].restitution * path.values[3 * k].y, 3e-6);
+            }
+            if (k > 0 && node.axis_rotation) {
+                EXPECT_NEAR(node.axis_rotation->angle.values[3 * k + 2] * drops[i].radius, path.values[3 * k + 2].x,
+                            3e-6);
+            }
+        }
+    }
+    EXPECT_EQ(travelling, 2);
+}
+
+TEST(ArtGallery, BallsNeverTouchOneAnother) {
+    const Scene& scene = loaded("art-gallery");
+    const std::vector<BallDrop> drops = make_ball_drops();
+    std::vector<int> nodes;
+    for (std::size_t i = 0; i < drops.size(); ++i) nodes.push_back(find_node(scene, "ball_" + std::to_string(i)));
+    for (int k = 0; k <= 749 * 2; ++k) {
+        const SceneFrame now = pose(scene, k / 60.0);
+        for (std::size_t a = 0; a < drops.size(); ++a) {
+            for (std::size_t b = 0; b < a; ++b) {
+                EXPECT_GT(glm::distance(glm::dvec3(world_of(now, nodes[a])[3]), glm::dvec3(world_of(now, nodes[b])[3])),
+                          drops[a].radius + drops[b].radius)
+                    << a << " and " << b << " at " << k / 60.0;
+            }
+        }
+    }
+}
+
+TEST(ArtGallery, TopSpinsAndPrecessesOnItsTip) {
+    const Scene& scene = loaded("art-gallery");
+    const int top = find_node(scene, "top"), precession = find_node(scene, "top_precession");
+    const auto& spin = scene.nodes[static_cast<std::size_t>(top)].axis_rotation->angle;
+    const auto& turn = scene.nodes[static_cast<std::size_t>(precession)].axis_rotation->angle;
+    const auto rate = [](const Track<double>& angle, double t) {
+        return (evaluate(angle, t + 0.01) - evaluate(angle, t - 0.01)) / 0.02;
+    };
+    const glm::dvec3 tip = world_of(pose(scene, 0.0), top)[3];
+    for (const double t : {0.5, 6.0, 12.0, 20.0, 24.5}) {
+        const glm::dmat4 world = world_of(pose(scene, t), top);
+        EXPECT_LT(glm::distance(glm::dvec3(world[3]), tip), 1e-12);
+        const double lean = std::acos(world[1].y) * 180.0 / pi;
+        EXPECT_GT(lean, 8.5) << t;
+        EXPECT_LT(lean, 20.5) << t;
+        // Precession under a constant torque: the slower the spin, the faster.
+        EXPECT_NEAR(rate(turn, t) * rate(spin, t), rate(turn, 0.5) * rate(spin, 0.5),
+                    0.01 * rate(turn, 0.5) * rate(spin, 0.5));
+    }
+    EXPECT_NEAR(rate(spin, 0.02), 2.0 * pi * 2.3, 0.02);
+    EXPECT_LT(rate(spin, 24.9), 2.0 * pi * 1.3);
+}
+
+TEST(ArtGallery, EveryViewIsClosedAndShowsMotion) {
+    const Scene& scene = loaded("art-gallery");
+    for (int frame = 0; frame < 749; frame += 53) {
+        const SceneFrame now = pose(scene, frame / 30.0), next = pose(scene, (frame + 1) / 30.0);
+        const Image<Hit> hits = cast(scene, now, 160, 120);
+        int moving = 0;
+        for (const Hit& hit : hits.pixels) {
+            ASSERT_NE(hit.instance, no_index) << frame;
+            const auto node = static_cast<std::size_t>(now.instances[static_cast<std::size_t>(hit.instance)].node);
+            moving += now.world[node] != next.world[node] ? 1 : 0;
+            // The camera keeps away from what it passes.
+            EXPECT_GT(hit.distance, 0.3) << frame << " " << scene.nodes[node].name;
+        }
+        EXPECT_GT(moving, 160 * 120 / 300) << frame;
+    }
+}
+
+TEST(AntiqueRoom, ProgramReproducesTheFiles) {
+    const Scene made = make_antique_room("textures/");
+    expect_same_files("antique-room", made, make_antique_textures());
+    expect_equal(loaded("antique-room"), made);
+}
+
+TEST(AntiqueRoom, OnlyTheCameraMoves) {
+    const Scene& scene = loaded("antique-room");
+    EXPECT_EQ(frame_range(scene), (FrameRange{0, 119}));
+    EXPECT_FALSE(is_world_animated(scene));
+    const SceneFrame first = pose(scene, 0.0), last = pose(scene, 119.0 / 30.0);
+    EXPECT_GT(glm::distance(first.cameras[0].position, last.cameras[0].position), 1.5);
+    for (const Instance& instance : first.instances)
+        EXPECT_TRUE(world_of(first, instance.node) == world_of(last, instance.node));
+}
+
+TEST(AntiqueRoom, IsClosedSmallAndGlossy) {
+    const Scene& scene = loaded("antique-room");
+    EXPECT_LT(folder_size(scenes / "antique-room"), 2'000'000u);
+    std::size_t pixels = 0, glossy = 0;
+    for (const int frame : {0, 40, 80, 119}) {
+        const SceneFrame now = pose(scene, frame / 30.0);
+        for (const Hit& hit : cast(scene, now, 160, 120).pixels) {
+            ASSERT_NE(hit.instance, no_index) << frame;
+            EXPECT_GT(hit.distance, 0.3) << frame;
+            const Instance& instance = now.instances[static_cast<std::size_t>(hit.instance)];
+            const int material = scene.meshes[static_cast<std::size_t>(instance.mesh)].material;
+            const MaterialValues& values = now.materials[static_cast<std::size_t>(material)];
+            ++pixels;
+            glossy += values.specular > 0.0f && values.roughness >= 0.1f && values.roughness <= 0.3f ? 1 : 0;
+        }
+    }
+    EXPECT_GT(static_cast<double>(glossy) / static_cast<double>(pixels), 0.3);
+}
+
+}  // namespace
+}  // namespace aleph
