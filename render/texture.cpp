@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "render/texture_texels.h"
 
@@ -72,13 +73,15 @@ float find_level(const Texture& texture, float texels) {
     return level < coarsest ? level : coarsest;  // so is what is no number
 }
 
-/// Probes of the footprint's width, rounded up in number, that reach from end to end of its length. Their spread is
-/// that of a box of that length, near enough (a box of n widths: n^2 / 12; n probes over n - 1 widths with their own
-/// tent: (n^2 - 1) / 12 + 1 / 6).
+/// A bilinear probe spreads (its variance) like a box of sqrt(2) texels: a footprint's axes are divided by this to say
+/// how large its probe's texels should be. Without it, pictures are blurred half as much again as pixels ask for.
+constexpr float box_of_a_texel = std::numbers::sqrt2_v<float>;
+
+/// Probes as wide as the footprint, in a row as long as it, that spread exactly as a box of that width and length.
 Probes place_probes(const Texture& texture, const UvFootprint& footprint) {
-    const float width = static_cast<float>(texture.width), height = static_cast<float>(texture.height);
-    const glm::vec2 dx(footprint.dx.x * width, footprint.dx.y * height);
-    const glm::vec2 dy(footprint.dy.x * width, footprint.dy.y * height);
+    const glm::vec2 size(static_cast<float>(texture.width) / box_of_a_texel,
+                         static_cast<float>(texture.height) / box_of_a_texel);
+    const glm::vec2 dx = footprint.dx * size, dy = footprint.dy * size;  // in such texels
     const float area = std::abs(dx.x * dy.y - dx.y * dy.x);
     Probes probes;
     if (footprint.round) {
@@ -101,15 +104,15 @@ Probes place_probes(const Texture& texture, const UvFootprint& footprint) {
         return probes;
     }
     const float minor = area / major;
-    const float probe_width = std::max({minor, 1.0f, major / static_cast<float>(most_probes)});
-    probes.level = find_level(texture, probe_width);
-    probes.count = std::clamp(static_cast<int>(major / probe_width + 0.75f), 1, most_probes);
+    const float texel = std::max({minor, 1.0f, major / static_cast<float>(most_probes)});
+    probes.level = find_level(texture, texel);
+    probes.count = std::clamp(static_cast<int>(major / texel + 0.75f), 1, most_probes);
     if (probes.count > 1) {
         const glm::vec2 along =
             half_difference >= 0.0f ? glm::vec2(root + half_difference, xy) : glm::vec2(xy, root - half_difference);
-        const float step = (major - probe_width) /
-                           (std::sqrt(along.x * along.x + along.y * along.y) * static_cast<float>(probes.count - 1));
-        probes.step = glm::vec2(along.x * step / width, along.y * step / height);
+        // n probes of texels t, s apart, and a box sqrt(2) major long: s^2 (n^2 - 1) / 12 + t^2 / 6 = 2 major^2 / 12.
+        const float spread2 = (major2 - texel * texel) / static_cast<float>(probes.count * probes.count - 1);
+        probes.step = along * std::sqrt(std::max(spread2, 0.0f) / (along.x * along.x + along.y * along.y)) / size;
     }
     return probes;
 }

@@ -231,6 +231,21 @@ SurfaceMaterial evaluate(Material material, bool front = true, const glm::vec4& 
     return evaluate_material(stage.shading, point, {});
 }
 
+/// KHR_materials_unlit: the base colour, constant, whatever the material says besides.
+TEST(Bsdf, UnlitShowsItsBaseColourAndReflectsNothing) {
+    Material material;
+    material.unlit = true;
+    material.base_color = glm::dvec3(0.5, 0.25, 0.75);
+    material.emission = glm::dvec3(9.0);
+    material.metallic = 0.5;
+    for (const bool front : {true, false}) {
+        const SurfaceMaterial surface = evaluate(material, front, {0.5f, 1.0f, 1.0f, 1.0f});
+        EXPECT_EQ(surface.emission, Rgb(0.25f, 0.25f, 0.75f));
+        EXPECT_FALSE(surface.has_diffuse());
+        EXPECT_FALSE(surface.has_glossy());
+    }
+}
+
 TEST(Bsdf, SpecularZeroIsPureLambert) {
     Material material;
     material.base_color = glm::dvec3(0.2, 0.5, 0.8);

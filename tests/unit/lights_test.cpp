@@ -151,6 +151,93 @@ TEST(Lights, TexturedLampHasTheTexturesMeanPower) {
     EXPECT_GT(lit, 200);
 }
 
+/// The quick estimate's few points stand for the whole lamp: its texture is averaged over their shares.
+TEST(Lights, ASharesTextureIsAveraged) {
+    Scene scene = make_lamp_scene(2.0, 1.5);
+    SceneImage image;
+    image.floats = Image<glm::vec4>(64, 64);
+    for (int y = 0; y < 64; ++y) {
+        for (int x = 0; x < 64; ++x) image.floats(x, y) = glm::vec4((x + y) % 2 == 0 ? 1.0f : 0.0f);
+    }
+    scene.images.push_back(image);
+    scene.materials[0].emission_texture = {.image = 0, .nearest = true};
+    const Stage stage(std::move(scene));
+    for (int i = 0; i < 20; ++i) {
+        const glm::vec2 u((static_cast<float>(i) + 0.5f) / 20.0f, 0.37f);
+        const LightSample s = sample_light(stage.shading, stage.lights, 0, glm::vec3(0.0f), up, u, 0.25f);
+        EXPECT_NEAR(s.incoming.x * s.pdf, 2.0f, 1e-4f);
+    }
+}
+
+/// A spot light straight down, as LightValues of a frame give it.
+Stage make_spot(double inner, double outer, double range = 0.0) {
+    Scene scene;
+    add_light(scene, Light::Kind::spot, {8.0, 4.0, 2.0}, {0.0, 2.0, 0.0}, z_to_up);
+    scene.lights[0].inner_cone = inner;
+    scene.lights[0].outer_cone = outer;
+    scene.lights[0].range = range;
+    return Stage(std::move(scene));
+}
+
+TEST(Lights, SpotFallsOffAsTheExtensionSays) {
+    // KHR_lights_punctual: clamp((cos - cos outer) / (cos inner - cos outer), 0, 1)^2 of candela over distance squared.
+    for (const auto& [inner, outer] :
+         {std::pair(0.0, pi / 4.0), std::pair(0.3, 0.5), std::pair(0.2, pi / 2.0), std::pair(0.004, 0.01)}) {
+        const Stage stage = make_spot(inner, outer);
+        for (int i = 0; i <= 40; ++i) {
+            const double angle = outer * 1.2 * i / 40.0;
+            if (angle > 1.5) break;
+            const glm::vec3 at(static_cast<float>(2.0 * std::tan(angle)), 0.0f, 0.0f);
+            const LightSample s = sample_light(stage.shading, stage.lights, 0, at, up, {0.5f, 0.5f});
+            const double share =
+                std::clamp((std::cos(angle) - std::cos(outer)) / (std::cos(inner) - std::cos(outer)), 0.0, 1.0);
+            const double distance2 = 4.0 / (std::cos(angle) * std::cos(angle));
+            EXPECT_NEAR(s.incoming.x, 8.0 * share * share / distance2, 2e-3)
+                << inner << " " << outer << " at " << angle;
+            EXPECT_NEAR(s.incoming.y, 0.5 * s.incoming.x, 1e-6);
+        }
+    }
+}
+
+TEST(Lights, SpotsEndSharplyWhereConesMeetAndAtTheirRange) {
+    const Stage sharp = make_spot(0.4, 0.4);
+    const auto at_angle = [](const Stage& stage, double angle) {
+        const glm::vec3 at(static_cast<float>(2.0 * std::tan(angle)), 0.0f, 0.0f);
+        return sample_light(stage.shading, stage.lights, 0, at, up, {0.5f, 0.5f}).incoming.x;
+    };
+    EXPECT_NEAR(at_angle(sharp, 0.39), 8.0 * std::pow(std::cos(0.39), 2) / 4.0, 1e-5);
+    EXPECT_EQ(at_angle(sharp, 0.41), 0.0f);
+    // Behind the lamp nothing, even at the widest cone.
+    const Stage wide = make_spot(0.0, pi / 2.0);
+    EXPECT_EQ(sample_light(wide.shading, wide.lights, 0, {0.1f, 4.0f, 0.0f}, up, {0.5f, 0.5f}).incoming, Rgb(0.0f));
+    EXPECT_EQ(at_angle(make_spot(0.1, 0.5, 1.5), 0.0), 0.0f);  // 2 m away
+    EXPECT_NEAR(at_angle(make_spot(0.1, 0.5, 3.0), 0.0), 8.0 / 4.0 * (1.0 - std::pow(2.0 / 3.0, 4)), 1e-5);
+}
+
+TEST(Lights, UnlitSurfacesAreNoLights) {
+    Scene scene = make_lamp_scene(1.0, 2.0);
+    scene.materials[0].unlit = true;
+    EXPECT_EQ(Stage(std::move(scene)).lights.count(), 0);
+}
+
+TEST(Lights, UnlitSurfacesAreSeenAsTheyAreAndLightNothing) {
+    // The left half unlit, facing away; the right half white; no light anywhere, then a lamp.
+    for (const bool lamp : {false, true}) {
+        Scene scene;
+        const int unlit = add_lambert(scene, {0.3, 0.6, 0.9});
+        scene.materials[0].unlit = true;
+        add_mesh(scene, flip_winding(make_quad(2.0, 4.0, unlit)), {-1.0, 0.0, -3.0});
+        add_mesh(scene, make_quad(2.0, 4.0, add_lambert(scene, glm::dvec3(1.0))), {1.0, 0.0, -3.0},
+                 glm::angleAxis(-0.8, glm::dvec3(0.0, 1.0, 0.0)));
+        if (lamp) add_light(scene, Light::Kind::point, glm::dvec3(5.0), glm::dvec3(0.0, 0.0, -1.0));
+        const Stage stage(std::move(scene), 32, 24);
+        const ShadedFrame frame = shade(stage, plain_settings(0.0, 64));
+        EXPECT_EQ(frame.color(8, 12), Rgb(0.3f, 0.6f, 0.9f));
+        const float white = luminance(frame.color(22, 12));
+        EXPECT_EQ(white > 0.0f, lamp);
+    }
+}
+
 TEST(Lights, WhatCannotBeSeenBringsNothing) {
     const Stage stage(make_lamp_scene(2.0, 1.5));
     EXPECT_EQ(sample_light(stage.shading, stage.lights, 0, {0.0f, 3.0f, 0.0f}, up, {0.3f, 0.4f}).incoming, Rgb(0.0f));

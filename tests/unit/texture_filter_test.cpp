@@ -135,7 +135,7 @@ TEST(TextureFilter, TheWholePictureIsItsMean) {
     const glm::dvec4 mean = mean_of(set);
     for (const Wrap wrap : {Wrap::repeat, Wrap::mirror, Wrap::clamp}) {
         for (const bool round : {false, true}) {
-            for (const float size : {1.0f, 3.7f, 1e3f, 1e20f, std::numeric_limits<float>::infinity(), std::nanf("")}) {
+            for (const float size : {1.5f, 3.7f, 1e3f, 1e20f, std::numeric_limits<float>::infinity(), std::nanf("")}) {
                 expect_near(sample_texture(set, make_use(wrap), {0.41f, 0.77f}, {{size, 0.0f}, {0.0f, size}, round}),
                             mean, 1e-5);
             }
@@ -159,8 +159,8 @@ TEST(TextureFilter, LongFootprintsBlurOnlyAlongThemselves) {
         EXPECT_NEAR(sample_texture(set, use, uv, {{16.0f * texel, 0.0f}, {0.0f, texel}}).x, stripe, 1e-6f);
         EXPECT_NEAR(sample_texture(set, use, uv, {{0.0f, texel}, {-16.0f * texel, 0.0f}}).x, stripe, 1e-6f);
         EXPECT_NEAR(sample_texture(set, use, uv, {{texel, 0.0f}, {0.0f, 16.0f * texel}}).x, 0.5f, 0.04f);
-        // Rounded off to its area, 32 texels, it covers most of a stripe's period each way and keeps half of it.
-        EXPECT_NEAR(sample_texture(set, use, uv, {{32.0f * texel, 0.0f}, {0.0f, texel}, true}).x, 0.5f, 0.26f);
+        // Rounded off to its area, 64 texels, it covers most of a stripe's period each way and keeps half of it.
+        EXPECT_NEAR(sample_texture(set, use, uv, {{64.0f * texel, 0.0f}, {0.0f, texel}, true}).x, 0.5f, 0.26f);
     }
 }
 
@@ -232,7 +232,7 @@ TEST(TextureFilter, AlphaIsFilteredLikeColourAndNeverDecoded) {
     image.bytes = Image<glm::u8vec4>(2, 2, glm::u8vec4(255, 255, 255, 0));
     image.bytes(0, 0).w = image.bytes(1, 1).w = 255;
     const TextureSet set = make_set(image);
-    EXPECT_EQ(sample_texture(set, make_use(Wrap::repeat), {0.2f, 0.4f}, {{1.0f, 0.0f}, {0.0f, 1.0f}}),
+    EXPECT_EQ(sample_texture(set, make_use(Wrap::repeat), {0.2f, 0.4f}, {{1.5f, 0.0f}, {0.0f, 1.5f}}),
               glm::vec4(1.0f, 1.0f, 1.0f, 0.5f));
 }
 
@@ -316,14 +316,12 @@ TEST(TextureFilter, GrazingCheckerConvergesAtOnce) {
     const Image<Rgb> truth = checker.render(32, false);  // 1024 per pixel
     const double filtered = checker.rms(checker.render(1, true), truth);
     const double pointwise = checker.rms(checker.render(1, false), truth);
-    EXPECT_LT(filtered, 0.03);
-    EXPECT_GT(pointwise, 6.0 * filtered);
+    EXPECT_LT(filtered, 0.04);
+    EXPECT_GT(pointwise, 10.0 * filtered);
     // More samples, smaller footprints: nearer still.
     EXPECT_LT(checker.rms(checker.render(4, true), truth), 0.6 * filtered);
     RecordProperty("filtered", std::to_string(filtered));
     RecordProperty("pointwise", std::to_string(pointwise));
-    std::printf("grazing checker, RMS against 1024 samples: 1 filtered %.4f, 1 at a point %.4f, 16 filtered %.4f\n",
-                filtered, pointwise, checker.rms(checker.render(4, true), truth));
 }
 
 }  // namespace
