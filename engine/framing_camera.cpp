@@ -24,6 +24,9 @@ struct Bounds {
         high = glm::max(high, point);
     }
     glm::dvec3 corner(int i) const { return {i & 1 ? high.x : low.x, i & 2 ? high.y : low.y, i & 4 ? high.z : low.z}; }
+    void add_corners_to(Bounds& world_bounds, const glm::dmat4& world) const {
+        for (int i = 0; i < 8; ++i) world_bounds.add(glm::dvec3(world * glm::dvec4(corner(i), 1.0)));
+    }
 };
 
 constexpr std::int64_t most_frames = 16;
@@ -43,11 +46,17 @@ Bounds scene_bounds(const Scene& scene) {
                                       : (range.last - range.first) / (steps - 1) * step +
                                             (range.last - range.first) % (steps - 1) * step / (steps - 1));
         const SceneFrame now = pose(scene, scene.frame_rate.seconds_of(frame));
-        for (const Instance& instance : now.instances) {
-            const Bounds& mesh = meshes[static_cast<std::size_t>(instance.mesh)];
-            const auto node = static_cast<std::size_t>(instance.node);
-            if (mesh.empty() || !now.visible[node]) continue;
-            for (int i = 0; i < 8; ++i) bounds.add(glm::dvec3(now.world[node] * glm::dvec4(mesh.corner(i), 1.0)));
+        for (std::size_t i = 0; i < now.instances.size(); ++i) {
+            if (now.shown[i] == 0) continue;
+            const auto m = static_cast<std::size_t>(now.instances[i].mesh);
+            const glm::dmat4& world = now.world[static_cast<std::size_t>(now.instances[i].node)];
+            if (now.meshes[m].positions.empty()) {
+                if (!meshes[m].empty()) meshes[m].add_corners_to(bounds, world);
+                continue;
+            }
+            Bounds deformed;
+            for (const glm::dvec3& position : now.meshes[m].positions) deformed.add(position);
+            deformed.add_corners_to(bounds, world);
         }
     }
     return bounds;

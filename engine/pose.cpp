@@ -1,129 +1,39 @@
 #include "engine/pose.h"
 
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <cmath>
-#include <glm/geometric.hpp>
-
-#include "engine/base/errors.h"
-#include "engine/transforms.h"
+#include "engine/deform.h"
+#include "engine/pose_parts.h"
 
 namespace aleph {
-namespace {
-
-/// Cubic keys overshoot; what leaves the range of its quantity is brought back.
-float unit_range(const Track<double>& track, double seconds) {
-    return static_cast<float>(std::clamp(evaluate(track, seconds), 0.0, 1.0));
-}
-double not_negative(const Track<double>& track, double seconds) {
-    return std::max(evaluate(track, seconds), 0.0);
-}
-glm::dvec3 not_negative(const Track<glm::dvec3>& track, double seconds) {
-    return glm::max(evaluate(track, seconds), glm::dvec3(0.0));
-}
-
-glm::dquat local_rotation(const Node& node, double seconds) {
-    if (!node.axis_rotation) return evaluate(node.rotation, seconds);
-    const glm::dvec3 axis = safe_normalize(node.axis_rotation->axis);
-    const double half = 0.5 * evaluate(node.axis_rotation->angle, seconds);
-    return safe_normalize(glm::dquat(std::cos(half), axis * std::sin(half)));
-}
-
-glm::dmat4 local_transform(const Node& node, double seconds) {
-    if (node.matrix) return evaluate(*node.matrix, seconds);
-    const glm::dmat3 rotation = glm::mat3_cast(local_rotation(node, seconds));
-    const glm::dvec3 scale = evaluate(node.scale, seconds);
-    return {glm::dvec4(rotation[0] * scale.x, 0.0), glm::dvec4(rotation[1] * scale.y, 0.0),
-            glm::dvec4(rotation[2] * scale.z, 0.0), glm::dvec4(evaluate(node.translation, seconds), 1.0)};
-}
-
-/// For what never fades, whatever its track says.
-double evaluate_whole(const Track<double>& track, double seconds) {
-    const std::size_t key = track.interpolation == Interpolation::nearest
-                                ? nearest_sample(track.sampling, track.key_count(), seconds)
-                                : find_samples(track.sampling, track.key_count(), seconds).floor;
-    return key_value(track, key);
-}
-
-MaterialValues pose_material(const Material& material, double seconds) {
-    MaterialValues values;
-    values.base_color = Rgb(glm::min(not_negative(material.base_color, seconds), glm::dvec3(1.0)));
-    values.alpha = unit_range(material.alpha, seconds);
-    values.metallic = unit_range(material.metallic, seconds);
-    values.roughness = unit_range(material.roughness, seconds);
-    values.emission = Rgb(not_negative(material.emission, seconds) * not_negative(material.emission_strength, seconds));
-    values.specular = unit_range(material.specular, seconds);
-    values.specular_color = Rgb(not_negative(material.specular_color, seconds));
-    values.transmission = unit_range(material.transmission, seconds);
-    values.ior = static_cast<float>(not_negative(material.ior, seconds));
-    return values;
-}
-
-LightValues pose_light(const Light& light, int node, const glm::dmat4& world, double seconds) {
-    LightValues values;
-    values.kind = light.kind;
-    values.node = node;
-    values.position = glm::dvec3(world[3]);
-    const glm::dvec3 direction = safe_normalize(-glm::dvec3(world[2]));
-    if (direction != glm::dvec3(0.0)) values.direction = direction;
-    values.intensity = Rgb(not_negative(light.color, seconds) * not_negative(light.intensity, seconds));
-    values.range = not_negative(light.range, seconds);
-    values.inner_cone = evaluate(light.inner_cone, seconds);
-    values.outer_cone = evaluate(light.outer_cone, seconds);
-    return values;
-}
-
-CameraValues pose_camera(const Camera& camera, int node, const glm::dmat4& world, double seconds) {
-    CameraValues values;
-    values.node = node;
-    values.orthographic = camera.orthographic;
-    values.position = glm::dvec3(world[3]);
-    values.axes = orthonormal_axes(world);
-    values.fov = evaluate(camera.fov, seconds);
-    values.half_height = evaluate(camera.half_height, seconds);
-    values.shift_x = evaluate(camera.shift_x, seconds);
-    values.shift_y = evaluate(camera.shift_y, seconds);
-    values.near_plane = camera.near_plane;
-    values.shutter = camera.shutter;
-    values.aperture = not_negative(camera.aperture, seconds);
-    values.focus_distance = not_negative(camera.focus_distance, seconds);
-    return values;
-}
-
-}  // namespace
 
 SceneFrame pose(const Scene& scene, double seconds) {
     SceneFrame frame;
     frame.seconds = seconds;
-    frame.world.reserve(scene.nodes.size());
-    frame.visible.reserve(scene.nodes.size());
-    for (const Node& node : scene.nodes) {
-        const int index = static_cast<int>(frame.world.size());
-        ALEPH_CHECK(node.parent < index, fmt::format("node {} has parent {}", index, node.parent));
-        const glm::dmat4 local = local_transform(node, seconds);
-        const double visible = evaluate_whole(node.visible, seconds);
-        const bool root = node.parent == no_index;
-        const bool detached = root || evaluate_whole(node.inherits, seconds) == 0.0;
-        frame.world.push_back(detached ? local : frame.world[node.parent] * local);
-        frame.visible.push_back(visible >= 2.0 || (visible != 0.0 && (root || frame.visible[node.parent])));
-
-        if (node.light != no_index && frame.visible.back())
-            frame.lights.push_back(pose_light(scene.lights[node.light], index, frame.world.back(), seconds));
-        if (node.camera != no_index)
-            frame.cameras.push_back(pose_camera(scene.cameras[node.camera], index, frame.world.back(), seconds));
+    const std::size_t nodes = scene.nodes.size();
+    frame.world.resize(nodes);
+    frame.visible.resize(nodes);
+    for (std::size_t n = 0; n < nodes; ++n) {
+        place_node(scene, static_cast<int>(n), seconds, frame);
+        if (scene.nodes[n].camera != no_index)
+            frame.cameras.push_back(pose_camera(scene, static_cast<int>(n), frame.world[n], seconds));
+        if (scene.nodes[n].light != no_index && frame.visible[n] != 0)
+            frame.lights.push_back(pose_light(scene, static_cast<int>(n), frame.world[n], seconds));
     }
     frame.instances = list_instances(scene);
-    frame.meshes.resize(scene.meshes.size());
-    frame.shown.reserve(frame.instances.size());
-    for (const Instance& instance : frame.instances) {
-        const Mesh& mesh = scene.meshes[static_cast<std::size_t>(instance.mesh)];
-        frame.shown.push_back(frame.visible[static_cast<std::size_t>(instance.node)] != 0 &&
-                              evaluate_whole(mesh.present, seconds) != 0.0);
+    frame.shown.resize(frame.instances.size());
+    std::vector<std::uint8_t> shown_meshes(scene.meshes.size(), 0);
+    for (std::size_t i = 0; i < frame.instances.size(); ++i) {
+        frame.shown[i] = is_shown(scene, frame, i);
+        if (frame.shown[i] != 0) shown_meshes[static_cast<std::size_t>(frame.instances[i].mesh)] = 1;
     }
+    frame.meshes.resize(scene.meshes.size());
+    // Which joints move does not matter here: everything is filled.
+    const std::vector<Deformer> deformers = find_deformers(scene, std::vector<std::uint8_t>(nodes, 1));
+    std::vector<std::uint8_t> shown;
+    for (const Deformer& deformer : deformers) shown.push_back(shown_meshes[static_cast<std::size_t>(deformer.mesh)]);
+    deform(scene, deformers, shown, frame.world, seconds, true, frame.meshes);
     frame.materials.reserve(scene.materials.size());
     for (const Material& material : scene.materials) frame.materials.push_back(pose_material(material, seconds));
-    if (scene.environment) frame.environment = Rgb(not_negative(*scene.environment, seconds));
+    frame.environment = pose_environment(scene, seconds);
     return frame;
 }
 

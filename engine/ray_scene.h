@@ -42,18 +42,24 @@ bool is_traceable(const glm::dmat4& world, const glm::dvec3& anchor);
 
 class RayScene {
   public:
-    /// Builds the structures of every mesh once. Degenerate triangles are left out and counted.
+    /// Builds the structures of every rigid mesh once; deforming ones follow at the first update. Degenerate triangles
+    /// are left out and counted.
     explicit RayScene(const Scene& scene);
-    /// Another one over the same mesh structures: only the placement of instances is its own.
+    /// Another one over the same mesh structures: only the placement of instances and the deforming meshes are its own.
     RayScene share_meshes() const;
     ~RayScene();
     RayScene(RayScene&&) noexcept;
     RayScene& operator=(RayScene&&) noexcept;
 
-    /// Places the instances for a frame: only those whose transform or visibility changed are touched (all when the
-    /// anchor moved). Instances that are not traceable (a scale of 0) are left out and counted.
+    /// Places the instances for a frame: only those whose transform, points or visibility changed are touched (all when
+    /// the anchor moved). Instances that are not traceable (a scale of 0, points that are not finite) are left out and
+    /// counted.
     /// @return how many instances were touched
     std::size_t update(const SceneFrame& frame, const glm::dvec3& anchor);
+
+    /// The same for a frame of the very scene that this was made for, where the last update had one too: what cannot
+    /// move by its tracks is not even looked at, so that it costs what moves (everything where the anchor moved).
+    std::size_t update_moving(const SceneFrame& frame, const glm::dvec3& anchor);
 
     const glm::dvec3& anchor() const;
     std::size_t degenerate_triangles() const;
@@ -62,7 +68,7 @@ class RayScene {
     std::uint64_t rays_traced() const;
     std::uint64_t invalid_rays() const;
 
-    struct State;
+    struct State;  ///< ray_scene_state.h
 
   private:
     friend class Tracer;

@@ -7,52 +7,25 @@
 #include <limits>
 
 #include "engine/base/errors.h"
+#include "engine/lookup.h"
+#include "engine/operation_stack.h"
 #include "engine/pose.h"
+#include "engine/scene_tracks.h"
 
 namespace aleph {
 namespace {
 
-/// Calls visit(track) for the tracks that place and show a node: those that pose() reads.
-template <class Visit>
-void visit_node_tracks(const Node& node, const Visit& visit) {
-    visit(node.visible);
-    if (node.matrix) {
-        visit(*node.matrix);
-        return;
-    }
-    visit(node.translation);
-    visit(node.scale);
-    if (node.axis_rotation)
-        visit(node.axis_rotation->angle);
-    else
-        visit(node.rotation);
-}
+/// A visitor with a function for each kind of what it meets.
+template <class... Functions>
+struct Overloaded : Functions... {
+    using Functions::operator()...;
+};
 
-/// Tracks of what is neither a node nor a camera.
-template <class Visit>
-void visit_appearance_tracks(const Scene& scene, const Visit& visit) {
-    for (const Material& m : scene.materials) {
-        for (const auto* track : {&m.base_color, &m.emission, &m.specular_color}) visit(*track);
-        for (const auto* track : {&m.alpha, &m.metallic, &m.roughness, &m.emission_strength, &m.specular, &m.ior})
-            visit(*track);
-    }
-    for (const Light& light : scene.lights) {
-        visit(light.color);
-        visit(light.intensity);
-    }
-    if (scene.environment) visit(*scene.environment);
-}
-
-template <class Visit>
-void visit_camera_tracks(const Scene& scene, const Visit& visit) {
-    for (const Camera& camera : scene.cameras)
-        for (const auto* track : {&camera.fov, &camera.half_height, &camera.aperture, &camera.focus_distance})
-            visit(*track);
-}
-
-/// Nodes with a mesh or a light at or below them.
+/// Nodes with a mesh, a light or a joint at or below them.
 std::vector<bool> nodes_with_content(const Scene& scene) {
     std::vector<bool> content(scene.nodes.size(), false);
+    for (const Skin& skin : scene.skins)
+        for (const int joint : skin.joints) content[static_cast<std::size_t>(joint)] = true;
     for (std::size_t i = scene.nodes.size(); i-- > 0;) {
         const Node& node = scene.nodes[i];
         if (!node.meshes.empty() || node.light != no_index) content[i] = true;
@@ -73,14 +46,25 @@ std::vector<Instance> list_instances(const Scene& scene) {
 FrameRange frame_range(const Scene& scene) {
     if (scene.range) return *scene.range;
     double earliest = std::numeric_limits<double>::infinity(), latest = -earliest;
-    const auto widen = [&](const auto& track) {
-        if (track.key_count() <= 1) return;
-        earliest = std::min(earliest, first_time(track));
-        latest = std::max(latest, last_time(track));
+    const auto widen_samples = [&](const TimeSampling& sampling, std::size_t count) {
+        if (count <= 1) return;
+        earliest = std::min(earliest, sample_time(sampling, 0));
+        latest = std::max(latest, sample_time(sampling, count - 1));
     };
-    for (const Node& node : scene.nodes) visit_node_tracks(node, widen);
-    visit_appearance_tracks(scene, widen);
-    visit_camera_tracks(scene, widen);
+    const Overloaded visit{
+        [&](const auto& track) { widen_samples(track.sampling, track.key_count()); },
+        [&](const OperationStack& stack) { widen_samples(stack.sampling, sample_count(stack)); },
+    };
+    for (const Node& node : scene.nodes) visit_tracks(node, visit);
+    for (const Mesh& mesh : scene.meshes) {
+        visit_tracks(mesh, visit);
+        widen_samples(mesh.normal_sampling, mesh.normal_samples.size());
+    }
+    for (const PointCache& cache : scene.point_caches) widen_samples(cache.sampling, cache.positions.size());
+    for (const Material& material : scene.materials) visit_tracks(material, visit);
+    for (const Light& light : scene.lights) visit_tracks(light, visit);
+    for (const Camera& camera : scene.cameras) visit_tracks(camera, visit);
+    if (scene.environment) visit(*scene.environment);
     if (!(earliest <= latest)) return {};
 
     // A key within rounding of a frame is on it: single-precision times are off by up to 6e-8 of themselves.
@@ -122,11 +106,20 @@ int find_camera(const Scene& scene, const std::string& name) {
 
 bool is_world_animated(const Scene& scene) {
     bool animated = false;
-    const auto look = [&](const auto& track) { animated = animated || is_animated(track); };
+    const auto look = [&](const auto& property) { animated = animated || is_animated(property); };
     const std::vector<bool> content = nodes_with_content(scene);
     for (std::size_t i = 0; i < scene.nodes.size(); ++i)
-        if (content[i]) visit_node_tracks(scene.nodes[i], look);
-    visit_appearance_tracks(scene, look);
+        if (content[i]) visit_tracks(scene.nodes[i], look);
+    for (const Mesh& mesh : scene.meshes) {
+        visit_tracks(mesh, look);
+        animated = animated || std::ranges::any_of(mesh.normal_samples, [&](const auto& sample) {
+                       return sample != mesh.normal_samples.front();
+                   });
+    }
+    for (const PointCache& cache : scene.point_caches) look(cache);
+    for (const Material& material : scene.materials) visit_tracks(material, look);
+    for (const Light& light : scene.lights) visit_tracks(light, look);
+    if (scene.environment) look(*scene.environment);
     return animated;
 }
 

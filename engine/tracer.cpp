@@ -1,7 +1,11 @@
 // The one checked door to Embree: Debian's build ends the process on a ray with a NaN (HARD_CASES RC-01), so every ray
 // is looked at first, and a bad one is a miss that is counted.
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
+#include <utility>
 
 #include "engine/base/errors.h"
 #include "engine/ray_scene.h"
@@ -28,11 +32,38 @@ bool is_valid(const Ray& ray) {
            ray.far >= ray.near && embree_direction(ray) != glm::vec3(0.0f);
 }
 
-RTCIntersectContext make_context(bool coherent) {
-    RTCIntersectContext context;
+void init_context(RTCIntersectContext& context, bool coherent) {
     rtcInitIntersectContext(&context);
     context.flags = coherent ? RTC_INTERSECT_CONTEXT_FLAG_COHERENT : RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
-    return context;
+}
+
+constexpr int widest = 16;
+
+/// Distances this near each other, relatively, count as equal: about 30 roundings. Embree's single rays, packets and
+/// processors differ by up to 1.8e-6 of a distance (HARD_CASES RC-15).
+constexpr float tie = 0x1p-19f;
+
+/// What the filter needs to know of the rays on their way.
+struct FilterContext {
+    RTCIntersectContext embree;  ///< first: Embree hands its address on
+    const MeshStructures* meshes;
+    /// Embree's own note of what each ray has accepted so far: the hit part of the rays that it was given.
+    RTCHitN* accepted;
+    std::array<float, widest> far;       ///< where each ray ends by itself
+    std::array<float, widest> nearest;   ///< distance of the nearest hit offered
+    std::array<float, widest> distance;  ///< of the one accepted, which ties with it
+
+    FilterContext(const MeshStructures& of, bool coherent, void* hits)
+        : meshes(&of), accepted(static_cast<RTCHitN*>(hits)) {
+        init_context(embree, coherent);
+        nearest.fill(std::numeric_limits<float>::infinity());
+    }
+};
+
+/// Instance and primitive of lane i of `count`.
+std::pair<int, unsigned> identify(const MeshStructures& meshes, RTCHitN* hits, unsigned count, unsigned i) {
+    const MeshStructures::Object& object = meshes.objects[RTCHitN_instID(hits, count, i, 0)];
+    return {object.first_instance + static_cast<int>(RTCHitN_geomID(hits, count, i)), RTCHitN_primID(hits, count, i)};
 }
 
 Hit make_hit(const MeshStructures& meshes, unsigned object, unsigned geometry, unsigned primitive, float u, float v,
@@ -98,7 +129,6 @@ template <int Width>
 PacketCounts intersect_packets(const RayScene::State& state, std::span<const Ray> rays, std::span<Hit> hits,
                                bool coherent) {
     PacketCounts counts;
-    RTCIntersectContext context = make_context(coherent);
     alignas(64) int valid[Width];
     alignas(64) typename Packet<Width>::RayHits packet;
     for (std::size_t begin = 0; begin < rays.size(); begin += Width) {
@@ -108,11 +138,15 @@ PacketCounts intersect_packets(const RayScene::State& state, std::span<const Ray
             packet.hit.geomID[lane] = RTC_INVALID_GEOMETRY_ID;
             packet.hit.instID[0][lane] = RTC_INVALID_GEOMETRY_ID;
         }
-        Packet<Width>::intersect(valid, state.top, &context, &packet);
-        for (int lane = 0; lane < Width && begin + static_cast<std::size_t>(lane) < rays.size(); ++lane) {
-            hits[begin + static_cast<std::size_t>(lane)] =
+        FilterContext context(*state.meshes, coherent, &packet.hit);
+        std::copy_n(packet.ray.tfar, Width, context.far.begin());
+        for (const Layer* layer : state.layers())
+            if (layer->enabled > 0) Packet<Width>::intersect(valid, layer->top, &context.embree, &packet);
+        const std::size_t count = std::min<std::size_t>(Width, rays.size() - begin);
+        for (std::size_t lane = 0; lane < count; ++lane) {
+            hits[begin + lane] =
                 make_hit(*state.meshes, packet.hit.instID[0][lane], packet.hit.geomID[lane], packet.hit.primID[lane],
-                         packet.hit.u[lane], packet.hit.v[lane], packet.ray.tfar[lane]);
+                         packet.hit.u[lane], packet.hit.v[lane], context.distance[lane]);
         }
     }
     return counts;
@@ -123,7 +157,8 @@ PacketCounts occluded_packets(const RayScene::State& state, std::span<const Ray>
                               std::span<std::uint8_t> blocked) {
     PacketCounts counts;
     // Never "coherent": with that flag this Embree's occlusion packets can loop for ever over instances.
-    RTCIntersectContext context = make_context(false);
+    RTCIntersectContext context;
+    init_context(context, false);
     alignas(64) int valid[Width];
     alignas(64) typename Packet<Width>::Rays packet;
     for (std::size_t begin = 0; begin < rays.size(); begin += Width) {
@@ -131,15 +166,58 @@ PacketCounts occluded_packets(const RayScene::State& state, std::span<const Ray>
             const std::size_t i = begin + static_cast<std::size_t>(lane);
             fill_lane(packet, valid, lane, i < rays.size() ? &rays[i] : nullptr, counts);
         }
-        Packet<Width>::occluded(valid, state.top, &context, &packet);
-        for (int lane = 0; lane < Width && begin + static_cast<std::size_t>(lane) < rays.size(); ++lane) {
-            blocked[begin + static_cast<std::size_t>(lane)] = valid[lane] != 0 && packet.tfar[lane] < 0.0f;
+        const std::size_t count = std::min<std::size_t>(Width, rays.size() - begin);
+        for (const Layer* layer : state.layers()) {
+            if (layer->enabled == 0) continue;
+            Packet<Width>::occluded(valid, layer->top, &context, &packet);
+            bool open = false;  // a ray that is stopped has a negative end and is over
+            for (std::size_t lane = 0; lane < count; ++lane) {
+                if (packet.tfar[lane] < 0.0f) valid[lane] = 0;
+                open = open || valid[lane] != 0;
+            }
+            if (!open) break;
         }
+        for (std::size_t lane = 0; lane < count; ++lane) blocked[begin + lane] = packet.tfar[lane] < 0.0f;
     }
     return counts;
 }
 
 }  // namespace
+
+void keep_lowest_of_nearest(const RTCFilterFunctionNArguments* arguments) {
+    FilterContext& context = *reinterpret_cast<FilterContext*>(arguments->context);
+    const unsigned count = arguments->N;  // lane i of the packet is ray i of ours
+    int* const valid = arguments->valid;
+    float* const offered = &RTCRayN_tfar(arguments->ray, count, 0);
+    constexpr float beyond = 1.0f + tie;
+    int close = 0;
+    for (unsigned i = 0; i < count; ++i) close |= valid[i] & (offered[i] * beyond < context.nearest[i] ? 0 : -1);
+    if (close == 0) {  // as a rule: whatever was accepted before lies clearly farther
+        for (unsigned i = 0; i < count; ++i) {
+            const bool accept = valid[i] != 0;
+            context.nearest[i] = accept ? offered[i] : context.nearest[i];
+            context.distance[i] = accept ? offered[i] : context.distance[i];
+            offered[i] = accept ? std::min(offered[i] * beyond, context.far[i]) : offered[i];
+        }
+        return;
+    }
+    for (unsigned i = 0; i < count; ++i) {
+        if (valid[i] == 0) continue;
+        const bool lost =
+            !(offered[i] * beyond < context.nearest[i]) &&
+            RTCHitN_geomID(context.accepted, count, i) != RTC_INVALID_GEOMETRY_ID &&
+            (offered[i] > context.nearest[i] * beyond || identify(*context.meshes, arguments->hit, count, i) >=
+                                                             identify(*context.meshes, context.accepted, count, i));
+        context.nearest[i] = std::min(context.nearest[i], offered[i]);
+        if (lost) {
+            valid[i] = 0;
+            continue;
+        }
+        context.distance[i] = offered[i];
+        // A little more than the hit: what ties with it must be offered too, whichever comes first.
+        offered[i] = std::min(context.nearest[i] * beyond, context.far[i]);
+    }
+}
 
 Tracer::Tracer(const RayScene& scene) : state_(*scene.state_) {}
 
@@ -154,16 +232,18 @@ Hit Tracer::intersect(const Ray& ray) {
         return {};
     }
     ++traced_;
-    RTCIntersectContext context = make_context(false);
     RTCRayHit query{};
     const glm::vec3 direction = embree_direction(ray);
     query.ray = {ray.origin.x, ray.origin.y, ray.origin.z, ray.near, direction.x, direction.y,
                  direction.z,  0.0f,         ray.far,      ~0u,      0,           0};
     query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
     query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
-    rtcIntersect1(state_.top, &context, &query);
+    FilterContext context(*state_.meshes, false, &query.hit);
+    context.far[0] = ray.far;
+    for (const Layer* layer : state_.layers())
+        if (layer->enabled > 0) rtcIntersect1(layer->top, &context.embree, &query);
     return make_hit(*state_.meshes, query.hit.instID[0], query.hit.geomID, query.hit.primID, query.hit.u, query.hit.v,
-                    query.ray.tfar);
+                    context.distance[0]);
 }
 
 bool Tracer::occluded(const Ray& ray) {
@@ -172,12 +252,16 @@ bool Tracer::occluded(const Ray& ray) {
         return false;
     }
     ++traced_;
-    RTCIntersectContext context = make_context(false);
+    RTCIntersectContext context;
+    init_context(context, false);
     const glm::vec3 direction = embree_direction(ray);
     RTCRay query = {ray.origin.x, ray.origin.y, ray.origin.z, ray.near, direction.x, direction.y,
                     direction.z,  0.0f,         ray.far,      ~0u,      0,           0};
-    rtcOccluded1(state_.top, &context, &query);
-    return query.tfar < 0.0f;
+    for (const Layer* layer : state_.layers()) {
+        if (layer->enabled > 0) rtcOccluded1(layer->top, &context, &query);
+        if (query.tfar < 0.0f) return true;
+    }
+    return false;
 }
 
 void Tracer::intersect(std::span<const Ray> rays, std::span<Hit> hits, bool coherent) {

@@ -55,9 +55,9 @@ std::uint64_t mark_hidden(MotionField& field, const Scene& scene, const MotionMo
                 if (field.validity.pixels[pixel] != MotionValidity::valid) continue;
                 const Hit& hit = hits.pixels[pixel];
                 const auto instance = static_cast<std::size_t>(hit.instance);
-                const Mesh& mesh = scene.meshes[static_cast<std::size_t>(instances[instance].mesh)];
-                rays[count] =
-                    make_visibility_ray(*other.view, other_rays.anchor(), maps[instance](surface_point(mesh, hit)));
+                const auto mesh = static_cast<std::size_t>(instances[instance].mesh);
+                const glm::dvec3 point = triangle_point(scene.meshes[mesh], other.frame->meshes[mesh], hit);
+                rays[count] = make_visibility_ray(*other.view, other_rays.anchor(), maps[instance](point));
                 pixels[count++] = pixel;
             }
         }

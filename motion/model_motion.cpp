@@ -18,11 +18,19 @@ namespace {
 /// What is known about an object (or the background) before any pixel is looked at.
 struct ObjectMotion {
     CameraFromObject now, other;
-    bool counterpart = false;  ///< visible at the other moment too
+    bool counterpart = false;  ///< shown at the other moment too
     bool still = false;        ///< both projections are the same bits
+    bool deforms = false;
     const Mesh* mesh = nullptr;
-    /// Where it turns too far for a chord: its places at the sub-frame moments, from now towards other. Else empty.
-    std::vector<CameraFromObject> between;
+    const PosedMesh* shape_now = nullptr;
+    const PosedMesh* shape_other = nullptr;
+    /// Its place and shape at a moment.
+    struct Moment {
+        CameraFromObject place;
+        PosedMesh shape;
+    };
+    /// Where it turns too far for a chord: the sub-frame moments, from now towards other. Else empty.
+    std::vector<Moment> between;
 };
 
 /// Everything that a frame's pixels share.
@@ -93,11 +101,13 @@ void add_moments_between(FrameMotion& motion, const Scene& scene, const MotionMo
                 ? interpolate_view(*now.view, *other.view, (seconds - begin) / (end - begin))
                 : make_camera_view(frame.cameras[static_cast<std::size_t>(camera)], now.view->width, now.view->height);
         motion.between.push_back(view);
-        if (background_turns) motion.background.between.push_back(make_background_map(*now.view, view));
+        if (background_turns) motion.background.between.push_back({make_background_map(*now.view, view), {}});
         for (std::size_t i = 0; i < motion.objects.size(); ++i) {
             const auto node = static_cast<std::size_t>(now.frame->instances[i].node);
             if (motion.objects[i].counterpart && turns.nodes[node] + view_turn > limit) {
-                motion.objects[i].between.push_back(make_camera_from_object(view, frame.world[node]));
+                const auto mesh = static_cast<std::size_t>(now.frame->instances[i].mesh);
+                motion.objects[i].between.push_back(
+                    {make_camera_from_object(view, frame.world[node]), frame.meshes[mesh]});
             }
         }
     }
@@ -126,9 +136,12 @@ FrameMotion prepare(const Scene& scene, const MotionMoment& now, const MotionMom
         object.now = make_camera_from_object(motion.now, now.frame->world[node]);
         // The list of instances is the same at every time; two frames of different scenes have no counterparts.
         if (i >= other.frame->instances.size() || !(other.frame->instances[i] == instance)) continue;
-        object.counterpart = other.frame->visible[node] != 0;
+        object.counterpart = other.frame->shown[i] != 0;
         object.other = make_camera_from_object(motion.other, other.frame->world[node]);
-        object.still = same && object.now == object.other;
+        object.shape_now = &now.frame->meshes[static_cast<std::size_t>(instance.mesh)];
+        object.shape_other = &other.frame->meshes[static_cast<std::size_t>(instance.mesh)];
+        object.deforms = !object.shape_now->positions.empty();
+        object.still = same && object.now == object.other && *object.shape_now == *object.shape_other;
     }
     add_moments_between(motion, scene, now, other, settings.chord_degrees);
     return motion;
@@ -148,9 +161,16 @@ glm::dvec2 cap_length(const glm::dvec2& vector, double longest) {
     return scaled * (longest / glm::length(scaled));
 }
 
+/// Q at both moments, in object space, m; or a direction of the background.
+struct SurfacePlace {
+    glm::dvec3 now{0.0}, other{0.0};
+    const Hit* hit = nullptr;
+};
+
 /// Sum of the chords over the moments between; a chord with an end behind the camera counts nothing.
-double compute_path_length(const FrameMotion& frame, const ObjectMotion& object, const glm::dvec3& point,
-                           const glm::dvec2& start, const glm::dvec2& end) {
+[[gnu::noinline]] double compute_path_length(const FrameMotion& frame, const ObjectMotion& object,
+                                             const SurfacePlace& place, const glm::dvec2& start,
+                                             const glm::dvec2& end) {
     double sum = 0.0;
     glm::dvec2 previous = start;
     bool known = true;
@@ -160,7 +180,9 @@ double compute_path_length(const FrameMotion& frame, const ObjectMotion& object,
         known = true;
     };
     for (std::size_t i = 0; i < object.between.size(); ++i) {
-        const glm::dvec3 p = object.between[i](point);
+        const ObjectMotion::Moment& moment = object.between[i];
+        const bool moved = object.deforms && !moment.shape.positions.empty();
+        const glm::dvec3 p = moment.place(moved ? surface_point(*object.mesh, moment.shape, *place.hit) : place.now);
         if (-p.z > nearest_depth(frame.between[i])) {
             go_to(project_camera_point(frame.between[i], p));
         } else {
@@ -175,13 +197,13 @@ bool is_on_screen(const CameraView& view, const glm::dvec2& p) {
     return p.x >= 0.0 && p.x <= view.width && p.y >= 0.0 && p.y <= view.height;
 }
 
-/// Motion of a point (object space, m) or of a background direction. The same function projects both moments, so
-/// that equal bits give exactly 0.
-PixelMotion compute_point_motion(const FrameMotion& frame, const ObjectMotion& object, const glm::dvec3& point,
+/// Motion of a surface point or of a background direction. The same function projects both moments, so that equal bits
+/// give exactly 0.
+PixelMotion compute_point_motion(const FrameMotion& frame, const ObjectMotion& object, const SurfacePlace& place,
                                  double near_now, double near_other) {
     PixelMotion motion;
-    const glm::dvec3 from = object.now(point);
-    const glm::dvec3 to = object.still ? from : object.other(point);
+    const glm::dvec3 from = object.now(place.now);
+    const glm::dvec3 to = object.still ? from : object.other(place.other);
     if (!(-from.z > near_now) || !(-to.z > near_other)) {
         motion.validity = MotionValidity::behind_camera;
         return motion;
@@ -190,7 +212,7 @@ PixelMotion compute_point_motion(const FrameMotion& frame, const ObjectMotion& o
     const glm::dvec2 end = object.still ? start : project_camera_point(frame.other, to);
     motion.displacement = cap_length(frame.sign * (end - start), frame.diagonal);
     motion.path_length = object.between.empty() ? glm::length(motion.displacement)
-                                                : compute_path_length(frame, object, point, start, end);
+                                                : compute_path_length(frame, object, place, start, end);
     if (!is_on_screen(frame.other, end)) motion.validity = MotionValidity::leaves_screen;
     return motion;
 }
@@ -201,17 +223,28 @@ PixelMotion compute_background_motion(const FrameMotion& frame, double x, double
         const glm::dvec3 direction(unproject_pixel(frame.now, x, y), -1.0);
         // At infinity every direction before the camera is beyond the near plane.
         constexpr double smallest = 1e-12;
-        motion = compute_point_motion(frame, frame.background, direction, smallest, smallest);
+        motion = compute_point_motion(frame, frame.background, {direction, direction}, smallest, smallest);
     }
     motion.validity = MotionValidity::background;
     return motion;
 }
 
+/// Apart, so that what is rigid stays one short path.
+[[gnu::noinline]] void find_places(const ObjectMotion& object, const Hit& hit, SurfacePlace& place) {
+    place.now = surface_point(*object.mesh, *object.shape_now, hit);
+    place.other = surface_point(*object.mesh, *object.shape_other, hit);
+}
+
 PixelMotion compute_hit_motion(const FrameMotion& frame, const Hit& hit) {
     const ObjectMotion& object = frame.objects[static_cast<std::size_t>(hit.instance)];
     if (!object.counterpart) return {.validity = MotionValidity::no_counterpart};
-    return compute_point_motion(frame, object, surface_point(*object.mesh, hit), nearest_depth(frame.now),
-                                nearest_depth(frame.other));
+    SurfacePlace place{{}, {}, &hit};
+    if (object.deforms) {
+        find_places(object, hit, place);
+    } else {
+        place.now = place.other = surface_point(*object.mesh, hit);
+    }
+    return compute_point_motion(frame, object, place, nearest_depth(frame.now), nearest_depth(frame.other));
 }
 
 }  // namespace

@@ -5,11 +5,13 @@
 #include <glm/mat3x3.hpp>
 #include <glm/mat4x4.hpp>
 #include <glm/matrix.hpp>
+#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
 #include "engine/camera_view.h"
+#include "engine/pose.h"
 #include "engine/ray_scene.h"
-#include "engine/scene.h"
+#include "engine/subdivide.h"
 
 namespace aleph {
 
@@ -28,21 +30,45 @@ inline CameraFromObject make_camera_from_object(const CameraView& view, const gl
             to_camera(view, glm::dvec3(world_from_object[3]))};
 }
 
-/// Where on its mesh a ray met an object: object space, m. Always from the barycentrics, never from the distance, which
-/// is off by metres at grazing angles (HARD_CASES RP-19); what rounding put off the triangle is put back (RP-18).
-inline glm::dvec3 surface_point(const Mesh& mesh, const Hit& hit) {
-    // Written so that a NaN becomes 0.
+/// Barycentric coordinates of a hit, brought back to the triangle that rounding may have put them off (RP-18). A NaN
+/// becomes 0.
+inline glm::dvec2 clamp_barycentrics(const Hit& hit) {
     double u = hit.u > 0.0f ? std::min(static_cast<double>(hit.u), 1.0) : 0.0;
     double v = hit.v > 0.0f ? std::min(static_cast<double>(hit.v), 1.0) : 0.0;
     if (const double sum = u + v; sum > 1.0) {
         u /= sum;
         v /= sum;
     }
-    const glm::uvec3& triangle = mesh.triangles[static_cast<std::size_t>(hit.primitive)];
-    const glm::dvec3 p0(mesh.positions[triangle.x]);
-    const glm::dvec3 p1(mesh.positions[triangle.y]);
-    const glm::dvec3 p2(mesh.positions[triangle.z]);
-    return (1.0 - u - v) * p0 + u * p1 + v * p2;
+    return {u, v};
+}
+
+/// Between three corners of a triangle given by their numbers among points of any precision.
+template <class Points>
+glm::dvec3 point_between(const Points& points, const glm::uvec3& triangle, const glm::dvec2& uv) {
+    const glm::dvec3 p0(points[triangle.x]), p1(points[triangle.y]), p2(points[triangle.z]);
+    return (1.0 - uv.x - uv.y) * p0 + uv.x * p1 + uv.y * p2;
+}
+
+/// Where on its mesh a ray met an object: object space, m. Always from the barycentrics, never from the distance, which
+/// is off by metres at grazing angles (HARD_CASES RP-19).
+inline glm::dvec3 surface_point(const Mesh& mesh, const Hit& hit) {
+    return point_between(mesh.positions, mesh.triangles[static_cast<std::size_t>(hit.primitive)],
+                         clamp_barycentrics(hit));
+}
+
+/// The same on a mesh that may deform, at the moment of `posed` (SceneFrame::meshes): on its triangles, as rays meet
+/// it.
+inline glm::dvec3 triangle_point(const Mesh& mesh, const PosedMesh& posed, const Hit& hit) {
+    if (posed.positions.empty()) return surface_point(mesh, hit);
+    return point_between(posed.positions, mesh.triangles[static_cast<std::size_t>(hit.primitive)],
+                         clamp_barycentrics(hit));
+}
+
+/// Q(u,v,t) at the moment of `posed`: the limit surface's point where the mesh is a moving cage's, else the triangle's.
+inline glm::dvec3 surface_point(const Mesh& mesh, const PosedMesh& posed, const Hit& hit) {
+    if (posed.control.empty()) return triangle_point(mesh, posed, hit);
+    const glm::dvec2 uv = clamp_barycentrics(hit);
+    return mesh.limit.surface->evaluate(mesh.cage_part, posed.control, hit.primitive, uv.x, uv.y);
 }
 
 /// Nearest depth along the viewing axis that still counts as before the camera, m.

@@ -4,8 +4,10 @@
 #include <cmath>
 #include <cstddef>
 #include <glm/gtc/quaternion.hpp>
+#include <glm/gtc/type_ptr.hpp>
 #include <glm/mat3x3.hpp>
 
+#include "engine/operation_stack.h"
 #include "engine/time_sampling.h"
 #include "engine/track.h"
 
@@ -66,10 +68,55 @@ double turn_along(const Track<T>& track, double begin, double end) {
     return sum;
 }
 
+/// The samples that matter between two times, as a track of their own. `make` reads a value from a sample's channels.
+template <class T, class Make>
+double turn_of_channels(const OperationStack& stack, const SampleSpan& used, double begin, double end,
+                        const Make& make) {
+    Track<T> track;
+    track.sampling.kind = TimeSampling::Kind::acyclic;
+    const std::size_t channels = channel_count(stack);
+    for (std::size_t i = used.floor; i <= used.ceil; ++i) {
+        track.sampling.times.push_back(sample_time(stack.sampling, i));
+        track.values.push_back(make(stack.channels.data() + i * channels));
+    }
+    return turn_along(track, begin, end);
+}
+
+/// Turns of all operations added up: not less than what they do together.
+double turn_of_operations(const OperationStack& stack, double begin, double end) {
+    using Kind = OperationStack::Kind;
+    const std::size_t samples = sample_count(stack);
+    if (samples < 2) return 0.0;
+    const SampleSpan used{find_samples(stack.sampling, samples, begin).floor,
+                          find_samples(stack.sampling, samples, end).ceil, 0.0};
+    double sum = 0.0;
+    std::size_t first = 0;  // channel of the operation
+    for (const Kind kind : stack.operations) {
+        const std::size_t at = first;
+        first += channel_count(kind);
+        if (kind == Kind::rotate) {
+            // An axis that swings is rare, and then slow: only the angle is counted.
+            sum += turn_of_channels<double>(stack, used, begin, end, [&](const double* c) { return c[at + 3]; });
+        } else if (kind == Kind::rotate_x || kind == Kind::rotate_y || kind == Kind::rotate_z) {
+            sum += turn_of_channels<double>(stack, used, begin, end, [&](const double* c) { return c[at]; });
+        } else if (kind == Kind::matrix) {
+            sum += turn_of_channels<glm::dmat4>(stack, used, begin, end,
+                                                [&](const double* c) { return glm::make_mat4(c + at); });
+        }
+    }
+    return sum;
+}
+
 double turn_of_node(const Node& node, double begin, double end) {
+    if (node.operations) return turn_of_operations(*node.operations, begin, end);
     if (node.matrix) return turn_along(*node.matrix, begin, end);
     if (node.axis_rotation) return turn_along(node.axis_rotation->angle, begin, end);
     return turn_along(node.rotation, begin, end);
+}
+
+/// Whether the parent's transform does not apply.
+bool is_detached(const Node& node, double begin, double end) {
+    return evaluate(node.inherits, begin) == 0.0 && evaluate(node.inherits, end) == 0.0;
 }
 
 double largest(const Scene& scene, const Turns& turns) {
@@ -89,8 +136,10 @@ double step_time(double begin, double end, int step, int count) {
 Turns compute_turns(const Scene& scene, int camera_node, double begin, double end) {
     if (begin > end) std::swap(begin, end);
     std::vector<bool> carries_camera(scene.nodes.size(), false);
-    for (int node = camera_node; node != no_index; node = scene.nodes[static_cast<std::size_t>(node)].parent) {
+    for (int node = camera_node; node != no_index;) {
         carries_camera[static_cast<std::size_t>(node)] = true;
+        const Node& carrier = scene.nodes[static_cast<std::size_t>(node)];
+        node = is_detached(carrier, begin, end) ? no_index : carrier.parent;
     }
     // Along the way from the root: everything's turn, and the part of it that the camera shares.
     std::vector<double> total(scene.nodes.size(), 0.0), shared(scene.nodes.size(), 0.0);
@@ -98,14 +147,25 @@ Turns compute_turns(const Scene& scene, int camera_node, double begin, double en
         const Node& node = scene.nodes[i];
         const auto parent = static_cast<std::size_t>(node.parent);
         const bool is_root = node.parent == no_index;
-        total[i] = (is_root ? 0.0 : total[parent]) + turn_of_node(node, begin, end);
-        shared[i] = carries_camera[i] ? total[i] : (is_root ? 0.0 : shared[parent]);
+        const bool detached = is_root || is_detached(node, begin, end);
+        total[i] = (detached ? 0.0 : total[parent]) + turn_of_node(node, begin, end);
+        shared[i] = carries_camera[i] ? total[i] : (detached ? 0.0 : shared[parent]);
     }
     Turns turns;
     turns.background = camera_node == no_index ? 0.0 : total[static_cast<std::size_t>(camera_node)];
     turns.nodes.resize(scene.nodes.size());
     for (std::size_t i = 0; i < turns.nodes.size(); ++i) {
         turns.nodes[i] = (total[i] - shared[i]) + (turns.background - shared[i]);
+    }
+    // A skinned mesh turns with its joints, whatever its node does.
+    const std::vector<double> of_nodes = turns.nodes;
+    for (std::size_t i = 0; i < of_nodes.size(); ++i) {
+        for (const int mesh : scene.nodes[i].meshes) {
+            const int skin = scene.meshes[static_cast<std::size_t>(mesh)].skin;
+            if (skin == no_index) continue;
+            for (const int joint : scene.skins[static_cast<std::size_t>(skin)].joints)
+                turns.nodes[i] = std::max(turns.nodes[i], of_nodes[static_cast<std::size_t>(joint)]);
+        }
     }
     return turns;
 }

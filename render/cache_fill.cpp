@@ -146,20 +146,8 @@ void fill_cache(IrradianceCache& cache, const IndirectContext& context, const Sa
 
 namespace {
 
-struct Bounds {
-    glm::vec3 low{std::numeric_limits<float>::infinity()}, high{-std::numeric_limits<float>::infinity()};
-};
-
-Bounds scene_bounds(const ShadingScene& shading) {
-    Bounds bounds;
-    for (const PosedInstance& instance : shading.instances) {
-        if (!instance.visible) continue;
-        for (const glm::vec3& p : instance.mesh->positions) {
-            const glm::vec3 world = instance.linear * p + instance.translation;
-            bounds.low = glm::min(bounds.low, world);
-            bounds.high = glm::max(bounds.high, world);
-        }
-    }
+SceneBounds bounds_or_unit(const ShadingScene& shading) {
+    const SceneBounds& bounds = shading.bounds;
     if (!(bounds.low.x <= bounds.high.x)) return {glm::vec3(-1.0f), glm::vec3(1.0f)};
     return bounds;
 }
@@ -167,13 +155,13 @@ Bounds scene_bounds(const ShadingScene& shading) {
 }  // namespace
 
 IrradianceCache make_cache(const ShadingScene& shading) {
-    const Bounds bounds = scene_bounds(shading);
+    const SceneBounds bounds = bounds_or_unit(shading);
     const glm::vec3 margin(1e-3f * glm::length(bounds.high - bounds.low));
     return {bounds.low - margin, bounds.high + margin};
 }
 
 float scene_radius(const ShadingScene& shading) {
-    const Bounds bounds = scene_bounds(shading);
+    const SceneBounds bounds = bounds_or_unit(shading);
     return 0.5f * glm::length(bounds.high - bounds.low);
 }
 

@@ -36,7 +36,7 @@ Emitter make_emitter(const PosedInstance& instance, const ShadingMaterial& mater
     double area = 0.0;
     for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
         const glm::uvec3 t = mesh.triangles[i];
-        const glm::vec3 p0 = mesh.positions[t.x], e1 = mesh.positions[t.y] - p0, e2 = mesh.positions[t.z] - p0;
+        const glm::vec3 p0 = instance.corner(t.x), e1 = instance.corner(t.y) - p0, e2 = instance.corner(t.z) - p0;
         const glm::vec3 edge1 = instance.linear * e1, edge2 = instance.linear * e2;
         const glm::vec3 normal = instance.normals * glm::cross(e1, e2);
         const double twice_area = glm::length(glm::dvec3(glm::cross(edge1, edge2)));
@@ -206,11 +206,12 @@ float pdf_emitter(const Emitter& emitter, const glm::vec3& position, float cos_a
 LightSet make_light_set(const ShadingScene& shading) {
     LightSet lights;
     lights.emitter_of_instance.assign(shading.instances.size(), no_index);
-    for (std::size_t i = 0; i < shading.instances.size(); ++i) {
+    for (const int index : shading.emitting) {
+        const auto i = static_cast<std::size_t>(index);
         const PosedInstance& instance = shading.instances[i];
         const ShadingMaterial& material = shading.materials[static_cast<std::size_t>(instance.material)];
         if (!instance.visible || !material.emits) continue;
-        Emitter emitter = make_emitter(instance, material, static_cast<int>(i));
+        Emitter emitter = make_emitter(instance, material, index);
         if (emitter.triangles.empty()) continue;
         lights.emitter_of_instance[i] = static_cast<int>(lights.emitters.size());
         lights.emitters.push_back(std::move(emitter));

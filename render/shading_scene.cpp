@@ -23,6 +23,46 @@ T interpolate(const std::vector<T>& values, const glm::uvec3& t, float u, float 
     return values[t.x] * (1.0f - u - v) + values[t.y] * u + values[t.z] * v;
 }
 
+void add(SceneBounds& bounds, const PosedInstance& instance) {
+    if (!instance.visible) return;
+    for (std::uint32_t v = 0; v < instance.mesh->positions.size(); ++v) {
+        const glm::vec3 world = instance.linear * instance.corner(v) + instance.translation;
+        bounds.low = glm::min(bounds.low, world);
+        bounds.high = glm::max(bounds.high, world);
+    }
+}
+
+bool can_emit(const Material& material) {
+    const auto is_on = [](const auto& track, const auto& zero) {
+        return is_animated(track) || !(key_value(track, 0) == zero);
+    };
+    return !material.unlit && is_on(material.emission, glm::dvec3(0.0)) && is_on(material.emission_strength, 0.0);
+}
+
+ShadingMaterial make_material(const Scene& scene, const SceneFrame& frame, std::size_t i) {
+    const MaterialValues& values = frame.materials[i];
+    return {values, &scene.materials[i], scene.materials[i].double_sided,
+            values.emission != Rgb(0.0f) && !scene.materials[i].unlit};
+}
+
+PosedInstance make_instance(const ShadingScene& shading, std::size_t i) {
+    const SceneFrame& frame = *shading.frame;
+    const Instance& instance = frame.instances[i];
+    const auto m = static_cast<std::size_t>(instance.mesh);
+    const Mesh& mesh = shading.scene->meshes[m];
+    const glm::dmat4& world = frame.world[static_cast<std::size_t>(instance.node)];
+    PosedInstance posed;
+    posed.mesh = &mesh;
+    posed.material = mesh.material == no_index ? static_cast<int>(shading.scene->materials.size()) : mesh.material;
+    posed.linear = glm::mat3(glm::dmat3(world));
+    posed.translation = glm::vec3(glm::dvec3(world[3]) - shading.anchor);
+    posed.normals = glm::mat3(normal_matrix(world));
+    // What rays leave out for want of volume (HARD_CASES RC-02) must not shine, nor count for the scene's size.
+    posed.visible = frame.shown[i] != 0 && is_traceable(world, shading.anchor);
+    if (!frame.meshes[m].positions.empty()) posed.deformed = &frame.meshes[m];
+    return posed;
+}
+
 }  // namespace
 
 ShadingScene make_shading_scene(const Scene& scene, const SceneFrame& frame, const glm::dvec3& anchor,
@@ -33,28 +73,47 @@ ShadingScene make_shading_scene(const Scene& scene, const SceneFrame& frame, con
     shading.textures = &textures;
     shading.anchor = anchor;
     shading.environment = frame.environment;
-    for (std::size_t i = 0; i < scene.materials.size(); ++i) {
-        const MaterialValues& values = frame.materials[i];
-        shading.materials.push_back({values, &scene.materials[i], scene.materials[i].double_sided,
-                                     values.emission != Rgb(0.0f) && !scene.materials[i].unlit});
-    }
+    for (std::size_t i = 0; i < scene.materials.size(); ++i)
+        shading.materials.push_back(make_material(scene, frame, i));
     shading.materials.push_back({});
-    const int default_material = static_cast<int>(scene.materials.size());
+    std::vector<std::uint8_t> can_shine(shading.materials.size(), 0);
+    for (std::size_t i = 0; i < scene.materials.size(); ++i) can_shine[i] = can_emit(scene.materials[i]);
     shading.instances.reserve(frame.instances.size());
-    for (const Instance& instance : frame.instances) {
-        const Mesh& mesh = scene.meshes[static_cast<std::size_t>(instance.mesh)];
-        const glm::dmat4& world = frame.world[static_cast<std::size_t>(instance.node)];
-        PosedInstance posed;
-        posed.mesh = &mesh;
-        posed.material = mesh.material == no_index ? default_material : mesh.material;
-        posed.linear = glm::mat3(glm::dmat3(world));
-        posed.translation = glm::vec3(glm::dvec3(world[3]) - anchor);
-        posed.normals = glm::mat3(normal_matrix(world));
-        // What rays leave out for want of volume (HARD_CASES RC-02) must not shine, nor count for the scene's size.
-        posed.visible = frame.visible[static_cast<std::size_t>(instance.node)] != 0 && is_traceable(world, anchor);
-        shading.instances.push_back(posed);
+    for (std::size_t i = 0; i < frame.instances.size(); ++i) {
+        shading.instances.push_back(make_instance(shading, i));
+        const PosedInstance& instance = shading.instances.back();
+        if (can_shine[static_cast<std::size_t>(instance.material)] != 0)
+            shading.emitting.push_back(static_cast<int>(i));
+        add(shading.bounds, instance);
     }
     return shading;
+}
+
+void update_shading_scene(ShadingScene& shading, const PosePlan& plan, const glm::dvec3& anchor) {
+    const SceneFrame& frame = *shading.frame;
+    if (anchor != shading.anchor) {
+        shading = make_shading_scene(*shading.scene, frame, anchor, *shading.textures);
+        return;
+    }
+    if (!shading.still_bounds) {
+        SceneBounds still;
+        std::vector<std::uint8_t> changes(shading.instances.size(), 0);
+        for (const int i : plan.instances) changes[static_cast<std::size_t>(i)] = 1;
+        for (std::size_t i = 0; i < changes.size(); ++i)
+            if (changes[i] == 0) add(still, shading.instances[i]);
+        shading.still_bounds = still;
+    }
+    shading.environment = frame.environment;
+    for (const int i : plan.materials) {
+        const auto m = static_cast<std::size_t>(i);
+        shading.materials[m] = make_material(*shading.scene, frame, m);
+    }
+    shading.bounds = *shading.still_bounds;
+    for (const int i : plan.instances) {
+        PosedInstance& instance = shading.instances[static_cast<std::size_t>(i)];
+        instance = make_instance(shading, static_cast<std::size_t>(i));
+        add(shading.bounds, instance);
+    }
 }
 
 SurfacePoint make_surface_point(const ShadingScene& shading, const Hit& hit, const glm::vec3& direction) {
@@ -69,7 +128,7 @@ SurfacePoint make_surface_point(const ShadingScene& shading, const Hit& hit, con
     }
     SurfacePoint point;
     point.material = instance.material;
-    const glm::vec3 p0 = mesh.positions[t.x], e1 = mesh.positions[t.y] - p0, e2 = mesh.positions[t.z] - p0;
+    const glm::vec3 p0 = instance.corner(t.x), e1 = instance.corner(t.y) - p0, e2 = instance.corner(t.z) - p0;
     const glm::vec3 local = p0 + e1 * u + e2 * v;
     point.position = instance.linear * local + instance.translation;
     const glm::vec3 w0 = instance.linear * p0, w1 = instance.linear * e1, w2 = instance.linear * e2;
@@ -83,8 +142,8 @@ SurfacePoint make_surface_point(const ShadingScene& shading, const Hit& hit, con
     point.front = glm::dot(geometric, direction) < 0.0f;
     point.geometric = point.front ? geometric : -geometric;
     point.normal = point.geometric;
-    if (!mesh.normals.empty()) {
-        const glm::vec3 n = instance.normals * interpolate(mesh.normals, t, u, v);
+    if (const std::vector<glm::vec3>& normals = instance.vertex_normals(); !normals.empty()) {
+        const glm::vec3 n = instance.normals * interpolate(normals, t, u, v);
         const float n_length = glm::length(n);
         if (n_length > 0.0f && std::isfinite(n_length)) {
             glm::vec3 shading_normal = n / n_length;

@@ -4,9 +4,11 @@
 #include <glm/mat3x3.hpp>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
+#include <limits>
+#include <optional>
 #include <vector>
 
-#include "engine/pose.h"
+#include "engine/pose_plan.h"
 #include "engine/ray_scene.h"
 
 namespace aleph {
@@ -20,6 +22,15 @@ struct PosedInstance {
     glm::vec3 translation{0.0f};  ///< m, relative to the anchor
     glm::mat3 normals{1.0f};      ///< object to world for normals (cofactors), not normalised
     bool visible = false;
+    const PosedMesh* deformed = nullptr;  ///< in place of the mesh's own points and normals; null: rigid
+
+    /// Object space, m: as rays meet it.
+    glm::vec3 corner(std::uint32_t vertex) const {
+        return deformed == nullptr ? mesh->positions[vertex] : glm::vec3(deformed->positions[vertex]);
+    }
+    const std::vector<glm::vec3>& vertex_normals() const {
+        return deformed == nullptr ? mesh->normals : deformed->normals;
+    }
 };
 
 /// Material numbers of this frame beside its textures.
@@ -30,6 +41,11 @@ struct ShadingMaterial {
     bool emits = false;
 };
 
+/// m, relative to the anchor. Of nothing: low is infinite.
+struct SceneBounds {
+    glm::vec3 low{std::numeric_limits<float>::infinity()}, high{-std::numeric_limits<float>::infinity()};
+};
+
 struct ShadingScene {
     const Scene* scene = nullptr;
     const SceneFrame* frame = nullptr;
@@ -38,12 +54,20 @@ struct ShadingScene {
     std::vector<PosedInstance> instances;  ///< as SceneFrame::instances
     std::vector<ShadingMaterial> materials;
     Rgb environment{0.0f};
+    std::vector<int> emitting;  ///< instances whose material emits at some time
+    SceneBounds bounds;         ///< of what is visible
+
+    std::optional<SceneBounds> still_bounds;  ///< of what no update touches, once one has asked
 };
 
 /// Keeps pointers to scene, frame and textures: they must outlive it.
 /// @param textures  make_texture_set(scene)
 ShadingScene make_shading_scene(const Scene& scene, const SceneFrame& frame, const glm::dvec3& anchor,
                                 const TextureSet& textures);
+
+/// Brings it to what shading.frame holds now, after update_pose of the same plan: equal to a fresh one, but only what
+/// can have changed is touched (everything where the anchor moved).
+void update_shading_scene(ShadingScene& shading, const PosePlan& plan, const glm::dvec3& anchor);
 
 /// A point of a surface, seen from a direction.
 struct SurfacePoint {
