@@ -159,6 +159,7 @@ Scene load_scene(const std::filesystem::path& path) {
     const std::string file = path.string();
     Scene scene = extension_of(path) == ".json" ? load_scene_file(path, file) : load_asset_file(path, file);
     add_rotation_warnings(scene);
+    add_surface_warnings(scene);
     add_missing_light(scene);
     return scene;
 }

@@ -51,6 +51,31 @@ void add_rotation_warnings(Scene& scene) {
     }
 }
 
+void add_surface_warnings(Scene& scene) {
+    std::vector<bool> drawn(scene.materials.size());
+    for (const Node& node : scene.nodes) {
+        for (const int mesh : node.meshes) {
+            const int material = scene.meshes[static_cast<std::size_t>(mesh)].material;
+            if (material != no_index) drawn[static_cast<std::size_t>(material)] = true;
+        }
+    }
+    for (std::size_t i = 0; i < scene.materials.size(); ++i) {
+        if (!drawn[i]) continue;
+        const Material& material = scene.materials[i];
+        const char* what = nullptr;
+        if (is_positive_somewhere(material.transmission)) {
+            what = "transmission";
+        } else if (material.alpha_mode == Material::AlphaMode::mask) {
+            what = "alpha mode \"mask\"";
+        } else if (material.alpha_mode == Material::AlphaMode::blend) {
+            what = "alpha mode \"blend\"";
+        }
+        if (what == nullptr) continue;
+        scene.warnings.push_back(fmt::format("material \"{}\": {} is not in this version; it is rendered opaque",
+                                             printable(material.name), what));
+    }
+}
+
 bool has_light(const Scene& scene) {
     if (scene.environment && is_positive_somewhere(*scene.environment)) return true;
     return std::any_of(scene.nodes.begin(), scene.nodes.end(), [&](const Node& node) {
@@ -59,7 +84,7 @@ bool has_light(const Scene& scene) {
             const int material = scene.meshes[static_cast<std::size_t>(mesh)].material;
             if (material == no_index) return false;
             const Material& m = scene.materials[static_cast<std::size_t>(material)];
-            return is_positive_somewhere(m.emission) && is_positive_somewhere(m.emission_strength);
+            return !m.unlit && is_positive_somewhere(m.emission) && is_positive_somewhere(m.emission_strength);
         });
     });
 }

@@ -9,6 +9,10 @@ namespace aleph {
 /// that was meant: HARD_CASES RP-08) and of rotations whose length is off by more than 1e-3 (they count at length 1).
 void add_rotation_warnings(Scene& scene);
 
+/// Warns of materials of drawn meshes that let light through, or have holes (alpha modes), which the renderer shows as
+/// opaque.
+void add_surface_warnings(Scene& scene);
+
 /// True if something can give light at some time: a light on a node, an environment, a used material that emits.
 bool has_light(const Scene& scene);
 
