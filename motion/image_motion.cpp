@@ -137,7 +137,7 @@ int compute_cost(const Window& a, const Window& b) {
     return cost;
 }
 
-/// Three steps of nine candidates each around where the search stands; the middle comes first and wins ties.
+/// Three steps of nine candidates each around where the search stands.
 Offset search_in_steps(const CensusLevel& now, const CensusLevel& other, int x, int y, Offset offset) {
     static constexpr std::array<Offset, 8> around = {
         {{0, -1}, {-1, 0}, {1, 0}, {0, 1}, {-1, -1}, {1, -1}, {-1, 1}, {1, 1}}};
@@ -146,14 +146,14 @@ Offset search_in_steps(const CensusLevel& now, const CensusLevel& other, int x, 
     offset.y = std::clamp(offset.y, -y, now.height - 1 - y);
     int best = compute_cost(window, load_window(other, x + offset.x, y + offset.y));
     for (const int step : steps) {
-        if (best == 0) break;
+        if (best == 0 && offset.x == 0 && offset.y == 0) break;  // nothing comes before it
         const Offset middle = offset;
         for (const Offset& direction : around) {
             const Offset candidate{middle.x + step * direction.x, middle.y + step * direction.y};
             const int tx = x + candidate.x, ty = y + candidate.y;
             if (tx < 0 || ty < 0 || tx >= now.width || ty >= now.height) continue;
             const int cost = compute_cost(window, load_window(other, tx, ty));
-            if (cost >= best) continue;
+            if (cost > best || (cost == best && !comes_first(candidate, offset))) continue;
             best = cost;
             offset = candidate;
         }

@@ -45,9 +45,9 @@ struct ImageMotionSettings {
 /// Whole pixels, for every pixel. Cost of an offset: sum of Hamming distances over 3x3, borders clamped; targets
 /// outside the frame are excluded. Exhaustive within 8 pixels at the coarsest level; at each finer level three steps
 /// (4, 2, 1) from twice the coarser result (of pixel floor(x/2), floor(y/2); brought back inside where it leads one
-/// pixel out). Ties go to the smaller |offset|^2, then dy, then dx, of the offset from where the step starts: a still
-/// pair is still, and a flat place keeps what the coarser level says. Reach: 53 pixels with three levels, 23 with two,
-/// 8 with one. Every pixel has a target, so that all are `valid`. The same bits for any number of threads.
+/// pixel out). Ties go to the smaller |offset|^2, then dy, then dx, of the whole offset from the pixel: what shows
+/// nothing stands still. Reach: 53 pixels with three levels, 23 with two, 8 with one. Every pixel has a target, so that
+/// all are `valid`. The same bits for any number of threads.
 /// @throws InputError if the sizes differ or are empty
 MotionField compute_image_motion(const CensusPyramid& now, const CensusPyramid& other,
                                  const ImageMotionSettings& settings = {});
