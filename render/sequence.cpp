@@ -1,6 +1,7 @@
 #include "render/sequence.h"
 
 #include <algorithm>
+#include <optional>
 
 #include "engine/base/errors.h"
 #include "engine/base/parallel.h"
@@ -33,6 +34,17 @@ Moment make_moment(const Scene& scene, std::int64_t frame, int camera, int width
     moment.frame = pose(scene, scene.frame_rate.seconds_of(frame));
     moment.view = make_camera_view(moment.frame.cameras[static_cast<std::size_t>(camera)], width, height);
     return moment;
+}
+
+/// Brings a moment to another frame: what cannot move is not touched.
+void update_moment(std::optional<Moment>& moment, const Scene& scene, const PosePlan& plan, std::int64_t frame,
+                   int camera, int width, int height) {
+    if (!moment) {
+        moment = make_moment(scene, frame, camera, width, height);
+        return;
+    }
+    update_pose(scene, plan, scene.frame_rate.seconds_of(frame), moment->frame);
+    moment->view = make_camera_view(moment->frame.cameras[static_cast<std::size_t>(camera)], width, height);
 }
 
 void refuse_later_effects(const Scene& scene, const CameraValues& camera) {
@@ -91,7 +103,11 @@ struct Sequence::State {
     FrameRange range;
     ViewingConditions viewing;
     TextureSet textures;
+    PosePlan pose_plan;
     RayScene rays;
+    // What the last frame left: the next one updates it, and is the same as without.
+    std::optional<Moment> now, other;
+    std::optional<ShadingScene> shading;   ///< of `now`
     std::unique_ptr<RayScene> other_rays;  ///< for visibility in the other frame, or its quick estimate
     double exposure = 1.0;
 };
@@ -101,8 +117,20 @@ Sequence::Sequence(const Scene& authored, const RenderSettings& settings, const 
     const int camera_index = find_camera(authored, camera);
     std::unique_ptr<const Scene> refined = refine_cages(authored, camera_index, settings);
     const Scene& scene = refined ? *refined : authored;
-    state_.reset(new State{std::move(refined), scene, settings, camera_index, frame_range(scene), scene.viewing,
-                           make_texture_set(scene), RayScene(scene), nullptr, 1.0});
+    state_.reset(new State{std::move(refined),
+                           scene,
+                           settings,
+                           camera_index,
+                           frame_range(scene),
+                           scene.viewing,
+                           make_texture_set(scene),
+                           make_pose_plan(scene),
+                           RayScene(scene),
+                           {},
+                           {},
+                           {},
+                           nullptr,
+                           1.0});
     State& s = *state_;
     s.viewing.frames_per_second = scene.frame_rate.per_second();
     if (scene.exposure) {
@@ -177,16 +205,23 @@ FrameOutput Sequence::render(std::int64_t frame, const FrameRequest& request) {
     const std::uint64_t traced_before = s.rays.rays_traced(), invalid_before = s.rays.invalid_rays();
     StageClock clock, total;
 
-    const Moment now = make_moment(s.scene, frame, s.camera, settings.width, settings.height);
+    update_moment(s.now, s.scene, s.pose_plan, frame, s.camera, settings.width, settings.height);
+    const Moment& now = *s.now;
     if (request.frame) refuse_later_effects(s.scene, now.frame.cameras[static_cast<std::size_t>(s.camera)]);
-    Moment other;
-    if (plan.needed) other = make_moment(s.scene, plan.other, s.camera, settings.width, settings.height);
+    if (plan.needed)
+        update_moment(s.other, s.scene, s.pose_plan, plan.other, s.camera, settings.width, settings.height);
+    const Moment& other = plan.needed ? *s.other : now;  // then nobody asks
     out.view = now.view;
     clock.add_to(stats.seconds.pose);
 
     const glm::dvec3 anchor = compute_anchor(now.view);
-    stats.instances_touched = s.rays.update(now.frame, anchor);
-    const ShadingScene shading = make_shading_scene(s.scene, now.frame, anchor, s.textures);
+    stats.instances_touched = s.rays.update_moving(now.frame, anchor);
+    if (s.shading) {
+        update_shading_scene(*s.shading, s.pose_plan, anchor);
+    } else {
+        s.shading = make_shading_scene(s.scene, now.frame, anchor, s.textures);
+    }
+    const ShadingScene& shading = *s.shading;
     const LightSet lights = make_light_set(shading);
     const LightingContext lighting{shading, lights, s.rays};
     clock.add_to(stats.seconds.update);
@@ -206,7 +241,7 @@ FrameOutput Sequence::render(std::int64_t frame, const FrameRequest& request) {
         const bool look_there = !plan.cut && (from_images || request.maps);
         if (look_there && !s.other_rays) s.other_rays = std::make_unique<RayScene>(s.rays.share_meshes());
         const std::uint64_t other_before = look_there ? s.other_rays->rays_traced() : 0;
-        if (look_there) s.other_rays->update(other.frame, compute_anchor(other.view));
+        if (look_there) s.other_rays->update_moving(other.frame, compute_anchor(other.view));
         if (from_images) {
             Image<Rgb> other_estimate;
             if (look_there) {

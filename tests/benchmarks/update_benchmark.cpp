@@ -1,0 +1,127 @@
+// What a frame's update costs when 10 objects move among many: pose, ray scene, shading scene, one thread. Each against
+// doing the same afresh. Ends with a table; the last column is how much more the largest scene costs than the smallest.
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <optional>
+#include <vector>
+
+#include "engine/base/parallel.h"
+#include "engine/ray_scene.h"
+#include "engine/shapes.h"
+#include "render/lights.h"
+#include "render/shading_scene.h"
+#include "render/texture.h"
+
+namespace aleph {
+namespace {
+
+constexpr int movers = 10;
+constexpr int frames = 60;
+
+/// A square field of boxes; ten of them, spread over it, slide and turn. One lamp hangs still.
+Scene make_field(int objects) {
+    Scene scene;
+    scene.meshes.push_back(make_shape_mesh({.kind = Shape::Kind::box}));
+    scene.meshes.push_back(make_shape_mesh({.kind = Shape::Kind::quad, .size = {4.0, 4.0, 0.0}}));
+    scene.meshes[1].material = 0;
+    scene.materials.resize(1);
+    scene.materials[0].emission = glm::dvec3(5.0);
+    const int columns = static_cast<int>(std::ceil(std::sqrt(objects)));
+    for (int i = 0; i < objects; ++i) {
+        Node node;
+        node.meshes = {i == 0 ? 1 : 0};
+        const glm::dvec3 at(2.0 * (i % columns), i == 0 ? 9.0 : 0.0, 2.0 * (i / columns));
+        node.translation = at;
+        if (i % (objects / movers) == 5) {
+            Track<glm::dvec3> slide(at);
+            slide.sampling = {TimeSampling::Kind::acyclic, 0.0, 1.0, {0.0, 10.0}};
+            slide.values.push_back(at + glm::dvec3(0.0, 3.0, 0.0));
+            node.translation = slide;
+            Track<double> angle(0.0);
+            angle.sampling = slide.sampling;
+            angle.values.push_back(9.0);
+            node.axis_rotation = AxisRotation{{0.0, 1.0, 0.0}, angle};
+        }
+        scene.nodes.push_back(node);
+    }
+    return scene;
+}
+
+using Clock = std::chrono::steady_clock;
+
+/// ms of the fastest call: others share the machine.
+class Best {
+  public:
+    template <class Work>
+    void time(const Work& work) {
+        const auto start = Clock::now();
+        work();
+        milliseconds_ =
+            std::min(milliseconds_, std::chrono::duration<double, std::milli>(Clock::now() - start).count());
+    }
+    double milliseconds() const { return milliseconds_; }
+
+  private:
+    double milliseconds_ = 1e30;
+};
+
+struct Row {
+    const char* name;
+    Best best;
+};
+
+std::vector<Row> measure(int objects) {
+    std::vector<Row> rows = {{"pose afresh", {}}, {"pose update", {}},    {"rays afresh", {}},
+                             {"rays update", {}}, {"shading afresh", {}}, {"shading update", {}},
+                             {"lights", {}},      {"all updates", {}},    {"build of the rays", {}}};
+    const Scene scene = make_field(objects);
+    const TextureSet textures = make_texture_set(scene);
+    const PosePlan plan = make_pose_plan(scene);
+    const glm::dvec3 anchor(0.0);
+    std::optional<RayScene> rays;
+    rows[8].best.time([&] { rays.emplace(scene); });
+    SceneFrame frame = pose(scene, 0.0);
+    rows[2].best.time([&] { rays->update(frame, anchor); });
+    ShadingScene shading = make_shading_scene(scene, frame, anchor, textures);
+    update_shading_scene(shading, plan, anchor);
+    for (int i = 1; i <= frames; ++i) {
+        const double seconds = i / 30.0;
+        if (i % 10 == 0) {
+            rows[0].best.time([&] { pose(scene, seconds); });
+            rows[4].best.time([&] { make_shading_scene(scene, frame, anchor, textures); });
+        }
+        rows[7].best.time([&] {
+            rows[1].best.time([&] { update_pose(scene, plan, seconds, frame); });
+            rows[3].best.time([&] { rays->update_moving(frame, anchor); });
+            rows[5].best.time([&] { update_shading_scene(shading, plan, anchor); });
+            rows[6].best.time([&] { make_light_set(shading); });
+        });
+    }
+    return rows;
+}
+
+void print_table() {
+    const std::vector<int> sizes = {1000, 10000, 100000};
+    std::vector<std::vector<Row>> columns;
+    for (const int size : sizes) columns.push_back(measure(size));
+    fmt::print("{} objects move; ms, the fastest of {} frames, one thread\n{:<20}", movers, frames, "objects");
+    for (const int size : sizes) fmt::print("{:>12}", size);
+    fmt::print("{:>12}\n", "ratio");
+    for (std::size_t row = 0; row < columns[0].size(); ++row) {
+        fmt::print("{:<20}", columns[0][row].name);
+        for (const std::vector<Row>& column : columns) fmt::print("{:>12.4f}", column[row].best.milliseconds());
+        fmt::print("{:>12.1f}\n", columns.back()[row].best.milliseconds() / columns[0][row].best.milliseconds());
+    }
+}
+
+}  // namespace
+}  // namespace aleph
+
+int main() {
+    const aleph::ThreadLimit one(1);
+    aleph::print_table();
+}
