@@ -92,6 +92,11 @@ void write_sheet(const std::filesystem::path& path, const std::vector<Panel>& pa
                                         {0.92f, 0.92f, 0.90f});
         static_cast<void>(sheet.geterror());
     }
+    if (path.extension() == ".jpg") {
+        sheet.specmod().attribute("Compression", "jpeg:88");
+        if (!sheet.write(path.string(), OIIO::TypeDesc::UINT8)) throw OutputError(path.string(), sheet.geterror());
+        return;
+    }
     Image<Rgb> picture(sheet.spec().width, sheet.spec().height);
     for (int y = 0; y < picture.height; ++y) {
         for (int x = 0; x < picture.width; ++x) {

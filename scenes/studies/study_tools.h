@@ -49,7 +49,8 @@ Panel map_panel(const std::string& caption, const Image<float>& map, double low,
 /// Where irradiance was computed: single pixels, drawn a little larger so that they survive scaling.
 Panel records_panel(const std::string& caption, const Image<float>& records);
 
-/// Draws panels in rows of `columns`, each `width` pixels wide, with captions; writes a PNG.
+/// Draws panels in rows of `columns`, each `width` pixels wide, with captions; writes a PNG, or a JPEG where the
+/// path ends in .jpg.
 void write_sheet(const std::filesystem::path& path, const std::vector<Panel>& panels, int columns, int width);
 
 }  // namespace aleph
