@@ -12,7 +12,7 @@ namespace aleph {
 /// Longest text of a scene file, bytes.
 inline constexpr std::size_t max_scene_text_bytes = std::size_t{64} << 20;
 /// Most memory that the values of a JSON text may take.
-inline constexpr std::size_t max_json_memory = std::size_t{192} << 20;
+inline constexpr std::size_t max_json_memory = std::size_t{160} << 20;
 
 /// About the memory that nlohmann's values take, from above, without parsing: a number of two bytes becomes 48 (16 in
 /// a list that may have grown to twice its length, 16 again where it is destroyed), the member of an object 250.

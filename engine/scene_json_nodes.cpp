@@ -157,6 +157,7 @@ class NodeReader {
             copy.light = copy.camera = no_index;
             copy.name =
                 all_names_.unused(fmt::format("{}/{}", scene_.nodes[static_cast<std::size_t>(index)].name, copy.name));
+            reader_.charge(4 * copy.name.size(), at, "too many nodes are copied");
             const int made = add_node(std::move(copy));
             all_names_.add(scene_.nodes.back().name, made);
             shows = share(at, next.source, made) || shows;
