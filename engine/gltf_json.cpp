@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "engine/base/errors.h"
+#include "engine/json_text.h"
 
 namespace aleph {
 
@@ -44,6 +45,7 @@ nlohmann::json parse_untrusted_json(std::string_view text, const std::string& fi
     if (const int depth = nesting_depth(text); depth > max_json_depth) {
         throw InputError(file, "", fmt::format("the JSON text is nested {} deep, more than {}", depth, max_json_depth));
     }
+    check_json_memory(text, false, file, "keep vertices, keys and indices in the binary buffer");
     try {
         return nlohmann::json::parse(text);
     } catch (const nlohmann::json::exception& error) {

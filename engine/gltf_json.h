@@ -12,7 +12,7 @@ namespace aleph {
 
 /// Deepest nesting of arrays and objects in a file; nothing legitimate comes near.
 inline constexpr int max_json_depth = 128;
-/// Longest JSON text, bytes (embedded base64 included): a value of two bytes becomes 16 in memory.
+/// Longest JSON text, bytes (embedded base64 included); json_text.h limits the memory that its values take.
 inline constexpr std::size_t max_json_bytes = std::size_t{256} << 20;
 /// Largest magnitude of any number that we use.
 inline constexpr double max_json_number = 1e18;
