@@ -123,14 +123,21 @@ void add_boomerang(Scene& scene) {
     scene.nodes[static_cast<std::size_t>(spin)].meshes = {static_cast<int>(scene.meshes.size()) - 1};
 }
 
-/// A slow dolly to the right that turns after the boomerang: the wall moves by less than a pixel a frame at 640x480.
+/// Still for the first half, as in the thesis's figure; then a slow dolly to the right that turns after the boomerang:
+/// the wall moves by about a pixel a frame at 640x480.
 void add_camera(Scene& scene) {
-    const double seconds = to_millionth(boomerang_last_frame / 30.0);
+    const std::vector<double> times = {0.0, boomerang_still_until / 30.0, to_millionth(boomerang_last_frame / 30.0)};
+    const auto hold_and_go = [&](auto from, auto to) {
+        Track<decltype(from)> track;
+        track.sampling.kind = TimeSampling::Kind::acyclic;
+        track.sampling.times = times;
+        track.values = {from, from, to};
+        return track;
+    };
     const int dolly = add_node(scene, "camera_dolly");
-    scene.nodes.back().translation = even_track<glm::dvec3>(0.0, seconds, {-0.16, 1.5, 3.2}, {0.2, 1.46, 3.12});
+    scene.nodes.back().translation = hold_and_go(glm::dvec3(-0.12, 1.5, 3.2), glm::dvec3(0.1, 1.47, 3.14));
     const int pan = add_node(scene, "camera_pan", dolly);
-    scene.nodes.back().axis_rotation =
-        AxisRotation{{0.0, 1.0, 0.0}, in_radians(even_track<double>(0.0, seconds, 2.2, -2.6))};
+    scene.nodes.back().axis_rotation = AxisRotation{{0.0, 1.0, 0.0}, in_radians(hold_and_go(1.4, -1.2))};
     const int node = add_node(scene, "camera", pan, glm::dvec3(0.0), turn({1.0, 0.0, 0.0}, -4.5));
     Camera camera;
     camera.name = "camera";

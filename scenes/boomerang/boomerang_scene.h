@@ -10,6 +10,7 @@
 namespace aleph {
 
 inline constexpr int boomerang_last_frame = 89;        ///< the first is 0; 30 a second
+inline constexpr int boomerang_still_until = 45;       ///< frame at which the camera sets off
 inline constexpr double boomerang_spin_degrees = 7.0;  ///< about its own axis, in a frame
 
 /// @param textures  folder of the textures as the scene file is to name it, "textures/"
