@@ -50,7 +50,15 @@ class TreeReader {
             reader_.archive.fail(name_of, fmt::format("instances make more than {} objects", max_alembic_objects));
         if (std::ranges::find(open_, object) != open_.end())
             reader_.archive.fail(name_of, "an instance contains itself");
-        const int node = add_node(object, name_of, parent, schema);
+        const int node = [&] {
+            try {
+                return add_node(object, name_of, parent, schema);
+            } catch (const InputError& error) {  // the container knows bytes and properties; a user knows objects
+                if (error.place().starts_with('/')) throw;
+                reader_.archive.fail(object,
+                                     error.place().empty() ? error.reason() : error.place() + ": " + error.reason());
+            }
+        }();
         open_.push_back(object);
         for (const int child : source.children)
             read(object_at(reader_, child).is_instance() ? resolve_instance(reader_, child) : child, child, node,

@@ -8,13 +8,13 @@
 
 #include "engine/alembic_surface.h"
 #include "engine/base/errors.h"
-#include "engine/cage_validate.h"
 #include "engine/subdivide.h"
 
 namespace aleph {
 namespace {
 
 constexpr std::uint64_t bytes_per_face = 1024;  // that refinement takes, about
+constexpr std::size_t many_faces = 30000;       // a cage so fine needs less of it to begin with
 
 /// An optional property's numbers at a time; empty where it is missing.
 template <class T>
@@ -133,6 +133,24 @@ void warn_of_changes(AlembicReader& reader, int object, const AlembicCompound& g
     }
 }
 
+/// Makes the triangles. Archives leave the boundary rule out, or have it at its default, where it does not matter to
+/// their writer: a surface of which nothing would be drawn then keeps its edges.
+void tessellate(AlembicReader& reader, int object, int number) {
+    Cage& cage = reader.part.cages[static_cast<std::size_t>(number)];
+    try {
+        try {
+            tessellate_cage(reader.part, number);
+        } catch (const InputError&) {
+            if (cage.boundary != Cage::Boundary::none) throw;
+            cage.boundary = Cage::Boundary::edge_and_corner;
+            tessellate_cage(reader.part, number);
+            reader.warn(object, "its boundary rule would draw nothing; edges and corners are kept");
+        }
+    } catch (const InputError& error) {
+        reader.archive.fail(object, error.reason());
+    }
+}
+
 }  // namespace
 
 std::vector<int> read_subdivision(AlembicReader& reader, int object, const AlembicCompound& top) {
@@ -160,12 +178,8 @@ std::vector<int> read_subdivision(AlembicReader& reader, int object, const Alemb
         cage.corner_sharpness = read_optional<float>(reader, geom, ".cornerSharpnesses", run.begin);
         add_faces(reader, object, run, parts, read_optional<int>(reader, geom, ".holes", run.begin), cage);
         if (cage.face_sizes.empty()) continue;
+        if (cage.face_sizes.size() > many_faces) cage.level = 1;
         add_uv(reader, object, geom, run, cage);
-        try {
-            validate(cage, run.point_count);
-        } catch (const InputError& error) {
-            archive.fail(object, error.reason());
-        }
 
         const int number = static_cast<int>(reader.part.cages.size());
         reader.part.cages.push_back(std::move(cage));
@@ -179,7 +193,7 @@ std::vector<int> read_subdivision(AlembicReader& reader, int object, const Alemb
             meshes.push_back(static_cast<int>(reader.part.meshes.size()));
             reader.part.meshes.push_back(std::move(mesh));
         }
-        tessellate_cage(reader.part, number);
+        tessellate(reader, object, number);
     }
     return meshes;
 }

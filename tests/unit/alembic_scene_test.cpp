@@ -2,11 +2,13 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/gtc/type_ptr.hpp>
+#include <map>
 #include <set>
 
 #include "engine/alembic_camera.h"
 #include "engine/archive.h"
 #include "engine/lookup.h"
+#include "engine/operation_stack.h"
 #include "engine/pose.h"
 #include "tests/unit/alembic_truth.h"
 
@@ -65,6 +67,35 @@ TEST_P(AlembicScene, WorldTransformsAtEveryQueryTime) {
         }
     }
     EXPECT_GE(compared, GetParam() == "property_zoo" ? 0 : 4);
+}
+
+/// Operations, channels of every sample, and local transforms between the samples.
+TEST_P(AlembicScene, OperationsAndLocalTransforms) {
+    using Kind = OperationStack::Kind;
+    const std::map<std::string, Kind> kinds{{"translate", Kind::translate}, {"scale", Kind::scale},
+                                            {"matrix", Kind::matrix},       {"rotate", Kind::rotate},
+                                            {"rotateX", Kind::rotate_x},    {"rotateY", Kind::rotate_y},
+                                            {"rotateZ", Kind::rotate_z}};
+    const Scene scene = load(GetParam());
+    const json truth = truth_of(GetParam());
+    for (const json& object : truth["objects"]) {
+        if (!object.contains("xform")) continue;
+        const std::string path = object["path"];
+        const json& xform = object["xform"];
+        const Node& node = node_at(scene, path);
+        std::vector<Kind> operations;
+        for (const json& operation : xform["ops"]) operations.push_back(kinds.at(operation["type"]));
+        const OperationStack stack = node.operations.value_or(OperationStack{});
+        EXPECT_EQ(stack.operations, operations) << path;
+        for (const json& sample : xform["samples"]) {
+            expect_matrix(evaluate(stack, sample["time"]), sample["matrix"], path + " sample");
+            EXPECT_EQ(evaluate(node.inherits, sample["time"]) != 0.0, sample["inherits"].get<bool>()) << path;
+        }
+        for (const json& at : xform["at"]) {
+            expect_matrix(evaluate(stack, at["time"]), at["local_lerp_ops"], path + " between");
+            EXPECT_EQ(evaluate(node.inherits, at["time"]) != 0.0, at["inherits_at_floor"].get<bool>()) << path;
+        }
+    }
 }
 
 /// Every object but face sets and materials is a node at its path, instances expanded; and there is nothing else.
