@@ -1,0 +1,15 @@
+// Any bytes as a texture: an InputError or a picture.
+
+#include <cstdint>
+#include <vector>
+
+#include "engine/base/errors.h"
+#include "engine/image_io.h"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+    try {
+        aleph::decode_texture({data, data + size}, "input");
+    } catch (const aleph::InputError&) {
+    }
+    return 0;
+}
