@@ -16,6 +16,13 @@ packages=(
   locales              # the tests check that a comma locale changes nothing
 )
 
+# For the comparison with Khronos' glTF-Validator. Debian's Node conflicts with other builds of it, so only where there is
+# none at all.
+if ! command -v node >/dev/null 2>&1 && ! command -v npm >/dev/null 2>&1; then packages+=(nodejs npm); fi
+
+# scenes/setup.sh PACKAGE...: these too; tests/fuzz/run.sh wants clang.
+packages+=("$@")
+
 if ! command -v dpkg-query >/dev/null 2>&1; then
   cat >&2 <<TEXT
 This is not a Debian system, so nothing was installed. Please install, with your own package manager:

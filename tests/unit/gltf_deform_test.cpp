@@ -101,7 +101,7 @@ TEST_F(GltfDeform, SkinWithJointsWeightsAndBinds) {
     EXPECT_TRUE(scene.warnings.empty());
 }
 
-TEST_F(GltfDeform, BindsAreOptional) {
+TEST_F(GltfDeform, S12_11_BindsAreOptional) {
     GltfDraft draft = skin_draft();
     draft.json["skins"][0].erase("inverseBindMatrices");
     EXPECT_EQ(load(draft).skins[0].inverse_binds, (std::vector<glm::dmat4>(2, glm::dmat4(1.0))));

@@ -140,7 +140,7 @@ TEST_F(GltfSurface, FactorsAndExtensions) {
     EXPECT_TRUE(scene.warnings.empty());
 }
 
-TEST_F(GltfSurface, FactorsOutOfRangeAreClampedWithAWarning) {
+TEST_F(GltfSurface, S13_8_FactorsOutOfRangeAreClampedWithAWarning) {
     GltfDraft draft = triangle_draft();
     draft.json["materials"] = {{{"pbrMetallicRoughness", {{"metallicFactor", 1.5}, {"roughnessFactor", -1}}},
                                 {"extensions", {{"KHR_materials_ior", {{"ior", 0.5}}}}}}};
