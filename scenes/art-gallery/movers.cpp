@@ -49,20 +49,20 @@ std::vector<BallDrop> make_ball_drops() {
         drop.restitution = 0.91 - 0.02 * (i % 3);
         drops.push_back(drop);
     }
-    // Two come out of the cabinet and cross the hall.
+    // Two roll off their plinths: one down the hall, later one out of the cabinet.
     BallDrop beach;
     beach.release = 2.4;
-    beach.position = {-7.6, 1.25, 0.55};
-    beach.velocity = {1.15, 0.6, 0.0};
+    beach.position = {5.6, 1.1, 0.2};
+    beach.velocity = {-1.3, 0.0, 0.0};
     beach.radius = 0.2;
     beach.restitution = 0.82;
     beach.grip = 0.985;
     beach.rolling = 0.16;
     drops.push_back(beach);
     BallDrop late = beach;
-    late.release = 19.4;
-    late.position = {-9.1, 1.1, -0.78};
-    late.velocity = {1.25, 1.4, 0.0};
+    late.release = 19.8;
+    late.position = {-9.4, 1.05, -0.72};
+    late.velocity = {1.0, 0.0, 0.0};
     late.radius = 0.15;
     drops.push_back(late);
     return drops;
@@ -108,6 +108,9 @@ void add_ball_work(Scene& scene, const GalleryMaterials& materials) {
         const auto path = simulate_drop(drops[i], gallery_seconds);
         node_of(scene, index).translation = cubic_track(path);
         if (rolls) {
+            const double height = drops[i].position.y - drops[i].radius;
+            add_shape(scene, name + "_plinth", work, box({0.34, height, 0.34}), materials.plinth,
+                      {drops[i].position.x, 0.5 * height, drops[i].position.z});
             const glm::dvec3 v = drops[i].velocity;
             turn_about(scene, index, glm::normalize(glm::cross(glm::dvec3(0.0, 1.0, 0.0), v)),
                        cubic_track(simulate_spin(drops[i], path)));
@@ -268,9 +271,9 @@ void add_mobile(Scene& scene, const GalleryMaterials& materials) {
         double size;
     };
     const Arm arms[] = {{0.62, 1.05, 1.38, 1.5, {214, 40, 34}, 0.3},
-                        {0.5, 0.8, 0.22, -2.5, {246, 184, 28}, 0.25},
-                        {0.42, 0.62, 0.2, 3.5, {28, 86, 180}, 0.21},
-                        {0.36, 0.42, 0.18, -4.5, {232, 110, 30}, 0.17}};
+                        {0.5, 0.8, 0.3, -2.5, {246, 184, 28}, 0.25},
+                        {0.42, 0.62, 0.27, 3.5, {28, 86, 180}, 0.21},
+                        {0.36, 0.42, 0.23, -4.5, {232, 110, 30}, 0.17}};
     const Shape leaf =
         lathe({{0.0, -0.02}, {0.5, -0.012}, {0.92, -0.006}, {1.0, 0.0}, {0.92, 0.006}, {0.5, 0.012}, {0.0, 0.02}}, 40);
     int parent = add_node(scene, "mobile", no_index, {1.4, hall_high.y, 1.15});
