@@ -22,8 +22,8 @@ std::size_t read_instances(GltfReader& reader, std::size_t node_index, int paren
     const nlohmann::json& attributes =
         reader.source.document["nodes"][node_index]["extensions"]["EXT_mesh_gpu_instancing"]["attributes"];
     const std::size_t count = reader.accessors.count(attributes.begin()->get<int>());
-    // A node takes far more room than its attributes.
-    reader.accessors.charge(count * sizeof(Node), place);
+    // A node takes far more room than its attributes; twice while the list of nodes grows.
+    reader.accessors.charge(count * 2 * sizeof(Node), place);
     const std::vector<double> translations = read_attribute(reader, attributes, "TRANSLATION");
     const std::vector<double> rotations = read_attribute(reader, attributes, "ROTATION");
     const std::vector<double> scales = read_attribute(reader, attributes, "SCALE");

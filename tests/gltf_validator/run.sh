@@ -22,6 +22,8 @@ if ! cmp -s "$here/package-lock.json" "$modules/package-lock.json" || [ ! -f "$m
   fi
   : >"$modules/installed"
 fi
+IFS='
+'  # names may hold blanks
 set --
 for folder in "$assets" "$build/round_trip" "$build/gltf_corpus"; do
   [ -d "$folder" ] || continue
