@@ -64,6 +64,13 @@ std::vector<RefitMesh::Change> refit_meshes(RayScene::State& state, const SceneF
     return changes;
 }
 
+/// What the filters of alpha masks read.
+void note_alpha(RayScene::State& state, const SceneFrame& frame) {
+    if (!state.meshes->any_cutout) return;
+    state.alpha.clear();
+    for (const MaterialValues& material : frame.materials) state.alpha.push_back(material.alpha);
+}
+
 /// @return whether the object had to be touched
 bool place(Layer& layer, Placement& placement, const MeshStructures::Object& object, RefitMesh::Change change,
            const SceneFrame& frame, const glm::dvec3& anchor) {
@@ -146,6 +153,7 @@ RayScene RayScene::share_meshes() const {
 
 std::size_t RayScene::update(const SceneFrame& frame, const glm::dvec3& anchor) {
     const FlushDenormals flush;
+    note_alpha(*state_, frame);
     const std::vector<RefitMesh::Change> changes = refit_meshes(*state_, frame);
     std::size_t touched = 0;
     for (Layer* layer : {&state_->moving, &state_->still})
@@ -158,6 +166,7 @@ std::size_t RayScene::update(const SceneFrame& frame, const glm::dvec3& anchor) 
 std::size_t RayScene::update_moving(const SceneFrame& frame, const glm::dvec3& anchor) {
     if (!state_->placed || anchor != state_->anchor) return update(frame, anchor);
     const FlushDenormals flush;
+    note_alpha(*state_, frame);
     const MeshStructures& meshes = *state_->meshes;
     return place_objects(state_->moving, meshes.moving_count, meshes, refit_meshes(*state_, frame), frame, anchor);
 }

@@ -45,14 +45,16 @@ void check_mesh(const Mesh& mesh, std::size_t index) {
 
 /// @param places  which of the node's meshes; their numbers become Embree's
 RTCScene build_mesh_scene(RTCDevice device, const Scene& scene, const std::vector<int>& meshes,
-                          const std::vector<unsigned>& places) {
+                          const std::vector<unsigned>& places,
+                          const std::vector<std::unique_ptr<const AlphaCutout>>& cutouts) {
     RTCScene built = rtcNewScene(device);
     rtcSetSceneFlags(built, RTC_SCENE_FLAG_ROBUST);
     rtcSetSceneBuildQuality(built, RTC_BUILD_QUALITY_HIGH);
     for (const unsigned place : places) {
         const Mesh& mesh = scene.meshes[static_cast<std::size_t>(meshes[place])];
         if (mesh.triangles.empty()) continue;
-        RTCGeometry geometry = make_triangle_geometry(device, mesh.positions.size(), mesh.triangles);
+        RTCGeometry geometry = make_triangle_geometry(device, mesh.positions.size(), mesh.triangles,
+                                                      cutouts[static_cast<std::size_t>(meshes[place])].get());
         std::ranges::copy(mesh.positions,
                           static_cast<glm::vec3*>(rtcGetGeometryBufferData(geometry, RTC_BUFFER_TYPE_VERTEX, 0)));
         rtcCommitGeometry(geometry);
@@ -125,7 +127,8 @@ class ObjectMaker {
             deforming_.try_emplace({mesh, place}, static_cast<int>(structures_.deforming.size()));
         if (is_new) {
             const auto m = static_cast<std::size_t>(mesh);
-            structures_.deforming.emplace_back(scene_.meshes[m], mesh, place, kinds_.changes[m] != 0);
+            structures_.deforming.emplace_back(scene_.meshes[m], mesh, place, kinds_.changes[m] != 0,
+                                               structures_.cutouts[m].get());
         }
         return found->second;
     }
@@ -133,7 +136,7 @@ class ObjectMaker {
     RTCScene rigid_scene(const std::vector<int>& meshes, const std::vector<unsigned>& places) {
         RTCScene& built = rigid_[{meshes, places}];
         if (built == nullptr) {
-            built = build_mesh_scene(structures_.device, scene_, meshes, places);
+            built = build_mesh_scene(structures_.device, scene_, meshes, places, structures_.cutouts);
             structures_.mesh_scenes.push_back(built);
         }
         return built;
@@ -159,6 +162,12 @@ MeshStructures::MeshStructures(const Scene& scene) {
     for (std::size_t i = 0; i < scene.meshes.size(); ++i) {
         check_mesh(scene.meshes[i], i);
         degenerate_triangles += count_degenerate(scene.meshes[i]);
+    }
+    cutouts.resize(scene.meshes.size());
+    for (std::size_t i = 0; i < scene.meshes.size(); ++i) {
+        if (!has_cutout(scene, scene.meshes[i])) continue;
+        cutouts[i] = std::make_unique<const AlphaCutout>(make_alpha_cutout(scene, scene.meshes[i]));
+        any_cutout = true;
     }
     ObjectMaker maker(*this, scene);
     for (std::size_t n = 0; n < scene.nodes.size(); ++n) maker.add_node(static_cast<int>(n));

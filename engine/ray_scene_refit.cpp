@@ -57,22 +57,30 @@ std::vector<std::uint32_t> sort_neighbours(const std::vector<glm::uvec3>& triang
 
 }  // namespace
 
-DeformingMesh::DeformingMesh(const Mesh& of, int index, unsigned geometry_number, bool can_change)
+DeformingMesh::DeformingMesh(const Mesh& of, int index, unsigned geometry_number, bool can_change,
+                             const AlphaCutout* holes)
     : mesh(index),
       geometry(geometry_number),
       changes(can_change),
       vertex_count(of.positions.size()),
-      triangles(of.triangles) {}
+      triangles(of.triangles),
+      cutout(holes) {}
 
-RTCGeometry make_triangle_geometry(RTCDevice device, std::size_t vertex_count,
-                                   const std::vector<glm::uvec3>& triangles) {
+RTCGeometry make_triangle_geometry(RTCDevice device, std::size_t vertex_count, const std::vector<glm::uvec3>& triangles,
+                                   const AlphaCutout* cutout) {
     RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
     // Embree allocates, which brings the padding that its wide loads need (HARD_CASES RC-14).
     rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, sizeof(glm::vec3), vertex_count);
     auto* indices = static_cast<glm::uvec3*>(rtcSetNewGeometryBuffer(
         geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, sizeof(glm::uvec3), triangles.size()));
     std::ranges::copy(triangles, indices);
-    rtcSetGeometryIntersectFilterFunction(geometry, keep_lowest_of_nearest);
+    if (cutout == nullptr) {
+        rtcSetGeometryIntersectFilterFunction(geometry, keep_lowest_of_nearest);
+        return geometry;
+    }
+    rtcSetGeometryUserData(geometry, const_cast<AlphaCutout*>(cutout));  // which the filters only read
+    rtcSetGeometryIntersectFilterFunction(geometry, keep_lowest_of_nearest_but_holes);
+    rtcSetGeometryOccludedFilterFunction(geometry, pass_holes);
     return geometry;
 }
 
@@ -117,7 +125,7 @@ void RefitMesh::build() {
         rtcDetachGeometry(scene_, mesh_.geometry);
         rtcReleaseGeometry(geometry_);
     }
-    geometry_ = make_triangle_geometry(device_, mesh_.vertex_count, mesh_.triangles);
+    geometry_ = make_triangle_geometry(device_, mesh_.vertex_count, mesh_.triangles, mesh_.cutout);
     rtcSetGeometryBuildQuality(geometry_, RTC_BUILD_QUALITY_REFIT);
     rtcAttachGeometryByID(scene_, geometry_, mesh_.geometry);
     neighbours_ = sort_neighbours(mesh_.triangles, points_);

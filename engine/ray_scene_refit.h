@@ -6,24 +6,26 @@
 #include <glm/vec3.hpp>
 #include <vector>
 
-#include "engine/scene.h"
+#include "engine/alpha_cutout.h"
 
 namespace aleph {
 
 /// What stays of a deforming mesh whatever its points do.
 struct DeformingMesh {
-    DeformingMesh(const Mesh& mesh, int index, unsigned geometry_number, bool can_change);
+    DeformingMesh(const Mesh& mesh, int index, unsigned geometry_number, bool can_change, const AlphaCutout* holes);
 
     int mesh;           ///< into Scene::meshes
     unsigned geometry;  ///< Embree's number: its place among its node's meshes
     bool changes;       ///< false: posed once
     std::size_t vertex_count;
     std::vector<glm::uvec3> triangles;
+    const AlphaCutout* cutout;  ///< null: rays always meet it
 };
 
 /// A triangle geometry with the settings that every mesh of a RayScene has. The caller releases it.
-RTCGeometry make_triangle_geometry(RTCDevice device, std::size_t vertex_count,
-                                   const std::vector<glm::uvec3>& triangles);
+/// @param cutout  null: rays always meet it; must outlive the geometry
+RTCGeometry make_triangle_geometry(RTCDevice device, std::size_t vertex_count, const std::vector<glm::uvec3>& triangles,
+                                   const AlphaCutout* cutout);
 
 /// Embree's scene of one deforming mesh.
 class RefitMesh {

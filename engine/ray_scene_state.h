@@ -20,6 +20,10 @@ inline constexpr float largest_coordinate = 1.844e18f;
 /// order in which a tree offers them (HARD_CASES RC-07).
 void keep_lowest_of_nearest(const RTCFilterFunctionNArguments* arguments);
 
+/// The filters of meshes with an alpha mask (their user data is the AlphaCutout): rays pass through the holes.
+void keep_lowest_of_nearest_but_holes(const RTCFilterFunctionNArguments* arguments);
+void pass_holes(const RTCFilterFunctionNArguments* arguments);
+
 /// Embree's structures of every mesh in object space, built once and shared by the RayScenes of neighbouring frames,
 /// and which instances they belong to.
 struct MeshStructures {
@@ -47,6 +51,8 @@ struct MeshStructures {
     /// How many of them share the first top-level scene: the moving ones, or all where there are few.
     std::size_t first_layer_count = 0;
     std::vector<DeformingMesh> deforming;
+    std::vector<std::unique_ptr<const AlphaCutout>> cutouts;  ///< as Scene::meshes; null: rays always meet it
+    bool any_cutout = false;
     std::size_t degenerate_triangles = 0;
 };
 
@@ -77,6 +83,7 @@ struct RayScene::State {
     std::vector<std::unique_ptr<RefitMesh>> refits;  ///< as MeshStructures::deforming
     Layer moving, still;
     std::array<const Layer*, 2> layers() const { return {&still, &moving}; }
+    std::vector<float> alpha;  ///< per material, now; empty where no mesh has an alpha mask
     glm::dvec3 anchor{0.0};
     bool placed = false;  ///< by an update
     std::atomic<std::uint64_t> rays_traced{0}, invalid_rays{0};

@@ -62,17 +62,17 @@ void add_surface_warnings(Scene& scene) {
     for (std::size_t i = 0; i < scene.materials.size(); ++i) {
         if (!drawn[i]) continue;
         const Material& material = scene.materials[i];
-        const char* what = nullptr;
         if (is_positive_somewhere(material.transmission)) {
-            what = "transmission";
-        } else if (material.alpha_mode == Material::AlphaMode::mask) {
-            what = "alpha mode \"mask\"";
-        } else if (material.alpha_mode == Material::AlphaMode::blend) {
-            what = "alpha mode \"blend\"";
+            scene.warnings.push_back(
+                fmt::format("material \"{}\": transmission is not in this version; it is rendered opaque",
+                            printable(material.name)));
         }
-        if (what == nullptr) continue;
-        scene.warnings.push_back(fmt::format("material \"{}\": {} is not in this version; it is rendered opaque",
-                                             printable(material.name), what));
+        if (material.alpha_mode == Material::AlphaMode::blend) {
+            scene.warnings.push_back(fmt::format(
+                "material \"{}\": alpha mode \"blend\" is not in this version; what has an alpha below 0.5 is "
+                "left out, the rest is opaque",
+                printable(material.name)));
+        }
     }
 }
 

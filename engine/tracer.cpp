@@ -32,30 +32,34 @@ bool is_valid(const Ray& ray) {
            ray.far >= ray.near && embree_direction(ray) != glm::vec3(0.0f);
 }
 
-void init_context(RTCIntersectContext& context, bool coherent) {
-    rtcInitIntersectContext(&context);
-    context.flags = coherent ? RTC_INTERSECT_CONTEXT_FLAG_COHERENT : RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
-}
-
 constexpr int widest = 16;
 
 /// Distances this near each other, relatively, count as equal: about 30 roundings. Embree's single rays, packets and
 /// processors differ by up to 1.8e-6 of a distance (HARD_CASES RC-15).
 constexpr float tie = 0x1p-19f;
 
-/// What the filter needs to know of the rays on their way.
+/// What every filter finds behind the context that Embree hands on.
+struct RayContext {
+    RTCIntersectContext embree;
+    const RayScene::State* state;
+
+    RayContext(const RayScene::State& of, bool coherent) : state(&of) {
+        rtcInitIntersectContext(&embree);
+        embree.flags = coherent ? RTC_INTERSECT_CONTEXT_FLAG_COHERENT : RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
+    }
+};
+
+/// What filters of first hits need to know of the rays on their way.
 struct FilterContext {
-    RTCIntersectContext embree;  ///< first: Embree hands its address on
-    const MeshStructures* meshes;
+    RayContext common;  ///< first
     /// Embree's own note of what each ray has accepted so far: the hit part of the rays that it was given.
     RTCHitN* accepted;
     std::array<float, widest> far;       ///< where each ray ends by itself
     std::array<float, widest> nearest;   ///< distance of the nearest hit offered
     std::array<float, widest> distance;  ///< of the one accepted, which ties with it
 
-    FilterContext(const MeshStructures& of, bool coherent, void* hits)
-        : meshes(&of), accepted(static_cast<RTCHitN*>(hits)) {
-        init_context(embree, coherent);
+    FilterContext(const RayScene::State& state, bool coherent, void* hits)
+        : common(state, coherent), accepted(static_cast<RTCHitN*>(hits)) {
         nearest.fill(std::numeric_limits<float>::infinity());
     }
 };
@@ -138,10 +142,10 @@ PacketCounts intersect_packets(const RayScene::State& state, std::span<const Ray
             packet.hit.geomID[lane] = RTC_INVALID_GEOMETRY_ID;
             packet.hit.instID[0][lane] = RTC_INVALID_GEOMETRY_ID;
         }
-        FilterContext context(*state.meshes, coherent, &packet.hit);
+        FilterContext context(state, coherent, &packet.hit);
         std::copy_n(packet.ray.tfar, Width, context.far.begin());
         for (const Layer* layer : state.layers())
-            if (layer->enabled > 0) Packet<Width>::intersect(valid, layer->top, &context.embree, &packet);
+            if (layer->enabled > 0) Packet<Width>::intersect(valid, layer->top, &context.common.embree, &packet);
         const std::size_t count = std::min<std::size_t>(Width, rays.size() - begin);
         for (std::size_t lane = 0; lane < count; ++lane) {
             hits[begin + lane] =
@@ -157,8 +161,7 @@ PacketCounts occluded_packets(const RayScene::State& state, std::span<const Ray>
                               std::span<std::uint8_t> blocked) {
     PacketCounts counts;
     // Never "coherent": with that flag this Embree's occlusion packets can loop for ever over instances.
-    RTCIntersectContext context;
-    init_context(context, false);
+    RayContext context(state, false);
     alignas(64) int valid[Width];
     alignas(64) typename Packet<Width>::Rays packet;
     for (std::size_t begin = 0; begin < rays.size(); begin += Width) {
@@ -169,7 +172,7 @@ PacketCounts occluded_packets(const RayScene::State& state, std::span<const Ray>
         const std::size_t count = std::min<std::size_t>(Width, rays.size() - begin);
         for (const Layer* layer : state.layers()) {
             if (layer->enabled == 0) continue;
-            Packet<Width>::occluded(valid, layer->top, &context, &packet);
+            Packet<Width>::occluded(valid, layer->top, &context.embree, &packet);
             bool open = false;  // a ray that is stopped has a negative end and is over
             for (std::size_t lane = 0; lane < count; ++lane) {
                 if (packet.tfar[lane] < 0.0f) valid[lane] = 0;
@@ -186,6 +189,7 @@ PacketCounts occluded_packets(const RayScene::State& state, std::span<const Ray>
 
 void keep_lowest_of_nearest(const RTCFilterFunctionNArguments* arguments) {
     FilterContext& context = *reinterpret_cast<FilterContext*>(arguments->context);
+    const MeshStructures& meshes = *context.common.state->meshes;
     const unsigned count = arguments->N;  // lane i of the packet is ray i of ours
     int* const valid = arguments->valid;
     float* const offered = &RTCRayN_tfar(arguments->ray, count, 0);
@@ -203,11 +207,10 @@ void keep_lowest_of_nearest(const RTCFilterFunctionNArguments* arguments) {
     }
     for (unsigned i = 0; i < count; ++i) {
         if (valid[i] == 0) continue;
-        const bool lost =
-            !(offered[i] * beyond < context.nearest[i]) &&
-            RTCHitN_geomID(context.accepted, count, i) != RTC_INVALID_GEOMETRY_ID &&
-            (offered[i] > context.nearest[i] * beyond || identify(*context.meshes, arguments->hit, count, i) >=
-                                                             identify(*context.meshes, context.accepted, count, i));
+        const bool lost = !(offered[i] * beyond < context.nearest[i]) &&
+                          RTCHitN_geomID(context.accepted, count, i) != RTC_INVALID_GEOMETRY_ID &&
+                          (offered[i] > context.nearest[i] * beyond ||
+                           identify(meshes, arguments->hit, count, i) >= identify(meshes, context.accepted, count, i));
         context.nearest[i] = std::min(context.nearest[i], offered[i]);
         if (lost) {
             valid[i] = 0;
@@ -217,6 +220,25 @@ void keep_lowest_of_nearest(const RTCFilterFunctionNArguments* arguments) {
         // A little more than the hit: what ties with it must be offered too, whichever comes first.
         offered[i] = std::min(context.nearest[i] * beyond, context.far[i]);
     }
+}
+
+void pass_holes(const RTCFilterFunctionNArguments* arguments) {
+    const RayContext& context = *reinterpret_cast<const RayContext*>(arguments->context);
+    const AlphaCutout& cutout = *static_cast<const AlphaCutout*>(arguments->geometryUserPtr);
+    const float alpha = context.state->alpha[static_cast<std::size_t>(cutout.material)];
+    const unsigned count = arguments->N;
+    for (unsigned i = 0; i < count; ++i) {
+        if (arguments->valid[i] != 0 &&
+            cutout.is_hole(alpha, RTCHitN_primID(arguments->hit, count, i), RTCHitN_u(arguments->hit, count, i),
+                           RTCHitN_v(arguments->hit, count, i))) {
+            arguments->valid[i] = 0;
+        }
+    }
+}
+
+void keep_lowest_of_nearest_but_holes(const RTCFilterFunctionNArguments* arguments) {
+    pass_holes(arguments);
+    keep_lowest_of_nearest(arguments);
 }
 
 Tracer::Tracer(const RayScene& scene) : state_(*scene.state_) {}
@@ -238,10 +260,10 @@ Hit Tracer::intersect(const Ray& ray) {
                  direction.z,  0.0f,         ray.far,      ~0u,      0,           0};
     query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
     query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
-    FilterContext context(*state_.meshes, false, &query.hit);
+    FilterContext context(state_, false, &query.hit);
     context.far[0] = ray.far;
     for (const Layer* layer : state_.layers())
-        if (layer->enabled > 0) rtcIntersect1(layer->top, &context.embree, &query);
+        if (layer->enabled > 0) rtcIntersect1(layer->top, &context.common.embree, &query);
     return make_hit(*state_.meshes, query.hit.instID[0], query.hit.geomID, query.hit.primID, query.hit.u, query.hit.v,
                     context.distance[0]);
 }
@@ -252,13 +274,12 @@ bool Tracer::occluded(const Ray& ray) {
         return false;
     }
     ++traced_;
-    RTCIntersectContext context;
-    init_context(context, false);
+    RayContext context(state_, false);
     const glm::vec3 direction = embree_direction(ray);
     RTCRay query = {ray.origin.x, ray.origin.y, ray.origin.z, ray.near, direction.x, direction.y,
                     direction.z,  0.0f,         ray.far,      ~0u,      0,           0};
     for (const Layer* layer : state_.layers()) {
-        if (layer->enabled > 0) rtcOccluded1(layer->top, &context, &query);
+        if (layer->enabled > 0) rtcOccluded1(layer->top, &context.embree, &query);
         if (query.tfar < 0.0f) return true;
     }
     return false;

@@ -168,9 +168,8 @@ struct SurfacePlace {
 };
 
 /// Sum of the chords over the moments between; a chord with an end behind the camera counts nothing.
-[[gnu::noinline]] double compute_path_length(const FrameMotion& frame, const ObjectMotion& object,
-                                             const SurfacePlace& place, const glm::dvec2& start,
-                                             const glm::dvec2& end) {
+[[gnu::noinline]] double compute_path_length(const FrameMotion& frame, const ObjectMotion& object, SurfacePlace place,
+                                             glm::dvec2 start, glm::dvec2 end) {
     double sum = 0.0;
     glm::dvec2 previous = start;
     bool known = true;
@@ -199,8 +198,9 @@ bool is_on_screen(const CameraView& view, const glm::dvec2& p) {
 
 /// Motion of a surface point or of a background direction. The same function projects both moments, so that equal bits
 /// give exactly 0.
-PixelMotion compute_point_motion(const FrameMotion& frame, const ObjectMotion& object, const SurfacePlace& place,
-                                 double near_now, double near_other) {
+[[gnu::always_inline]] inline PixelMotion compute_point_motion(const FrameMotion& frame, const ObjectMotion& object,
+                                                               const SurfacePlace& place, double near_now,
+                                                               double near_other) {
     PixelMotion motion;
     const glm::dvec3 from = object.now(place.now);
     const glm::dvec3 to = object.still ? from : object.other(place.other);
@@ -230,21 +230,20 @@ PixelMotion compute_background_motion(const FrameMotion& frame, double x, double
 }
 
 /// Apart, so that what is rigid stays one short path.
-[[gnu::noinline]] void find_places(const ObjectMotion& object, const Hit& hit, SurfacePlace& place) {
-    place.now = surface_point(*object.mesh, *object.shape_now, hit);
-    place.other = surface_point(*object.mesh, *object.shape_other, hit);
+[[gnu::noinline]] PixelMotion compute_deforming_motion(const FrameMotion& frame, const ObjectMotion& object,
+                                                       const Hit& hit) {
+    const SurfacePlace place{surface_point(*object.mesh, *object.shape_now, hit),
+                             surface_point(*object.mesh, *object.shape_other, hit), &hit};
+    return compute_point_motion(frame, object, place, nearest_depth(frame.now), nearest_depth(frame.other));
 }
 
 PixelMotion compute_hit_motion(const FrameMotion& frame, const Hit& hit) {
     const ObjectMotion& object = frame.objects[static_cast<std::size_t>(hit.instance)];
     if (!object.counterpart) return {.validity = MotionValidity::no_counterpart};
-    SurfacePlace place{{}, {}, &hit};
-    if (object.deforms) {
-        find_places(object, hit, place);
-    } else {
-        place.now = place.other = surface_point(*object.mesh, hit);
-    }
-    return compute_point_motion(frame, object, place, nearest_depth(frame.now), nearest_depth(frame.other));
+    if (object.deforms) return compute_deforming_motion(frame, object, hit);
+    const glm::dvec3 point = surface_point(*object.mesh, hit);
+    return compute_point_motion(frame, object, {point, point, &hit}, nearest_depth(frame.now),
+                                nearest_depth(frame.other));
 }
 
 }  // namespace

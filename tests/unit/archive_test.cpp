@@ -182,11 +182,12 @@ TEST_F(Archive, SceneWithoutLightGetsAWhiteEnvironment) {
 
 TEST_F(Archive, WhatIsRenderedOpaqueIsSaid) {
     const Scene holes = load_scene(write_scene(R"("environment": [1, 1, 1],
-        "materials": {"leaf": {"alpha_mode": "mask"}, "unused": {"alpha_mode": "blend"}},
-        "nodes": [{"shape": {"type": "quad"}, "material": "leaf"}])"));
+        "materials": {"leaf": {"alpha_mode": "mask"}, "smoke": {"alpha_mode": "blend"}, "unused": {"alpha_mode": "blend"}},
+        "nodes": [{"shape": {"type": "quad"}, "material": "leaf"}, {"shape": {"type": "quad"}, "material": "smoke"}])"));
     EXPECT_EQ(holes.warnings,
               (std::vector<std::string>{
-                  "material \"leaf\": alpha mode \"mask\" is not in this version; it is rendered opaque"}));
+                  "material \"smoke\": alpha mode \"blend\" is not in this version; what has an alpha below 0.5 is left "
+                  "out, the rest is opaque"}));
     Scene glass;
     glass.materials.resize(1);
     glass.materials[0].name = "glass";
