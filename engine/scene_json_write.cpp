@@ -75,9 +75,12 @@ class Writer {
 
     template <class Element, class Write>
     void write_list(const char* key, const std::vector<Element>& list, const Write& write) {
+        if (list.empty()) return;
+        out_[key] = ordered_json::object();
+        auto& object = out_[key].template get_ref<ordered_json::object_t&>();
         for (std::size_t i = 0; i < list.size(); ++i) {
             place_ = place_of(key, list, i);
-            out_[key][list[i].name] = write(list[i]);
+            object.emplace_back(list[i].name, write(list[i]));  // as a vector: names are known to differ
         }
     }
 

@@ -267,6 +267,16 @@ TEST(SceneJsonWrite, KF24_ChainOfAHundredThousandNodes) {
     EXPECT_TRUE(again(scene) == scene);
 }
 
+// An object of ordered_json looks for a key one by one: a table of names must not be filled that way.
+TEST(SceneJsonWrite, ManyNamesCostNoMoreThanTheyShould) {
+    Scene scene;
+    for (int i = 0; i < 30000; ++i) {
+        scene.materials.push_back(absent_material());
+        scene.materials.back().name = fmt::format("{} of a material whose name is long", 30000 - i);
+    }
+    EXPECT_TRUE(again(scene) == scene);
+}
+
 TEST(SceneJsonWrite, DT09_CommaLocaleChangesNothing) {
     Numbers numbers;
     const Scene scene = make_full_scene(numbers);
