@@ -10,16 +10,20 @@
 
 namespace aleph {
 
+/// A triangle is fine enough where one of the two holds.
 struct CageLevelSettings {
-    double edge_pixels = 4.0;               ///< the longest edge of a triangle in view; at least half of it is used
-    std::size_t max_triangles = 4'000'000;  ///< of all cages together; the cage of the most gives way first
-    int samples = 33;                       ///< frames looked at, spread evenly over the range with both its ends
+    double edge_pixels = 4.0;  ///< none of its edges is longer
+    double bend_pixels = 0.1;  ///< the limit surface is no farther from its edges: flat faces stay whole
+    std::size_t max_triangles =
+        4'000'000;     ///< of all cages together; of those above their own level the largest give way
+    int samples = 33;  ///< frames looked at, spread evenly over the range with both its ends
 };
 
-/// The level of every cage at which no triangle's edge in view is longer than asked for, over the scene's range of
-/// frames. At most Cage::max_level. A cage that no sampled frame has in view keeps its own level. A function of scene,
-/// camera and size of the picture, whichever frames are rendered. Edges count by their length at the nearest point of
-/// their face: not foreshortened, not hidden.
+/// The level of every cage at which its triangles in view are fine enough over the scene's range of frames: from
+/// Cage::level to Cage::max_level. A function of scene, camera and size
+/// of the picture, whichever frames are rendered. Lengths count at the triangle's nearest point: not foreshortened, not
+/// hidden.
+/// @param scene  its cages tessellated: what they need is found from their triangles, by how edges and bends shrink
 /// @param camera  index into SceneFrame::cameras
 /// @param width,height  pixels
 std::vector<int> choose_cage_levels(const Scene& scene, int camera, int width, int height,

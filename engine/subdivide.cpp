@@ -116,6 +116,10 @@ std::size_t LimitSurface::triangle_count(int part) const {
     return state_->part(part).triangles.size();
 }
 
+const std::vector<glm::uvec3>& LimitSurface::triangles(int part) const {
+    return state_->part(part).corners;
+}
+
 std::vector<glm::dvec3> LimitSurface::make_control_points(std::span<const glm::dvec3> cage_points) const {
     return state_->patches->make_control_points(cage_points);
 }

@@ -29,6 +29,8 @@ class LimitSurface {
     int part_count() const;
     std::size_t vertex_count(int part) const;
     std::size_t triangle_count(int part) const;
+    /// Corners of the part's triangles, into its vertices.
+    const std::vector<glm::uvec3>& triangles(int part) const;
 
     /// What evaluation reads, from the cage's points at a moment.
     std::vector<glm::dvec3> make_control_points(std::span<const glm::dvec3> cage_points) const;
