@@ -14,6 +14,8 @@
 
 namespace aleph {
 
+constexpr std::size_t most_warnings = 100;  // of different texts; more only bury what matters
+
 AlembicReader::AlembicReader(const AlembicArchive& source) : archive(source) {
     for (std::size_t i = 1; i < archive.objects().size(); ++i) {
         const AlembicObject& object = archive.objects()[i];
@@ -22,6 +24,10 @@ AlembicReader::AlembicReader(const AlembicArchive& source) : archive(source) {
 }
 
 void AlembicReader::warn(int object, const std::string& text) {
+    if (order_.size() >= most_warnings && !warned_.contains(text)) {
+        ++left_out_;
+        return;
+    }
     const auto [found, is_new] = warned_.try_emplace(text);
     if (is_new) {
         order_.push_back(text);
@@ -30,15 +36,14 @@ void AlembicReader::warn(int object, const std::string& text) {
     ++found->second.second;
 }
 
-std::vector<std::string> AlembicReader::take_warnings() {
+std::vector<std::string> AlembicReader::list_warnings() const {
     std::vector<std::string> warnings;
     for (const std::string& text : order_) {
-        const auto& [place, count] = warned_[text];
+        const auto& [place, count] = warned_.at(text);
         warnings.push_back(fmt::format("{}: {}{}: {}", archive.file(), place,
                                        count > 1 ? fmt::format(" and {} more", count - 1) : "", text));
     }
-    order_.clear();
-    warned_.clear();
+    if (left_out_ > 0) warnings.push_back(fmt::format("{}: and {} more warnings", archive.file(), left_out_));
     return warnings;
 }
 
@@ -145,7 +150,7 @@ AlembicTiming append_alembic(const std::filesystem::path& path, Scene& scene, in
         timing.first = reader.first;
         timing.last = reader.last;
     }
-    for (std::string& warning : reader.take_warnings()) reader.part.warnings.push_back(std::move(warning));
+    for (std::string& warning : reader.list_warnings()) reader.part.warnings.push_back(std::move(warning));
     rebase(reader.part, scene, parent_node, include_index);
 
     // Room first, for all: after that nothing can fail half way.

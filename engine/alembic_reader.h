@@ -25,7 +25,7 @@ struct AlembicReader {
 
     /// Collected: the same text is said once, with the first place and how many more there are.
     void warn(int object, const std::string& text);
-    std::vector<std::string> take_warnings();
+    std::vector<std::string> list_warnings() const;
 
     /// What a property's samples span counts for the scene's range.
     void widen(const AlembicProperty& property);
@@ -33,6 +33,7 @@ struct AlembicReader {
   private:
     std::vector<std::string> order_;
     std::map<std::string, std::pair<std::string, int>> warned_;  ///< text -> first place, how often
+    std::size_t left_out_ = 0;
 };
 
 void read_objects(AlembicReader& reader);

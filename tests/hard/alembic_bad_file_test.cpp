@@ -310,6 +310,20 @@ TEST(AlembicBadFile, LargeCages) {
     verdict({draft_subd("s", {points}, {counts}, {indices})});
 }
 
+TEST(AlembicBadFile, WarningsAreFew) {
+    std::vector<DraftObject> objects;
+    for (std::size_t i = 0; i < 300; ++i) {
+        const std::vector<float> values(2 * (i + 4));
+        objects.push_back(draft_mesh(fmt::format("m{}", i), {triangle}, {{3}}, {{0, 1, 2}},
+                                     {draft_array<float>("uv", DraftProperty::f32, 2, {values}, "geoScope=fvr")}));
+    }
+    const ScratchFolder folder;
+    OgawaDraft draft;
+    const Scene scene = load_scene(write_draft(folder / "many.abc", draft.finish(objects)));
+    EXPECT_LT(scene.warnings.size(), 110u);
+    EXPECT_NE(scene.warnings[100].find("and 200 more warnings"), std::string::npos) << scene.warnings[100];
+}
+
 TEST(AlembicBadFile, TransformsThatDoNotFit) {
     const auto xform = [](const std::vector<std::uint8_t>& operations, const std::vector<double>& channels) {
         const auto count = [](std::size_t n) { return static_cast<std::uint32_t>(std::max<std::size_t>(n, 1)); };

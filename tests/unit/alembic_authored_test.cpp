@@ -77,7 +77,7 @@ void expect_same(const std::string& name, const std::vector<View>& views, int fr
         EXPECT_GE(surface, least_share * width * height * 2 * frames) << name;
     }
     EXPECT_LE(worst_distance, 1e-5) << name;
-    EXPECT_LE(worst_motion, 1e-5) << name;  // hits are single precision: 1e-7 of what a pixel moves
+    EXPECT_LE(worst_motion, 1e-6) << name;
     EXPECT_GE(largest_motion, 1.0) << name;
 }
 
