@@ -12,6 +12,7 @@ namespace aleph {
 namespace {
 
 constexpr int first_stride = 64;         // pixels between the samples of the first tiles
+constexpr int most_reviews = 4;          // looks at all pixels after the last stride
 constexpr std::size_t test_grain = 256;  // look-ups per parallel chunk
 
 /// A pixel whose sample nothing covers yet.
@@ -107,40 +108,62 @@ RadiusBounds radius_bounds(const IndirectContext& context, const PixelSurface& s
     return {std::min(smallest, context.largest_radius), context.largest_radius};
 }
 
+namespace {
+
+/// Rounds over the tiles until something covers every one. Returns how many records that took.
+std::size_t fill_tiles(IrradianceCache& cache, const IndirectContext& context, const SampleHits& sample,
+                       int sample_index, std::vector<glm::ivec2> tiles, Image<float>& records, RayCounts& counts,
+                       FillStatistics& statistics) {
+    const IrradianceCache empty = make_cache(context.lighting.shading);
+    const std::size_t records_before = cache.records().size();
+    std::mutex counts_mutex;
+    while (!tiles.empty()) {
+        std::vector<Candidate> waiting = find_uncovered(cache, context, sample, tiles, statistics);
+        if (waiting.empty()) break;
+        const std::vector<Candidate> accepted = accept_proposals(cache, context, empty, waiting);
+        std::vector<IrradianceRecord> added(accepted.size());
+        parallel_for(accepted.size(), 1, [&](std::size_t begin, std::size_t end) {
+            thread_local GatherScratch scratch;
+            Tracer tracer(context.lighting.rays);
+            RayCounts local;
+            for (std::size_t i = begin; i < end; ++i) {
+                const Candidate& candidate = accepted[i];
+                const PixelSurface surface =
+                    make_pixel_surface(context.lighting.shading, context.view, sample, candidate.x, candidate.y);
+                const IrradianceSample value =
+                    gather_at(context, tracer, surface, candidate.x, candidate.y, sample_index, scratch, local);
+                added[i] = make_record(candidate.query.position, candidate.query.normal, value, candidate.bounds);
+            }
+            const std::lock_guard lock(counts_mutex);
+            counts += local;
+        });
+        for (std::size_t i = 0; i < accepted.size(); ++i) {
+            cache.insert(added[i]);
+            records(accepted[i].x, accepted[i].y) += 1.0f;
+        }
+        ++statistics.rounds;
+        tiles.clear();
+        for (const Candidate& candidate : waiting) tiles.push_back({candidate.x, candidate.y});
+    }
+    return cache.records().size() - records_before;
+}
+
+}  // namespace
+
 void fill_cache(IrradianceCache& cache, const IndirectContext& context, const SampleHits& sample, int sample_index,
                 Image<float>& records, RayCounts& counts, FillStatistics& statistics) {
-    const IrradianceCache empty = make_cache(context.lighting.shading);
-    std::mutex counts_mutex;
-    for (int stride = sample_index == 0 ? first_stride : 1; stride >= 1; stride /= 2) {
-        std::vector<glm::ivec2> tiles = list_tiles(sample.hits.width, sample.hits.height, stride, sample_index == 0);
-        while (!tiles.empty()) {
-            std::vector<Candidate> waiting = find_uncovered(cache, context, sample, tiles, statistics);
-            if (waiting.empty()) break;
-            const std::vector<Candidate> accepted = accept_proposals(cache, context, empty, waiting);
-            std::vector<IrradianceRecord> added(accepted.size());
-            parallel_for(accepted.size(), 1, [&](std::size_t begin, std::size_t end) {
-                thread_local GatherScratch scratch;
-                Tracer tracer(context.lighting.rays);
-                RayCounts local;
-                for (std::size_t i = begin; i < end; ++i) {
-                    const Candidate& candidate = accepted[i];
-                    const PixelSurface surface =
-                        make_pixel_surface(context.lighting.shading, context.view, sample, candidate.x, candidate.y);
-                    const IrradianceSample value =
-                        gather_at(context, tracer, surface, candidate.x, candidate.y, sample_index, scratch, local);
-                    added[i] = make_record(candidate.query.position, candidate.query.normal, value, candidate.bounds);
-                }
-                const std::lock_guard lock(counts_mutex);
-                counts += local;
-            });
-            for (std::size_t i = 0; i < accepted.size(); ++i) {
-                cache.insert(added[i]);
-                records(accepted[i].x, accepted[i].y) += 1.0f;
-            }
-            ++statistics.rounds;
-            tiles.clear();
-            for (const Candidate& candidate : waiting) tiles.push_back({candidate.x, candidate.y});
-        }
+    const int width = sample.hits.width, height = sample.hits.height;
+    const bool first_pass = sample_index == 0;
+    for (int stride = first_pass ? first_stride : 1; stride >= 1; stride /= 2) {
+        fill_tiles(cache, context, sample, sample_index, list_tiles(width, height, stride, first_pass), records, counts,
+                   statistics);
+    }
+    // A record that finds a wall near shrinks its neighbours, and what they covered before lies bare: without another
+    // look, shading would gather anew at each such pixel. Later samples look everywhere anyway.
+    for (int again = 0; first_pass && again < most_reviews; ++again) {
+        if (fill_tiles(cache, context, sample, sample_index, list_tiles(width, height, 1, false), records, counts,
+                       statistics) == 0)
+            break;
     }
 }
 
