@@ -16,6 +16,7 @@
 #include "engine/archive.h"
 #include "engine/first_hits.h"
 #include "engine/pose.h"
+#include "render/sequence.h"
 #include "scenes/antique-room/antique_room.h"
 #include "scenes/art-gallery/gallery.h"
 #include "scenes/art-gallery/pictures.h"
@@ -315,6 +316,38 @@ TEST(ArtGallery, EveryViewIsClosedAndShowsMotion) {
         }
         EXPECT_GT(moving, 160 * 120 / 300) << frame;
     }
+}
+
+TEST(ArtGallery, KineticWorkBleedsColour) {
+    // What one bounce adds to the white of the work: beside a vane it has the vane's colour.
+    const Scene& scene = loaded("art-gallery");
+    const std::int64_t frame = 395;
+    RenderSettings settings;
+    settings.width = 96;
+    settings.height = 72;
+    settings.spp = 1;
+    settings.gather = 128;
+    settings.estimate = EstimateKind::flat;
+    settings.perception.guide = Guide::none;
+    const FrameOutput with = Sequence(scene, settings).render(frame);
+    settings.bounces = 0;
+    const FrameOutput without = Sequence(scene, settings).render(frame);
+    const SceneFrame now = pose(scene, scene.frame_rate.seconds_of(frame));
+    double reddest = 0.0, least_red = 9.0;
+    for (std::size_t i = 0; i < with.hits.size(); ++i) {
+        const Hit& hit = with.hits.pixels[i];
+        const Instance& instance = now.instances[static_cast<std::size_t>(hit.instance)];
+        const int material = scene.meshes[static_cast<std::size_t>(instance.mesh)].material;
+        if (scene.materials[static_cast<std::size_t>(material)].name != "kinetic_white") continue;
+        const Rgb bounced = with.shaded.color.pixels[i] - without.shaded.color.pixels[i];
+        if (bounced.g < 0.02f) continue;
+        reddest = std::max(reddest, static_cast<double>(bounced.r / bounced.g));
+        least_red = std::min(least_red, static_cast<double>(bounced.r / bounced.g));
+    }
+    RecordProperty("reddest", std::to_string(reddest));
+    RecordProperty("least_red", std::to_string(least_red));
+    EXPECT_GT(reddest, 2.0);
+    EXPECT_LT(least_red, 1.3);  // and elsewhere that of the room
 }
 
 TEST(AntiqueRoom, ProgramReproducesTheFiles) {
