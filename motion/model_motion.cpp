@@ -198,9 +198,8 @@ bool is_on_screen(const CameraView& view, const glm::dvec2& p) {
 
 /// Motion of a surface point or of a background direction. The same function projects both moments, so that equal bits
 /// give exactly 0.
-[[gnu::always_inline]] inline PixelMotion compute_point_motion(const FrameMotion& frame, const ObjectMotion& object,
-                                                               const SurfacePlace& place, double near_now,
-                                                               double near_other) {
+PixelMotion compute_point_motion(const FrameMotion& frame, const ObjectMotion& object, const SurfacePlace& place,
+                                 double near_now, double near_other) {
     PixelMotion motion;
     const glm::dvec3 from = object.now(place.now);
     const glm::dvec3 to = object.still ? from : object.other(place.other);

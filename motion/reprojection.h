@@ -44,14 +44,15 @@ inline glm::dvec2 clamp_barycentrics(const Hit& hit) {
 
 /// Between three corners of a triangle given by their numbers among points of any precision.
 template <class Points>
-glm::dvec3 point_between(const Points& points, const glm::uvec3& triangle, const glm::dvec2& uv) {
+[[gnu::always_inline]] inline glm::dvec3 point_between(const Points& points, const glm::uvec3& triangle,
+                                                       const glm::dvec2& uv) {
     const glm::dvec3 p0(points[triangle.x]), p1(points[triangle.y]), p2(points[triangle.z]);
     return (1.0 - uv.x - uv.y) * p0 + uv.x * p1 + uv.y * p2;
 }
 
 /// Where on its mesh a ray met an object: object space, m. Always from the barycentrics, never from the distance, which
 /// is off by metres at grazing angles (HARD_CASES RP-19).
-inline glm::dvec3 surface_point(const Mesh& mesh, const Hit& hit) {
+[[gnu::always_inline]] inline glm::dvec3 surface_point(const Mesh& mesh, const Hit& hit) {
     return point_between(mesh.positions, mesh.triangles[static_cast<std::size_t>(hit.primitive)],
                          clamp_barycentrics(hit));
 }

@@ -93,7 +93,7 @@ void write_sheet(const std::filesystem::path& path, const std::vector<Panel>& pa
         static_cast<void>(sheet.geterror());
     }
     if (path.extension() == ".jpg") {
-        sheet.specmod().attribute("Compression", "jpeg:88");
+        sheet.specmod().attribute("Compression", "jpeg:80");
         if (!sheet.write(path.string(), OIIO::TypeDesc::UINT8)) throw OutputError(path.string(), sheet.geterror());
         return;
     }

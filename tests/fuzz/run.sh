@@ -11,7 +11,7 @@ shift || true
 readers=("$@")
 [ ${#readers[@]} -gt 0 ] || readers=(gltf scene_file alembic image)
 
-bash "$root/scenes/setup.sh" clang
+bash "$root/scenes/setup.sh" clang libclang-rt-14-dev
 cmake -S "$root" -B "$build" -G Ninja -DCMAKE_CXX_COMPILER=clang++ -DALEPH_FUZZ=ON -DALEPH_TESTS=OFF \
   -DCMAKE_BUILD_TYPE=None -DCMAKE_CXX_FLAGS="-O1 -g1" >"$build.log" || { cat "$build.log"; exit 1; }
 rm -f "$build.log"
