@@ -6,9 +6,9 @@
 #include <array>
 #include <charconv>
 #include <cmath>
-#include <iterator>
 
 #include "engine/alembic_reader.h"
+#include "engine/append_part.h"
 #include "engine/base/errors.h"
 #include "engine/gltf_files.h"
 
@@ -101,37 +101,6 @@ std::optional<FrameRate> find_frame_rate(const AlembicArchive& archive) {
     return name_rate(rate);
 }
 
-void shift(int& index, std::size_t offset) {
-    if (index != no_index) index += static_cast<int>(offset);
-}
-
-/// Makes the part's indices those that its elements have once they stand behind the scene's own.
-void rebase(Scene& part, const Scene& scene, int parent_node, int include) {
-    for (Node& node : part.nodes) {
-        if (node.parent == no_index) {
-            node.parent = parent_node;
-        } else {
-            shift(node.parent, scene.nodes.size());
-        }
-        for (int& mesh : node.meshes) shift(mesh, scene.meshes.size());
-        shift(node.camera, scene.cameras.size());
-        node.include = include;
-    }
-    for (Mesh& mesh : part.meshes) {
-        shift(mesh.material, scene.materials.size());
-        shift(mesh.points, scene.point_caches.size());
-        shift(mesh.cage, scene.cages.size());
-        mesh.include = include;
-    }
-    for (Cage& cage : part.cages) {
-        shift(cage.points, scene.point_caches.size());
-        cage.include = include;
-    }
-    for (PointCache& cache : part.point_caches) cache.include = include;
-    for (Material& material : part.materials) material.include = include;
-    for (Camera& camera : part.cameras) camera.include = include;
-}
-
 }  // namespace
 
 AlembicTiming append_alembic(const std::filesystem::path& path, Scene& scene, int parent_node, int include_index) {
@@ -151,22 +120,7 @@ AlembicTiming append_alembic(const std::filesystem::path& path, Scene& scene, in
         timing.last = reader.last;
     }
     for (std::string& warning : reader.list_warnings()) reader.part.warnings.push_back(std::move(warning));
-    rebase(reader.part, scene, parent_node, include_index);
-
-    // Room first, for all: after that nothing can fail half way.
-    const auto for_each_list = [&](const auto& apply) {
-        apply(scene.nodes, reader.part.nodes);
-        apply(scene.meshes, reader.part.meshes);
-        apply(scene.point_caches, reader.part.point_caches);
-        apply(scene.cages, reader.part.cages);
-        apply(scene.materials, reader.part.materials);
-        apply(scene.cameras, reader.part.cameras);
-        apply(scene.warnings, reader.part.warnings);
-    };
-    for_each_list([](auto& all, const auto& more) { all.reserve(all.size() + more.size()); });
-    for_each_list([](auto& all, auto& more) {
-        all.insert(all.end(), std::make_move_iterator(more.begin()), std::make_move_iterator(more.end()));
-    });
+    append_part(scene, std::move(reader.part), parent_node, include_index);
     return timing;
 }
 

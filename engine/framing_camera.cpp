@@ -5,29 +5,14 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/gtc/quaternion.hpp>
-#include <limits>
 
+#include "engine/bounds.h"
 #include "engine/pose.h"
 #include "engine/transforms.h"
 
 namespace aleph {
 
 namespace {
-
-struct Bounds {
-    glm::dvec3 low{std::numeric_limits<double>::infinity()};
-    glm::dvec3 high{-std::numeric_limits<double>::infinity()};
-
-    bool empty() const { return !(low.x <= high.x); }
-    void add(const glm::dvec3& point) {
-        low = glm::min(low, point);
-        high = glm::max(high, point);
-    }
-    glm::dvec3 corner(int i) const { return {i & 1 ? high.x : low.x, i & 2 ? high.y : low.y, i & 4 ? high.z : low.z}; }
-    void add_corners_to(Bounds& world_bounds, const glm::dmat4& world) const {
-        for (int i = 0; i < 8; ++i) world_bounds.add(glm::dvec3(world * glm::dvec4(corner(i), 1.0)));
-    }
-};
 
 constexpr std::int64_t most_frames = 16;
 

@@ -60,7 +60,7 @@ ordered_json describe_points(const Scene& scene, const SceneFrame& frame, const 
 ordered_json explain_moment(const Scene& scene, double seconds) {
     const SceneFrame frame = pose(scene, seconds);
     const std::vector<std::string> paths = node_paths(scene);
-    std::vector<WorldBounds> bounds(scene.nodes.size());
+    std::vector<Bounds> bounds(scene.nodes.size());
     for (const Instance& instance : frame.instances)
         add_instance(bounds[static_cast<std::size_t>(instance.node)], scene, frame, instance);
     ordered_json objects = ordered_json::array();

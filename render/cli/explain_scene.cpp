@@ -26,7 +26,7 @@ ordered_json to_json(const glm::dvec3& v) {
     return {v.x, v.y, v.z};
 }
 
-ordered_json to_json(const WorldBounds& bounds) {
+ordered_json to_json(const Bounds& bounds) {
     if (bounds.empty()) return nullptr;
     return {{"min", to_json(bounds.low)}, {"max", to_json(bounds.high)}};
 }
@@ -90,12 +90,12 @@ ordered_json count_elements(const Scene& scene) {
 
 ordered_json describe_bounds(const Scene& scene) {
     const FrameRange range = frame_range(scene);
-    const auto at_frame = [&](std::int64_t number, WorldBounds& bounds) {
+    const auto at_frame = [&](std::int64_t number, Bounds& bounds) {
         const SceneFrame frame = pose(scene, scene.frame_rate.seconds_of(number));
         for (std::size_t i = 0; i < frame.instances.size(); ++i)
             if (frame.shown[i] != 0) add_instance(bounds, scene, frame, frame.instances[i]);
     };
-    WorldBounds first, all;
+    Bounds first, all;
     at_frame(range.first, first);
     // Looking at every vertex on every frame would take longer than all the rest.
     const std::int64_t length = range.last - range.first;
