@@ -120,7 +120,7 @@ void add_faces(AlembicReader& reader, int object, const SurfaceRun& run, const S
         }
     }
     std::ranges::sort(cage.holes);
-    cage.holes.erase(std::ranges::unique(cage.holes).begin(), cage.holes.end());
+    cage.holes.erase(std::unique(cage.holes.begin(), cage.holes.end()), cage.holes.end());
 }
 
 void warn_of_changes(AlembicReader& reader, int object, const AlembicCompound& geom) {

@@ -51,8 +51,8 @@ std::vector<double> merge_times(const std::vector<const Sampled*>& properties) {
     }
     if (times.empty()) return {0.0};
     std::ranges::sort(times);
-    const auto same = std::ranges::unique(times, [](double a, double b) { return b - a <= same_time; });
-    times.erase(same.begin(), same.end());
+    const auto same = [](double a, double b) { return b - a <= same_time; };
+    times.erase(std::unique(times.begin(), times.end(), same), times.end());
     return times;
 }
 

@@ -20,6 +20,8 @@ template <class... Functions>
 struct Overloaded : Functions... {
     using Functions::operator()...;
 };
+template <class... Functions>  // clang before 17 does not deduce it by itself
+Overloaded(Functions...)->Overloaded<Functions...>;
 
 /// Nodes with a mesh, a light or a joint at or below them.
 std::vector<bool> nodes_with_content(const Scene& scene) {

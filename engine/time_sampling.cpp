@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <ranges>
 
 #include "engine/base/errors.h"
 
@@ -48,10 +47,15 @@ double sample_time(const TimeSampling& sampling, std::size_t i) {
 
 SampleSpan find_samples(const TimeSampling& sampling, std::size_t count, double seconds) {
     if (count <= 1) return {};
-    const auto samples = std::views::iota(std::size_t{0}, count);
-    const auto after =
-        std::ranges::partition_point(samples, [&](std::size_t i) { return sample_time(sampling, i) <= seconds; });
-    const std::size_t next = static_cast<std::size_t>(after - samples.begin());
+    std::size_t next = 0;  // the first sample after that time, found by halves: clang 14 cannot read std::views::iota
+    for (std::size_t end = count; next < end;) {
+        const std::size_t middle = next + (end - next) / 2;
+        if (sample_time(sampling, middle) <= seconds) {
+            next = middle + 1;
+        } else {
+            end = middle;
+        }
+    }
     if (next == 0) return {0, 0, 0.0};
     if (next == count) return {count - 1, count - 1, 0.0};
 

@@ -22,7 +22,8 @@ seeds=$build/seeds
 rm -rf "$seeds"
 mkdir -p "$build/found" "$seeds"/{gltf,scene_file,alembic,image} "$build"/corpus/{gltf,scene_file,alembic,image}
 cp "$root"/scenes/room/*.glb "$seeds/gltf/"
-cp "$root"/scenes/hard/*.json "$root"/scenes/furnace/*.json "$root"/scenes/cornell/*.json "$seeds/scene_file/"
+cp "$root"/scenes/hard/*.json "$root"/scenes/furnace/*.json "$seeds/scene_file/"
+cp "$root/scenes/cornell/scene.json" "$seeds/scene_file/cornell.json"
 cp "$root"/tests/assets/abc/*.abc "$seeds/alembic/"
 cp "$root"/scenes/pool/textures/b*.png "$root"/tests/golden/*.exr "$seeds/image/"
 assets=$root/../shared/assets
