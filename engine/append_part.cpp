@@ -49,7 +49,7 @@ void rebase(Scene& part, const Scene& scene, int parent_node) {
         for (int& joint : skin.joints) shift(joint, scene.nodes.size());
     }
     for (Material& material : part.materials) {
-        for (const TextureField& field : material_textures) shift((material.*field.member).image, scene.images.size());
+        for (const auto& field : material_textures) shift((material.*field.member).image, scene.images.size());
     }
 }
 

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "engine/base/errors.h"
+#include "engine/json_scan.h"
 #include "engine/json_text.h"
 
 namespace aleph {
@@ -15,23 +16,14 @@ namespace {
 /// Deepest nesting of brackets outside strings. Parsers recurse, or build values that are destroyed recursively.
 int nesting_depth(std::string_view text) {
     int depth = 0, deepest = 0;
-    bool in_string = false;
-    for (std::size_t i = 0; i < text.size(); ++i) {
-        const char c = text[i];
-        if (in_string) {
-            if (c == '\\') {
-                ++i;
-            } else if (c == '"') {
-                in_string = false;
-            }
-        } else if (c == '"') {
-            in_string = true;
-        } else if (c == '{' || c == '[') {
+    const auto count = [&](char c) {
+        if (c == '{' || c == '[') {
             deepest = std::max(deepest, ++depth);
         } else if (c == '}' || c == ']') {
             --depth;
         }
-    }
+    };
+    scan_json(text, false, count, [](std::size_t) {});
     return deepest;
 }
 

@@ -3,59 +3,24 @@
 #include <fmt/format.h>
 
 #include "engine/base/errors.h"
+#include "engine/json_scan.h"
 #include "engine/json_text.h"
 
 namespace aleph {
 
-namespace {
-
-/// Where the comment that begins here ends; `at` itself where none does.
-std::size_t skip_comment(std::string_view text, std::size_t at) {
-    const std::string_view start = text.substr(at, 2);
-    if (start != "//" && start != "/*") return at;
-    const std::size_t end = text.find(start == "//" ? "\n" : "*/", at + 2);
-    return end == std::string_view::npos ? text.size() : end + (start == "//" ? 0 : 1);
-}
-
-}  // namespace
-
 std::size_t estimate_json_memory(std::string_view text, bool comments) {
     constexpr std::size_t element = 48, container = 96, member = 250, string = 48;
-    std::size_t bytes = 0, string_start = 0;
-    bool in_string = false;
-    for (std::size_t i = 0; i < text.size(); ++i) {
-        const char c = text[i];
-        if (in_string) {
-            if (c == '\\') {
-                ++i;
-            } else if (c == '"') {
-                in_string = false;
-                bytes += string + (i - string_start);
-            }
-            continue;
+    std::size_t bytes = 0;
+    const auto add_mark = [&](char c) {
+        if (c == ',') {
+            bytes += element;
+        } else if (c == ':') {
+            bytes += member;
+        } else if (c == '[' || c == '{') {
+            bytes += element + container;
         }
-        switch (c) {
-            case '"':
-                in_string = true;
-                string_start = i;
-                break;
-            case ',':
-                bytes += element;
-                break;
-            case ':':
-                bytes += member;
-                break;
-            case '[':
-            case '{':
-                bytes += element + container;
-                break;
-            case '/':
-                if (comments) i = skip_comment(text, i);
-                break;
-            default:
-                break;
-        }
-    }
+    };
+    scan_json(text, comments, add_mark, [&](std::size_t length) { bytes += string + length; });
     return bytes;
 }
 

@@ -47,17 +47,20 @@ inline constexpr std::array material_colors{
     TrackField<Material, glm::dvec3>{"specular_color", &Material::specular_color, not_negative},
     TrackField<Material, glm::dvec3>{"emission", &Material::emission, not_negative},
 };
-struct TextureField {
+/// What does not change over time.
+template <class Element, class T>
+struct Field {
     const char* key;
-    TextureRef Material::*member;
+    T Element::*member;
 };
+
 inline constexpr std::array material_textures{
-    TextureField{"base_color_texture", &Material::base_color_texture},
-    TextureField{"metallic_roughness_texture", &Material::metallic_roughness_texture},
-    TextureField{"emission_texture", &Material::emission_texture},
-    TextureField{"specular_texture", &Material::specular_texture},
-    TextureField{"specular_color_texture", &Material::specular_color_texture},
-    TextureField{"transmission_texture", &Material::transmission_texture},
+    Field<Material, TextureRef>{"base_color_texture", &Material::base_color_texture},
+    Field<Material, TextureRef>{"metallic_roughness_texture", &Material::metallic_roughness_texture},
+    Field<Material, TextureRef>{"emission_texture", &Material::emission_texture},
+    Field<Material, TextureRef>{"specular_texture", &Material::specular_texture},
+    Field<Material, TextureRef>{"specular_color_texture", &Material::specular_color_texture},
+    Field<Material, TextureRef>{"transmission_texture", &Material::transmission_texture},
 };
 
 inline constexpr std::array camera_numbers{
@@ -78,14 +81,10 @@ inline constexpr std::array light_cones{
     ConeField{"outer_cone", "outer_cone_radians", &Light::outer_cone},
 };
 
-struct ShapeNumber {
-    const char* key;
-    double Shape::*member;
-};
 inline constexpr std::array shape_numbers{
-    ShapeNumber{"radius", &Shape::radius},
-    ShapeNumber{"tube_radius", &Shape::tube_radius},
-    ShapeNumber{"height", &Shape::height},
+    Field<Shape, double>{"radius", &Shape::radius},
+    Field<Shape, double>{"tube_radius", &Shape::tube_radius},
+    Field<Shape, double>{"height", &Shape::height},
 };
 
 /// Nobody who writes a colour by hand expects metal: unlike in glTF an absent `metallic` is 0.

@@ -84,23 +84,15 @@ template <>
 struct Packet<8> {
     using Rays = RTCRay8;
     using RayHits = RTCRayHit8;
-    static void intersect(const int* valid, RTCScene scene, RTCIntersectContext* context, RayHits* rays) {
-        rtcIntersect8(valid, scene, context, rays);
-    }
-    static void occluded(const int* valid, RTCScene scene, RTCIntersectContext* context, Rays* rays) {
-        rtcOccluded8(valid, scene, context, rays);
-    }
+    static constexpr auto intersect = rtcIntersect8;
+    static constexpr auto occluded = rtcOccluded8;
 };
 template <>
 struct Packet<16> {
     using Rays = RTCRay16;
     using RayHits = RTCRayHit16;
-    static void intersect(const int* valid, RTCScene scene, RTCIntersectContext* context, RayHits* rays) {
-        rtcIntersect16(valid, scene, context, rays);
-    }
-    static void occluded(const int* valid, RTCScene scene, RTCIntersectContext* context, Rays* rays) {
-        rtcOccluded16(valid, scene, context, rays);
-    }
+    static constexpr auto intersect = rtcIntersect16;
+    static constexpr auto occluded = rtcOccluded16;
 };
 
 struct PacketCounts {

@@ -15,8 +15,8 @@ namespace aleph {
 /// "/group/child" per node: names from the root down. Nodes that would share a path get "#2", "#3", ... in node order.
 std::vector<std::string> node_paths(const Scene& scene);
 
-/// Every keyed property of a node with what hangs on it, of a material, a light or a camera: name, kind of sampling,
-/// keys, first and last time, interpolation, and `constant` where all keys are alike.
+/// Every keyed property of a node with what hangs on it, of a material, a light or a camera: name as in scene files,
+/// kind of sampling, keys, first and last time, interpolation, and `constant` where all keys are alike.
 nlohmann::ordered_json list_tracks(const Scene& scene, const Node& node);
 nlohmann::ordered_json list_tracks(const Material& material);
 nlohmann::ordered_json list_tracks(const Light& light);

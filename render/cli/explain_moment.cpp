@@ -1,11 +1,11 @@
 // A scene at a moment, object by object: what `aleph explain --at` prints.
 
-#include <limits>
 #include <map>
 
 #include "engine/lookup.h"
 #include "engine/pose.h"
 #include "render/cli/explain.h"
+#include "render/cli/explain_elements.h"
 #include "render/cli/world_bounds.h"
 
 namespace aleph {
@@ -15,10 +15,6 @@ namespace {
 using nlohmann::ordered_json;
 
 constexpr std::size_t shown_points = 6;
-
-ordered_json to_json(const glm::dvec3& v) {
-    return {v.x, v.y, v.z};
-}
 
 ordered_json to_rows(const glm::dmat4& m) {
     ordered_json rows = ordered_json::array();
@@ -67,9 +63,7 @@ ordered_json explain_moment(const Scene& scene, double seconds) {
     for (std::size_t i = 0; i < scene.nodes.size(); ++i) {
         ordered_json object = {
             {"path", paths[i]}, {"world", to_rows(frame.world[i])}, {"visible", frame.visible[i] != 0}};
-        object["bounds"] = bounds[i].empty()
-                               ? ordered_json(nullptr)
-                               : ordered_json{{"min", to_json(bounds[i].low)}, {"max", to_json(bounds[i].high)}};
+        object["bounds"] = to_json(bounds[i]);
         if (!scene.nodes[i].meshes.empty()) object["points"] = describe_points(scene, frame, scene.nodes[i]);
         objects.push_back(std::move(object));
     }

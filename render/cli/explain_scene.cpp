@@ -4,12 +4,13 @@
 
 #include <algorithm>
 #include <map>
-#include <numbers>
 #include <set>
 
 #include "engine/base/errors.h"
 #include "engine/lookup.h"
+#include "engine/scene_json_fields.h"
 #include "render/cli/explain.h"
+#include "render/cli/explain_elements.h"
 #include "render/cli/world_bounds.h"
 #include "render/sequence.h"
 
@@ -22,19 +23,6 @@ using nlohmann::ordered_json;
 /// Bounds over the range are looked at on so many frames at most.
 constexpr std::int64_t most_bounds_frames = 33;
 
-ordered_json to_json(const glm::dvec3& v) {
-    return {v.x, v.y, v.z};
-}
-
-ordered_json to_json(const Bounds& bounds) {
-    if (bounds.empty()) return nullptr;
-    return {{"min", to_json(bounds.low)}, {"max", to_json(bounds.high)}};
-}
-
-std::string named(const std::string& name, const char* kind, std::size_t index) {
-    return name.empty() ? fmt::format("{} {}", kind, index) : name;
-}
-
 ordered_json describe_frames(const Scene& scene) {
     const FrameRange range = frame_range(scene);
     const FrameRate& rate = scene.frame_rate;
@@ -46,15 +34,6 @@ ordered_json describe_frames(const Scene& scene) {
             {"first_second", rate.seconds_of(range.first)},
             {"last_second", rate.seconds_of(range.last)},
             {"cuts", scene.cuts}};
-}
-
-const char* how_it_deforms(const Scene& scene, const Mesh& mesh) {
-    if (mesh.skin != no_index) return mesh.targets.empty() ? "skin" : "morph targets, skin";
-    if (!mesh.targets.empty()) return "morph targets";
-    const int cache = mesh.cage == no_index ? mesh.points : scene.cages[static_cast<std::size_t>(mesh.cage)].points;
-    const bool moves = cache != no_index && is_animated(scene.point_caches[static_cast<std::size_t>(cache)]);
-    if (moves) return mesh.cage == no_index ? "points" : "cage points";
-    return nullptr;
 }
 
 ordered_json count_elements(const Scene& scene) {
@@ -105,59 +84,6 @@ ordered_json describe_bounds(const Scene& scene) {
     return {{"first_frame", to_json(first)}, {"range", to_json(all)}, {"range_frames_seen", steps + 1}};
 }
 
-ordered_json describe_node(const Scene& scene, std::size_t index, const std::string& path) {
-    const Node& node = scene.nodes[index];
-    ordered_json out = {{"path", path}};
-    int depth = 0;
-    for (int parent = node.parent; parent != no_index; parent = scene.nodes[static_cast<std::size_t>(parent)].parent)
-        ++depth;
-    out["depth"] = depth;
-    if (node.include != no_index) out["from"] = scene.includes[static_cast<std::size_t>(node.include)].path;
-    if (!node.meshes.empty()) {
-        std::size_t triangles = 0;
-        ordered_json materials = ordered_json::array();
-        std::string deforms;
-        for (const int m : node.meshes) {
-            const Mesh& mesh = scene.meshes[static_cast<std::size_t>(m)];
-            triangles += mesh.triangles.size();
-            const int material = mesh.material;
-            const std::string name = material == no_index
-                                         ? "(default)"
-                                         : named(scene.materials[static_cast<std::size_t>(material)].name, "material",
-                                                 static_cast<std::size_t>(material));
-            if (std::find(materials.begin(), materials.end(), name) == materials.end()) materials.push_back(name);
-            if (const char* how = how_it_deforms(scene, mesh)) deforms = how;
-            if (mesh.cage != no_index)
-                out["subdivision_level"] = scene.cages[static_cast<std::size_t>(mesh.cage)].level;
-        }
-        out["triangles"] = triangles;
-        out["materials"] = std::move(materials);
-        if (!deforms.empty()) out["deforms"] = deforms;
-        if (node.meshes.size() > 1) out["meshes"] = node.meshes.size();
-    }
-    if (node.light != no_index) {
-        const Light& light = scene.lights[static_cast<std::size_t>(node.light)];
-        constexpr const char* kinds[] = {"point", "directional", "spot"};
-        out["light"] = {{"kind", kinds[static_cast<int>(light.kind)]}, {"animated", list_tracks(light)}};
-    }
-    if (node.camera != no_index) {
-        const Camera& camera = scene.cameras[static_cast<std::size_t>(node.camera)];
-        ordered_json described = {{"kind", camera.orthographic ? "orthographic" : "perspective"}};
-        if (camera.orthographic) {
-            described["half_height"] = key_value(camera.half_height, 0);
-        } else {
-            described["fov_degrees"] = key_value(camera.fov, 0) * 180.0 / std::numbers::pi;
-        }
-        described["animated"] = list_tracks(camera);
-        out["camera"] = std::move(described);
-    }
-    if (node.visible.key_count() == 1 && key_value(node.visible, 0) == 0.0) out["hidden"] = true;
-    if (node.inherits.key_count() == 1 && key_value(node.inherits, 0) == 0.0) out["detached"] = true;
-    ordered_json animated = list_tracks(scene, node);
-    if (!animated.empty()) out["animated"] = std::move(animated);
-    return out;
-}
-
 /// The samplings that keyed properties use, each once, by how many use it.
 ordered_json collect_samplings(const ordered_json& objects, const ordered_json& materials) {
     std::map<std::string, std::pair<ordered_json, int>> found;
@@ -200,10 +126,8 @@ Use find_use(const Scene& scene) {
     for (const int mesh : use.meshes) use.materials.insert(scene.meshes[static_cast<std::size_t>(mesh)].material);
     for (const int material : use.materials) {
         if (material == no_index) continue;
-        const Material& m = scene.materials[static_cast<std::size_t>(material)];
-        for (const TextureRef* texture : {&m.base_color_texture, &m.metallic_roughness_texture, &m.emission_texture,
-                                          &m.specular_texture, &m.specular_color_texture, &m.transmission_texture})
-            use.images.insert(texture->image);
+        for (const auto& field : material_textures)
+            use.images.insert((scene.materials[static_cast<std::size_t>(material)].*field.member).image);
     }
     return use;
 }
@@ -213,51 +137,13 @@ ordered_json list_unused(const Scene& scene, const Use& use) {
     const auto list = [&](const char* kind, const auto& elements, const std::set<int>& used) {
         for (std::size_t i = 0; i < elements.size(); ++i)
             if (!used.contains(static_cast<int>(i)))
-                out.push_back(fmt::format("{} \"{}\"", kind, named(elements[i].name, kind, i)));
+                out.push_back(fmt::format("{} \"{}\"", kind, name_or_number(elements[i].name, kind, i)));
     };
     list("mesh", scene.meshes, use.meshes);
     list("material", scene.materials, use.materials);
     list("image", scene.images, use.images);
     list("light", scene.lights, use.lights);
     list("camera", scene.cameras, use.cameras);
-    return out;
-}
-
-ordered_json describe_materials(const Scene& scene) {
-    ordered_json out = ordered_json::array();
-    for (std::size_t i = 0; i < scene.materials.size(); ++i) {
-        const Material& material = scene.materials[i];
-        ordered_json item = {{"name", named(material.name, "material", i)}};
-        const auto texture = [&](const char* key, const TextureRef& ref) {
-            if (ref.image == no_index) return;
-            const auto image = static_cast<std::size_t>(ref.image);
-            const std::string& path = scene.images[image].path;
-            item["textures"][key] = path.empty() ? named(scene.images[image].name, "image", image) : path;
-        };
-        texture("base_color", material.base_color_texture);
-        texture("metallic_roughness", material.metallic_roughness_texture);
-        texture("emission", material.emission_texture);
-        texture("specular", material.specular_texture);
-        texture("specular_color", material.specular_color_texture);
-        texture("transmission", material.transmission_texture);
-        if (ordered_json animated = list_tracks(material); !animated.empty()) item["animated"] = std::move(animated);
-        out.push_back(std::move(item));
-    }
-    return out;
-}
-
-ordered_json describe_images(const Scene& scene) {
-    ordered_json out = ordered_json::array();
-    for (std::size_t i = 0; i < scene.images.size(); ++i) {
-        const SceneImage& image = scene.images[i];
-        const bool eight = !image.bytes.empty();
-        out.push_back(
-            {{"name", named(image.name, "image", i)},
-             {"path", image.path},
-             {"size",
-              {eight ? image.bytes.width : image.floats.width, eight ? image.bytes.height : image.floats.height}},
-             {"channel", eight ? "8 bits" : "float"}});
-    }
     return out;
 }
 
@@ -285,7 +171,7 @@ std::vector<std::string> node_paths(const Scene& scene) {
     for (std::size_t i = 0; i < scene.nodes.size(); ++i) {
         const Node& node = scene.nodes[i];
         std::string path = node.parent == no_index ? "" : paths[static_cast<std::size_t>(node.parent)];
-        path.append("/").append(named(node.name, "node", i));
+        path.append("/").append(name_or_number(node.name, "node", i));
         const int count = ++times[path];
         paths.push_back(count == 1 ? path : fmt::format("{}#{}", path, count));
     }

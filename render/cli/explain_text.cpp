@@ -24,6 +24,11 @@ std::string grouped(const ordered_json& number) {
     return text;
 }
 
+/// "1 mesh", "1,234 meshes".
+std::string counted(const ordered_json& number, const char* one, const char* many) {
+    return fmt::format("{} {}", grouped(number), number == 1 ? one : many);
+}
+
 std::string box_text(const ordered_json& bounds) {
     if (bounds.is_null()) return "nothing to see";
     const auto at = [&](const char* end, int k) { return bounds[end][static_cast<std::size_t>(k)].get<double>(); };
@@ -59,7 +64,7 @@ std::string object_text(const ordered_json& object) {
             if (!materials.empty()) materials += ", ";
             materials += text_of(name);
         }
-        parts.push_back(fmt::format("{} triangles of {}", grouped(object["triangles"]), materials));
+        parts.push_back(fmt::format("{} of {}", counted(object["triangles"], "triangle", "triangles"), materials));
     }
     if (object.contains("subdivision_level"))
         parts.push_back(fmt::format("subdivided, level {}", object["subdivision_level"].get<int>()));
@@ -122,16 +127,16 @@ std::string frames_text(const ordered_json& frames) {
 }
 
 std::string counts_text(const ordered_json& counts) {
-    std::string text = fmt::format(
-        "holds     {} objects ({} animated, {} hidden), {} triangles in {} meshes; {} triangles in {} instances\n",
-        grouped(counts["objects"]), grouped(counts["animated_objects"]), grouped(counts["hidden_objects"]),
-        grouped(counts["triangles"]), grouped(counts["meshes"]), grouped(counts["instanced_triangles"]),
-        grouped(counts["instances"]));
-    text += fmt::format(
-        "          {} deforming meshes, {} subdivision cages, {} materials, {} images, {} lights, {} cameras\n",
-        grouped(counts["deforming_meshes"]), grouped(counts["subdivision_cages"]), grouped(counts["materials"]),
-        grouped(counts["images"]), grouped(counts["lights"]), grouped(counts["cameras"]));
-    return text;
+    return fmt::format(
+        "holds     {} ({} animated, {} hidden), {} in {}; {} in {}\n          {}, {}, {}, {}, {}, {}\n",
+        counted(counts["objects"], "object", "objects"), grouped(counts["animated_objects"]),
+        grouped(counts["hidden_objects"]), counted(counts["triangles"], "triangle", "triangles"),
+        counted(counts["meshes"], "mesh", "meshes"), counted(counts["instanced_triangles"], "triangle", "triangles"),
+        counted(counts["instances"], "instance", "instances"),
+        counted(counts["deforming_meshes"], "deforming mesh", "deforming meshes"),
+        counted(counts["subdivision_cages"], "subdivision cage", "subdivision cages"),
+        counted(counts["materials"], "material", "materials"), counted(counts["images"], "image", "images"),
+        counted(counts["lights"], "light", "lights"), counted(counts["cameras"], "camera", "cameras"));
 }
 
 }  // namespace
@@ -159,11 +164,10 @@ std::string explain_text(const ordered_json& explained, std::size_t most_objects
     if (!explained["time_samplings"].empty()) {
         text += "\ntime samplings\n";
         for (const ordered_json& sampling : explained["time_samplings"]) {
-            const int properties = sampling["properties"].get<int>();
             text +=
-                fmt::format("  {} keys, {:.6g} to {:.6g} s, {}: {} propert{}\n", sampling["keys"].get<std::size_t>(),
+                fmt::format("  {} keys, {:.6g} to {:.6g} s, {}: {}\n", sampling["keys"].get<std::size_t>(),
                             sampling["first"].get<double>(), sampling["last"].get<double>(),
-                            text_of(sampling["sampling"]), properties, properties == 1 ? "y" : "ies");
+                            text_of(sampling["sampling"]), counted(sampling["properties"], "property", "properties"));
         }
     }
     text += list_text("nothing uses", explained["unused"]);

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "engine/lookup.h"
+#include "engine/scene_json_fields.h"
 #include "render/cli/explain.h"
 
 namespace aleph {
@@ -30,37 +31,24 @@ ordered_json describe_sampling(const TimeSampling& sampling, std::size_t keys) {
     return out;
 }
 
-const char* interpolation_name(Interpolation interpolation) {
-    switch (interpolation) {
-        case Interpolation::step:
-            return "step";
-        case Interpolation::linear:
-            return "linear";
-        case Interpolation::nearest:
-            return "nearest";
-        case Interpolation::cubic:
-            return "cubic";
-    }
-    return "";
-}
-
 class TrackList {
   public:
     template <class T>
     void add(const std::string& property, const Track<T>& track) {
-        if (track.key_count() <= 1) return;
-        ordered_json item = {{"property", property}};
-        item.update(describe_sampling(track.sampling, track.key_count()));
-        item["interpolation"] = interpolation_name(track.interpolation);
-        if (!is_animated(track)) item["constant"] = true;
-        tracks_.push_back(std::move(item));
+        add(property, track.sampling, track.key_count(), track.interpolation, is_animated(track));
     }
 
-    void add(const std::string& property, const TimeSampling& sampling, std::size_t samples, bool animated) {
+    template <class Element, class Fields>
+    void add_all(const Element& element, const Fields& fields) {
+        for (const auto& field : fields) add(field.key, element.*field.member);
+    }
+
+    void add(const std::string& property, const TimeSampling& sampling, std::size_t samples,
+             Interpolation interpolation, bool animated) {
         if (samples <= 1) return;
         ordered_json item = {{"property", property}};
         item.update(describe_sampling(sampling, samples));
-        item["interpolation"] = "linear";
+        item["interpolation"] = interpolation_words[static_cast<std::size_t>(interpolation)];
         if (!animated) item["constant"] = true;
         tracks_.push_back(std::move(item));
     }
@@ -88,7 +76,8 @@ void add_operations(TrackList& list, const OperationStack& stack) {
                                                                    : 1;
     }
     const std::size_t samples = stride == 0 ? 0 : stack.channels.size() / stride;
-    if (samples > 1) list.add("operations", stack.sampling, samples, samples_differ(stack.channels, samples));
+    if (samples > 1)
+        list.add("operations", stack.sampling, samples, Interpolation::linear, samples_differ(stack.channels, samples));
 }
 
 void add_transform(TrackList& list, const Node& node) {
@@ -120,29 +109,21 @@ ordered_json list_tracks(const Scene& scene, const Node& node) {
         list.add("present", mesh.present);
         for (std::size_t i = 0; i < mesh.target_weights.size(); ++i)
             list.add(fmt::format("weights[{}]", i), mesh.target_weights[i]);
-        list.add("normals", mesh.normal_sampling, mesh.normal_samples.size(), true);
+        list.add("normals", mesh.normal_sampling, mesh.normal_samples.size(), Interpolation::linear, true);
         const int points =
             mesh.cage == no_index ? mesh.points : scene.cages[static_cast<std::size_t>(mesh.cage)].points;
         if (points == no_index || points == points_told) continue;
         points_told = points;
         const PointCache& cache = scene.point_caches[static_cast<std::size_t>(points)];
-        list.add("points", cache.sampling, cache.positions.size(), is_animated(cache));
+        list.add("points", cache.sampling, cache.positions.size(), Interpolation::linear, is_animated(cache));
     }
     return list.take();
 }
 
 ordered_json list_tracks(const Material& material) {
     TrackList list;
-    list.add("base_color", material.base_color);
-    list.add("alpha", material.alpha);
-    list.add("metallic", material.metallic);
-    list.add("roughness", material.roughness);
-    list.add("emission", material.emission);
-    list.add("emission_strength", material.emission_strength);
-    list.add("specular", material.specular);
-    list.add("specular_color", material.specular_color);
-    list.add("ior", material.ior);
-    list.add("transmission", material.transmission);
+    list.add_all(material, material_colors);
+    list.add_all(material, material_numbers);
     return list.take();
 }
 
@@ -150,8 +131,7 @@ ordered_json list_tracks(const Light& light) {
     TrackList list;
     list.add("color", light.color);
     list.add("intensity", light.intensity);
-    list.add("inner_cone", light.inner_cone);
-    list.add("outer_cone", light.outer_cone);
+    list.add_all(light, light_cones);
     list.add("range", light.range);
     return list.take();
 }
@@ -159,11 +139,7 @@ ordered_json list_tracks(const Light& light) {
 ordered_json list_tracks(const Camera& camera) {
     TrackList list;
     list.add("fov", camera.fov);
-    list.add("half_height", camera.half_height);
-    list.add("shift_x", camera.shift_x);
-    list.add("shift_y", camera.shift_y);
-    list.add("aperture", camera.aperture);
-    list.add("focus_distance", camera.focus_distance);
+    list.add_all(camera, camera_numbers);
     return list.take();
 }
 

@@ -170,9 +170,10 @@ TEST(Explain, PointsOfACacheAsTheFileHasThem) {
 TEST(Explain, TextNamesWhatMovesEvenWhereTheTreeIsCut) {
     Scene scene = make_scene();
     const std::string whole = explain_text(explain(scene), 0);
-    for (const char* expected : {"frames    0 to 48 at 24 a second", "exposure  2, as the scene says",
-                                 "carrier: animated translation (3 acyclic", "12 triangles of paint", "point light",
-                                 "material \"spare\"", "camera, 45 degrees high"}) {
+    for (const char* expected :
+         {"frames    0 to 48 at 24 a second", "exposure  2, as the scene says",
+          "carrier: animated translation (3 acyclic", "12 triangles of paint", "point light", "material \"spare\"",
+          "camera, 45 degrees high", "12 triangles in 1 mesh; 36 triangles in 3 instances", "1 light, 1 camera\n"}) {
         EXPECT_NE(whole.find(expected), std::string::npos) << expected << "\n" << whole;
     }
     std::rotate(scene.nodes.begin(), scene.nodes.begin() + 5, scene.nodes.end());  // the lamp first

@@ -1,0 +1,42 @@
+#pragma once
+// Looking over a JSON text without parsing it.
+
+#include <string_view>
+
+namespace aleph {
+
+/// Where the comment that begins here ends; `at` itself where none does.
+inline std::size_t skip_json_comment(std::string_view text, std::size_t at) {
+    const std::string_view start = text.substr(at, 2);
+    if (start != "//" && start != "/*") return at;
+    const std::size_t end = text.find(start == "//" ? "\n" : "*/", at + 2);
+    return end == std::string_view::npos ? text.size() : end + (start == "//" ? 0 : 1);
+}
+
+/// Calls mark(character) for what stands outside strings, and string(bytes) for each string.
+/// @param comments  the text may hold // and /* */
+template <class Mark, class String>
+void scan_json(std::string_view text, bool comments, const Mark& mark, const String& string) {
+    std::size_t string_start = 0;
+    bool in_string = false;
+    for (std::size_t i = 0; i < text.size(); ++i) {
+        const char c = text[i];
+        if (in_string) {
+            if (c == '\\') {
+                ++i;
+            } else if (c == '"') {
+                in_string = false;
+                string(i - string_start);
+            }
+        } else if (c == '"') {
+            in_string = true;
+            string_start = i;
+        } else if (c == '/' && comments) {
+            i = skip_json_comment(text, i);
+        } else {
+            mark(c);
+        }
+    }
+}
+
+}  // namespace aleph

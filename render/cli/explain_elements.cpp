@@ -1,0 +1,133 @@
+#include "render/cli/explain_elements.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <numbers>
+
+#include "engine/lookup.h"
+#include "engine/scene_json_fields.h"
+#include "render/cli/explain.h"
+
+namespace aleph {
+
+using nlohmann::ordered_json;
+
+namespace {
+
+/// "base_color" of "base_color_texture".
+std::string texture_name(const std::string& key) {
+    return key.substr(0, key.rfind("_texture"));
+}
+
+}  // namespace
+
+ordered_json to_json(const glm::dvec3& v) {
+    return {v.x, v.y, v.z};
+}
+
+ordered_json to_json(const Bounds& bounds) {
+    if (bounds.empty()) return nullptr;
+    return {{"min", to_json(bounds.low)}, {"max", to_json(bounds.high)}};
+}
+
+std::string name_or_number(const std::string& name, const char* kind, std::size_t index) {
+    return name.empty() ? fmt::format("{} {}", kind, index) : name;
+}
+
+const char* how_it_deforms(const Scene& scene, const Mesh& mesh) {
+    if (mesh.skin != no_index) return mesh.targets.empty() ? "skin" : "morph targets, skin";
+    if (!mesh.targets.empty()) return "morph targets";
+    const int cache = mesh.cage == no_index ? mesh.points : scene.cages[static_cast<std::size_t>(mesh.cage)].points;
+    const bool moves = cache != no_index && is_animated(scene.point_caches[static_cast<std::size_t>(cache)]);
+    if (moves) return mesh.cage == no_index ? "points" : "cage points";
+    return nullptr;
+}
+
+ordered_json describe_node(const Scene& scene, std::size_t index, const std::string& path) {
+    const Node& node = scene.nodes[index];
+    ordered_json out = {{"path", path}};
+    int depth = 0;
+    for (int parent = node.parent; parent != no_index; parent = scene.nodes[static_cast<std::size_t>(parent)].parent)
+        ++depth;
+    out["depth"] = depth;
+    if (node.include != no_index) out["from"] = scene.includes[static_cast<std::size_t>(node.include)].path;
+    if (!node.meshes.empty()) {
+        std::size_t triangles = 0;
+        ordered_json materials = ordered_json::array();
+        std::string deforms;
+        for (const int m : node.meshes) {
+            const Mesh& mesh = scene.meshes[static_cast<std::size_t>(m)];
+            triangles += mesh.triangles.size();
+            const int material = mesh.material;
+            const std::string name = material == no_index
+                                         ? "(default)"
+                                         : name_or_number(scene.materials[static_cast<std::size_t>(material)].name,
+                                                          "material", static_cast<std::size_t>(material));
+            if (std::find(materials.begin(), materials.end(), name) == materials.end()) materials.push_back(name);
+            if (const char* how = how_it_deforms(scene, mesh)) deforms = how;
+            if (mesh.cage != no_index)
+                out["subdivision_level"] = scene.cages[static_cast<std::size_t>(mesh.cage)].level;
+        }
+        out["triangles"] = triangles;
+        out["materials"] = std::move(materials);
+        if (!deforms.empty()) out["deforms"] = deforms;
+        if (node.meshes.size() > 1) out["meshes"] = node.meshes.size();
+    }
+    if (node.light != no_index) {
+        const Light& light = scene.lights[static_cast<std::size_t>(node.light)];
+        constexpr const char* kinds[] = {"point", "directional", "spot"};
+        out["light"] = {{"kind", kinds[static_cast<int>(light.kind)]}, {"animated", list_tracks(light)}};
+    }
+    if (node.camera != no_index) {
+        const Camera& camera = scene.cameras[static_cast<std::size_t>(node.camera)];
+        ordered_json described = {{"kind", camera.orthographic ? "orthographic" : "perspective"}};
+        if (camera.orthographic) {
+            described["half_height"] = key_value(camera.half_height, 0);
+        } else {
+            described["fov_degrees"] = key_value(camera.fov, 0) * 180.0 / std::numbers::pi;
+        }
+        described["animated"] = list_tracks(camera);
+        out["camera"] = std::move(described);
+    }
+    if (node.visible.key_count() == 1 && key_value(node.visible, 0) == 0.0) out["hidden"] = true;
+    if (node.inherits.key_count() == 1 && key_value(node.inherits, 0) == 0.0) out["detached"] = true;
+    ordered_json animated = list_tracks(scene, node);
+    if (!animated.empty()) out["animated"] = std::move(animated);
+    return out;
+}
+
+ordered_json describe_materials(const Scene& scene) {
+    ordered_json out = ordered_json::array();
+    for (std::size_t i = 0; i < scene.materials.size(); ++i) {
+        const Material& material = scene.materials[i];
+        ordered_json item = {{"name", name_or_number(material.name, "material", i)}};
+        for (const auto& field : material_textures) {
+            const int index = (material.*field.member).image;
+            if (index == no_index) continue;
+            const SceneImage& image = scene.images[static_cast<std::size_t>(index)];
+            item["textures"][texture_name(field.key)] =
+                image.path.empty() ? name_or_number(image.name, "image", static_cast<std::size_t>(index)) : image.path;
+        }
+        if (ordered_json animated = list_tracks(material); !animated.empty()) item["animated"] = std::move(animated);
+        out.push_back(std::move(item));
+    }
+    return out;
+}
+
+ordered_json describe_images(const Scene& scene) {
+    ordered_json out = ordered_json::array();
+    for (std::size_t i = 0; i < scene.images.size(); ++i) {
+        const SceneImage& image = scene.images[i];
+        const bool eight = !image.bytes.empty();
+        out.push_back(
+            {{"name", name_or_number(image.name, "image", i)},
+             {"path", image.path},
+             {"size",
+              {eight ? image.bytes.width : image.floats.width, eight ? image.bytes.height : image.floats.height}},
+             {"channel", eight ? "8 bits" : "float"}});
+    }
+    return out;
+}
+
+}  // namespace aleph

@@ -1,0 +1,26 @@
+#pragma once
+// Nodes, materials and images of a scene, described one by one, and values as JSON. Only explain*.cpp use them.
+
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "engine/bounds.h"
+#include "engine/scene.h"
+
+namespace aleph {
+
+nlohmann::ordered_json to_json(const glm::dvec3& v);
+/// null where empty
+nlohmann::ordered_json to_json(const Bounds& bounds);
+
+/// "kind 3" for an element without a name.
+std::string name_or_number(const std::string& name, const char* kind, std::size_t index);
+
+/// What moves a mesh's points; null where nothing does.
+const char* how_it_deforms(const Scene& scene, const Mesh& mesh);
+
+nlohmann::ordered_json describe_node(const Scene& scene, std::size_t index, const std::string& path);
+nlohmann::ordered_json describe_materials(const Scene& scene);
+nlohmann::ordered_json describe_images(const Scene& scene);
+
+}  // namespace aleph
