@@ -10,19 +10,16 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 
-double fract(double v) {
-    return v - std::floor(v);
-}
-
 /// Six rows of long dark boards.
 glm::dvec3 color_boards(const glm::dvec2& uv) {
     const double across = uv.y * 6.0;
     const auto row = static_cast<std::int64_t>(across);
-    const double along = fract(uv.x + pick(201, row)) * 2.0;
+    const double along = glm::fract(uv.x + pick(201, row)) * 2.0;
     const double tone = pick(202, static_cast<std::int64_t>(along), row);
     const double bend = fractal_noise(uv, {4, 6}, 3, 203);
-    const double grain = noise({uv.x * 12.0, fract(uv.y + 0.02 * bend) * 160.0}, {12, 160}, 204);
-    const double edge = std::min({fract(across), 1.0 - fract(across), 9.0 * fract(along), 9.0 * (1.0 - fract(along))});
+    const double grain = noise({uv.x * 12.0, glm::fract(uv.y + 0.02 * bend) * 160.0}, {12, 160}, 204);
+    const double edge = std::min(
+        {glm::fract(across), 1.0 - glm::fract(across), 9.0 * glm::fract(along), 9.0 * (1.0 - glm::fract(along))});
     const glm::dvec3 wood = glm::mix(hex(0x5c361e), hex(0xa0683c), 0.55 * tone + 0.3 * grain + 0.15 * bend);
     return wood * (edge < 0.035 ? 0.4 : 1.0);
 }
@@ -40,13 +37,13 @@ glm::dvec3 color_damask(const glm::dvec2& uv) {
     const glm::dvec3 ground = hex(0x46695a), figure = hex(0x7b9a7a);
     double cover = 0.0;
     for (const double half : {0.0, 0.5}) {
-        const glm::dvec2 at(std::abs(fract(uv.x + half) - 0.5), fract(uv.y + half) - 0.5);
+        const glm::dvec2 at(std::abs(glm::fract(uv.x + half) - 0.5), glm::fract(uv.y + half) - 0.5);
         // A leaf of nine lobes around the middle of each ogee.
         const double reach = glm::length(at * glm::dvec2(1.25, 0.82)), angle = std::atan2(at.x, at.y + 0.1);
         const double lobes = 0.165 + 0.045 * std::cos(9.0 * angle) - 0.03 * std::cos(3.0 * angle);
         if (reach < lobes && reach > 0.42 * lobes) cover = 1.0;
         if (reach < 0.24 * lobes) cover = 1.0;
-        if (std::abs(at.x - 0.25 - 0.17 * std::sin(2.0 * pi * (fract(uv.y + half) + 0.25))) < 0.012)
+        if (std::abs(at.x - 0.25 - 0.17 * std::sin(2.0 * pi * (glm::fract(uv.y + half) + 0.25))) < 0.012)
             cover = std::max(cover, 0.75);
     }
     const double silk = noise({uv.x * 160.0, uv.y * 12.0}, {160, 12}, 221) - 0.5;
@@ -70,7 +67,7 @@ glm::dvec3 color_rug(const glm::dvec2& uv) {
     if (inset < 0.02) {
         color = ivory * 0.9;
     } else if (inset < 0.06 || (inset > 0.27 && inset < 0.31)) {
-        color = fract((at.x + at.y) * 14.0) < 0.5 ? gold : blue;
+        color = glm::fract((at.x + at.y) * 14.0) < 0.5 ? gold : blue;
     } else if (inset < 0.27) {
         const glm::dvec2 p = cell(at + glm::dvec2(0.0, 0.065), 0.2);
         const double f = flower(p, 0.085, 8);
@@ -132,8 +129,8 @@ glm::dvec3 color_globe(const glm::dvec2& uv) {
     const glm::dvec3 sea = hex(0x7fa39a) + 30.0 * cloud;
     const glm::dvec3 ground =
         glm::mix(hex(0xd9b36c), hex(0x9a6a3a), std::clamp((land - 0.54) * 7.0, 0.0, 1.0)) + 24.0 * cloud;
-    const bool net = std::min(fract(uv.x * 24.0), 1.0 - fract(uv.x * 24.0)) < 0.03 ||
-                     std::min(fract(uv.y * 12.0), 1.0 - fract(uv.y * 12.0)) < 0.03;
+    const bool net = std::min(glm::fract(uv.x * 24.0), 1.0 - glm::fract(uv.x * 24.0)) < 0.03 ||
+                     std::min(glm::fract(uv.y * 12.0), 1.0 - glm::fract(uv.y * 12.0)) < 0.03;
     glm::dvec3 color = land > 0.54 ? ground : sea;
     if (std::abs(land - 0.54) < 0.006) color = hex(0x4a3320);
     if (uv.y < 0.05 || uv.y > 0.95) color = hex(0xe8dfc6);
@@ -143,7 +140,7 @@ glm::dvec3 color_globe(const glm::dvec2& uv) {
 /// The back of a book: raised bands and a label, to be tinted.
 glm::dvec3 color_spine(const glm::dvec2& uv) {
     const double wear = fractal_noise(uv, {6, 24}, 3, 251) - 0.5;
-    const double band = std::abs(fract(uv.y * 6.0) - 0.5);
+    const double band = std::abs(glm::fract(uv.y * 6.0) - 0.5);
     const double round = 0.72 + 0.28 * std::sin(pi * uv.x);
     if (uv.y > 0.17 && uv.y < 0.3) return hex(0xf2d79a) * (uv.y < 0.185 || uv.y > 0.285 ? 0.6 : 1.0) * round;
     return (glm::dvec3(176.0) + 40.0 * wear) * round * (band < 0.05 ? 1.35 : 1.0);
@@ -157,7 +154,7 @@ glm::dvec3 color_stone(const glm::dvec2& uv) {
 
 glm::dvec3 color_velvet(const glm::dvec2& uv) {
     const double nap = fractal_noise(uv, {10, 10}, 4, 271) - 0.5;
-    const double stripe = std::abs(fract(uv.x * 4.0) - 0.5) < 0.1 ? 1.15 : 1.0;
+    const double stripe = std::abs(glm::fract(uv.x * 4.0) - 0.5) < 0.1 ? 1.15 : 1.0;
     return (glm::dvec3(190.0) + 60.0 * nap) * stripe;
 }
 

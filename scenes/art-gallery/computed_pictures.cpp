@@ -13,10 +13,6 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 
-double fract(double v) {
-    return v - std::floor(v);
-}
-
 /// A filled Julia set's outside, coloured by how slowly points leave it.
 glm::dvec3 color_julia(const glm::dvec2& uv) {
     static const std::array colors = {hex(0x0d1b2a), hex(0x1b3a5c), hex(0x3f7cac), hex(0x95d0c5),
@@ -75,7 +71,7 @@ glm::dvec3 color_pour(const glm::dvec2& uv) {
     const glm::dvec2 moved = wrap(uv + 0.55 * once);
     const glm::dvec2 twice(fractal_noise(moved, {3, 3}, 4, 73), fractal_noise(moved, {3, 3}, 4, 74));
     const double value = fractal_noise(wrap(uv + 0.7 * twice), {4, 4}, 4, 75);
-    return gradient(colors, fract(2.2 * value + 0.6 * once.x));
+    return gradient(colors, glm::fract(2.2 * value + 0.6 * once.x));
 }
 
 /// Leaded glass: the nearest of scattered points gives the pane.
@@ -118,7 +114,7 @@ glm::dvec3 color_waves(const glm::dvec2& uv) {
     const double bend = 0.055 * std::sin(2.0 * pi * (1.5 * uv.y + 0.12 * std::sin(4.0 * pi * uv.x)));
     const double along = uv.x + bend;
     const double phase = 15.0 * along + 1.7 * std::sin(2.0 * pi * along);
-    return fract(phase) < 0.5 ? hex(0x15151a) : hex(0xf3efe6);
+    return glm::fract(phase) < 0.5 ? hex(0x15151a) : hex(0xf3efe6);
 }
 
 /// Quarter circles, halves and leaves on squares.
@@ -172,7 +168,7 @@ glm::dvec3 color_seigaiha(const glm::dvec2& uv) {
         const double x = (std::floor(uv.x * 1.5 / size - shift + 0.5) + shift) * size;
         const double reach = glm::distance(glm::dvec2(uv.x * 1.5, uv.y), glm::dvec2(x, y + 0.5 * size)) / (0.52 * size);
         if (uv.y > y + 0.5 * size || reach > 1.0) continue;
-        const double ring = fract(reach * 3.5);
+        const double ring = glm::fract(reach * 3.5);
         const glm::dvec3 deep = glm::mix(hex(0x2e86ab), hex(0x0b3954), (uv.y - horizon) / 0.55);
         return ring < 0.5 ? deep : hex(0xe8f1f2);
     }

@@ -2,19 +2,17 @@
 
 #include "scenes/art-gallery/pictures.h"
 #include "scenes/common/build.h"
+#include "scenes/common/generator.h"
 
 namespace aleph {
 
+std::vector<DrawnTexture> make_gallery_textures() {
+    return join({make_painted_pictures(), make_computed_pictures(), make_gallery_surfaces()});
+}
+
 Scene make_art_gallery(const std::string& textures) {
-    Scene scene;
-    scene.name = "art-gallery";
-    scene.range = FrameRange{0, gallery_last_frame};
-    scene.camera = "camera";
-    // By eye: the automatic exposure goes by direct light alone, of which ceiling and corners get little.
-    scene.exposure = 2.2;
-    add_images(scene, textures, make_painted_pictures());
-    add_images(scene, textures, make_computed_pictures());
-    add_images(scene, textures, make_gallery_surfaces());
+    // Exposure by eye: the automatic one goes by direct light alone, of which ceiling and corners get little.
+    Scene scene = begin_scene("art-gallery", gallery_last_frame, 2.2, textures, make_gallery_textures());
 
     GalleryMaterials materials{};
     materials.wall = add_lambert(scene, "wall", {236, 232, 224});

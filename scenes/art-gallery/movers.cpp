@@ -1,13 +1,15 @@
-// What moves: the balls, the top, the kinetic work, the mobile, and the camera.
+// What moves: the top, the kinetic work, the mobile, and the camera; the balls are in ball_work.cpp.
 
 #include <fmt/format.h>
 
-#include <glm/geometric.hpp>
+#include <cmath>
 #include <glm/trigonometric.hpp>
 #include <numbers>
 
 #include "scenes/art-gallery/gallery.h"
 #include "scenes/common/build.h"
+#include "scenes/common/camera.h"
+#include "scenes/common/keys.h"
 
 namespace aleph {
 
@@ -15,115 +17,7 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 
-Node& node_of(Scene& scene, int index) {
-    return scene.nodes[static_cast<std::size_t>(index)];
-}
-
-void turn_about(Scene& scene, int node, const glm::dvec3& axis, const Track<double>& angle) {
-    node_of(scene, node).axis_rotation = AxisRotation{axis, angle};
-}
-
-// The work under the ring: nine balls hang in a circle and fall one after the other.
-const glm::dvec3 ring_place(-3.55, 0.0, 1.75);
-constexpr double ring_radius = 0.95, ring_height = 2.62, ring_base = 0.08;
-constexpr int ring_balls = 9;
-
-glm::dvec3 ring_point(int i) {
-    const double angle = 2.0 * pi * i / ring_balls;
-    return ring_place + ring_radius * glm::dvec3(std::sin(angle), 0.0, std::cos(angle));
-}
-
 }  // namespace
-
-std::vector<BallDrop> make_ball_drops() {
-    const double releases[] = {-2.9, -0.7, 1.6, 4.4, 8.0, 12.2, 15.4, 17.1, 18.8};
-    std::vector<BallDrop> drops;
-    for (int i = 0; i < ring_balls; ++i) {
-        BallDrop drop;
-        drop.release = releases[i];
-        drop.radius = 0.1 + 0.015 * (i % 3);
-        // Neighbours in time stand apart.
-        drop.position =
-            to_millionth(ring_point(i * 4 % ring_balls)) + glm::dvec3(0.0, ring_height - 0.12 - drop.radius, 0.0);
-        drop.ground = ring_base;
-        drop.restitution = 0.91 - 0.02 * (i % 3);
-        drops.push_back(drop);
-    }
-    // Two roll off their plinths: one down the hall, later one out of the cabinet.
-    BallDrop beach;
-    beach.release = 2.4;
-    beach.position = {5.6, 1.1, 0.2};
-    beach.velocity = {-1.3, 0.0, 0.0};
-    beach.radius = 0.2;
-    beach.restitution = 0.82;
-    beach.grip = 0.985;
-    beach.rolling = 0.16;
-    drops.push_back(beach);
-    BallDrop late = beach;
-    late.release = 19.8;
-    late.position = {-9.4, 1.05, -0.72};
-    late.velocity = {1.0, 0.0, 0.0};
-    late.radius = 0.15;
-    drops.push_back(late);
-    return drops;
-}
-
-void add_ball_work(Scene& scene, const GalleryMaterials& materials) {
-    const int work = add_node(scene, "ball_work");
-    add_shape(scene, "ball_base", work,
-              lathe({{0.0, 0.0},
-                     {1.3, 0.0},
-                     {1.3, 0.0},
-                     {1.3, 0.05},
-                     {1.29, 0.072},
-                     {1.265, ring_base},
-                     {1.265, ring_base},
-                     {0.0, ring_base}},
-                    96),
-              materials.plinth, ring_place);
-    add_shape(scene, "ball_ring", work, torus(ring_radius, 0.035, 96), materials.steel,
-              ring_place + glm::dvec3(0.0, ring_height, 0.0));
-    for (int i = 0; i < 3; ++i) {
-        const double angle = 2.0 * pi * (i + 0.5) / 3.0;
-        const glm::dvec3 at =
-            to_millionth(ring_place + ring_radius * glm::dvec3(std::sin(angle), 0.0, std::cos(angle)));
-        add_rod(scene, fmt::format("ball_post_{}", i), work, at + glm::dvec3(0.0, ring_base, 0.0),
-                at + glm::dvec3(0.0, ring_height, 0.0), 0.016, materials.steel, 16);
-    }
-    for (int i = 0; i < ring_balls; ++i) {
-        const glm::dvec3 at = to_millionth(ring_point(i)) + glm::dvec3(0.0, ring_height, 0.0);
-        add_rod(scene, fmt::format("ball_holder_{}", i), work, at - glm::dvec3(0.0, 0.11, 0.0), at, 0.02,
-                materials.steel, 16);
-    }
-
-    const int balls = add_node(scene, "balls");
-    const std::vector<BallDrop> drops = make_ball_drops();
-    for (std::size_t i = 0; i < drops.size(); ++i) {
-        const std::string name = fmt::format("ball_{}", i);
-        const bool rolls = glm::length(drops[i].velocity) > 0.0;
-        const int texture = rolls ? (i % 2 == 1 ? 0 : 2) : static_cast<int>(i) % 5 + 1;
-        const int material = add_textured(scene, name, fmt::format("ball_{}", texture));
-        add_gloss(scene, 0.3);
-        const int index = add_shape(scene, name, balls, sphere(drops[i].radius), material, glm::dvec3(0.0));
-        const auto path = simulate_drop(drops[i], gallery_seconds);
-        node_of(scene, index).translation = cubic_track(path);
-        if (rolls) {
-            const double height = drops[i].position.y - drops[i].radius;
-            add_shape(scene, name + "_plinth", work, box({0.34, height, 0.34}), materials.plinth,
-                      {drops[i].position.x, 0.5 * height, drops[i].position.z});
-            const glm::dvec3 v = drops[i].velocity;
-            turn_about(scene, index, glm::normalize(glm::cross(glm::dvec3(0.0, 1.0, 0.0), v)),
-                       cubic_track(simulate_spin(drops[i], path)));
-        } else {
-            // A spin about the upright survives impacts; it dies with the bouncing.
-            const double spin = (i % 2 == 0 ? 1.0 : -1.0) * (2.2 + 0.4 * static_cast<double>(i));
-            const double from = path.front().seconds, time = path.back().seconds - from;
-            turn_about(
-                scene, index, {0.0, 1.0, 0.0},
-                cubic_track<double>({{from, 0.0, 0.0, spin}, {from + time, 0.1 * spin, 0.55 * spin * time, 0.0}}));
-        }
-    }
-}
 
 void add_top(Scene& scene, const GalleryMaterials& materials) {
     const int work = add_node(scene, "top_work", no_index, {2.15, 0.0, -0.95});
@@ -256,7 +150,7 @@ void add_kinetic_work(Scene& scene, const GalleryMaterials& materials) {
             times.push_back(gallery_seconds * k / 12.0);
             places.emplace_back(0.0, (k + i) % 2 == 0 ? 0.32 : 1.1, 0.8);
         }
-        node_of(scene, lift).translation = eased_track(times, places);
+        node_at(scene, lift).translation = eased_track(times, places);
         add_rod(scene, fmt::format("rider_rod_{}", i), rider, {0.0, 0.0, 0.8}, {0.0, 1.9, 0.8}, 0.01, materials.steel,
                 12);
     }
@@ -293,7 +187,7 @@ void add_mobile(Scene& scene, const GalleryMaterials& materials) {
             Shape shape = leaf;
             for (glm::dvec2& point : shape.profile) point = to_millionth(glm::dvec3(point * size, 0.0));
             const int paddle = add_shape(scene, name, node, shape, paint, {x, y, 0.0}, turn({0.0, 0.0, 1.0}, tilt));
-            node_of(scene, paddle).scale = glm::dvec3(1.0, 1.0, 0.72);
+            node_at(scene, paddle).scale = glm::dvec3(1.0, 1.0, 0.72);
         };
         add_paddle(fmt::format("mobile_paddle_{}", i), -arm.left - 0.8 * arm.size, -0.07, arm.size, arm.color,
                    62.0 + 6.0 * i);
@@ -305,34 +199,16 @@ void add_mobile(Scene& scene, const GalleryMaterials& materials) {
 
 void add_gallery_camera(Scene& scene) {
     // Where it is and what it looks at, on these frames; eased in between.
-    struct Stop {
-        double frame;
-        glm::dvec3 eye, target;
-    };
-    const Stop stops[] = {
-        {0, {5.1, 1.6, -0.75}, {0.6, 1.2, 2.3}},         {120, {5.0, 1.6, 0.95}, {-1.4, 1.4, -0.1}},
-        {235, {3.75, 1.45, 0.35}, {1.75, 1.2, -1.35}},   {340, {1.9, 1.5, 0.75}, {-1.2, 1.2, -2.2}},
-        {450, {-0.55, 1.45, -0.4}, {-2.75, 1.05, -2.5}}, {560, {-0.9, 1.55, -0.75}, {-3.9, 1.2, 0.95}},
-        {650, {-1.6, 1.6, -0.5}, {-5.4, 1.35, 0.45}},    {749, {-4.1, 1.55, -0.15}, {-8.1, 1.35, 0.0}}};
-    std::vector<double> times, yaws, pitches;
-    std::vector<glm::dvec3> eyes;
-    for (const Stop& stop : stops) {
-        const glm::dvec3 look = glm::normalize(stop.target - stop.eye);
-        times.push_back(stop.frame / 30.0);
-        eyes.push_back(stop.eye);
-        yaws.push_back(std::atan2(-look.x, -look.z));
-        pitches.push_back(std::asin(look.y));
-    }
-    const int rig = add_node(scene, "camera_rig");
-    node_of(scene, rig).translation = eased_track(times, eyes);
-    turn_about(scene, rig, {0.0, 1.0, 0.0}, eased_track(times, yaws));
-    const int head = add_node(scene, "camera", rig);
-    turn_about(scene, head, {1.0, 0.0, 0.0}, eased_track(times, pitches));
-    Camera camera;
-    camera.name = "camera";
-    camera.fov = glm::radians(50.0);
-    scene.cameras.push_back(camera);
-    node_of(scene, head).camera = 0;
+    add_walking_camera(scene,
+                       {{0, {5.1, 1.6, -0.75}, {0.6, 1.2, 2.3}},
+                        {120, {5.0, 1.6, 0.95}, {-1.4, 1.4, -0.1}},
+                        {235, {3.75, 1.45, 0.35}, {1.75, 1.2, -1.35}},
+                        {340, {1.9, 1.5, 0.75}, {-1.2, 1.2, -2.2}},
+                        {450, {-0.55, 1.45, -0.4}, {-2.75, 1.05, -2.5}},
+                        {560, {-0.9, 1.55, -0.75}, {-3.9, 1.2, 0.95}},
+                        {650, {-1.6, 1.6, -0.5}, {-5.4, 1.35, 0.45}},
+                        {749, {-4.1, 1.55, -0.15}, {-8.1, 1.35, 0.0}}},
+                       50.0);
 }
 
 }  // namespace aleph

@@ -14,4 +14,7 @@ std::vector<DrawnTexture> make_computed_pictures();  ///< a colour for every poi
 /// "parquet", "marble", "oak", "weave", "terracotta", "top", "ball_0" to "ball_5": all repeat without a seam.
 std::vector<DrawnTexture> make_gallery_surfaces();
 
+/// All of these.
+std::vector<DrawnTexture> make_gallery_textures();
+
 }  // namespace aleph

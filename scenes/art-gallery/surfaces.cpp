@@ -14,10 +14,6 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 
-double fract(double v) {
-    return v - std::floor(v);
-}
-
 /// Herringbone: planks of 1 x 4 cells, across and upright in turn; the pattern repeats every 8 cells.
 glm::dvec3 color_parquet(const glm::dvec2& uv) {
     const double cells = 8.0;
@@ -27,9 +23,9 @@ glm::dvec3 color_parquet(const glm::dvec2& uv) {
     const std::int64_t stair = wrap(cell.x - cell.y, 8);
     const bool across = stair < 4;
     // Along a plank, 0 to 4, and across it, 0 to 1.
-    const double along =
-        across ? static_cast<double>(stair) + fract(at.x) : static_cast<double>(wrap(7 - stair, 4)) + fract(at.y);
-    const double side = across ? fract(at.y) : fract(at.x);
+    const double along = across ? static_cast<double>(stair) + glm::fract(at.x)
+                                : static_cast<double>(wrap(7 - stair, 4)) + glm::fract(at.y);
+    const double side = across ? glm::fract(at.y) : glm::fract(at.x);
     const glm::i64vec2 plank = across ? glm::i64vec2(wrap(cell.x - stair, 8), cell.y)
                                       : glm::i64vec2(cell.x + 16, wrap(cell.y - wrap(7 - stair, 4), 8));
     const double tone = pick(111, plank.x, plank.y);
@@ -60,7 +56,7 @@ glm::dvec3 color_weave(const glm::dvec2& uv) {
     const glm::dvec2 at = uv * 24.0;
     const glm::i64vec2 cell(glm::floor(at));
     const bool over = (cell.x + cell.y) % 2 == 0;
-    const double round = over ? std::sin(pi * fract(at.y)) : std::sin(pi * fract(at.x));
+    const double round = over ? std::sin(pi * glm::fract(at.y)) : std::sin(pi * glm::fract(at.x));
     const double tone = over ? pick(141, cell.y) : pick(142, cell.x);
     return glm::dvec3(158.0 + 70.0 * round + 24.0 * tone);
 }
@@ -74,10 +70,10 @@ glm::dvec3 color_terracotta(const glm::dvec2& uv) {
     const auto band = [&](double low, double high) { return uv.y >= low && uv.y < high; };
     if (band(0.34, 0.44)) {
         const auto row = static_cast<std::size_t>((uv.y - 0.34) / 0.1 * 6.999);
-        return key[row][static_cast<std::size_t>(fract(uv.x * 20.0) * 8.0)] == '#' ? black : clay;
+        return key[row][static_cast<std::size_t>(glm::fract(uv.x * 20.0) * 8.0)] == '#' ? black : clay;
     }
     if (band(0.32, 0.33) || band(0.45, 0.46) || band(0.66, 0.68)) return black;
-    if (band(0.72, 0.92)) return std::abs(fract(uv.x * 24.0) - 0.5) < 0.5 * (0.92 - uv.y) / 0.2 ? black : clay;
+    if (band(0.72, 0.92)) return std::abs(glm::fract(uv.x * 24.0) - 0.5) < 0.5 * (0.92 - uv.y) / 0.2 ? black : clay;
     if (band(0.5, 0.62)) {
         const double wave = 0.56 + 0.03 * std::sin(2.0 * pi * 12.0 * uv.x);
         return std::abs(uv.y - wave) < 0.014 ? black : clay;
@@ -90,7 +86,7 @@ glm::dvec3 color_top(const glm::dvec2& uv) {
     static const std::array colors = {hex(0xe4332b), hex(0xf7f2e4), hex(0x1d4e9e), hex(0xf6c02c)};
     if (uv.y < 0.12) return hex(0x2a1a12);
     if (std::abs(uv.y - 0.45) < 0.016) return hex(0x1b1b1f);
-    const double turn = fract(uv.x + (uv.y < 0.45 ? 0.9 : -0.9) * uv.y);
+    const double turn = glm::fract(uv.x + (uv.y < 0.45 ? 0.9 : -0.9) * uv.y);
     return colors[static_cast<std::size_t>(turn * 8.0) % 4];
 }
 
@@ -105,10 +101,10 @@ glm::dvec3 color_ball(int number, const glm::dvec2& uv) {
         }
         case 1:  // stars
             return std::min(uv.y, 1.0 - uv.y) > 0.2 && std::abs(uv.y - 0.5) < 0.1 ? hex(0xf6e9c8)
-                   : fract(6.0 * uv.x + 2.0 * uv.y) < 0.5                         ? hex(0x6a2c91)
+                   : glm::fract(6.0 * uv.x + 2.0 * uv.y) < 0.5                    ? hex(0x6a2c91)
                                                                                   : hex(0xf29ad0);
         case 2: {  // a swirl
-            const double s = fract(3.0 * uv.x + 1.6 * uv.y);
+            const double s = glm::fract(3.0 * uv.x + 1.6 * uv.y);
             return s < 0.33 ? hex(0x0fa3b1) : s < 0.66 ? hex(0xf9f7ef) : hex(0xf7a072);
         }
         case 3:  // squares

@@ -6,6 +6,8 @@
 #include <glm/trigonometric.hpp>
 
 #include "scenes/common/build.h"
+#include "scenes/common/camera.h"
+#include "scenes/common/generator.h"
 #include "scenes/common/keys.h"
 
 namespace aleph {
@@ -108,19 +110,17 @@ void add_boomerang(Scene& scene) {
     }
     const int flight = add_node(scene, "flight");
     scene.nodes.back().translation = cubic_track(keys);
-    add_node(scene, "bank", flight);
-    scene.nodes.back().axis_rotation = AxisRotation{
-        {0.0, 0.0, 1.0},
-        in_radians(eased_track<double>({0.0, to_millionth(0.5 * seconds), to_millionth(seconds)}, {24.0, 4.0, -26.0}))};
-    const int lean =
-        add_node(scene, "lean", static_cast<int>(scene.nodes.size()) - 1, glm::dvec3(0.0), turn({1.0, 0.0, 0.0}, 60.0));
+    const int bank = add_node(scene, "bank", flight);
+    turn_about(
+        scene, bank, {0.0, 0.0, 1.0},
+        in_radians(eased_track<double>({0.0, to_millionth(0.5 * seconds), to_millionth(seconds)}, {24.0, 4.0, -26.0})));
+    const int lean = add_node(scene, "lean", bank, glm::dvec3(0.0), turn({1.0, 0.0, 0.0}, 60.0));
     const int spin = add_node(scene, "boomerang", lean);
-    scene.nodes.back().axis_rotation =
-        AxisRotation{{0.0, 1.0, 0.0},
-                     in_radians(even_track<double>(0.0, to_millionth(seconds), -40.0,
-                                                   -40.0 - boomerang_spin_degrees * boomerang_last_frame))};
+    turn_about(scene, spin, {0.0, 1.0, 0.0},
+               in_radians(even_track<double>(0.0, to_millionth(seconds), -40.0,
+                                             -40.0 - boomerang_spin_degrees * boomerang_last_frame)));
     scene.meshes.push_back(make_boomerang_mesh(material));
-    scene.nodes[static_cast<std::size_t>(spin)].meshes = {static_cast<int>(scene.meshes.size()) - 1};
+    node_at(scene, spin).meshes = {static_cast<int>(scene.meshes.size()) - 1};
 }
 
 /// Still for the first half, as in the thesis's figure; then a slow dolly to the right that turns after the boomerang:
@@ -137,24 +137,16 @@ void add_camera(Scene& scene) {
     const int dolly = add_node(scene, "camera_dolly");
     scene.nodes.back().translation = hold_and_go(glm::dvec3(-0.12, 1.5, 3.2), glm::dvec3(0.1, 1.47, 3.14));
     const int pan = add_node(scene, "camera_pan", dolly);
-    scene.nodes.back().axis_rotation = AxisRotation{{0.0, 1.0, 0.0}, in_radians(hold_and_go(1.4, -1.2))};
-    const int node = add_node(scene, "camera", pan, glm::dvec3(0.0), turn({1.0, 0.0, 0.0}, -4.5));
-    Camera camera;
-    camera.name = "camera";
-    camera.fov = glm::radians(44.0);
-    scene.cameras.push_back(camera);
-    scene.nodes[static_cast<std::size_t>(node)].camera = 0;
+    turn_about(scene, pan, {0.0, 1.0, 0.0}, in_radians(hold_and_go(1.4, -1.2)));
+    add_node(scene, "camera", pan, glm::dvec3(0.0), turn({1.0, 0.0, 0.0}, -4.5));
+    hang_camera(scene, 44.0);
 }
 
 }  // namespace
 
 Scene make_boomerang_scene(const std::string& textures) {
-    Scene scene;
-    scene.name = "boomerang";
-    scene.range = FrameRange{0, boomerang_last_frame};
-    scene.camera = "camera";
-    scene.exposure = 1.3;  // by eye
-    add_images(scene, textures, make_boomerang_textures());
+    // Exposure by eye.
+    Scene scene = begin_scene("boomerang", boomerang_last_frame, 1.3, textures, make_boomerang_textures());
     add_room(scene);
     add_furniture(scene);
     add_lights(scene);

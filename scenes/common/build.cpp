@@ -25,20 +25,16 @@ int add_material(Scene& scene, const Material& material) {
     return static_cast<int>(scene.materials.size()) - 1;
 }
 
-glm::dquat six_digits(const glm::dquat& q) {
-    return {to_millionth(q.w), to_millionth(q.x), to_millionth(q.y), to_millionth(q.z)};
-}
-
 }  // namespace
 
 glm::dquat turn(const glm::dvec3& axis, double degrees) {
-    return six_digits(glm::angleAxis(glm::radians(degrees), axis));
+    return to_millionth(glm::angleAxis(glm::radians(degrees), axis));
 }
 
 glm::dquat y_towards(const glm::dvec3& direction) {
     const glm::dvec3 to = glm::normalize(direction), up(0.0, 1.0, 0.0);
     if (to.y < -0.999999) return {0.0, 1.0, 0.0, 0.0};
-    return six_digits(glm::normalize(glm::dquat(1.0 + glm::dot(up, to), glm::cross(up, to))));
+    return to_millionth(glm::normalize(glm::dquat(1.0 + glm::dot(up, to), glm::cross(up, to))));
 }
 
 int add_rod(Scene& scene, const std::string& name, int parent, const glm::dvec3& from, const glm::dvec3& to,

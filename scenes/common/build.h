@@ -20,6 +20,15 @@ inline int add_node(Scene& scene, const std::string& name, int parent = no_index
     return static_cast<int>(scene.nodes.size()) - 1;
 }
 
+inline Node& node_at(Scene& scene, int index) {
+    return scene.nodes[static_cast<std::size_t>(index)];
+}
+
+/// Turns a node about an axis. @param angle  radians
+inline void turn_about(Scene& scene, int node, const glm::dvec3& axis, const Track<double>& angle) {
+    node_at(scene, node).axis_rotation = AxisRotation{axis, angle};
+}
+
 /// A node that shows one shape.
 inline int add_shape(Scene& scene, const std::string& name, int parent, const Shape& shape, int material,
                      const glm::dvec3& translation, const glm::dquat& rotation = glm::dquat(1.0, 0.0, 0.0, 0.0)) {

@@ -16,6 +16,10 @@ inline glm::dvec3 to_millionth(const glm::dvec3& v) {
     return {to_millionth(v.x), to_millionth(v.y), to_millionth(v.z)};
 }
 
+inline glm::dquat to_millionth(const glm::dquat& q) {
+    return {to_millionth(q.w), to_millionth(q.x), to_millionth(q.y), to_millionth(q.z)};
+}
+
 /// A key of a track that is a cubic between keys. Velocities are per second; before and after differ at an impact.
 template <class T>
 struct MotionKey {

@@ -5,6 +5,12 @@
 
 namespace aleph {
 
+std::vector<DrawnTexture> join(const std::vector<std::vector<DrawnTexture>>& lists) {
+    std::vector<DrawnTexture> all;
+    for (const auto& list : lists) all.insert(all.end(), list.begin(), list.end());
+    return all;
+}
+
 void write_textures(const std::filesystem::path& folder, const std::vector<DrawnTexture>& textures) {
     for (const DrawnTexture& texture : textures) {
         Image<Rgb> linear(texture.srgb.width, texture.srgb.height);

@@ -17,6 +17,8 @@ struct DrawnTexture {
     Image<glm::u8vec3> srgb;
 };
 
+std::vector<DrawnTexture> join(const std::vector<std::vector<DrawnTexture>>& lists);
+
 /// One PNG each, the same bytes every time. The folder has to exist.
 void write_textures(const std::filesystem::path& folder, const std::vector<DrawnTexture>& textures);
 

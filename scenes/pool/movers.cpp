@@ -3,23 +3,13 @@
 #include <glm/geometric.hpp>
 
 #include "scenes/common/build.h"
+#include "scenes/common/keys.h"
 #include "scenes/pool/break.h"
 #include "scenes/pool/pool_scene.h"
 
 namespace aleph {
 
 namespace {
-
-/// To a micrometre (a millionth of a turn of a quaternion): what a viewer could see, in few characters.
-double rounded(double value) {
-    return std::round(value * 1e6) / 1e6;
-}
-glm::dvec3 rounded(const glm::dvec3& v) {
-    return {rounded(v.x), rounded(v.y), rounded(v.z)};
-}
-glm::dquat rounded(const glm::dquat& q) {
-    return {rounded(q.w), rounded(q.x), rounded(q.y), rounded(q.z)};
-}
 
 double smooth(double from, double to, double t) {
     const double f = glm::clamp((t - from) / (to - from), 0.0, 1.0);
@@ -49,8 +39,8 @@ void add_balls(Scene& scene, const PoolSettings& settings, const PoolRun& run) {
         node.rotation.values.clear();
         for (std::size_t k = 0; k < count; ++k) {
             const PoolBall& ball = run.samples[k < wait ? 0 : k - wait][i];
-            node.translation.values.push_back(rounded(ball.position));
-            node.rotation.values.push_back(rounded(ball.orientation));
+            node.translation.values.push_back(to_millionth(ball.position));
+            node.rotation.values.push_back(to_millionth(ball.orientation));
         }
     }
 }
@@ -91,8 +81,8 @@ void add_cue(Scene& scene, const PoolSettings& settings, const PoolBall& struck)
                                              : -0.11 * (1.0 - std::exp((strike_time - t) / 0.035));
         const double away = smooth(0.4, 1.7, t);
         const glm::dvec3 lift(0.0, 0.35 * smooth(0.3, 0.8, t) * (1.0 - smooth(1.1, 1.7, t)), 0.0);
-        node.translation.values.push_back(rounded(glm::mix(contact + back * swing, rest, away) + lift));
-        node.rotation.values.push_back(rounded(slerp_short(aim, lean, smooth(0.6, 1.6, t))));
+        node.translation.values.push_back(to_millionth(glm::mix(contact + back * swing, rest, away) + lift));
+        node.rotation.values.push_back(to_millionth(slerp_short(aim, lean, smooth(0.6, 1.6, t))));
     }
 }
 

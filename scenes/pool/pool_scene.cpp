@@ -3,6 +3,8 @@
 #include <glm/trigonometric.hpp>
 
 #include "scenes/common/build.h"
+#include "scenes/common/camera.h"
+#include "scenes/common/generator.h"
 #include "scenes/pool/break.h"
 #include "scenes/pool/textures.h"
 
@@ -19,15 +21,15 @@ void add_camera(Scene& scene, bool moves) {
         turn.angle.sampling.period = last_frame / 30.0;
         turn.angle.values = {glm::radians(first), glm::radians(last)};
     }
-    scene.nodes[static_cast<std::size_t>(rig)].axis_rotation = turn;
+    node_at(scene, rig).axis_rotation = turn;
 
     const glm::dquat ahead = z_to_plus_x * glm::angleAxis(glm::radians(-12.5), glm::dvec3(1.0, 0.0, 0.0));
-    const int node = add_node(scene, "camera", rig, {0.25, 1.27, 0.0}, ahead);
-    Camera camera;
-    camera.name = "camera";
-    camera.fov = glm::radians(40.0);
-    scene.cameras.push_back(camera);
-    scene.nodes[static_cast<std::size_t>(node)].camera = 0;
+    add_node(scene, "camera", rig, {0.25, 1.27, 0.0}, ahead);
+    hang_camera(scene, 40.0);
+}
+
+std::vector<DrawnTexture> make_pool_textures() {
+    return join({make_room_textures(), make_ball_textures()});
 }
 
 Scene make_pool_scene(bool camera_moves, const std::string& textures) {
@@ -35,15 +37,9 @@ Scene make_pool_scene(bool camera_moves, const std::string& textures) {
     const double duration = last_frame / 30.0 - strike_time;
     const PoolRun run = simulate_pool(make_rack(settings), settings, duration, samples_per_second);
 
-    Scene scene;
-    scene.name = camera_moves ? "pool" : "pool-still";
-    scene.range = FrameRange{0, last_frame};
-    scene.camera = "camera";
-    // By eye. The automatic exposure goes by direct light alone, of which the walls get little: the cloth would burn
-    // out.
-    scene.exposure = 3.0;
-    add_images(scene, textures, make_room_textures());
-    add_images(scene, textures, make_ball_textures());
+    // Exposure by eye. The automatic one goes by direct light alone, of which the walls get little: the cloth would
+    // burn out.
+    Scene scene = begin_scene(camera_moves ? "pool" : "pool-still", last_frame, 3.0, textures, make_pool_textures());
     add_room(scene);
     add_lights(scene);
     add_table(scene, settings);

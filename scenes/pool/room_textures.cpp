@@ -11,10 +11,6 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 
-double fract(double v) {
-    return v - std::floor(v);
-}
-
 glm::dvec3 color_felt(const glm::dvec2& uv) {
     // Short fibres that lie along the table, over broad wear.
     const double fibres = noise(uv * glm::dvec2(64, 160), {64, 160}, 11) - 0.5;
@@ -39,11 +35,12 @@ glm::dvec3 color_floor(const glm::dvec2& uv) {
     const int rows = 8;
     const double across = uv.y * rows;
     const auto row = static_cast<std::int64_t>(across);
-    const double along = fract(uv.x + lattice_value(row, 0, 31)) * 2.0;
+    const double along = glm::fract(uv.x + lattice_value(row, 0, 31)) * 2.0;
     const auto plank = static_cast<std::int64_t>(along);
     const double tone = lattice_value(plank, row, 32);
     const double grain = noise({uv.x * 10.0, uv.y * 128.0}, {10, 128}, 33);
-    const double edge = std::min({fract(across), 1.0 - fract(across), 8.0 * fract(along), 8.0 * (1.0 - fract(along))});
+    const double edge = std::min(
+        {glm::fract(across), 1.0 - glm::fract(across), 8.0 * glm::fract(along), 8.0 * (1.0 - glm::fract(along))});
     const glm::dvec3 wood = glm::mix(glm::dvec3(124, 82, 50), glm::dvec3(182, 132, 86), 0.7 * tone + 0.3 * grain);
     return edge < 0.045 ? 0.45 * wood : wood;
 }
@@ -73,7 +70,8 @@ glm::dvec3 color_wallpaper(const glm::dvec2& uv) {
         }
     }
     const double wave = 0.05 * std::sin(4.0 * pi * uv.y);
-    const double stem = std::min(std::abs(fract(uv.x + wave) - 0.5), std::abs(fract(uv.x + 0.5 - wave) - 0.5)) < 0.012;
+    const double stem =
+        std::min(std::abs(glm::fract(uv.x + wave) - 0.5), std::abs(glm::fract(uv.x + 0.5 - wave) - 0.5)) < 0.012;
     const double paper = fractal_noise(uv, {16, 16}, 2, 41) - 0.5;
     glm::dvec3 color(214, 192, 150);
     color = glm::mix(color, glm::dvec3(166, 150, 108), stem);
@@ -97,7 +95,7 @@ glm::dvec3 color_wainscot(const glm::dvec2& uv) {
 
 glm::dvec3 color_sunset(const glm::dvec2& uv) {
     const double horizon = 0.62;
-    const double ripple = fractal_noise({fract(uv.x), uv.y}, {3, 14}, 4, 61) - 0.5;
+    const double ripple = fractal_noise({glm::fract(uv.x), uv.y}, {3, 14}, 4, 61) - 0.5;
     const double sun = glm::distance(uv * glm::dvec2(1.5, 1.0), glm::dvec2(0.98, 0.5));
     if (uv.y < horizon) {
         const double t = std::clamp(uv.y / horizon + 0.25 * ripple, 0.0, 1.0);

@@ -15,4 +15,7 @@ std::vector<DrawnTexture> make_room_textures();
 /// "ball_00" (the cue ball) to "ball_15": latitude and longitude, the number at u = .25 and .75.
 std::vector<DrawnTexture> make_ball_textures();
 
+/// All of these.
+std::vector<DrawnTexture> make_pool_textures();
+
 }  // namespace aleph

@@ -11,6 +11,7 @@
 #include "engine/base/errors.h"
 #include "engine/base/parallel.h"
 #include "render/cli/options.h"
+#include "scenes/studies/study_options.h"
 #include "scenes/studies/study_tools.h"
 
 namespace aleph {
@@ -18,9 +19,10 @@ namespace aleph {
 namespace {
 
 struct AccuracyOptions {
-    std::string scene, size = "320x240", dense;
+    std::string scene, dense;
+    StudyOptions study{.size = "320x240"};
     std::vector<std::string> accuracies = {".5", ".3", ".2", ".15", ".1", ".05"};
-    int frame = 20, gather = 1024, dense_gather = 4096, threads = 0, light_samples = 4;
+    int frame = 20, dense_gather = 4096, light_samples = 4;
     bool best_uniform = false;
 };
 
@@ -69,16 +71,13 @@ void print_best_uniform(const Experiment& experiment, double tightest, double pe
 
 int run_accuracy(const AccuracyOptions& options) {
     const Scene scene = load_scene(options.scene);
-    RenderSettings settings;
-    apply_settings(settings, scene.settings, options.scene);
-    parse_size(options.size, "--size", settings.width, settings.height);
-    settings.spp = 1;
-    settings.gather = options.gather;
+    RenderSettings settings = study_settings(scene, options.scene, options.study);
     settings.light_samples = options.light_samples;
-    const ThreadLimit limit(options.threads);
+    const ThreadLimit limit(options.study.threads);
     const Image<Rgb> dense = load_or_render_dense(scene, settings, options.frame, options.dense_gather, options.dense);
-    fmt::print("{}, frame {}, {}, gather {}, dense gather {}, 1 sample per pixel, {} threads\n\n", options.scene,
-               options.frame, options.size, options.gather, options.dense_gather, thread_count());
+    fmt::print("{}, frame {}, {}, gather {}, dense gather {}, samples per pixel {}, {} threads\n\n", options.scene,
+               options.frame, options.study.size, options.study.gather, options.dense_gather, options.study.spp,
+               thread_count());
     fmt::print("| accuracy | guide | seconds | gather rays (M) | records | relative MSE | beyond threshold (%) |\n");
     fmt::print("| ---: | --- | ---: | ---: | ---: | ---: | ---: |\n");
     for (const std::string& text : options.accuracies) {
@@ -103,14 +102,12 @@ int main(int argc, char** argv) {
     CLI::App app{"a table of what accuracy costs: seconds, gather rays, records, errors against a dense gather"};
     aleph::AccuracyOptions options;
     app.add_option("scene", options.scene, "a scene file")->required();
-    app.add_option("--size", options.size, "WIDTHxHEIGHT")->capture_default_str();
+    aleph::add_study_options(app, options.study);
     app.add_option("--accuracies", options.accuracies, "list")->delimiter(',')->capture_default_str();
     app.add_option("--dense", options.dense, "EXR that holds, or will hold, the dense frame");
     aleph::add_value(app, "--frame", options.frame, "frame");
-    aleph::add_value(app, "--gather", options.gather, "rays per irradiance value");
     aleph::add_value(app, "--dense-gather", options.dense_gather, "rays per irradiance value of the dense frame");
     aleph::add_value(app, "--light-samples", options.light_samples, "direct light; the same noise in every variant");
-    aleph::add_value(app, "-t,--threads", options.threads, "threads; 0: all");
     app.add_flag("--best-uniform", options.best_uniform, "add the best uniform accuracy with the same share beyond");
     return aleph::run_program(
         app, [&] { return aleph::run_accuracy(options); }, argc, argv, std::cerr);

@@ -11,6 +11,7 @@
 #include "engine/base/parallel.h"
 #include "render/cli/options.h"
 #include "render/cli/progress.h"
+#include "scenes/studies/study_options.h"
 #include "scenes/studies/study_tools.h"
 
 namespace aleph {
@@ -19,8 +20,8 @@ namespace {
 
 struct ContactOptions {
     std::vector<std::string> scenes;
-    std::string picture = "contact.png", size = "320x240";
-    int columns = 4, width = 320, gather = 256, spp = 4, threads = 0;
+    StudyOptions study{.size = "320x240", .picture = "contact.png", .gather = 256, .spp = 4};
+    int columns = 4, width = 320;
     bool quiet = false;
 };
 
@@ -48,18 +49,13 @@ std::string name_of(const std::string& file) {
 }
 
 int run_contact(const ContactOptions& options) {
-    const ThreadLimit limit(options.threads);
+    const ThreadLimit limit(options.study.threads);
     std::vector<Panel> panels;
     Progress progress("contact", static_cast<double>(options.scenes.size()), progress_look(options.quiet));
     for (const std::string& text : options.scenes) {
         const Wanted wanted = parse_wanted(text);
         const Scene scene = load_scene(wanted.file);
-        RenderSettings settings;
-        apply_settings(settings, scene.settings, wanted.file);
-        parse_size(options.size, "--size", settings.width, settings.height);
-        settings.gather = options.gather;
-        settings.spp = options.spp;
-        Sequence sequence(scene, settings);
+        Sequence sequence(scene, study_settings(scene, wanted.file, options.study));
         const FrameRange range = sequence.range();
         const std::int64_t frame = wanted.frame.value_or(range.first + (range.last - range.first) / 2);
         std::string caption = name_of(wanted.file);
@@ -67,7 +63,8 @@ int run_contact(const ContactOptions& options) {
         panels.push_back(color_panel(caption, sequence.render(frame).shaded.color));
         progress.update(static_cast<double>(panels.size()), name_of(wanted.file));
     }
-    write_sheet(options.picture, panels, std::min(options.columns, static_cast<int>(panels.size())), options.width);
+    write_sheet(options.study.picture, panels, std::min(options.columns, static_cast<int>(panels.size())),
+                options.width);
     return exit_done;
 }
 
@@ -78,13 +75,9 @@ int main(int argc, char** argv) {
     CLI::App app{"renders one frame of each scene into one picture; SCENE@FRAME chooses the frame"};
     aleph::ContactOptions options;
     app.add_option("scenes", options.scenes, "scene files; the middle frame where none is chosen")->required();
-    app.add_option("--size", options.size, "WIDTHxHEIGHT of each")->capture_default_str();
-    app.add_option("-o,--output", options.picture, "a .png or .jpg")->capture_default_str();
+    aleph::add_study_options(app, options.study);
     aleph::add_value(app, "--columns", options.columns, "pictures in a row");
     aleph::add_value(app, "--width", options.width, "pixels of each on the sheet");
-    aleph::add_value(app, "--gather", options.gather, "rays per irradiance value");
-    aleph::add_value(app, "--spp", options.spp, "samples per pixel");
-    aleph::add_value(app, "-t,--threads", options.threads, "threads; 0: all");
     app.add_flag("-q,--quiet", options.quiet, "no progress");
     return aleph::run_program(
         app, [&] { return aleph::run_contact(options); }, argc, argv, std::cerr);

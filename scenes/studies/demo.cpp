@@ -12,6 +12,7 @@
 #include "render/cli/frame_list.h"
 #include "render/cli/options.h"
 #include "render/cli/progress.h"
+#include "scenes/studies/study_options.h"
 #include "scenes/studies/study_tools.h"
 
 namespace aleph {
@@ -19,10 +20,9 @@ namespace aleph {
 namespace {
 
 struct DemoOptions {
-    std::string scene, frames = "20", picture = "demo.png";
+    std::string scene, frames = "20";
+    StudyOptions study{.picture = "demo.png"};
     double accuracy = 0.1;
-    int gather = 1024, threads = 0;
-    std::string size = "640x480";
     bool quiet = false;
 };
 
@@ -51,15 +51,11 @@ std::vector<Panel> make_panels(const FrameOutput& guided, const FrameOutput& ung
 
 int run_demo(const DemoOptions& options) {
     const Scene scene = load_scene(options.scene);
-    RenderSettings settings;
-    apply_settings(settings, scene.settings, options.scene);
-    parse_size(options.size, "--size", settings.width, settings.height);
-    settings.gather = options.gather;
-    settings.spp = 1;
+    RenderSettings settings = study_settings(scene, options.scene, options.study);
     settings.accuracy = options.accuracy;
     validate(settings);
     const std::vector<int> frames = parse_frame_list(options.frames);
-    const ThreadLimit limit(options.threads);
+    const ThreadLimit limit(options.study.threads);
     settings.perception.guide = Guide::saliency;
     Sequence guided_sequence(scene, settings);
     settings.perception.guide = Guide::none;
@@ -82,11 +78,11 @@ int run_demo(const DemoOptions& options) {
             progress.update(++done);
             guided_rows.push_back(guided.statistics);
             unguided_rows.push_back(unguided.statistics);
-            if (frame == frames.back()) write_sheet(options.picture, make_panels(guided, unguided), 4, 480);
+            if (frame == frames.back()) write_sheet(options.study.picture, make_panels(guided, unguided), 4, 480);
         }
     }
-    fmt::print("\n{}, {}, accuracy {:g}, {} rays per irradiance value, 1 sample per pixel; seconds by stage\n\n",
-               options.scene, options.size, options.accuracy, options.gather);
+    fmt::print("\n{}, {}, accuracy {:g}, {} rays per irradiance value, samples per pixel {}; seconds by stage\n\n",
+               options.scene, options.study.size, options.accuracy, options.study.gather, options.study.spp);
     fmt::print("{:>5}  {:<9} {:>12} {:>9}", "frame", "guide", "gather rays", "records");
     for (const auto& [stage, unused] : list_stages({})) fmt::print(" {:>10}", stage);
     fmt::print("\n");
@@ -99,7 +95,7 @@ int run_demo(const DemoOptions& options) {
                    static_cast<double>(u.records) / static_cast<double>(std::max<std::uint64_t>(g.records, 1)),
                    u.seconds.total / g.seconds.total);
     }
-    fmt::print("\nThe picture: {}\n", options.picture);
+    fmt::print("\nThe picture: {}\n", options.study.picture);
     return exit_done;
 }
 
@@ -110,12 +106,9 @@ int main(int argc, char** argv) {
     CLI::App app{"renders frames guided and unguided, and shows what guidance saved and what it cost"};
     aleph::DemoOptions options;
     app.add_option("scene", options.scene, "a scene file")->required();
+    aleph::add_study_options(app, options.study);
     app.add_option("--frames", options.frames, "frames")->capture_default_str();
-    app.add_option("--size", options.size, "WIDTHxHEIGHT")->capture_default_str();
-    app.add_option("-o,--output", options.picture, "the picture")->capture_default_str();
     aleph::add_value(app, "--accuracy", options.accuracy, "ambient accuracy");
-    aleph::add_value(app, "--gather", options.gather, "rays per irradiance value");
-    aleph::add_value(app, "-t,--threads", options.threads, "threads; 0: all");
     app.add_flag("-q,--quiet", options.quiet, "no progress");
     return aleph::run_program(
         app, [&] { return aleph::run_demo(options); }, argc, argv, std::cerr);

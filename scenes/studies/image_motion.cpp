@@ -12,6 +12,7 @@
 #include "engine/base/parallel.h"
 #include "motion/image_motion.h"
 #include "render/cli/options.h"
+#include "scenes/studies/study_options.h"
 #include "scenes/studies/study_tools.h"
 
 namespace aleph {
@@ -19,8 +20,9 @@ namespace aleph {
 namespace {
 
 struct MotionOptions {
-    std::string scene, size = "640x480", picture = "motion.png";
-    int frame = 40, gather = 256, spp = 4, threads = 0;
+    std::string scene;
+    StudyOptions study{.picture = "motion.png", .gather = 256, .spp = 4};
+    int frame = 40;
     double accuracy = 0.2;
 };
 
@@ -100,14 +102,10 @@ double scale_of(const Image<float>& lengths) {
 
 int run_motion(const MotionOptions& options) {
     const Scene scene = load_scene(options.scene);
-    RenderSettings settings;
-    apply_settings(settings, scene.settings, options.scene);
-    parse_size(options.size, "--size", settings.width, settings.height);
-    settings.gather = options.gather;
-    settings.spp = options.spp;
+    RenderSettings settings = study_settings(scene, options.scene, options.study);
     settings.accuracy = options.accuracy;
     validate(settings);
-    const ThreadLimit limit(options.threads);
+    const ThreadLimit limit(options.study.threads);
 
     Sequence sequence(scene, settings);
     const FrameOutput now = sequence.render(options.frame, {.frame = true, .maps = true, .progress = {}});
@@ -119,7 +117,7 @@ int run_motion(const MotionOptions& options) {
     std::fill(nothing.displacement.pixels.begin(), nothing.displacement.pixels.end(), glm::dvec2(0.0));
 
     fmt::print("{}, frames {} and {}, {}; errors against model-based motion, pixels\n\n", options.scene, options.frame,
-               options.frame + 1, options.size);
+               options.frame + 1, options.study.size);
     fmt::print("| motion from | region | pixels | median | mean | 95 % | beyond 1 px (%) |\n");
     fmt::print("| --- | --- | ---: | ---: | ---: | ---: | ---: |\n");
     const std::vector<bool> movers = find_movers(scene, options.frame);
@@ -136,7 +134,7 @@ int run_motion(const MotionOptions& options) {
         const glm::dvec2 d = from_frames.displacement.pixels[i] - model.displacement.pixels[i];
         error.pixels[i] = static_cast<float>(std::hypot(d.x, d.y));
     }
-    write_sheet(options.picture,
+    write_sheet(options.study.picture,
                 {color_panel(fmt::format("frame {}", options.frame), now.shaded.color),
                  color_panel(fmt::format("frame {}", options.frame + 1), next.shaded.color),
                  map_panel(fmt::format("model-based motion, 0 to {:g} px", top), lengths, 0.0, top),
@@ -144,7 +142,7 @@ int run_motion(const MotionOptions& options) {
                  map_panel("image-based, from the quick estimates", lengths_of(from_estimates), 0.0, top),
                  map_panel(fmt::format("error of image-based motion, 0 to {:g} px", top), error, 0.0, top)},
                 2, 400);
-    fmt::print("\nThe picture: {}\n", options.picture);
+    fmt::print("\nThe picture: {}\n", options.study.picture);
     return exit_done;
 }
 
@@ -155,13 +153,9 @@ int main(int argc, char** argv) {
     CLI::App app{"image-based motion beside model-based motion: errors by region, and a picture of both"};
     aleph::MotionOptions options;
     app.add_option("scene", options.scene, "a scene file")->required();
-    app.add_option("--size", options.size, "WIDTHxHEIGHT")->capture_default_str();
-    app.add_option("-o,--output", options.picture, "the picture, .png or .jpg")->capture_default_str();
+    aleph::add_study_options(app, options.study);
     aleph::add_value(app, "--frame", options.frame, "the first of two frames");
-    aleph::add_value(app, "--gather", options.gather, "rays per irradiance value");
-    aleph::add_value(app, "--spp", options.spp, "samples per pixel");
     aleph::add_value(app, "--accuracy", options.accuracy, "ambient accuracy");
-    aleph::add_value(app, "-t,--threads", options.threads, "threads; 0: all");
     return aleph::run_program(
         app, [&] { return aleph::run_motion(options); }, argc, argv, std::cerr);
 }

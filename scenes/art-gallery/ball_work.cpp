@@ -1,0 +1,121 @@
+// Balls that fall under a ring, and those that roll off their plinths.
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <numbers>
+
+#include "scenes/art-gallery/gallery.h"
+#include "scenes/common/build.h"
+#include "scenes/common/keys.h"
+
+namespace aleph {
+
+namespace {
+
+constexpr double pi = std::numbers::pi;
+
+// The work under the ring: nine balls hang in a circle and fall one after the other.
+const glm::dvec3 ring_place(-3.55, 0.0, 1.75);
+constexpr double ring_radius = 0.95, ring_height = 2.62, ring_base = 0.08;
+constexpr int ring_balls = 9;
+
+glm::dvec3 ring_point(int i) {
+    const double angle = 2.0 * pi * i / ring_balls;
+    return ring_place + ring_radius * glm::dvec3(std::sin(angle), 0.0, std::cos(angle));
+}
+
+}  // namespace
+
+std::vector<BallDrop> make_ball_drops() {
+    const double releases[] = {-2.9, -0.7, 1.6, 4.4, 8.0, 12.2, 15.4, 17.1, 18.8};
+    std::vector<BallDrop> drops;
+    for (int i = 0; i < ring_balls; ++i) {
+        BallDrop drop;
+        drop.release = releases[i];
+        drop.radius = 0.1 + 0.015 * (i % 3);
+        // Neighbours in time stand apart.
+        drop.position =
+            to_millionth(ring_point(i * 4 % ring_balls)) + glm::dvec3(0.0, ring_height - 0.12 - drop.radius, 0.0);
+        drop.ground = ring_base;
+        drop.restitution = 0.91 - 0.02 * (i % 3);
+        drops.push_back(drop);
+    }
+    // Two roll off their plinths: one down the hall, later one out of the cabinet.
+    BallDrop beach;
+    beach.release = 2.4;
+    beach.position = {5.6, 1.1, 0.2};
+    beach.velocity = {-1.3, 0.0, 0.0};
+    beach.radius = 0.2;
+    beach.restitution = 0.82;
+    beach.grip = 0.985;
+    beach.rolling = 0.16;
+    drops.push_back(beach);
+    BallDrop late = beach;
+    late.release = 19.8;
+    late.position = {-9.4, 1.05, -0.72};
+    late.velocity = {1.0, 0.0, 0.0};
+    late.radius = 0.15;
+    drops.push_back(late);
+    return drops;
+}
+
+void add_ball_work(Scene& scene, const GalleryMaterials& materials) {
+    const int work = add_node(scene, "ball_work");
+    add_shape(scene, "ball_base", work,
+              lathe({{0.0, 0.0},
+                     {1.3, 0.0},
+                     {1.3, 0.0},
+                     {1.3, 0.05},
+                     {1.29, 0.072},
+                     {1.265, ring_base},
+                     {1.265, ring_base},
+                     {0.0, ring_base}},
+                    96),
+              materials.plinth, ring_place);
+    add_shape(scene, "ball_ring", work, torus(ring_radius, 0.035, 96), materials.steel,
+              ring_place + glm::dvec3(0.0, ring_height, 0.0));
+    for (int i = 0; i < 3; ++i) {
+        const double angle = 2.0 * pi * (i + 0.5) / 3.0;
+        const glm::dvec3 at =
+            to_millionth(ring_place + ring_radius * glm::dvec3(std::sin(angle), 0.0, std::cos(angle)));
+        add_rod(scene, fmt::format("ball_post_{}", i), work, at + glm::dvec3(0.0, ring_base, 0.0),
+                at + glm::dvec3(0.0, ring_height, 0.0), 0.016, materials.steel, 16);
+    }
+    for (int i = 0; i < ring_balls; ++i) {
+        const glm::dvec3 at = to_millionth(ring_point(i)) + glm::dvec3(0.0, ring_height, 0.0);
+        add_rod(scene, fmt::format("ball_holder_{}", i), work, at - glm::dvec3(0.0, 0.11, 0.0), at, 0.02,
+                materials.steel, 16);
+    }
+
+    const int balls = add_node(scene, "balls");
+    const std::vector<BallDrop> drops = make_ball_drops();
+    for (std::size_t i = 0; i < drops.size(); ++i) {
+        const std::string name = fmt::format("ball_{}", i);
+        const bool rolls = glm::length(drops[i].velocity) > 0.0;
+        const int texture = rolls ? (i % 2 == 1 ? 0 : 2) : static_cast<int>(i) % 5 + 1;
+        const int material = add_textured(scene, name, fmt::format("ball_{}", texture));
+        add_gloss(scene, 0.3);
+        const int index = add_shape(scene, name, balls, sphere(drops[i].radius), material, glm::dvec3(0.0));
+        const auto path = simulate_drop(drops[i], gallery_seconds);
+        node_at(scene, index).translation = cubic_track(path);
+        if (rolls) {
+            const double height = drops[i].position.y - drops[i].radius;
+            add_shape(scene, name + "_plinth", work, box({0.34, height, 0.34}), materials.plinth,
+                      {drops[i].position.x, 0.5 * height, drops[i].position.z});
+            const glm::dvec3 v = drops[i].velocity;
+            turn_about(scene, index, glm::normalize(glm::cross(glm::dvec3(0.0, 1.0, 0.0), v)),
+                       cubic_track(simulate_spin(drops[i], path)));
+        } else {
+            // A spin about the upright survives impacts; it dies with the bouncing.
+            const double spin = (i % 2 == 0 ? 1.0 : -1.0) * (2.2 + 0.4 * static_cast<double>(i));
+            const double from = path.front().seconds, time = path.back().seconds - from;
+            turn_about(
+                scene, index, {0.0, 1.0, 0.0},
+                cubic_track<double>({{from, 0.0, 0.0, spin}, {from + time, 0.1 * spin, 0.55 * spin * time, 0.0}}));
+        }
+    }
+}
+
+}  // namespace aleph
