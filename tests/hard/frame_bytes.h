@@ -2,22 +2,15 @@
 // Frames as the bytes of their files: what must not change with threads, order or run (HARD_CASES, section 9).
 
 #include <cstdint>
-#include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <string>
 
 #include "engine/archive.h"
 #include "render/frame_files.h"
+#include "tests/quick_settings.h"
+#include "tests/read_bytes.h"
 #include "tests/scratch_folder.h"
 
 namespace aleph {
-
-inline std::string read_bytes(const std::filesystem::path& path) {
-    std::ifstream file(path, std::ios::binary);
-    if (!file) throw std::runtime_error("cannot open " + path.string());
-    return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
-}
 
 /// scenes/pool, loaded once.
 inline const Scene& pool_scene() {
@@ -25,11 +18,9 @@ inline const Scene& pool_scene() {
     return scene;
 }
 
-/// Every stage runs, none for long: two samples per pixel, so that a later pass of filling happens as well.
+/// Two samples per pixel, so that a later pass of filling happens as well.
 inline RenderSettings small_settings() {
-    RenderSettings settings;
-    settings.width = 160;
-    settings.height = 120;
+    RenderSettings settings = quick_settings(160, 120);
     settings.spp = 2;
     settings.light_samples = 2;
     settings.gather = 32;

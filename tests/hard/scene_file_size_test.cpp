@@ -2,68 +2,22 @@
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
-#include <sys/resource.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
 #include <cstdio>
-#include <ctime>
 #include <functional>
 #include <string>
 
 #include "engine/base/errors.h"
 #include "engine/json_text.h"
 #include "engine/scene_json.h"
+#include "tests/hard/child_cost.h"
 
 namespace aleph {
 namespace {
 
-#if defined(NDEBUG) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
-constexpr bool limits_count = true;
-#else
-constexpr bool limits_count = false;
-#endif
-
-struct Cost {
-    int exit_code = -1;    ///< 0: read; 1: refused with an InputError; 2: anything else
-    double seconds = 0.0;  ///< of the processor, so that a busy machine changes nothing
-    double mebibytes = 0.0;
-};
-
-/// Makes the text and reads it in a process of its own, whose peak is counted, the text included.
-Cost read_in_child(const std::function<std::string()>& make) {
-    int channel[2];
-    EXPECT_EQ(pipe(channel), 0);
-    const pid_t child = fork();
-    if (child == 0) {
-        const std::string text = make();
-        const std::clock_t start = std::clock();
-        int code = 0;
-        try {
-            read_scene_text(text, "hostile.json");
-        } catch (const InputError&) {
-            code = 1;
-        } catch (...) {
-            code = 2;
-        }
-        const double seconds = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
-        _exit(write(channel[1], &seconds, sizeof seconds) == sizeof seconds ? code : 2);
-    }
-    int status = 0;
-    rusage usage{};
-    wait4(child, &status, 0, &usage);
-    Cost cost{WIFEXITED(status) ? WEXITSTATUS(status) : -1, 0.0, static_cast<double>(usage.ru_maxrss) / 1024.0};
-    close(channel[1]);
-    if (read(channel[0], &cost.seconds, sizeof cost.seconds) != sizeof cost.seconds) cost.exit_code = -1;
-    close(channel[0]);
-    return cost;
-}
-
-void expect_cheap(const Cost& cost, const char* name) {
-    EXPECT_TRUE(cost.exit_code == 0 || cost.exit_code == 1) << name << ": " << cost.exit_code;
-    if (!limits_count) return;
-    EXPECT_LT(cost.seconds, 2.0) << name;
-    EXPECT_LT(cost.mebibytes, 512.0) << name;
+/// Makes the text and reads it, the text's own cost included.
+ChildCost read_in_child(const std::function<std::string()>& make) {
+    return run_in_child([&] { read_scene_text(make(), "hostile.json"); });
 }
 
 std::string repeated(const std::string& head, const std::string& piece, const std::string& tail, std::size_t bytes) {
@@ -120,10 +74,10 @@ TEST(HostileSceneFile, EndsInTwoSecondsAndHalfAGibibyte) {
         if (per_byte > 1.0) {
             bytes = std::min(bytes, static_cast<std::size_t>(0.99 * static_cast<double>(max_json_memory) / per_byte));
         }
-        const Cost cost = read_in_child([&] { return repeated(file.head, file.piece, file.tail, bytes); });
-        expect_cheap(cost, file.name);
+        const ChildCost cost = read_in_child([&] { return repeated(file.head, file.piece, file.tail, bytes); });
+        expect_bounded(cost, file.name);
         std::printf("%-14s %5.1f MB of text, %s: %.2f s, %.0f MiB\n", file.name, static_cast<double>(bytes) / 1e6,
-                    cost.exit_code == 0 ? "read" : "refused", cost.seconds, cost.mebibytes);
+                    cost.refused ? "refused" : "read", cost.seconds, cost.mebibytes);
     }
 }
 
@@ -151,12 +105,12 @@ TEST(HostileSceneFile, CagesAreCountedBeforeTheyAreRefined) {
     };
     const auto scene = [](const std::string& nodes) { return fmt::format("{{\"aleph\": 1, \"nodes\": [{}]}}", nodes); };
     for (const char* level : {"7", "8", "9", "10"}) {
-        const Cost cost = read_in_child([&] { return scene(cage(level)); });
-        expect_cheap(cost, level);
-        std::printf("level %s: %s, %.2f s, %.0f MiB\n", level, cost.exit_code == 0 ? "read" : "refused", cost.seconds,
+        const ChildCost cost = read_in_child([&] { return scene(cage(level)); });
+        expect_bounded(cost, level);
+        std::printf("level %s: %s, %.2f s, %.0f MiB\n", level, cost.refused ? "refused" : "read", cost.seconds,
                     cost.mebibytes);
     }
-    const Cost many = read_in_child([&] {
+    const ChildCost many = read_in_child([&] {
         std::string nodes = cage("2");
         for (std::size_t i = 1; i < max_scene_cages; ++i) {
             nodes += ',';
@@ -164,8 +118,8 @@ TEST(HostileSceneFile, CagesAreCountedBeforeTheyAreRefined) {
         }
         return scene(nodes);
     });
-    EXPECT_EQ(many.exit_code, 0);
-    expect_cheap(many, "many cages");
+    EXPECT_FALSE(many.refused) << many.message;
+    expect_bounded(many, "many cages");
     std::printf("%zu cages: %.2f s, %.0f MiB\n", max_scene_cages, many.seconds, many.mebibytes);
 }
 
@@ -175,9 +129,9 @@ TEST(HostileSceneFile, InstancesOfInstancesAreCounted) {
         nodes += fmt::format(R"(,{{"name": "n{}", "children": [{{"instance": "n{}"}}, {{"instance": "n{}"}}]}})", i,
                              i - 1, i - 1);
     }
-    const Cost cost = read_in_child([&] { return fmt::format("{{\"aleph\": 1, \"nodes\": [{}]}}", nodes); });
-    EXPECT_EQ(cost.exit_code, 1);
-    expect_cheap(cost, "instances of instances");
+    const ChildCost cost = read_in_child([&] { return fmt::format("{{\"aleph\": 1, \"nodes\": [{}]}}", nodes); });
+    EXPECT_TRUE(cost.refused) << cost.message;
+    expect_bounded(cost, "instances of instances");
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 
 #include "engine/archive.h"
 #include "render/sequence.h"
+#include "tests/quick_settings.h"
 
 namespace aleph {
 namespace {
@@ -16,12 +17,7 @@ namespace {
 const std::filesystem::path assets = std::filesystem::path(ALEPH_ASSETS_DIR) / "gltf";
 
 RenderSettings small_settings() {
-    RenderSettings settings;
-    settings.width = 96;
-    settings.height = 72;
-    settings.spp = 1;
-    settings.gather = 64;
-    settings.light_samples = 4;
+    RenderSettings settings = quick_settings(96, 72);
     settings.accuracy = 0.3;
     return settings;
 }

@@ -4,51 +4,18 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <cstdlib>
-#include <filesystem>
-#include <fstream>
 #include <glm/geometric.hpp>
 #include <map>
-#include <sstream>
 
-#include "engine/archive.h"
-#include "engine/first_hits.h"
-#include "motion/model_motion.h"
 #include "scenes/boomerang/boomerang_scene.h"
-#include "tests/scratch_folder.h"
+#include "tests/unit/authored_scenes.h"
 
 namespace aleph {
 namespace {
 
-namespace fs = std::filesystem;
-
-const fs::path scene_folder = fs::path(ALEPH_SOURCE_DIR) / "scenes" / "boomerang";
-
-const Scene& loaded() {
-    static const Scene scene = load_scene(scene_folder / "scene.json");
-    return scene;
-}
-
-std::string read_bytes(const fs::path& path) {
-    std::ifstream stream(path, std::ios::binary);
-    EXPECT_TRUE(stream.good()) << path;
-    std::ostringstream text;
-    text << stream.rdbuf();
-    return text.str();
-}
-
 TEST(BoomerangScene, ComesFromItsGeneratorByteForByte) {
-    const ScratchFolder folder;
-    ASSERT_EQ(std::system((std::string(ALEPH_MAKE_BOOMERANG) + " " + folder.path().string()).c_str()), 0);
-    int files = 0;
-    for (const auto& entry : fs::recursive_directory_iterator(folder / "boomerang")) {
-        if (!entry.is_regular_file()) continue;
-        ++files;
-        const fs::path name = fs::relative(entry.path(), folder / "boomerang");
-        EXPECT_TRUE(read_bytes(entry.path()) == read_bytes(scene_folder / name)) << name;
-    }
-    EXPECT_EQ(files, 5);
-    EXPECT_TRUE(loaded().warnings.empty());
+    expect_generated(ALEPH_MAKE_BOOMERANG, 1u + 4u);
+    EXPECT_TRUE(loaded("boomerang").warnings.empty());
 }
 
 TEST(BoomerangScene, TheSolidIsClosedAndFacesOutwards) {
@@ -87,21 +54,14 @@ struct Moving {
 
 Moving measure(int frame) {
     constexpr int width = 320, height = 240;  // half of what the README speaks of
-    const Scene& scene = loaded();
-    const SceneFrame now = pose(scene, scene.frame_rate.seconds_of(frame));
-    const SceneFrame next = pose(scene, scene.frame_rate.seconds_of(frame + 1));
-    const CameraView view = make_camera_view(now.cameras.front(), width, height);
-    const CameraView next_view = make_camera_view(next.cameras.front(), width, height);
-    RayScene rays(scene);
-    rays.update(now, compute_anchor(view));
-    const Image<Hit> hits = cast_first_hits(rays, view);
-    const MotionField field = compute_model_motion(scene, {&now, &view}, {&next, &next_view}, hits, {});
+    const Scene& scene = loaded("boomerang");
+    const auto [hits, field, instances] = compute_motion(scene, frame, width, height);
     Moving moving;
     int background = 0;
     for (std::size_t i = 0; i < hits.size(); ++i) {
         EXPECT_NE(hits.pixels[i].instance, no_index);  // a closed room
         if (hits.pixels[i].instance == no_index) continue;
-        const auto& instance = now.instances[static_cast<std::size_t>(hits.pixels[i].instance)];
+        const auto& instance = instances[static_cast<std::size_t>(hits.pixels[i].instance)];
         const double speed = 2.0 * glm::length(field.displacement.pixels[i]);
         if (scene.nodes[static_cast<std::size_t>(instance.node)].name == "boomerang") {
             moving.boomerang_share += 1.0 / static_cast<double>(hits.size());

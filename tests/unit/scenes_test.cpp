@@ -1,53 +1,21 @@
 // The scenes in scenes/: they load, show what their READMEs promise, and come from their generator byte for byte.
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <array>
 #include <cmath>
-#include <cstdlib>
-#include <filesystem>
-#include <fstream>
 #include <glm/geometric.hpp>
 #include <set>
-#include <sstream>
 
-#include "engine/archive.h"
-#include "engine/first_hits.h"
-#include "motion/model_motion.h"
 #include "scenes/pool/break.h"
 #include "scenes/pool/pool_scene.h"
+#include "tests/unit/authored_scenes.h"
 
 namespace aleph {
 namespace {
 
-namespace fs = std::filesystem;
-
-const fs::path scenes = fs::path(ALEPH_SOURCE_DIR) / "scenes";
-
-const Scene& loaded(const std::string& name) {
-    static std::map<std::string, Scene> cache;
-    if (!cache.contains(name)) cache[name] = load_scene(scenes / name / "scene.json");
-    return cache[name];
-}
-
-std::string read_bytes(const fs::path& path) {
-    std::ifstream stream(path, std::ios::binary);
-    EXPECT_TRUE(stream.good()) << path;
-    std::ostringstream text;
-    text << stream.rdbuf();
-    return text.str();
-}
-
-int find_node(const Scene& scene, const std::string& name) {
-    for (std::size_t i = 0; i < scene.nodes.size(); ++i)
-        if (scene.nodes[i].name == name) return static_cast<int>(i);
-    ADD_FAILURE() << "no node " << name;
-    return 0;
-}
-
 glm::dvec3 origin_of(const SceneFrame& frame, int node) {
-    return frame.world[static_cast<std::size_t>(node)][3];
+    return world_of(frame, node)[3];
 }
 
 /// Is the node below (or is it) the one of this name?
@@ -55,25 +23,6 @@ bool is_below(const Scene& scene, int node, const std::string& name) {
     for (; node != no_index; node = scene.nodes[static_cast<std::size_t>(node)].parent)
         if (scene.nodes[static_cast<std::size_t>(node)].name == name) return true;
     return false;
-}
-
-/// First hits of a frame and their motion to the next.
-struct FrameMotion {
-    Image<Hit> hits;
-    MotionField field;
-    std::vector<Instance> instances;
-};
-
-FrameMotion compute_motion(const Scene& scene, int frame, int width, int height) {
-    const SceneFrame now = pose(scene, scene.frame_rate.seconds_of(frame));
-    const SceneFrame next = pose(scene, scene.frame_rate.seconds_of(frame + 1));
-    const CameraView view = make_camera_view(now.cameras.front(), width, height);
-    const CameraView next_view = make_camera_view(next.cameras.front(), width, height);
-    RayScene rays(scene);
-    rays.update(now, compute_anchor(view));
-    FrameMotion result{cast_first_hits(rays, view), {}, now.instances};
-    result.field = compute_model_motion(scene, {&now, &view}, {&next, &next_view}, result.hits, {});
-    return result;
 }
 
 /// Mean |dP| in pixels over what shows the room, and its share of the picture.
@@ -91,38 +40,16 @@ std::array<double, 2> background_motion(const Scene& scene, int frame) {
 }
 
 TEST(PoolScene, GeneratorReproducesTheFiles) {
-    const fs::path folder = fs::temp_directory_path() / ("aleph-make-pool-" + std::to_string(::getpid()));
-    fs::remove_all(folder);
-    ASSERT_EQ(std::system((std::string("\"") + ALEPH_MAKE_POOL + "\" \"" + folder.string() + "\"").c_str()), 0);
-    std::size_t files = 0;
-    for (const auto& entry : fs::recursive_directory_iterator(folder)) {
-        if (!entry.is_regular_file()) continue;
-        const fs::path relative = fs::relative(entry.path(), folder);
-        EXPECT_TRUE(read_bytes(entry.path()) == read_bytes(scenes / relative)) << relative;
-        ++files;
-    }
-    EXPECT_EQ(files, 2u + 16u + 8u);
-    fs::remove_all(folder);
+    expect_generated(ALEPH_MAKE_POOL, 2u + 16u + 8u);
 }
 
 TEST(PoolScene, FileHoldsWhatTheProgramMade) {
-    Scene made = make_pool_scene(true, "textures/");
-    Scene read = loaded("pool");
-    EXPECT_TRUE(read.warnings.empty());
-    read.file.clear();
-    EXPECT_EQ(read.nodes, made.nodes);
-    EXPECT_EQ(read.meshes, made.meshes);
-    EXPECT_EQ(read.materials, made.materials);
-    EXPECT_EQ(read.images, made.images);
-    EXPECT_TRUE(read == made);
+    expect_same_scene(loaded("pool"), make_pool_scene(true, "textures/"));
 }
 
 TEST(PoolScene, IsSmall) {
-    std::uintmax_t bytes = 0;
-    for (const auto& entry : fs::recursive_directory_iterator(scenes / "pool"))
-        if (entry.is_regular_file()) bytes += entry.file_size();
-    EXPECT_LT(bytes, 2'500'000u);
-    EXPECT_LT(fs::file_size(scenes / "pool" / "scene.json"), 1'500'000u);
+    EXPECT_LT(folder_size(scenes_folder / "pool"), 2'500'000u);
+    EXPECT_LT(std::filesystem::file_size(scenes_folder / "pool" / "scene.json"), 1'500'000u);
 }
 
 TEST(PoolScene, SixteenBallsOverNinetyFrames) {

@@ -1,0 +1,18 @@
+#pragma once
+
+#include "render/settings.h"
+
+namespace aleph {
+
+/// Every stage runs, none for long.
+inline RenderSettings quick_settings(int width, int height) {
+    RenderSettings settings;
+    settings.width = width;
+    settings.height = height;
+    settings.spp = 1;
+    settings.gather = 64;
+    settings.light_samples = 4;
+    return settings;
+}
+
+}  // namespace aleph
