@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "engine/lookup.h"
+#include "engine/operation_stack.h"
 #include "engine/scene_json_fields.h"
 #include "render/cli/explain.h"
 
@@ -59,30 +60,10 @@ class TrackList {
     ordered_json tracks_ = ordered_json::array();
 };
 
-bool samples_differ(const std::vector<double>& values, std::size_t samples) {
-    const std::size_t stride = values.size() / samples;
-    for (std::size_t i = stride; i < values.size(); ++i)
-        if (values[i] != values[i % stride]) return true;
-    return false;
-}
-
-void add_operations(TrackList& list, const OperationStack& stack) {
-    std::size_t stride = 0;
-    for (const OperationStack::Kind kind : stack.operations) {
-        using Kind = OperationStack::Kind;
-        stride += kind == Kind::matrix                             ? 16
-                  : kind == Kind::rotate                           ? 4
-                  : kind == Kind::translate || kind == Kind::scale ? 3
-                                                                   : 1;
-    }
-    const std::size_t samples = stride == 0 ? 0 : stack.channels.size() / stride;
-    if (samples > 1)
-        list.add("operations", stack.sampling, samples, Interpolation::linear, samples_differ(stack.channels, samples));
-}
-
 void add_transform(TrackList& list, const Node& node) {
     if (node.operations) {
-        add_operations(list, *node.operations);
+        list.add("operations", node.operations->sampling, sample_count(*node.operations), Interpolation::linear,
+                 is_animated(*node.operations));
     } else if (node.matrix) {
         list.add("matrix", *node.matrix);
     } else {
