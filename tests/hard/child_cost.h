@@ -24,12 +24,12 @@ struct ChildCost {
     bool ended_well = false;  ///< it ended by itself, with or without an InputError
     bool refused = false;     ///< with an InputError
     std::string message;      ///< of the InputError, or what else went wrong
-    double seconds = 0.0;     ///< of the processor, so that a busy machine changes nothing
-    double mebibytes = 0.0;   ///< peak of memory, with what the parent held
+    double seconds = 0.0;     ///< of the processor, for the work alone
+    double mebibytes = 0.0;   ///< peak of memory, with what the parent held and what was prepared
 };
 
-/// Runs `work` in a fork. The parent must not have started threads.
-inline ChildCost run_in_child(const std::function<void()>& work) {
+/// Runs `work` in a fork, after `prepare` where there is one. The parent must not have started threads.
+inline ChildCost run_in_child(const std::function<void()>& work, const std::function<void()>& prepare = nullptr) {
     ChildCost cost;
     int channel[2];
     if (pipe(channel) != 0) {
@@ -38,6 +38,8 @@ inline ChildCost run_in_child(const std::function<void()>& work) {
     }
     const pid_t child = fork();
     if (child == 0) {
+        if (prepare) prepare();
+        const std::clock_t start = std::clock();
         std::string text;
         int code = 0;
         try {
@@ -49,21 +51,21 @@ inline ChildCost run_in_child(const std::function<void()>& work) {
             code = 2;
             text = error.what();
         }
+        const double seconds = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
         text = text.substr(0, 4000);
+        if (write(channel[1], &seconds, sizeof seconds) != sizeof seconds) code = 3;
         if (!text.empty() && write(channel[1], text.data(), text.size()) < 0) code = 3;
         _exit(code);
     }
     close(channel[1]);
+    // Nothing comes from a child that was ended by a signal.
+    if (read(channel[0], &cost.seconds, sizeof cost.seconds) < 0) cost.message = "no answer";
     char part[1024];
     for (ssize_t got = 0; (got = read(channel[0], part, sizeof part)) > 0;) cost.message.append(part, part + got);
     close(channel[0]);
     int status = 0;
     rusage usage{};
     wait4(child, &status, 0, &usage);
-    const auto seconds = [](const timeval& t) {
-        return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
-    };
-    cost.seconds = seconds(usage.ru_utime) + seconds(usage.ru_stime);
     cost.mebibytes = static_cast<double>(usage.ru_maxrss) / 1024.0;
     const int code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
     cost.ended_well = code == 0 || code == 1;
