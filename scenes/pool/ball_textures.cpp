@@ -1,8 +1,12 @@
 #include <fmt/format.h>
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <glm/trigonometric.hpp>
+#include <limits>
 #include <numbers>
+#include <vector>
 
 #include "scenes/common/texture_tools.h"
 #include "scenes/pool/textures.h"
@@ -13,17 +17,83 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 
-// Five columns, seven rows, a bit per dot, the leftmost the highest.
-constexpr std::array<std::array<int, 7>, 10> digits = {{{14, 17, 19, 21, 25, 17, 14},
-                                                        {4, 12, 4, 4, 4, 4, 14},
-                                                        {14, 17, 1, 2, 4, 8, 31},
-                                                        {31, 2, 4, 2, 1, 17, 14},
-                                                        {2, 6, 10, 18, 31, 2, 2},
-                                                        {31, 16, 30, 1, 1, 17, 14},
-                                                        {6, 8, 16, 30, 17, 17, 14},
-                                                        {31, 1, 2, 4, 8, 8, 8},
-                                                        {14, 17, 17, 14, 17, 17, 14},
-                                                        {14, 17, 17, 15, 1, 2, 12}}};
+// Digits as strokes, in heights of a digit.
+
+constexpr double half_stroke = 0.075;
+
+/// A line through points.
+using Stroke = std::vector<glm::dvec2>;
+
+/// Part of an ellipse, in degrees from +x towards +y (clockwise, as y points down), added to a stroke.
+Stroke arc(Stroke stroke, const glm::dvec2& center, const glm::dvec2& radii, double from, double to) {
+    const int steps = static_cast<int>(std::ceil(std::abs(to - from) / 10.0));
+    for (int i = 0; i <= steps; ++i) {
+        const double angle = glm::radians(from + (to - from) * i / steps);
+        stroke.push_back(center + radii * glm::dvec2(std::cos(angle), std::sin(angle)));
+    }
+    return stroke;
+}
+
+Stroke ellipse(const glm::dvec2& center, const glm::dvec2& radii) {
+    return arc({}, center, radii, 0.0, 360.0);
+}
+
+Stroke followed_by(Stroke stroke, const Stroke& points) {
+    stroke.insert(stroke.end(), points.begin(), points.end());
+    return stroke;
+}
+
+struct Digit {
+    double width;  ///< with the space beside it
+    std::vector<Stroke> strokes;
+};
+
+std::array<Digit, 10> make_digits() {
+    const std::vector<Stroke> six = {ellipse({0.0, 0.16}, {0.265, 0.27}),
+                                     arc({}, {0.2, 0.16}, {0.465, 0.59}, 180, 266)};
+    std::vector<Stroke> nine = six;  // upside down
+    for (Stroke& stroke : nine)
+        for (glm::dvec2& point : stroke) point = -point;
+    const double wide = 0.72;
+    return {
+        {{wide, {ellipse({0.0, 0.0}, {0.265, 0.43})}},
+         {0.44, {{{-0.13, -0.27}, {0.06, -0.43}, {0.06, 0.43}}}},
+         {wide, {followed_by(arc({}, {0.0, -0.18}, {0.26, 0.25}, 190, 405), {{-0.27, 0.43}, {0.28, 0.43}})}},
+         {wide, {arc({}, {-0.01, -0.225}, {0.235, 0.205}, 205, 450), arc({}, {-0.01, 0.205}, {0.27, 0.225}, 270, 515)}},
+         {wide, {{{0.12, 0.43}, {0.12, -0.43}, {-0.29, 0.17}, {0.3, 0.17}}}},
+         {wide, {arc({{0.23, -0.43}, {-0.2, -0.43}, {-0.235, -0.03}}, {-0.02, 0.14}, {0.27, 0.29}, 217, 510)}},
+         {wide, six},
+         {wide, {{{-0.27, -0.43}, {0.27, -0.43}, {-0.08, 0.43}}}},
+         {wide, {ellipse({0.0, -0.23}, {0.225, 0.2}), ellipse({0.0, 0.2}, {0.27, 0.23})}},
+         {wide, nine}}};
+}
+
+double distance_to_segment(const glm::dvec2& at, const glm::dvec2& a, const glm::dvec2& b) {
+    const glm::dvec2 along = b - a;
+    const double place = glm::clamp(glm::dot(at - a, along) / std::max(glm::dot(along, along), 1e-12), 0.0, 1.0);
+    return glm::distance(at, a + place * along);
+}
+
+double distance_to_strokes(const std::vector<Stroke>& strokes, const glm::dvec2& at) {
+    double nearest = std::numeric_limits<double>::infinity();
+    for (const Stroke& stroke : strokes)
+        for (std::size_t i = 0; i + 1 < stroke.size(); ++i)
+            nearest = std::min(nearest, distance_to_segment(at, stroke[i], stroke[i + 1]));
+    return nearest;
+}
+
+/// Is there ink at a place? The number is centred; x to the right, y down, a digit about 1 high. A 6 and a 9 on their
+/// own are underlined.
+bool is_number_ink(int number, const glm::dvec2& at) {
+    static const std::array<Digit, 10> digits = make_digits();
+    if ((number == 6 || number == 9) && distance_to_segment(at, {-0.2, 0.64}, {0.2, 0.64}) < 0.8 * half_stroke)
+        return true;
+    const Digit& ones = digits[static_cast<std::size_t>(number % 10)];
+    if (number < 10) return distance_to_strokes(ones.strokes, at) < half_stroke;
+    const Digit& tens = digits[static_cast<std::size_t>(number / 10)];
+    return distance_to_strokes(tens.strokes, at + glm::dvec2(0.5 * ones.width, 0.0)) < half_stroke ||
+           distance_to_strokes(ones.strokes, at - glm::dvec2(0.5 * tens.width, 0.0)) < half_stroke;
+}
 
 const std::array<glm::dvec3, 8> solid_colors = {{{240, 190, 36},
                                                  {28, 66, 160},
@@ -36,19 +106,6 @@ const std::array<glm::dvec3, 8> solid_colors = {{{240, 190, 36},
 const glm::dvec3 ivory(240, 233, 216);
 const glm::dvec3 ink(20, 20, 22);
 
-/// Is there ink at a place of the number's square, both coordinates in [-1, 1], y down?
-bool is_ink(int number, const glm::dvec2& at) {
-    const int places = number < 10 ? 1 : 2;
-    const double dot = places == 1 ? 0.155 : 0.115;  // size of one dot of the font
-    const double columns = places == 1 ? 5.0 : 11.0;
-    const double x = at.x / dot + 0.5 * columns, y = at.y / dot + 3.5;
-    if (x < 0.0 || x >= columns || y < 0.0 || y >= 7.0) return false;
-    const int column = static_cast<int>(x) % 6;
-    if (column == 5) return false;  // between two digits
-    const int digit = places == 1 || x >= 6.0 ? number % 10 : number / 10;
-    return (digits[static_cast<std::size_t>(digit)][static_cast<std::size_t>(y)] >> (4 - column) & 1) != 0;
-}
-
 /// The cue ball has six spots, so that its spin shows.
 glm::dvec3 color_cue_ball(const glm::dvec2& uv) {
     const double polar = pi * uv.y, turn = 2.0 * pi * uv.x;
@@ -59,10 +116,14 @@ glm::dvec3 color_cue_ball(const glm::dvec2& uv) {
 
 glm::dvec3 color_numbered_ball(int number, const glm::dvec2& uv) {
     const glm::dvec3& color = solid_colors[static_cast<std::size_t>((number - 1) % 8)];
-    // Radians on the sphere from the nearer number, near enough at this distance from the poles.
+    // The nearer number's circle as seen from straight above it, in radii of the ball.
     const double across = (uv.x < 0.5 ? uv.x - 0.25 : uv.x - 0.75) * 2.0 * pi, down = (uv.y - 0.5) * pi;
-    const double spot = 0.52;
-    if (std::hypot(across, down) < spot) return is_ink(number, glm::dvec2(across, down) / spot) ? ink : ivory;
+    const glm::dvec2 at(std::cos(down) * std::sin(across), std::sin(down));
+    const double spot = 0.5;
+    if (glm::length(at) < spot) {
+        const double digit_height = number < 10 ? 0.64 : 0.54;
+        return is_number_ink(number, at / digit_height) ? ink : ivory;
+    }
     const bool striped = number > 8;
     return striped && std::abs(down) > 0.62 ? ivory : color;
 }
@@ -73,7 +134,7 @@ std::vector<DrawnTexture> make_ball_textures() {
     std::vector<DrawnTexture> textures;
     for (int number = 0; number <= 15; ++number) {
         const std::string name = fmt::format("ball_{:02}", number);
-        textures.push_back(draw_texture(name.c_str(), 256, 128, 4, [&](const glm::dvec2& uv) {
+        textures.push_back(draw_texture(name.c_str(), 512, 256, 4, [&](const glm::dvec2& uv) {
             return number == 0 ? color_cue_ball(uv) : color_numbered_ball(number, uv);
         }));
     }

@@ -60,14 +60,13 @@ void add_cue(Scene& scene, const PoolSettings& settings, const PoolBall& struck)
     add_shape(scene, "shaft", cue, cylinder(0.008, 0.7, 24), maple, {0.0, 0.385, 0.0});
     add_shape(scene, "butt", cue, cylinder(0.0125, 0.72, 24), ebony, {0.0, 1.095, 0.0});
 
-    // Raised by 4 degrees to clear the rail. After the strike it leans at the far wall.
+    // Raised by 4 degrees to clear the rail. After the strike it draws back along itself; once its tip is past the far
+    // rail it sinks behind the table, where it lies on the floor.
     const double raise = glm::radians(4.0);
     const glm::dvec3 back = -std::cos(raise) * glm::normalize(struck.velocity) + glm::dvec3(0.0, std::sin(raise), 0.0);
     const glm::dvec3 contact = struck.position + glm::dvec3(0.0, cloth_height, 0.0) + back * settings.radius;
-    const glm::dquat aim = y_to(back);
-    const glm::dvec3 rest(room_low.x + 0.075, 1.44, 0.06);
-    const glm::dvec3 foot(room_low.x + 0.36, 0.012, 0.06);
-    const glm::dquat lean = y_to(glm::normalize(foot - rest));
+    const glm::dquat aim = y_to(back), level = y_to(glm::normalize(glm::dvec3(back.x, 0.0, back.z)));
+    const double through = 0.11, withdrawn = 1.04, butt_radius = 0.0125;  // m
 
     Node& node = scene.nodes[static_cast<std::size_t>(cue)];
     const double rate = 60.0;
@@ -78,11 +77,12 @@ void add_cue(Scene& scene, const PoolSettings& settings, const PoolBall& struck)
         const double t = i / rate;
         // Swings in with growing speed, meets the ball at strike_time, follows through by a hand's breadth.
         const double swing = t < strike_time ? 0.3 * (1.0 - std::pow(t / strike_time, 2.5))
-                                             : -0.11 * (1.0 - std::exp((strike_time - t) / 0.035));
-        const double away = smooth(0.4, 1.7, t);
-        const glm::dvec3 lift(0.0, 0.35 * smooth(0.3, 0.8, t) * (1.0 - smooth(1.1, 1.7, t)), 0.0);
-        node.translation.values.push_back(to_millionth(glm::mix(contact + back * swing, rest, away) + lift));
-        node.rotation.values.push_back(to_millionth(slerp_short(aim, lean, smooth(0.6, 1.6, t))));
+                                             : -through * (1.0 - std::exp((strike_time - t) / 0.035));
+        glm::dvec3 tip = contact + back * (swing + (through + withdrawn) * smooth(0.3, 1.1, t));
+        const double sunk = smooth(0.87, 1.35, t);
+        tip.y = glm::mix(tip.y, butt_radius, sunk);
+        node.translation.values.push_back(to_millionth(tip));
+        node.rotation.values.push_back(to_millionth(slerp_short(aim, level, sunk)));
     }
 }
 

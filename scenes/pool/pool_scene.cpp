@@ -5,27 +5,42 @@
 #include "scenes/common/build.h"
 #include "scenes/common/camera.h"
 #include "scenes/common/generator.h"
+#include "scenes/common/keys.h"
 #include "scenes/pool/break.h"
 #include "scenes/pool/textures.h"
 
 namespace aleph {
 
 void add_camera(Scene& scene, bool moves) {
-    // It turns on an arm of a quarter of a metre: a pan with a little parallax. Walls move by about 3 pixels a frame at
-    // 640x480.
-    const double first = -20.0, last = 3.0;  // degrees about y; -x lies ahead at 0
-    const int rig = add_node(scene, "camera_rig", no_index, {1.625, 0.0, 0.195});
-    AxisRotation turn;
-    turn.angle = glm::radians(first);
-    if (moves) {
-        turn.angle.sampling.period = last_frame / 30.0;
-        turn.angle.values = {glm::radians(first), glm::radians(last)};
-    }
-    node_at(scene, rig).axis_rotation = turn;
+    // It turns on an arm of 60 cm, so that the walls move by about 3 pixels a frame at 640x480 and the table by less.
+    // It starts where the whole break stays in the picture; once the balls have spread it moves in, over the near rail
+    // and down towards them, and is still on its way at the end.
+    const double arm = 0.6, height = 1.4;                   // m
+    const double first = 68.5, last = 93.0, pitch = -15.3;  // degrees; -x lies ahead at 90
+    const glm::dvec3 pivot(1.6, 0.0, 0.2), move(-0.82, -0.4, -0.12);
+    const double lift = 4.3;                                // degrees, of the gaze as it moves in
+    const double begin = 32.0 / 30.0, rest = 102.0 / 30.0;  // s: between these it would move in, rest to rest
 
-    const glm::dquat ahead = z_to_plus_x * glm::angleAxis(glm::radians(-12.5), glm::dvec3(1.0, 0.0, 0.0));
-    add_node(scene, "camera", rig, {0.25, 1.27, 0.0}, ahead);
+    const int rig = add_node(scene, "camera_rig", no_index, pivot);
+    turn_about(scene, rig, {0.0, 1.0, 0.0}, glm::radians(first));
+    const int camera = add_node(scene, "camera", rig, {0.0, height, arm});
+    turn_about(scene, camera, {1.0, 0.0, 0.0}, glm::radians(pitch));
     hang_camera(scene, 40.0);
+    if (!moves) return;
+
+    Track<double> turn;
+    turn.sampling.period = last_frame / 30.0;
+    turn.values = {glm::radians(first), glm::radians(last)};
+    turn_about(scene, rig, {0.0, 1.0, 0.0}, turn);
+    // A part of the smoothest cubic from rest to rest is a cubic again.
+    const double end = last_frame / 30.0, t = (end - begin) / (rest - begin);
+    const double share = t * t * (3.0 - 2.0 * t), speed = 6.0 * t * (1.0 - t) / (rest - begin);
+    node_at(scene, rig).translation =
+        cubic_track<glm::dvec3>({{begin, {}, pivot, {}}, {end, speed * move, pivot + share * move, speed * move}});
+    const double raised = glm::radians(lift);
+    turn_about(scene, camera, {1.0, 0.0, 0.0},
+               cubic_track<double>({{begin, 0.0, glm::radians(pitch), 0.0},
+                                    {end, speed * raised, glm::radians(pitch) + share * raised, speed * raised}}));
 }
 
 std::vector<DrawnTexture> make_pool_textures() {

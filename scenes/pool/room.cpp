@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <utility>
 
 #include "scenes/common/build.h"
 #include "scenes/pool/pool_scene.h"
@@ -71,6 +72,13 @@ void add_stool(Scene& scene, int room, const std::string& name, const glm::dvec3
     add_shape(scene, name + "_foot", node, cylinder(0.2, 0.035, 48), wood, {0.0, 0.0175, 0.0});
 }
 
+/// A surface that shines and reflects nothing: what light falls on it, nobody would see beside its own.
+int add_glow(Scene& scene, const std::string& name, const glm::dvec3& color, double radiance) {
+    const int material = add_emitter(scene, name, color, radiance);
+    scene.materials.back().base_color = glm::dvec3(0.0);
+    return material;
+}
+
 }  // namespace
 
 void add_room(Scene& scene) {
@@ -107,9 +115,9 @@ void add_lights(Scene& scene) {
     // Over the table: a shade whose underside glows. Flush, because walls close to an emitter only make noise.
     const int shade = add_lambert(scene, "shade", {34, 92, 70});
     const int brass = add_lambert(scene, "brass", {190, 148, 74});
-    const int glow = add_emitter(scene, "lamp_glow", {1.0, 0.87, 0.66}, 14.0);
+    const int glow = add_glow(scene, "lamp_glow", {1.0, 0.87, 0.66}, 14.0);
     const glm::dvec3 size(1.7, 0.2, 0.5);
-    const double bottom = cloth_height + 0.86, cord = room_high.y - bottom - size.y;
+    const double bottom = cloth_height + 0.9, cord = room_high.y - bottom - size.y;
     const int lamp = add_node(scene, "lamp", no_index, {0.0, bottom, 0.0});
     add_shape(scene, "lamp_shade", lamp, box(size), shade, {0.0, 0.5 * size.y, 0.0});
     add_shape(scene, "lamp_panel", lamp, quad(size.x - 0.1, size.z - 0.1), glow, {0.0, -0.001, 0.0}, z_to_down);
@@ -123,13 +131,18 @@ void add_lights(Scene& scene) {
 
     // A soft ceiling light over the sitting corner, so that the walls do not drown.
     const int frame = add_lambert(scene, "light_frame", {226, 220, 206});
-    const int soft = add_emitter(scene, "ceiling_glow", {1.0, 0.9, 0.76}, 5.0);
+    const int soft = add_glow(scene, "ceiling_glow", {1.0, 0.9, 0.76}, 5.0);
     const int panel = add_node(scene, "ceiling_light", no_index, {-2.1, room_high.y, 0.2});
     add_shape(scene, "ceiling_light_frame", panel, box({1.5, 0.04, 1.5}), frame, {0.0, -0.02, 0.0});
     add_shape(scene, "ceiling_light_panel", panel, quad(1.4, 1.4), soft, {0.0, -0.041, 0.0}, z_to_down);
 
     // A tall window in the evening, its bars a little before the sky.
-    const int sky = add_emitter(scene, "evening_sky", {0.42, 0.64, 1.0}, 0.4);
+    const int sky = add_textured(scene, "evening_sky", "sky");
+    Material& shining = scene.materials.back();
+    std::swap(shining.base_color_texture, shining.emission_texture);
+    shining.base_color = glm::dvec3(0.0);
+    shining.emission = glm::dvec3(1.0);
+    shining.emission_strength = 0.4;
     const int window = add_node(scene, "window", no_index, {-1.9, 1.75, room_low.z});
     const double width = 1.5, height = 1.4;
     add_shape(scene, "window_sky", window, quad(width, height), sky, {0.0, 0.0, 0.01});

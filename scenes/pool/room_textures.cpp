@@ -138,14 +138,30 @@ glm::dvec3 color_circles(const glm::dvec2& uv) {
     return distance > 0.46 ? pick(0) : pick(distance > 0.3 ? 1 : 2) * (distance < 0.13 ? 0.5 : 1.0);
 }
 
+/// An hour after sunset: warm over dark hills, blue above, thin clouds.
+glm::dvec3 color_sky(const glm::dvec2& uv) {
+    const double hills = 0.86 + 0.07 * (fractal_noise({uv.x, 0.5}, {3, 1}, 4, 81) - 0.5) + 0.02 * std::sin(5.0 * uv.x);
+    if (uv.y > hills)
+        return glm::mix(glm::dvec3(66, 62, 84), glm::dvec3(34, 40, 50), std::min(1.0, (uv.y - hills) / 0.1));
+    const double height = 1.0 - uv.y / hills;  // 0 at the hills
+    glm::dvec3 sky = glm::mix(glm::dvec3(250, 196, 142), glm::dvec3(208, 190, 196), glm::smoothstep(0.0, 0.3, height));
+    sky = glm::mix(sky, glm::dvec3(96, 140, 204), glm::smoothstep(0.15, 1.0, height));
+    const double cloud = fractal_noise(uv, {2, 9}, 4, 82);
+    return glm::mix(sky, glm::dvec3(246, 206, 186), 0.5 * glm::smoothstep(0.52, 0.8, cloud) * (1.0 - 0.6 * height));
+}
+
 }  // namespace
 
 std::vector<DrawnTexture> make_room_textures() {
-    return {
-        draw_texture("felt", 256, 256, 1, color_felt),         draw_texture("rail", 512, 64, 2, color_rail),
-        draw_texture("floor", 256, 256, 2, color_floor),       draw_texture("wallpaper", 256, 256, 3, color_wallpaper),
-        draw_texture("wainscot", 192, 256, 2, color_wainscot), draw_texture("sunset", 192, 128, 3, color_sunset),
-        draw_texture("blocks", 96, 128, 3, color_blocks),      draw_texture("circles", 144, 144, 3, color_circles)};
+    return {draw_texture("felt", 256, 256, 1, color_felt),
+            draw_texture("rail", 512, 64, 2, color_rail),
+            draw_texture("floor", 256, 256, 2, color_floor),
+            draw_texture("wallpaper", 256, 256, 3, color_wallpaper),
+            draw_texture("wainscot", 192, 256, 2, color_wainscot),
+            draw_texture("sunset", 192, 128, 3, color_sunset),
+            draw_texture("blocks", 96, 128, 3, color_blocks),
+            draw_texture("circles", 144, 144, 3, color_circles),
+            draw_texture("sky", 160, 144, 2, color_sky)};
 }
 
 }  // namespace aleph

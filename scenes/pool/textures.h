@@ -7,9 +7,9 @@
 
 namespace aleph {
 
-// Every pattern but the paintings and the balls repeats without a seam.
+// Every pattern but the paintings, the sky and the balls repeats without a seam.
 
-/// "felt", "rail", "floor", "wallpaper", "wainscot", "sunset", "blocks", "circles".
+/// "felt", "rail", "floor", "wallpaper", "wainscot", "sunset", "blocks", "circles", "sky".
 std::vector<DrawnTexture> make_room_textures();
 
 /// "ball_00" (the cue ball) to "ball_15": latitude and longitude, the number at u = .25 and .75.

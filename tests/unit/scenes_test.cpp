@@ -6,6 +6,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <set>
+#include <vector>
 
 #include "scenes/pool/break.h"
 #include "scenes/pool/pool_scene.h"
@@ -40,7 +41,7 @@ std::array<double, 2> background_motion(const Scene& scene, int frame) {
 }
 
 TEST(PoolScene, GeneratorReproducesTheFiles) {
-    expect_generated(ALEPH_MAKE_POOL, 2u + 16u + 8u);
+    expect_generated(ALEPH_MAKE_POOL, 2u + 16u + 9u);
 }
 
 TEST(PoolScene, FileHoldsWhatTheProgramMade) {
@@ -80,7 +81,7 @@ TEST(PoolScene, FramesShowTheSimulationsOwnStates) {
 }
 
 TEST(PoolScene, BackgroundMovesByThreePixels) {
-    for (const int frame : {0, 30, 60, 88}) {
+    for (const int frame : {0, 10, 20, 30, 60, 88}) {
         const auto [pixels, share] = background_motion(loaded("pool"), frame);
         EXPECT_GT(pixels, 2.6) << frame;
         EXPECT_LT(pixels, 3.4) << frame;
@@ -120,6 +121,75 @@ TEST(PoolScene, BallsFillThePicture) {
         }
         EXPECT_GE(seen.size(), 10u) << frame;
     }
+}
+
+/// How many balls have their whole outline in a frame's picture of 4 by 3?
+int whole_balls(const Scene& scene, int frame) {
+    const SceneFrame now = pose(scene, scene.frame_rate.seconds_of(frame));
+    const CameraView view = make_camera_view(now.cameras.front(), 640, 480);
+    int count = 0;
+    for (int i = 0; i < 16; ++i) {
+        const int node = find_node(scene, "ball_" + std::string(i < 10 ? "0" : "") + std::to_string(i));
+        const glm::dvec3 seen = to_camera(view, origin_of(now, node));
+        const glm::dvec2 at = project_camera_point(view, seen);
+        const double radius = view.pixels_per_unit * PoolSettings{}.radius / -seen.z;
+        if (-seen.z > 0.1 && at.x > radius && at.x < 640 - radius && at.y > radius && at.y < 480 - radius) ++count;
+    }
+    return count;
+}
+
+TEST(PoolScene, TheBreakStaysInThePicture) {
+    for (int frame = 0; frame <= 60; ++frame) EXPECT_EQ(whole_balls(loaded("pool"), frame), 16) << frame;
+    for (int frame = 61; frame <= 89; ++frame) EXPECT_GE(whole_balls(loaded("pool"), frame), 13) << frame;
+    for (int frame = 0; frame <= 89; ++frame) EXPECT_GE(whole_balls(loaded("pool-still"), frame), 14) << frame;
+}
+
+TEST(PoolScene, CameraMovesSmoothly) {
+    // Neither its place nor its gaze changes speed suddenly: from one frame to the next by less than a tenth of the
+    // greatest speed.
+    const Scene& scene = loaded("pool");
+    std::vector<glm::dvec3> places, gazes;
+    for (int frame = 0; frame <= 89; ++frame) {
+        const SceneFrame now = pose(scene, scene.frame_rate.seconds_of(frame));
+        const CameraView view = make_camera_view(now.cameras.front(), 640, 480);
+        places.push_back(view.position);
+        gazes.push_back(view.axes[2]);
+    }
+    for (const auto& values : {places, gazes}) {
+        double fastest = 0.0, jolt = 0.0;
+        for (std::size_t i = 1; i + 1 < values.size(); ++i) {
+            fastest = std::max(fastest, glm::distance(values[i + 1], values[i]));
+            jolt = std::max(jolt, glm::length(values[i + 1] - 2.0 * values[i] + values[i - 1]));
+        }
+        EXPECT_GT(fastest, 1e-3);
+        EXPECT_LT(jolt, 0.1 * fastest);
+    }
+}
+
+TEST(PoolScene, CueIsGoneOnceTheBallsSpread) {
+    for (const char* name : {"pool", "pool-still"}) {
+        const Scene& scene = loaded(name);
+        for (const int frame : {0, 12, 45, 60, 89}) {
+            const FrameMotion motion = compute_motion(scene, frame, 320, 240);
+            int pixels = 0;
+            for (const Hit& hit : motion.hits.pixels)
+                if (is_below(scene, motion.instances[static_cast<std::size_t>(hit.instance)].node, "cue")) ++pixels;
+            if (frame < 30)
+                EXPECT_GT(pixels, 20) << name << " " << frame;
+            else
+                EXPECT_EQ(pixels, 0) << name << " " << frame;
+        }
+    }
+}
+
+TEST(PoolScene, LampsAndSkyReflectNothing) {
+    int shining = 0;
+    for (const Material& material : loaded("pool").materials) {
+        if (material.emission.values.front() == glm::dvec3(0.0)) continue;
+        ++shining;
+        EXPECT_EQ(material.base_color.values.front(), glm::dvec3(0.0)) << material.name;
+    }
+    EXPECT_EQ(shining, 3);
 }
 
 TEST(PoolScene, CueTouchesOnlyTheCueBall) {
