@@ -13,7 +13,7 @@ inline constexpr int antique_last_frame = 119;  ///< the first is 0; 30 a second
 inline constexpr glm::dvec3 antique_low{-2.7, 0.0, -2.4}, antique_high{2.7, 2.95, 2.5};
 
 /// Drawn by formulas, always the same bytes: "boards", "walnut", "damask", "rug", "dial", "globe", "spine", "stone",
-/// "velvet", and the paintings "ship", "valley", "iris".
+/// "velvet", the view "garden", and the paintings "ship", "valley", "iris".
 std::vector<DrawnTexture> make_antique_textures();
 
 /// @param textures  folder of the textures as the scene file is to name it

@@ -106,7 +106,9 @@ void add_bookcase(Scene& scene, const AntiqueMaterials& materials) {
     for (int i = 0; i < 7; ++i) {
         bindings.push_back(add_textured(scene, fmt::format("binding_{}", i), "spine"));
         scene.materials.back().base_color = tints[i] * 1.6;
-        add_gloss(scene, 0.3);
+        // Worn leather: a sheen that does not hide the colours where a window is mirrored.
+        add_gloss(scene, 0.5);
+        scene.materials.back().specular = 0.5;
     }
     const double levels[] = {0.66, 1.05, 1.43, 1.81};
     for (int i = 0; i < 4; ++i) {

@@ -49,6 +49,22 @@ void add_wall(Scene& scene, int room, const std::string& name, const glm::dvec3&
     }
 }
 
+/// A window, its panes between posts and bars before what shines outside; a sill below.
+void add_casement(Scene& scene, int window, const std::string& name, const glm::dvec2& size, int outside, int paint) {
+    add_shape(scene, name + "_sky", window, quad(size.x, size.y), outside, {0.0, 0.0, 0.012});
+    const std::vector<glm::dvec2> casing = {{-0.02, 0.0},  {-0.02, 0.09}, {-0.02, 0.09}, {0.0, 0.1},   {0.06, 0.1},
+                                            {0.08, 0.085}, {0.1, 0.09},   {0.12, 0.07},  {0.12, 0.07}, {0.12, 0.0}};
+    add_mesh_node(scene, name + "_casing", window,
+                  add_cage(scene, name + "_casing", make_rectangle(size, casing, true), paint), glm::dvec3(0.0));
+    for (int i = -1; i <= 1; ++i)
+        add_shape(scene, fmt::format("{}_post_{}", name, i + 1), window, box({i == 0 ? 0.06 : 0.025, size.y, 0.035}),
+                  paint, {0.25 * size.x * i, 0.0, 0.07});
+    for (int i = -1; i <= 1; ++i)
+        add_shape(scene, fmt::format("{}_bar_{}", name, i + 1), window, box({size.x, 0.025, 0.03}), paint,
+                  {0.0, 0.25 * size.y * i, 0.07});
+    add_shape(scene, name + "_sill", window, box({size.x + 0.36, 0.04, 0.2}), paint, {0.0, -0.5 * size.y - 0.1, 0.1});
+}
+
 }  // namespace
 
 void add_antique_shell(Scene& scene, const AntiqueMaterials& materials) {
@@ -76,7 +92,7 @@ void add_antique_shell(Scene& scene, const AntiqueMaterials& materials) {
         int material;
     };
     for (const Moulding& moulding : {Moulding{"cornice", cornice_profile, antique_high.y, materials.ceiling},
-                                     Moulding{"dado_rail", rail_profile, dado, materials.walnut},
+                                     Moulding{"dado_rail", rail_profile, dado, materials.panel},
                                      Moulding{"skirting", skirting_profile, 0.0, materials.walnut}}) {
         const int mesh =
             add_cage(scene, moulding.name, make_moulding(around, true, moulding.profile), moulding.material);
@@ -101,25 +117,20 @@ void add_antique_shell(Scene& scene, const AntiqueMaterials& materials) {
 }
 
 void add_antique_window(Scene& scene, const AntiqueMaterials& materials) {
-    const int sky = add_emitter(scene, "daylight", {0.9, 0.95, 1.0}, 8.0);
+    // What is seen outside keeps within what a picture can show; the room's light comes from a window behind the
+    // camera's shoulder, as bright as the sky is.
+    const int view = add_emitter(scene, "garden", glm::dvec3(1.0), 0.8);
+    for (std::size_t i = 0; i < scene.images.size(); ++i)
+        if (scene.images[i].name == "garden") scene.materials.back().emission_texture.image = static_cast<int>(i);
+    const int sky = add_emitter(scene, "daylight", {0.92, 0.96, 1.0}, 13.0);
     const int white = add_lambert(scene, "window_paint", {222, 216, 202});
     const int curtain = add_lambert(scene, "curtain", {128, 34, 40});
     scene.materials.back().double_sided = true;
-    const double width = 1.5, height = 1.75, bottom = 0.98;
-    const int window = add_node(scene, "window", no_index, {antique_low.x, bottom + 0.5 * height, -0.35}, z_to_plus_x);
-    add_shape(scene, "window_sky", window, quad(width, height), sky, {0.0, 0.0, 0.012});
-    const std::vector<glm::dvec2> casing = {{-0.02, 0.0},  {-0.02, 0.09}, {-0.02, 0.09}, {0.0, 0.1},   {0.06, 0.1},
-                                            {0.08, 0.085}, {0.1, 0.09},   {0.12, 0.07},  {0.12, 0.07}, {0.12, 0.0}};
-    add_mesh_node(scene, "window_casing", window,
-                  add_cage(scene, "window_casing", make_rectangle({width, height}, casing, true), white),
-                  glm::dvec3(0.0));
-    for (int i = -1; i <= 1; ++i)
-        add_shape(scene, fmt::format("window_post_{}", i + 1), window, box({i == 0 ? 0.06 : 0.025, height, 0.035}),
-                  white, {0.25 * width * i, 0.0, 0.07});
-    for (int i = -1; i <= 1; ++i)
-        add_shape(scene, fmt::format("window_bar_{}", i + 1), window, box({width, 0.025, 0.03}), white,
-                  {0.0, 0.25 * height * i, 0.07});
-    add_shape(scene, "window_sill", window, box({width + 0.36, 0.04, 0.2}), white, {0.0, -0.5 * height - 0.1, 0.1});
+    const double height = 1.75, middle = 0.98 + 0.5 * height;
+    const int window = add_node(scene, "window", no_index, {antique_low.x, middle, -0.35}, z_to_plus_x);
+    add_casement(scene, window, "window", {1.5, height}, view, white);
+    const int unseen = add_node(scene, "window_b", no_index, {antique_high.x, middle, 1.5}, z_to_minus_x);
+    add_casement(scene, unseen, "window_b", {1.2, height}, sky, white);
 
     // Curtains: a wavy line, lifted; a profile of two points is a sheet.
     for (const double side : {-1.0, 1.0}) {

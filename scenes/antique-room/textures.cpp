@@ -217,6 +217,35 @@ glm::dvec3 color_valley(const glm::dvec2& uv) {
     return color;
 }
 
+/// A park under a summer sky, as a window shows it: trees far and near, a lawn.
+glm::dvec3 color_garden(const glm::dvec2& uv) {
+    const double cloud = std::clamp(3.0 * (fractal_noise(uv * glm::dvec2(1.0, 1.6), {3, 8}, 5, 311) - 0.5), 0.0, 1.0);
+    glm::dvec3 color = glm::mix(hex(0x8fb4dc), hex(0xd9e4ea), std::clamp(1.35 * uv.y, 0.0, 1.0));
+    color = glm::mix(color, hex(0xf6f2ea), 0.85 * cloud);
+    struct Row {
+        double top, rough;
+        glm::dvec3 light, dark;
+    };
+    const Row rows[] = {{0.61, 0.05, hex(0xa9bcc0), hex(0x98adb0)},
+                        {0.63, 0.16, hex(0x8fa687), hex(0x6c8768)},
+                        {0.68, 0.3, hex(0x758f4c), hex(0x42592c)}};
+    for (std::size_t i = 0; i < std::size(rows); ++i) {
+        const Row& row = rows[i];
+        const auto seed = 312u + 4u * static_cast<std::uint32_t>(i);
+        const double crowns = noise({uv.x * (5.0 + static_cast<double>(i)), 0.0}, {5 + static_cast<int>(i), 1}, seed);
+        const double leaves = fractal_noise(uv, {18, 24}, 3, seed + 1u);
+        const double top = row.top - row.rough * (crowns - 0.35) - 0.35 * row.rough * (leaves - 0.5);
+        if (uv.y > top)
+            color = glm::mix(row.light, row.dark, std::clamp(3.0 * (uv.y - top) + 1.6 * (leaves - 0.45), 0.0, 1.0));
+    }
+    if (uv.y > 0.78) {
+        const double mown = fractal_noise(uv, {6, 60}, 3, 330);
+        color = glm::mix(hex(0x9fb56a), hex(0x6d8a3e), std::clamp((uv.y - 0.78) / 0.22 + mown - 0.5, 0.0, 1.0));
+        if (uv.y < 0.79 + 0.006 * mown) color = hex(0x55702f);
+    }
+    return color;
+}
+
 /// An iris on old paper.
 glm::dvec3 color_iris(const glm::dvec2& uv) {
     const double stain = fractal_noise(uv, {4, 6}, 4, 305) - 0.5;
@@ -250,7 +279,8 @@ std::vector<DrawnTexture> make_antique_textures() {
             draw_texture("dial", 192, 192, 3, color_dial),     draw_texture("globe", 384, 192, 2, color_globe),
             draw_texture("spine", 48, 160, 2, color_spine),    draw_texture("stone", 160, 160, 2, color_stone),
             draw_texture("velvet", 128, 128, 2, color_velvet), draw_texture("ship", 320, 240, 2, color_ship),
-            draw_texture("valley", 320, 224, 2, color_valley), draw_texture("iris", 168, 224, 3, color_iris)};
+            draw_texture("valley", 320, 224, 2, color_valley), draw_texture("iris", 168, 224, 3, color_iris),
+            draw_texture("garden", 240, 280, 2, color_garden)};
 }
 
 }  // namespace aleph

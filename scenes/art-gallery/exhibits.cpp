@@ -277,12 +277,12 @@ void add_sculptures(Scene& scene, const GalleryMaterials& materials) {
     const glm::dvec3 place(-8.1, 0.0, 0.0);
     const double height = add_plinth(scene, sculptures, "knot_plinth", place, 0.7, 0.72, materials.plinth);
     const int bronze = add_lambert(scene, "knot_bronze", {214, 148, 70});
-    add_gloss(scene, 0.25);
+    add_gloss(scene, 0.33);
     const CageShape knot = make_closed_tube(
         [](double t) {
             const double a = 2.0 * pi * t;
             return 0.21 * glm::dvec3(std::sin(a) + 2.0 * std::sin(2.0 * a), std::cos(a) - 2.0 * std::cos(2.0 * a),
-                                     -1.25 * std::sin(3.0 * a));
+                                     -1.5 * std::sin(3.0 * a));
         },
         60, 8, {0.13, 0.06}, 3);
     const int mesh = add_cage(scene, "knot", knot, bronze);

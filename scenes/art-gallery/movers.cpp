@@ -103,7 +103,18 @@ void add_kinetic_work(Scene& scene, const GalleryMaterials& materials) {
               materials.plinth, glm::dvec3(0.0));
     const int table = add_node(scene, "kinetic_table", work, {0.0, 0.375, 0.0});
     turn_about(scene, table, {0.0, 1.0, 0.0}, even_track(0.0, gallery_seconds, 0.0, 2.0 * pi * 2.5));
-    add_shape(scene, "kinetic_disc", table, cylinder(1.02, 0.03, 96), materials.plinth, glm::dvec3(0.0));
+    // Wider than the drum, its edge round: no corner in which light would have to be found a hair's breadth apart.
+    add_shape(scene, "kinetic_disc", table,
+              lathe({{0.0, -0.015},
+                     {1.1, -0.015},
+                     {1.15, -0.012},
+                     {1.165, 0.0},
+                     {1.15, 0.012},
+                     {1.1, 0.015},
+                     {1.1, 0.015},
+                     {0.0, 0.015}},
+                    96),
+              materials.plinth, glm::dvec3(0.0));
     // Under the roof light comes from the vanes alone.
     add_shape(scene, "kinetic_roof", table,
               lathe({{0.0, 1.9}, {1.08, 1.9}, {1.08, 1.9}, {1.1, 1.915}, {1.08, 1.93}, {1.08, 1.93}, {0.0, 1.97}}, 96),
@@ -120,6 +131,17 @@ void add_kinetic_work(Scene& scene, const GalleryMaterials& materials) {
                           {"blue", {30, 116, 240}},
                           {"magenta", {240, 40, 150}}};
     const int white = add_lambert(scene, "kinetic_white", {242, 240, 234});
+    // What rods and spindles stand in.
+    const Shape socket = lathe({{0.0, 0.0},
+                                {0.05, 0.0},
+                                {0.05, 0.0},
+                                {0.05, 0.008},
+                                {0.042, 0.016},
+                                {0.026, 0.02},
+                                {0.022, 0.045},
+                                {0.0, 0.05}},
+                               24);
+    const double floor = 0.015, roof = 1.9;  // m above the table's node
     for (int i = 0; i < 5; ++i) {
         const int paint = add_lambert(scene, fmt::format("vane_{}", vanes[i].name), vanes[i].color);
         const int arm = add_node(scene, fmt::format("vane_arm_{}", vanes[i].name), table, glm::dvec3(0.0),
@@ -133,13 +155,17 @@ void add_kinetic_work(Scene& scene, const GalleryMaterials& materials) {
         }
         turn_about(scene, pivot, {0.0, 1.0, 0.0}, eased_track(times, angles));
         const double height = 1.3 + 0.1 * ((i * 2) % 5);
+        add_rod(scene, fmt::format("vane_spindle_{}", vanes[i].name), arm, {0.0, floor, 0.62}, {0.0, roof, 0.62}, 0.017,
+                materials.steel, 16);
+        add_shape(scene, fmt::format("vane_socket_{}", vanes[i].name), arm, socket, materials.steel,
+                  {0.0, floor, 0.62});
         add_shape(scene, fmt::format("vane_panel_{}", vanes[i].name), pivot, box({0.025, height, 0.7}), paint,
                   {0.0, 0.06 + 0.5 * height, 0.0});
 
         const int page =
             add_node(scene, fmt::format("page_{}", i), table, glm::dvec3(0.0), turn({0.0, 1.0, 0.0}, 72.0 * i + 27.0));
         add_shape(scene, fmt::format("page_panel_{}", i), page, box({0.025, height, 0.7}), white,
-                  {0.0, 0.06 + 0.5 * height, 0.62});
+                  {0.0, 0.5 * height, 0.62});
 
         const int rider =
             add_node(scene, fmt::format("rider_{}", i), table, glm::dvec3(0.0), turn({0.0, 1.0, 0.0}, 72.0 * i + 50.0));
@@ -151,8 +177,9 @@ void add_kinetic_work(Scene& scene, const GalleryMaterials& materials) {
             places.emplace_back(0.0, (k + i) % 2 == 0 ? 0.32 : 1.1, 0.8);
         }
         node_at(scene, lift).translation = eased_track(times, places);
-        add_rod(scene, fmt::format("rider_rod_{}", i), rider, {0.0, 0.0, 0.8}, {0.0, 1.9, 0.8}, 0.01, materials.steel,
-                12);
+        add_rod(scene, fmt::format("rider_rod_{}", i), rider, {0.0, floor, 0.8}, {0.0, roof, 0.8}, 0.01,
+                materials.steel, 12);
+        add_shape(scene, fmt::format("rider_socket_{}", i), rider, socket, materials.steel, {0.0, floor, 0.8});
     }
 }
 
@@ -160,14 +187,15 @@ void add_mobile(Scene& scene, const GalleryMaterials& materials) {
     // Arms that hang from one another, each turning at its own pace.
     struct Arm {
         double left, right, drop;  ///< m: lengths to both sides, wire below the point it hangs from
+        double first;              ///< turn at the start: stretched out, it would reach beyond the picture
         double turns;              ///< over the whole shot
         glm::dvec3 color;
         double size;
     };
-    const Arm arms[] = {{0.62, 1.05, 1.38, 1.5, {214, 40, 34}, 0.3},
-                        {0.5, 0.8, 0.3, -2.5, {246, 184, 28}, 0.25},
-                        {0.42, 0.62, 0.27, 3.5, {28, 86, 180}, 0.21},
-                        {0.36, 0.42, 0.23, -4.5, {232, 110, 30}, 0.17}};
+    const Arm arms[] = {{0.62, 1.05, 1.48, 0.05, 1.5, {214, 40, 34}, 0.3},
+                        {0.5, 0.8, 0.3, -0.12, -2.5, {246, 184, 28}, 0.25},
+                        {0.42, 0.62, 0.27, 0.15, 3.5, {28, 86, 180}, 0.21},
+                        {0.36, 0.42, 0.23, -0.2, -4.5, {232, 110, 30}, 0.17}};
     const Shape leaf =
         lathe({{0.0, -0.02}, {0.5, -0.012}, {0.92, -0.006}, {1.0, 0.0}, {0.92, 0.006}, {0.5, 0.012}, {0.0, 0.02}}, 40);
     int parent = add_node(scene, "mobile", no_index, {1.4, hall_high.y, 1.15});
@@ -177,9 +205,12 @@ void add_mobile(Scene& scene, const GalleryMaterials& materials) {
         const Arm& arm = arms[i];
         const int node =
             add_node(scene, fmt::format("mobile_arm_{}", i), parent, hook - glm::dvec3(0.0, arm.drop, 0.0));
-        turn_about(scene, node, {0.0, 1.0, 0.0}, even_track(0.0, gallery_seconds, 0.0, 2.0 * pi * arm.turns));
+        turn_about(scene, node, {0.0, 1.0, 0.0},
+                   even_track(0.0, gallery_seconds, 2.0 * pi * arm.first, 2.0 * pi * (arm.first + arm.turns)));
         add_rod(scene, fmt::format("mobile_wire_{}", i), node, glm::dvec3(0.0), {0.0, arm.drop, 0.0}, 0.004, black, 8);
-        add_rod(scene, fmt::format("mobile_rod_{}", i), node, {-arm.left, -0.05, 0.0}, {arm.right, 0.03, 0.0}, 0.008,
+        // Rods end in the middle of the paddles they carry.
+        const double left_end = -arm.left - 0.8 * arm.size, right_end = arm.right + (i == 3 ? 0.12 : 0.0);
+        add_rod(scene, fmt::format("mobile_rod_{}", i), node, {left_end, -0.07, 0.0}, {right_end, 0.03, 0.0}, 0.008,
                 black);
         const auto add_paddle = [&](const std::string& name, double x, double y, double size, const glm::dvec3& color,
                                     double tilt) {
@@ -189,9 +220,8 @@ void add_mobile(Scene& scene, const GalleryMaterials& materials) {
             const int paddle = add_shape(scene, name, node, shape, paint, {x, y, 0.0}, turn({0.0, 0.0, 1.0}, tilt));
             node_at(scene, paddle).scale = glm::dvec3(1.0, 1.0, 0.72);
         };
-        add_paddle(fmt::format("mobile_paddle_{}", i), -arm.left - 0.8 * arm.size, -0.07, arm.size, arm.color,
-                   62.0 + 6.0 * i);
-        if (i == 3) add_paddle("mobile_paddle_4", arm.right + 0.12, 0.03, 0.15, {240, 240, 236}, 70.0);
+        add_paddle(fmt::format("mobile_paddle_{}", i), left_end, -0.07, arm.size, arm.color, 62.0 + 6.0 * i);
+        if (i == 3) add_paddle("mobile_paddle_4", right_end, 0.03, 0.15, {240, 240, 236}, 70.0);
         parent = node;
         hook = {arm.right, 0.03, 0.0};
     }
@@ -200,12 +230,13 @@ void add_mobile(Scene& scene, const GalleryMaterials& materials) {
 void add_gallery_camera(Scene& scene) {
     // Where it is and what it looks at, on these frames; eased in between.
     add_walking_camera(scene,
-                       {{0, {5.1, 1.6, -0.75}, {0.6, 1.2, 2.3}},
+                       {{0, {5.1, 1.6, -0.75}, {0.6, 1.62, 2.3}},
                         {120, {5.0, 1.6, 0.95}, {-1.4, 1.4, -0.1}},
                         {235, {3.75, 1.45, 0.35}, {1.75, 1.2, -1.35}},
                         {340, {1.9, 1.5, 0.75}, {-1.2, 1.2, -2.2}},
-                        {450, {-0.55, 1.45, -0.4}, {-2.75, 1.05, -2.5}},
-                        {560, {-0.9, 1.55, -0.75}, {-3.9, 1.2, 0.95}},
+                        {450, {-0.15, 1.48, 0.05}, {-2.75, 1.1, -2.45}},
+                        {510, {-0.25, 1.52, 0.1}, {-5.0, 1.3, -0.3}},
+                        {560, {-0.6, 1.55, -0.3}, {-3.9, 1.2, 0.95}},
                         {650, {-1.6, 1.6, -0.5}, {-5.4, 1.35, 0.45}},
                         {749, {-4.1, 1.55, -0.15}, {-8.1, 1.35, 0.0}}},
                        50.0);

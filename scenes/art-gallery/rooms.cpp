@@ -2,9 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <numbers>
+
 #include "scenes/art-gallery/gallery.h"
 #include "scenes/common/build.h"
 #include "scenes/common/cages.h"
+#include "scenes/common/keys.h"
 
 namespace aleph {
 
@@ -82,13 +85,22 @@ void add_doorway(Scene& scene, int parent, const GalleryMaterials& materials) {
     add_mesh_node(scene, "architrave_cabinet", parent, mesh, {back, 0.0, 0.0}, z_to_minus_x);
 }
 
-/// A flat lamp that hangs from the ceiling and shines down, or leaning towards a wall.
+/// A lamp that hangs from the ceiling: a flat one that shines down, or leans towards a wall, or a lantern that shines
+/// to all sides but up.
+/// @param depth  of a lantern; 0: flat
 void add_lamp(Scene& scene, int parent, const std::string& name, const glm::dvec3& place, const glm::dvec2& size,
-              double lean_degrees, double ceiling, int glow, const GalleryMaterials& materials) {
+              double depth, double lean_degrees, double ceiling, int glow, const GalleryMaterials& materials) {
     const int lamp = add_node(scene, name, parent, place, turn({1.0, 0.0, 0.0}, lean_degrees));
     add_shape(scene, name + "_box", lamp, box({size.x + 0.06, 0.06, size.y + 0.06}), materials.steel,
               {0.0, 0.031, 0.0});
-    add_shape(scene, name + "_glow", lamp, quad(size.x, size.y), glow, glm::dvec3(0.0), z_to_down);
+    if (depth > 0.0) {
+        const double corner = to_millionth(0.5 * std::numbers::sqrt2 * size.x);
+        Shape lantern = lathe({{0.0, -depth}, {corner, -depth}, {corner, -depth}, {corner, 0.0}}, 4);
+        lantern.smooth = false;
+        add_shape(scene, name + "_glow", lamp, lantern, glow, glm::dvec3(0.0), turn({0.0, 1.0, 0.0}, 45.0));
+    } else {
+        add_shape(scene, name + "_glow", lamp, quad(size.x, size.y), glow, glm::dvec3(0.0), z_to_down);
+    }
     for (const double side : {-1.0, 1.0}) {
         const glm::dvec3 foot = place + glm::dvec3(side * 0.4 * size.x, 0.05, 0.0);
         add_rod(scene, fmt::format("{}_rod_{}", name, side < 0.0 ? "a" : "b"), parent, foot, {foot.x, ceiling, foot.z},
@@ -118,20 +130,20 @@ void add_rooms(Scene& scene, const GalleryMaterials& materials) {
 }
 
 void add_lamps(Scene& scene, const GalleryMaterials& materials) {
-    const int warm = add_emitter(scene, "warm_glow", {1.0, 0.88, 0.7}, 13.0);
-    const int day = add_emitter(scene, "day_glow", {0.86, 0.94, 1.0}, 7.0);
-    const int cabinet = add_emitter(scene, "cabinet_glow", {1.0, 0.8, 0.58}, 15.0);
+    const int warm = add_emitter(scene, "warm_glow", {1.0, 0.88, 0.7}, 10.0);
+    const int day = add_emitter(scene, "day_glow", {0.86, 0.94, 1.0}, 8.0);
+    const int cabinet = add_emitter(scene, "cabinet_glow", {1.0, 0.8, 0.58}, 10.0);
     const int lamps = add_node(scene, "lamps");
     // Six wash the long walls, one stands for a skylight, one hangs in the cabinet.
     for (int i = 0; i < 3; ++i) {
         const double x = -3.9 + 3.9 * i;
-        add_lamp(scene, lamps, fmt::format("lamp_north_{}", i), {x, 3.62, hall_low.z + 1.35}, {1.5, 0.28}, 28.0,
+        add_lamp(scene, lamps, fmt::format("lamp_north_{}", i), {x, 3.62, hall_low.z + 1.35}, {1.5, 0.28}, 0.0, 28.0,
                  hall_high.y, warm, materials);
-        add_lamp(scene, lamps, fmt::format("lamp_south_{}", i), {x, 3.62, hall_high.z - 1.35}, {1.5, 0.28}, -28.0,
+        add_lamp(scene, lamps, fmt::format("lamp_south_{}", i), {x, 3.62, hall_high.z - 1.35}, {1.5, 0.28}, 0.0, -28.0,
                  hall_high.y, warm, materials);
     }
-    add_lamp(scene, lamps, "lamp_skylight", {0.0, 3.85, 0.0}, {3.2, 1.1}, 0.0, hall_high.y, day, materials);
-    add_lamp(scene, lamps, "lamp_cabinet", {-8.1, 3.1, 0.0}, {0.9, 0.9}, 0.0, cabinet_high.y, cabinet, materials);
+    add_lamp(scene, lamps, "lamp_skylight", {0.0, 3.85, 0.0}, {3.2, 1.1}, 0.0, 0.0, hall_high.y, day, materials);
+    add_lamp(scene, lamps, "lamp_cabinet", {-8.1, 3.2, 0.0}, {0.8, 0.8}, 0.24, 0.0, cabinet_high.y, cabinet, materials);
 }
 
 }  // namespace aleph

@@ -63,7 +63,8 @@ int add_textured(Scene& scene, const std::string& name, const std::string& image
 
 int add_emitter(Scene& scene, const std::string& name, const glm::dvec3& color, double radiance) {
     Material material = make_lambert(name);
-    material.base_color = glm::dvec3(0.8);
+    // Black: what a lamp reflects is lost in its glow, and a cache would spend records on it.
+    material.base_color = glm::dvec3(0.0);
     material.emission = color;
     material.emission_strength = radiance;
     return add_material(scene, material);

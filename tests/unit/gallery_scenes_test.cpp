@@ -264,7 +264,7 @@ TEST(ArtGallery, KineticWorkBleedsColour) {
 }
 
 TEST(AntiqueRoom, ProgramReproducesTheFiles) {
-    expect_generated(ALEPH_MAKE_ANTIQUE_ROOM, 1u + 12u);
+    expect_generated(ALEPH_MAKE_ANTIQUE_ROOM, 1u + 13u);
     expect_same_scene(loaded("antique-room"), make_antique_room("textures/"));
 }
 
