@@ -15,11 +15,12 @@ void add_camera(Scene& scene, bool moves) {
     // It turns on an arm of 60 cm, so that the walls move by about 3 pixels a frame at 640x480 and the table by less.
     // It starts where the whole break stays in the picture; once the balls have spread it moves in, over the near rail
     // and down towards them, and is still on its way at the end.
+    const int first_of_move = 32;                           // frame
     const double arm = 0.6, height = 1.4;                   // m
-    const double first = 68.5, last = 93.0, pitch = -15.3;  // degrees; -x lies ahead at 90
+    const double first = 68.5, last = 93.0, pitch = -15.2;  // degrees; -x lies ahead at 90
     const glm::dvec3 pivot(1.6, 0.0, 0.2), move(-0.82, -0.4, -0.12);
-    const double lift = 4.3;                                // degrees, of the gaze as it moves in
-    const double begin = 32.0 / 30.0, rest = 102.0 / 30.0;  // s: between these it would move in, rest to rest
+    const double lift = 4.3;                                         // degrees, of the gaze as it moves in
+    const double begin = first_of_move / 30.0, rest = 102.0 / 30.0;  // s: between these it would move in, rest to rest
 
     const int rig = add_node(scene, "camera_rig", no_index, pivot);
     turn_about(scene, rig, {0.0, 1.0, 0.0}, glm::radians(first));
@@ -33,14 +34,22 @@ void add_camera(Scene& scene, bool moves) {
     turn.values = {glm::radians(first), glm::radians(last)};
     turn_about(scene, rig, {0.0, 1.0, 0.0}, turn);
     // A part of the smoothest cubic from rest to rest is a cubic again.
+    const auto share = [&](double seconds) {
+        const double t = (seconds - begin) / (rest - begin);
+        return t * t * (3.0 - 2.0 * t);
+    };
     const double end = last_frame / 30.0, t = (end - begin) / (rest - begin);
-    const double share = t * t * (3.0 - 2.0 * t), speed = 6.0 * t * (1.0 - t) / (rest - begin);
+    const glm::dvec3 velocity = 6.0 * t * (1.0 - t) / (rest - begin) * move;
     node_at(scene, rig).translation =
-        cubic_track<glm::dvec3>({{begin, {}, pivot, {}}, {end, speed * move, pivot + share * move, speed * move}});
-    const double raised = glm::radians(lift);
-    turn_about(scene, camera, {1.0, 0.0, 0.0},
-               cubic_track<double>({{begin, 0.0, glm::radians(pitch), 0.0},
-                                    {end, speed * raised, glm::radians(pitch) + share * raised, speed * raised}}));
+        cubic_track<glm::dvec3>({{begin, {}, pivot, {}}, {end, velocity, pivot + share(end) * move, velocity}});
+    // The gaze has a key a frame: other formats know no cubic turns about an axis.
+    Track<double> tilt;
+    tilt.sampling.start = begin;
+    tilt.sampling.period = 1.0 / 30.0;
+    tilt.values.clear();
+    for (int frame = first_of_move; frame <= last_frame; ++frame)
+        tilt.values.push_back(glm::radians(to_millionth(pitch + share(frame / 30.0) * lift)));
+    turn_about(scene, camera, {1.0, 0.0, 0.0}, tilt);
 }
 
 std::vector<DrawnTexture> make_pool_textures() {
