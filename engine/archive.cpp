@@ -76,22 +76,22 @@ void load_images(SceneText& text, const fs::path& folder, const std::string& fil
     }
 }
 
-AlembicTiming append_asset(const fs::path& path, Scene& scene, int parent_node, int include) {
+AlembicTiming append_asset(const fs::path& path, Scene& scene, int parent_node, int include, const LoadLimits& limits) {
     if (extension_of(path) == ".abc") return append_alembic(path, scene, parent_node, include);
-    append_gltf(path, scene, parent_node, include);
+    append_gltf(path, scene, parent_node, include, limits);
     return {};
 }
 
-Scene load_scene_file(const fs::path& path, const std::string& file) {
+Scene load_scene_file(const fs::path& path, const std::string& file, const LoadLimits& limits) {
     check_regular_file(path, file, "");
-    if (std::error_code error; fs::file_size(path, error) > max_scene_text_bytes) {
+    if (std::error_code error; fs::file_size(path, error) > limits.text()) {
         throw InputError(file, "",
                          fmt::format("the file is larger than {} MiB; keep large meshes in a .glb or .abc file and "
                                      "include that",
-                                     max_scene_text_bytes >> 20));
+                                     limits.text() >> 20));
     }
     const Bytes bytes = read_regular_file(path, file, "");
-    SceneText text = read_scene_text({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, file);
+    SceneText text = read_scene_text({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, file, limits);
     Scene& scene = text.scene;
     scene.file = file;
     const fs::path folder = path.parent_path();
@@ -101,7 +101,7 @@ Scene load_scene_file(const fs::path& path, const std::string& file) {
     }
     load_images(text, folder, file);
     for (std::size_t i = 0; i < scene.includes.size(); ++i) {
-        append_asset(folder / scene.includes[i].path, scene, scene.includes[i].node, static_cast<int>(i));
+        append_asset(folder / scene.includes[i].path, scene, scene.includes[i].node, static_cast<int>(i), limits);
     }
     if (!scene.camera.empty()) {
         try {
@@ -128,14 +128,14 @@ void set_timing(const AlembicTiming& timing, Scene& scene) {
     scene.range = frame_range(ends);
 }
 
-Scene load_asset_file(const fs::path& path, const std::string& file) {
+Scene load_asset_file(const fs::path& path, const std::string& file, const LoadLimits& limits) {
     check_asset_name(path, file, "", "a .json, .gltf, .glb or .abc file");
     check_regular_file(path, file, "");
     Scene scene;
     scene.file = file;
     scene.name = path.stem().string();
     scene.includes.push_back({path.filename().string(), no_index});
-    set_timing(append_asset(path, scene, no_index, 0), scene);
+    set_timing(append_asset(path, scene, no_index, 0, limits), scene);
     const bool has_camera =
         std::any_of(scene.nodes.begin(), scene.nodes.end(), [](const Node& node) { return node.camera != no_index; });
     if (!has_camera) add_framing_camera(scene);
@@ -155,9 +155,10 @@ fs::path folder_of(const fs::path& file) {
 
 }  // namespace
 
-Scene load_scene(const std::filesystem::path& path) {
+Scene load_scene(const std::filesystem::path& path, const LoadLimits& limits) {
     const std::string file = path.string();
-    Scene scene = extension_of(path) == ".json" ? load_scene_file(path, file) : load_asset_file(path, file);
+    Scene scene =
+        extension_of(path) == ".json" ? load_scene_file(path, file, limits) : load_asset_file(path, file, limits);
     add_rotation_warnings(scene);
     add_surface_warnings(scene);
     add_missing_light(scene);

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 
+#include "engine/load_limits.h"
 #include "engine/scene.h"
 
 namespace aleph {
@@ -12,7 +13,7 @@ namespace aleph {
 /// A glTF or Alembic archive without a camera gets one that frames its bounds over the whole range; a scene without
 /// light gets a constant white environment; both are said in Scene::warnings.
 /// @throws InputError with file, place and reason; nothing is half loaded
-Scene load_scene(const std::filesystem::path& path);
+Scene load_scene(const std::filesystem::path& path, const LoadLimits& limits = {});
 
 /// Writes a keyframed scene file; load_scene gives back an equal scene, apart from `file` and `warnings` (of a light or
 /// a camera that was added to the first, say: the file holds them). Includes stay includes. In another folder than that

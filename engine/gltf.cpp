@@ -7,8 +7,9 @@
 
 namespace aleph {
 
-void append_gltf(const std::filesystem::path& file, Scene& scene, int parent_node, int include_index) {
-    const GltfSource source = load_gltf_source(file);
+void append_gltf(const std::filesystem::path& file, Scene& scene, int parent_node, int include_index,
+                 const LoadLimits& limits) {
+    const GltfSource source = load_gltf_source(file, limits);
     GltfReader reader(source);
     reader.part.warnings = source.warnings;
     read_materials(reader);

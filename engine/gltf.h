@@ -3,6 +3,7 @@
 
 #include <filesystem>
 
+#include "engine/load_limits.h"
 #include "engine/scene.h"
 
 namespace aleph {
@@ -16,6 +17,7 @@ namespace aleph {
 /// @param include_index  becomes `include` of every element that is appended
 /// @throws InputError naming file, place ("node 3", "accessor 7", a JSON pointer) and the rule that is broken, or the
 /// feature that is not supported
-void append_gltf(const std::filesystem::path& file, Scene& scene, int parent_node, int include_index);
+void append_gltf(const std::filesystem::path& file, Scene& scene, int parent_node, int include_index,
+                 const LoadLimits& limits = {});
 
 }  // namespace aleph

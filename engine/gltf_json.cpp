@@ -29,7 +29,7 @@ int nesting_depth(std::string_view text) {
 
 }  // namespace
 
-nlohmann::json parse_untrusted_json(std::string_view text, const std::string& file) {
+nlohmann::json parse_untrusted_json(std::string_view text, const std::string& file, const LoadLimits& limits) {
     if (text.size() > max_json_bytes) {
         throw InputError(file, "",
                          fmt::format("the JSON text has {} bytes, more than {}", text.size(), max_json_bytes));
@@ -37,7 +37,7 @@ nlohmann::json parse_untrusted_json(std::string_view text, const std::string& fi
     if (const int depth = nesting_depth(text); depth > max_json_depth) {
         throw InputError(file, "", fmt::format("the JSON text is nested {} deep, more than {}", depth, max_json_depth));
     }
-    check_json_memory(text, false, file, "keep vertices, keys and indices in the binary buffer");
+    check_json_memory(text, false, limits, file, "keep vertices, keys and indices in the binary buffer");
     try {
         return nlohmann::json::parse(text);
     } catch (const nlohmann::json::exception& error) {

@@ -8,6 +8,8 @@
 #include <string_view>
 #include <vector>
 
+#include "engine/load_limits.h"
+
 namespace aleph {
 
 /// Deepest nesting of arrays and objects in a file; nothing legitimate comes near.
@@ -19,7 +21,7 @@ inline constexpr double max_json_number = 1e18;
 
 /// Parses JSON of an untrusted file. Size and nesting are checked before the parser sees the text, UTF-8 by the parser.
 /// @throws InputError
-nlohmann::json parse_untrusted_json(std::string_view text, const std::string& file);
+nlohmann::json parse_untrusted_json(std::string_view text, const std::string& file, const LoadLimits& limits);
 
 /// A value inside a document, with the way that led to it. It refers to the value it came from, so that one must
 /// outlive it (the deleted overloads see to that). Every mismatch throws InputError with the value's JSON pointer.

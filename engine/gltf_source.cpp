@@ -110,13 +110,13 @@ void parse_model(GltfSource& source) {
 
 }  // namespace
 
-GltfSource load_gltf_source(const fs::path& path) {
+GltfSource load_gltf_source(const fs::path& path, const LoadLimits& limits) {
     GltfSource source;
     source.file = path.string();
     source.folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
     const Bytes bytes = read_regular_file(path, source.file, "");
     const GltfChunks chunks = split_gltf(bytes, source.file);
-    source.document = parse_untrusted_json(chunks.json, source.file);
+    source.document = parse_untrusted_json(chunks.json, source.file, limits);
     validate_gltf(JsonRef(source.document, source.file), chunks.has_binary, source.warnings);
 
     std::uint64_t bytes_left = max_gltf_file_bytes;

@@ -23,7 +23,7 @@ struct GltfSource {
 
 /// Reads, validates and parses; buffers are loaded, images only located.
 /// @throws InputError
-GltfSource load_gltf_source(const std::filesystem::path& path);
+GltfSource load_gltf_source(const std::filesystem::path& path, const LoadLimits& limits = {});
 
 struct EncodedImage {
     Bytes bytes;

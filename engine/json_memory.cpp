@@ -24,12 +24,13 @@ std::size_t estimate_json_memory(std::string_view text, bool comments) {
     return bytes;
 }
 
-void check_json_memory(std::string_view text, bool comments, const std::string& file, std::string_view advice) {
+void check_json_memory(std::string_view text, bool comments, const LoadLimits& limits, const std::string& file,
+                       std::string_view advice) {
     const std::size_t bytes = estimate_json_memory(text, comments);
-    if (bytes <= max_json_memory) return;
+    if (bytes <= limits.json_values()) return;
     throw InputError(file, "",
                      fmt::format("its JSON holds so many values that they would take about {} MiB, more than {}; {}",
-                                 bytes >> 20, max_json_memory >> 20, advice));
+                                 bytes >> 20, limits.json_values() >> 20, advice));
 }
 
 }  // namespace aleph

@@ -235,16 +235,17 @@ void append_json(std::string& out, const nlohmann::ordered_json& value, std::siz
 }
 
 constexpr const char* large_mesh_advice =
-    "keep large meshes and long lists of points in a .glb or .abc file and include that";
+    "keep large meshes and long lists of points in a .glb or .abc file and include that, or raise --load-memory "
+    "(LoadLimits)";
 
 }  // namespace
 
-JsonText parse_json_text(std::string_view text, const std::string& file) {
-    if (text.size() > max_scene_text_bytes) {
-        throw InputError(
-            file, "", fmt::format("the text is larger than {} MiB; {}", max_scene_text_bytes >> 20, large_mesh_advice));
+JsonText parse_json_text(std::string_view text, const std::string& file, const LoadLimits& limits) {
+    if (text.size() > limits.text()) {
+        throw InputError(file, "",
+                         fmt::format("the text is larger than {} MiB; {}", limits.text() >> 20, large_mesh_advice));
     }
-    check_json_memory(text, true, file, large_mesh_advice);
+    check_json_memory(text, true, limits, file, large_mesh_advice);
     const ClassicLocale classic;
     Builder builder(text, file);
     json::sax_parse(text, &builder, json::input_format_t::json, true, true);

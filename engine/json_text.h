@@ -7,22 +7,20 @@
 #include <string_view>
 #include <vector>
 
-namespace aleph {
+#include "engine/load_limits.h"
 
-/// Longest text of a scene file, bytes.
-inline constexpr std::size_t max_scene_text_bytes = std::size_t{64} << 20;
-/// Most memory that the values of a JSON text may take.
-inline constexpr std::size_t max_json_memory = std::size_t{160} << 20;
+namespace aleph {
 
 /// About the memory that nlohmann's values take, from above, without parsing: a number of two bytes becomes 48 (16 in
 /// a list that may have grown to twice its length, 16 again where it is destroyed), the member of an object 250.
 /// @param comments  the text may hold // and /* */
 std::size_t estimate_json_memory(std::string_view text, bool comments);
 
-/// Refuses a text whose values would take more than max_json_memory.
+/// Refuses a text whose values would take more than limits.json_values().
 /// @param advice  what to do about it
 /// @throws InputError
-void check_json_memory(std::string_view text, bool comments, const std::string& file, std::string_view advice);
+void check_json_memory(std::string_view text, bool comments, const LoadLimits& limits, const std::string& file,
+                       std::string_view advice);
 
 struct JsonText {
     nlohmann::json root;  ///< objects sorted by key
@@ -34,7 +32,7 @@ struct JsonText {
 /// limited.
 /// @throws InputError with place "line L, column C" for a syntax error or a number too large for a double, else a JSON
 /// pointer
-JsonText parse_json_text(std::string_view text, const std::string& file);
+JsonText parse_json_text(std::string_view text, const std::string& file, const LoadLimits& limits = {});
 
 /// The value as text: a list or an object stands on one line where that fits 110 columns, else one element a line,
 /// indented by 2; long lists of numbers, and of lists of whole numbers, fill their lines. Numbers are the shortest that

@@ -109,18 +109,19 @@ int NameIndex::require(const JsonRef& at) const {
 
 void SceneReader::charge(std::size_t bytes, const JsonRef& at, const char* advice) {
     memory += bytes;
-    if (memory <= max_scene_memory) return;
-    at.fail(fmt::format("up to here the scene takes more than {} MiB; {}", max_scene_memory >> 20, advice));
+    if (memory <= limits.scene()) return;
+    at.fail(fmt::format("up to here the scene takes more than {} MiB; {}", limits.scene() >> 20, advice));
 }
 
-SceneText read_scene_text(std::string_view text, const std::string& file) {
-    const JsonText parsed = parse_json_text(text, file);
+SceneText read_scene_text(std::string_view text, const std::string& file, const LoadLimits& limits) {
+    const JsonText parsed = parse_json_text(text, file, limits);
     check_version(parsed.root, file);
     check_scene_schema(parsed.root, file);
     const JsonRef root(parsed.root, file);
 
     SceneReader reader;
     reader.file = file;
+    reader.limits = limits;
     read_header(reader.scene, root);
     read_elements(reader, root, parsed.key_order);
     read_nodes(reader, root);

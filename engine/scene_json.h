@@ -6,14 +6,13 @@
 #include <string_view>
 #include <vector>
 
+#include "engine/load_limits.h"
 #include "engine/scene.h"
 
 namespace aleph {
 
 /// Limits of a file, so that a small text cannot ask for all memory.
 inline constexpr std::size_t max_scene_nodes = 1000000;
-/// What is made of a text may take, bytes, beside the text and its values (json_text.h limits those).
-inline constexpr std::size_t max_scene_memory = std::size_t{192} << 20;
 inline constexpr std::size_t max_scene_cages = 4096;
 
 /// A scene without the content of its pictures and includes, and where the text names them.
@@ -27,7 +26,7 @@ struct SceneText {
 /// stand in a node take the node's name. Scene::file stays empty.
 /// @param file  what errors name
 /// @throws InputError with a JSON pointer, or line and column for text that is not JSON
-SceneText read_scene_text(std::string_view text, const std::string& file);
+SceneText read_scene_text(std::string_view text, const std::string& file, const LoadLimits& limits = {});
 
 /// The text that read_scene_text turns into an equal scene: every bit of every track. What includes brought is left
 /// out.

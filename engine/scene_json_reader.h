@@ -33,6 +33,7 @@ struct SceneReader {
     SceneText result;
     Scene& scene = result.scene;
     std::string file;  ///< what errors name
+    LoadLimits limits;
     NameIndex images{"image"}, materials{"material"}, meshes{"mesh"}, lights{"light"}, cameras{"camera"}, nodes{"node"};
     NameIndex points{"list of points"}, cages{"cage"};
     std::vector<std::string> cage_places;  ///< JSON pointer per scene.cages
@@ -40,7 +41,7 @@ struct SceneReader {
     std::size_t memory = 0;  ///< that the elements take, about
 
     /// Counts what is about to be made.
-    /// @throws InputError at `at` beyond max_scene_memory
+    /// @throws InputError at `at` beyond limits.scene()
     void charge(std::size_t bytes, const JsonRef& at, const char* advice);
 };
 

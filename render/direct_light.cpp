@@ -104,33 +104,33 @@ glm::vec2 lattice_point(int i, int n, const glm::vec2& shift) {
 }
 
 Rgb compute_direct_light(const LightingContext& context, Tracer& tracer, const SurfacePoint& point,
-                         const SurfaceMaterial& material, const glm::vec3& view, int samples, RandomStream& random,
-                         RayCounts& counts) {
+                         const SurfaceMaterial& material, const glm::vec3& view, const LightPoints& points,
+                         RandomStream& random, RayCounts& counts) {
     const Basis basis = make_basis(point.normal);
     const glm::vec3 local_view = basis.to_local(view);
     const bool glossy = material.has_glossy() && local_view.z > 0.0f;
     Rgb sum(0.0f);
     ShadowBatch shadows(tracer, counts, sum);
     for (int light = 0; light < context.lights.count(); ++light) {
-        const int light_samples = has_area(context.lights, light) ? samples : 1;
+        const LightPoints on_light = has_area(context.lights, light) ? points : LightPoints{};
         const glm::vec2 shift = random.next_2d();
-        for (int i = 0; i < light_samples; ++i) {
+        for (int i = 0; i < on_light.count; ++i) {
             const LightSample sample = sample_light(context.shading, context.lights, light, point.ray_origin(),
-                                                    point.normal, lattice_point(i, light_samples, shift));
+                                                    point.normal, on_light.at(i, shift));
             const Rgb f = scatter(point, material, basis, view, local_view, sample);
             shadows.add(point.ray_origin(), sample.direction, sample.distance,
-                        f * sample.incoming / static_cast<float>(light_samples));
+                        f * sample.incoming / static_cast<float>(on_light.count));
         }
     }
     shadows.flush();
     const glm::vec2 shift = random.next_2d();
     if (glossy && (!context.lights.emitters.empty() || context.lights.has_environment)) {
         Rgb glossy_sum(0.0f);
-        for (int i = 0; i < samples; ++i) {
-            glossy_sum += sample_glossy_light(context, tracer, point, material, basis, local_view,
-                                              lattice_point(i, samples, shift), counts);
+        for (int i = 0; i < points.count; ++i) {
+            glossy_sum +=
+                sample_glossy_light(context, tracer, point, material, basis, local_view, points.at(i, shift), counts);
         }
-        sum += glossy_sum / static_cast<float>(samples);
+        sum += glossy_sum / static_cast<float>(points.count);
     }
     return sum;
 }

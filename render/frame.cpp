@@ -58,10 +58,10 @@ struct Shading {
         const PixelSurface surface = make_pixel_surface(shading, context.view, hits_of_sample, x, y);
         const std::uint32_t pixel = static_cast<std::uint32_t>(y) * static_cast<std::uint32_t>(context.view.width) +
                                     static_cast<std::uint32_t>(x);
-        RandomStream random({context.settings.seed, context.frame, pixel, static_cast<std::uint32_t>(sample)});
+        RandomStream random({context.settings.seed, context.frame, pixel, 0});  // one lattice for all samples
         Rgb radiance = surface.material.emission;
         radiance += compute_direct_light(context.lighting, tracer, surface.point, surface.material, surface.view,
-                                         light_samples, random, counts.rays);
+                                         {light_samples, sample, context.settings.spp}, random, counts.rays);
         if (context.settings.bounces > 0 && needs_irradiance(hits_of_sample, surface, x, y)) {
             const float cos_view = std::max(glm::dot(surface.point.normal, surface.view), 0.0f);
             radiance +=

@@ -138,16 +138,21 @@ void set_mean_distance(const std::vector<float>& distances, float shortest, Irra
     out.harmonic_mean_distance = sum > 0.0 ? static_cast<float>(mean) : infinite;
 }
 
-/// From the rows next to the horizon: a wall that a neighbour of this point may hide behind stands in them.
+/// What a neighbour of this point may hide behind: along the surface what stands in the rows next to the horizon, above
+/// it what hangs in all others.
 void set_clearance(const HemisphereStrata& strata, const Basis& basis, const GatherScratch& scratch, float shortest,
                    IrradianceSample& out) {
     out.clearance.fill(infinite);
     // As many rows as give each sector two rays: one alone may miss what stands there.
     const int rows = std::clamp((31 + strata.columns) / strata.columns, 1, strata.rows);
-    for (std::size_t i = static_cast<std::size_t>((strata.rows - rows) * strata.columns); i < scratch.rays.size();
-         ++i) {
-        const glm::vec3 local = basis.to_local(scratch.rays[i].direction);
+    const std::size_t first_low = static_cast<std::size_t>((strata.rows - rows) * strata.columns);
+    for (std::size_t i = 0; i < scratch.rays.size(); ++i) {
         if (scratch.distances[i] < shortest) continue;
+        const glm::vec3 local = basis.to_local(scratch.rays[i].direction);
+        if (i < first_low) {
+            out.headroom = std::min(out.headroom, scratch.distances[i] * local.z);
+            continue;
+        }
         float& clear = out.clearance[sector_of(local.x, local.y)];
         clear = std::min(clear, scratch.distances[i] * std::sqrt(local.x * local.x + local.y * local.y));
     }

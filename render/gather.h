@@ -28,6 +28,9 @@ struct IrradianceSample {
     /// How far the tangent plane is free, by sectors of azimuth (sector_of), m: nearest hit of the lowest row of
     /// strata.
     std::array<float, 16> clearance = unlimited_clearance();
+    /// How high the space over the point is free, m: the lowest hit above the tangent plane of all other rows.
+    /// Something stands between this point and what lies higher.
+    float headroom = std::numeric_limits<float>::infinity();
     int ignored_distances = 0;  ///< hits too near to be true, left out of the mean (HARD_CASES IC-05)
 };
 

@@ -36,6 +36,7 @@ IrradianceRecord make_record(const glm::vec3& position, const glm::vec3& normal,
         std::clamp(sample.harmonic_mean_distance, bounds.smallest, std::max(bounds.smallest, bounds.largest));
     record.tangent = make_basis(normal).tangent;
     record.clearance = sample.clearance;
+    record.headroom = sample.headroom;
     for (std::size_t c = 0; c < 3; ++c) {
         const float irradiance = sample.irradiance[static_cast<int>(c)];
         record.translation_gradient[c] = limit_gradient(sample.translation_gradient[c], irradiance, record.radius);
@@ -48,6 +49,8 @@ float interpolation_error(const IrradianceRecord& record, const glm::vec3& posit
     if (!(glm::dot(normal, record.normal) > 0.0f)) return infinite;
     const glm::vec3 offset = position - record.position;
     if (glm::dot(offset, normal + record.normal) * 0.5f < -0.05f * record.radius) return infinite;
+    constexpr float rounding = 1e-3f;  // of the radius
+    if (glm::dot(offset, record.normal) > record.headroom + rounding * record.radius) return infinite;
     const float x = glm::dot(offset, record.tangent);
     const float y = glm::dot(offset, glm::cross(record.normal, record.tangent));
     const float clear = record.clearance[sector_of(x, y)];

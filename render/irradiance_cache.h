@@ -26,6 +26,8 @@ struct IrradianceRecord {
     /// How far it reaches along its tangent plane by sectors, m: not behind the wall that stands there, however its
     /// radius was set (HARD_CASES IC-08, IC-09).
     std::array<float, 16> clearance = unlimited_clearance();
+    /// How far it reaches up from its tangent plane, m: not past what hangs over it.
+    float headroom = std::numeric_limits<float>::infinity();
 };
 
 /// Where irradiance is asked for.
@@ -47,8 +49,7 @@ IrradianceRecord make_record(const glm::vec3& position, const glm::vec3& normal,
 
 /// Error term of (6.2), the inverse of the weight: |P - P_i| / R_i + |N - N_i| / sqrt 2. The second is
 /// sqrt(1 - N.N_i) without its cancellation (HARD_CASES IC-01, IC-02). Infinite where the record must not be used:
-/// its normal faces away (IC-09), it lies in front of the point (IC-08), or a wall may
-/// stand between.
+/// its normal faces away (IC-09), it lies in front of the point (IC-08), or something may stand between.
 float interpolation_error(const IrradianceRecord& record, const glm::vec3& position, const glm::vec3& normal);
 
 /// What a record says about a place: its value, moved by its gradients, within [0, 2 E_i].

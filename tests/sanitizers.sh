@@ -13,7 +13,8 @@ source "$here/results.sh"
 kind=${1:-}
 case $kind in
   address)
-    programs=(test_base test_pose test_image_io test_motion test_perception aleph)
+    programs=(test_base test_pose test_deform test_image_io test_motion test_perception test_scene_file test_gltf
+      test_alembic test_subdivide test_maps_images test_hostile aleph)
     filter='*'
     ;;
   thread)

@@ -9,6 +9,7 @@
 #include "engine/base/errors.h"
 #include "render/cli/commands.h"
 #include "render/cli/explain.h"
+#include "render/cli/scene_options.h"
 
 namespace aleph {
 
@@ -18,12 +19,13 @@ struct ExplainOptions {
     std::string scene, camera;
     double at = 0.0;
     bool json = false, moment = false;
+    LoadLimits limits;
     std::uint32_t objects = 60;
 };
 
-Scene load_or_list_missing(const std::string& file) {
+Scene load_or_list_missing(const std::string& file, const LoadLimits& limits) {
     try {
-        return load_scene(file);
+        return load_scene(file, limits);
     } catch (const InputError&) {
         const std::vector<MissingFile> missing = list_missing_files(file);
         for (const MissingFile& item : missing) {
@@ -40,7 +42,7 @@ std::string to_text(const nlohmann::ordered_json& value) {
 }
 
 int explain(const ExplainOptions& options) {
-    const Scene scene = load_or_list_missing(options.scene);
+    const Scene scene = load_or_list_missing(options.scene, options.limits);
     if (options.moment) {
         std::cout << to_text(explain_moment(scene, options.at));
     } else {
@@ -68,6 +70,7 @@ void add_explain_command(CLI::App& app, Command& command) {
                   "a time in seconds: world matrix, visibility, bounds and points of every object, as JSON");
     add_value(*explain_app, "--objects", options->objects, "lines of the tree in the text; 0: all");
     explain_app->add_option("--camera", options->camera, "name of a camera or of its node")->type_name("NAME");
+    add_load_limits(*explain_app, options->limits);
     explain_app->footer(
         "Names every file that is missing, not only the first.\n\n"
         "Examples:\n"

@@ -62,8 +62,21 @@ bool is_png(const std::filesystem::path& path) {
 
 }  // namespace
 
+void add_load_limits(CLI::App& app, LoadLimits& limits) {
+    app.add_option_function<std::string>(
+           "--load-memory",
+           [&limits](const std::string& text) {
+               const auto mebibytes = parse_value<std::uint32_t>(text, "--load-memory");
+               if (mebibytes < 16) throw CLI::ValidationError("--load-memory", "at least 16 MiB are needed");
+               limits.memory = std::size_t{mebibytes} << 20;
+           },
+           "most memory that a scene's text may take to load; raise it for large scene files of your own")
+        ->type_name("MIB")
+        ->default_str(fmt::format("{}", limits.memory >> 20));
+}
+
 void add_scene_options(CLI::App& app, SceneOptions& options) {
-    app.add_option("scene", options.scene, "a scene file (.json), .gltf or .glb")->required()->type_name("SCENE");
+    app.add_option("scene", options.scene, "a scene file (.json), .gltf, .glb or .abc")->required()->type_name("SCENE");
     app.add_option("--frames", options.frames, "frames, such as 1-10,20-40x2 (default: the scene's range)")
         ->type_name("LIST");
     app.add_option("--fps", options.fps, "frames per second in place of the scene's: 30, 30000/1001")->type_name("N");
@@ -72,6 +85,7 @@ void add_scene_options(CLI::App& app, SceneOptions& options) {
         ->type_name("PATTERN");
     app.add_option("--camera", options.camera, "name of a camera or of its node")->type_name("NAME");
     app.add_option("--stats", options.stats, "write counts and times of every frame")->type_name("FILE.json");
+    add_load_limits(app, options.limits);
     add_value(app, "-t,--threads", options.threads, "threads; 0: all");
     app.add_flag("-q,--quiet", options.quiet, "no progress, no warnings");
     for (const SettingKey& key : setting_keys()) {
@@ -96,7 +110,7 @@ void add_scene_options(CLI::App& app, SceneOptions& options) {
 
 PreparedScene prepare_scene(const SceneOptions& options) {
     PreparedScene prepared;
-    prepared.scene = load_scene(options.scene);
+    prepared.scene = load_scene(options.scene, options.limits);
     Scene& scene = prepared.scene;
     if (!options.fps.empty()) scene.frame_rate = parse_fps(options.fps);
     apply_settings(prepared.settings, scene.settings, options.scene);

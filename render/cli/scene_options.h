@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "engine/base/parallel.h"
+#include "engine/load_limits.h"
 #include "render/cli/options.h"
 #include "render/sequence.h"
 
@@ -16,11 +17,15 @@ struct SceneOptions {
     std::string scene, frames, fps, output, camera, stats;
     SettingMap settings;  ///< from options and --set, in the order of their keys
     int threads = 0;
+    LoadLimits limits;
     bool quiet = false;
 };
 
 /// Adds the scene argument and the options that `render` and `maps` share: one per setting, --set for any.
 void add_scene_options(CLI::App& app, SceneOptions& options);
+
+/// --load-memory.
+void add_load_limits(CLI::App& app, LoadLimits& limits);
 
 /// "30", "29.97" or "30000/1001".
 /// @throws InputError (--fps)

@@ -2,6 +2,8 @@
 // by what does harm, in turn, and files end early at every place. Each is loaded, posed and built for rays in a process
 // of its own and has to be refused in one sentence or to load, within 2 s and 512 MiB (HARD_CASES section 13).
 
+#include <fmt/format.h>
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -108,7 +110,7 @@ const std::string scene_text = R"({"aleph": 1, "name": "n", "fps": "30000/1001",
     {"shape": {"type": "cage", "cage": {"positions": [[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]], "faces": [[0, 1, 2, 3]],
       "creases": [{"points": [0, 1, 2], "sharpness": 2}], "corners": [{"point": 0, "sharpness": 1}], "level": 1}}}]})";
 
-TEST(HostileCorpus, SceneFilesWithEveryValueReplaced) {
+TEST(HostileCorpus, S13_11_SceneFilesWithEveryValueReplaced) {
     const ScratchFolder folder;
     Tally tally;
     write_text(folder / "good.json", scene_text);
@@ -123,7 +125,7 @@ TEST(HostileCorpus, SceneFilesWithEveryValueReplaced) {
     std::printf("%d scene files, %d of them refused\n", tally.files, tally.refused);
 }
 
-TEST(HostileCorpus, GltfFilesWithEveryValueReplaced) {
+TEST(HostileCorpus, S13_11_GltfFilesWithEveryValueReplaced) {
     const ScratchFolder folder;
     Tally tally;
     for (GltfDraft draft : {full_draft(), morph_draft(), skin_draft()}) {
@@ -141,7 +143,7 @@ TEST(HostileCorpus, GltfFilesWithEveryValueReplaced) {
     std::printf("%d glTF files, %d of them refused\n", tally.files, tally.refused);
 }
 
-TEST(HostileCorpus, FilesThatEndEarly) {
+TEST(HostileCorpus, S13_11_FilesThatEndEarly) {
     const ScratchFolder folder;
     Tally tally;
     const Bytes glb = full_draft().to_glb();
@@ -157,6 +159,26 @@ TEST(HostileCorpus, FilesThatEndEarly) {
     }
     EXPECT_EQ(scenes.refused, scenes.files);
     std::printf("%d files that end early\n", tally.files + scenes.files);
+}
+
+TEST(HostileCorpus, S13_11_TheLimitOfMemoryIsASetting) {
+    const ScratchFolder folder;
+    std::string cuts = R"({"aleph": 1, "cuts": [0)", numbers = R"({"asset": {"version": "2.0"}, "extras": [0)";
+    for (int i = 1; i < 200000; ++i) {
+        cuts += fmt::format(",{}", i);
+        numbers += ",0";
+    }
+    write_text(folder / "cuts.json", cuts + R"(], "nodes": [{"light": {"type": "point", "intensity": 1}}]})");
+    write_text(folder / "numbers.gltf", numbers + "]}");
+    for (const char* name : {"cuts.json", "numbers.gltf"}) {
+        EXPECT_NO_THROW(load_scene(folder / name)) << name;
+        try {
+            load_scene(folder / name, {std::size_t{16} << 20});
+            ADD_FAILURE() << name << " was read";
+        } catch (const InputError& error) {
+            EXPECT_THAT(error.reason(), testing::HasSubstr("MiB")) << name;
+        }
+    }
 }
 
 }  // namespace

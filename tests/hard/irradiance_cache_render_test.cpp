@@ -158,6 +158,33 @@ TEST(IrradianceCache, IC09_BehindAThinWallStaysDark) {
     for (const double accuracy : {0.3, 0.5, 1.0}) expect_nearly_dark(render_two_rooms(1e-4, accuracy, 4.0));
 }
 
+/// Window bars before a shining pane: what lies on the pane sees their bright backs, their fronts see nothing at all.
+TEST(IrradianceCache, IC08_BarsBeforeAShiningPaneStayDark) {
+    Scene scene;
+    const int pane = add_lambert(scene, glm::dvec3(0.8), glm::dvec3(5.0));
+    const int wood = add_lambert(scene, glm::dvec3(0.8));
+    add_mesh(scene, make_quad(4.0, 3.0, pane));
+    for (int i = -6; i <= 6; ++i) add_mesh(scene, make_box({0.04, 3.0, 0.02}, wood), {0.3 * i, 0.0, 0.08});
+    add_camera(scene, {0.0, 0.0, 3.0}, glm::dvec3(0.0), 0.9);
+    const Stage stage(std::move(scene), 96, 72);
+    const SampleHits hits = cast_sample(stage.rays, stage.view, 0, 1, nullptr);
+    for (const double accuracy : {0.05, 0.15, 0.3, 0.5}) {
+        const ShadedFrame out = shade(stage, plain_settings(accuracy, 256));
+        int fronts = 0, leaking = 0;
+        for (int y = 0; y < 72; ++y) {
+            for (int x = 0; x < 96; ++x) {
+                if (hits.hits(x, y).instance <= 0) continue;
+                const PixelSurface s = make_pixel_surface(stage.shading, stage.view, hits, x, y);
+                if (s.point.normal.z < 0.99f) continue;
+                ++fronts;
+                leaking += out.color(x, y) != Rgb(0.0f);
+            }
+        }
+        EXPECT_EQ(leaking, 0) << "accuracy " << accuracy << ", of " << fronts;
+        EXPECT_GT(fronts, 300);
+    }
+}
+
 TEST(IrradianceCache, IC10_WindingDoesNotMatterToATwoSidedSurface) {
     const auto render = [](bool flipped) {
         Scene scene;

@@ -68,12 +68,12 @@ TEST(HostileSceneFile, EndsInTwoSecondsAndHalfAGibibyte) {
     };
     for (const Hostile& file : files) {
         // The largest that is parsed at all: below that, more text costs more.
-        std::size_t bytes = max_scene_text_bytes;
+        std::size_t bytes = LoadLimits{}.text();
         const std::string sample = repeated(file.head, file.piece, file.tail, std::size_t{1} << 20);
         const double per_byte =
             static_cast<double>(estimate_json_memory(sample, true)) / static_cast<double>(sample.size());
         if (per_byte > 1.0) {
-            bytes = std::min(bytes, static_cast<std::size_t>(0.99 * static_cast<double>(max_json_memory) / per_byte));
+            bytes = std::min(bytes, static_cast<std::size_t>(0.99 * static_cast<double>(LoadLimits{}.json_values()) / per_byte));
         }
         const ChildCost cost = read_in_child([&] { return repeated(file.head, file.piece, file.tail, bytes); });
         expect_bounded(cost, file.name);

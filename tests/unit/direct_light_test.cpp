@@ -19,7 +19,7 @@ struct Lighting {
     Rgb at(const glm::vec3& position, const SurfaceMaterial& material, const glm::vec3& view, int samples = 1,
            std::uint32_t seed = 0) {
         RandomStream random({seed, 1, 2, 3});
-        return compute_direct_light(stage.lighting(), tracer, make_point(position, up), material, view, samples, random,
+        return compute_direct_light(stage.lighting(), tracer, make_point(position, up), material, view, {samples}, random,
                                     counts);
     }
     Mean mean_at(const glm::vec3& position, const SurfaceMaterial& material, const glm::vec3& view, int samples,
@@ -43,7 +43,7 @@ TEST(DirectLight, PointLightIsCandelaOverSquaredDistance) {
     EXPECT_EQ(lighting.counts.shadow, 1u);
     // The quick estimate gives the same where no area is sampled.
     const Rgb quick = estimate_direct_light(lighting.stage.lighting(), lighting.tracer, make_point(glm::vec3(0.0f), up),
-                                            make_lambert(0.5f), up, 4, lighting.counts);
+                                            make_lambert(0.5f), up, {4}, lighting.counts);
     EXPECT_NEAR(quick.x, found.x, 1e-6f);
 }
 
@@ -94,14 +94,14 @@ double square_factor(double size, double height) {
 TEST(DirectLight, SquareLampOverhead) {
     for (const double height : {0.5, 1.5, 4.0}) {
         Lighting lighting(make_square_lamp(z_to_down, false, 2.0, height));
-        const Mean mean = lighting.mean_at(glm::vec3(0.0f), make_lambert(0.6f), up, 16, 300);
+        const Mean mean = lighting.mean_at(glm::vec3(0.0f), make_lambert(0.6f), up, {16}, 300);
         const double expected = 0.6 * 5.0 * square_factor(2.0, height);
         EXPECT_NEAR(mean.mean(), expected, 3.0 * mean.error());
         EXPECT_NEAR(mean.mean(), expected, 0.01 * expected);
         // The fixed pattern of the quick estimate: biased, but near.
         const Rgb quick =
             estimate_direct_light(lighting.stage.lighting(), lighting.tracer, make_point(glm::vec3(0.0f), up),
-                                  make_lambert(0.6f), up, 16, lighting.counts);
+                                  make_lambert(0.6f), up, {16}, lighting.counts);
         EXPECT_NEAR(quick.x, expected, 0.1 * expected);
     }
 }
@@ -113,7 +113,7 @@ TEST(DirectLight, OffsetRaysEndBeforeTheLamp) {
     Mean mean;
     for (std::uint32_t seed = 0; seed < 100; ++seed) {
         RandomStream random({seed, 1, 2, 3});
-        mean.add(compute_direct_light(lighting.stage.lighting(), lighting.tracer, point, make_lambert(0.6f), up, 16,
+        mean.add(compute_direct_light(lighting.stage.lighting(), lighting.tracer, point, make_lambert(0.6f), up, {16},
                                       random, lighting.counts)
                      .x);
     }
@@ -127,7 +127,7 @@ TEST(DirectLight, OffsetRaysEndBeforeTheLamp) {
 TEST(DirectLight, EmittersShineFromTheirFrontOrFromBoth) {
     const auto light_below = [](const glm::dquat& turn, bool double_sided) {
         Lighting lighting(make_square_lamp(turn, double_sided));
-        return lighting.mean_at(glm::vec3(0.0f), make_lambert(0.6f), up, 16, 100);
+        return lighting.mean_at(glm::vec3(0.0f), make_lambert(0.6f), up, {16}, 100);
     };
     EXPECT_EQ(light_below(z_to_up, false).mean(), 0.0);
     const Mean front = light_below(z_to_down, false);
@@ -226,7 +226,7 @@ TEST(DirectLight, UsesAFixedNumberOfRandomDimensions) {
     Lighting lighting(make_square_lamp(z_to_down, false));
     const auto next_after = [&](const SurfaceMaterial& material, const glm::vec3& position) {
         RandomStream random({1, 2, 3, 4});
-        compute_direct_light(lighting.stage.lighting(), lighting.tracer, make_point(position, up), material, up, 4,
+        compute_direct_light(lighting.stage.lighting(), lighting.tracer, make_point(position, up), material, up, {4},
                              random, lighting.counts);
         return random.next();
     };
