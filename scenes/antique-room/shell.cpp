@@ -119,7 +119,7 @@ void add_antique_shell(Scene& scene, const AntiqueMaterials& materials) {
 void add_antique_window(Scene& scene, const AntiqueMaterials& materials) {
     // What is seen outside keeps within what a picture can show; the room's light comes from a window behind the
     // camera's shoulder, as bright as the sky is.
-    const int view = add_emitter(scene, "garden", glm::dvec3(1.0), 0.8);
+    const int view = add_emitter(scene, "garden", glm::dvec3(1.0), 0.5);
     for (std::size_t i = 0; i < scene.images.size(); ++i)
         if (scene.images[i].name == "garden") scene.materials.back().emission_texture.image = static_cast<int>(i);
     const int sky = add_emitter(scene, "daylight", {0.92, 0.96, 1.0}, 13.0);

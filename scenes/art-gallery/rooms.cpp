@@ -85,9 +85,9 @@ void add_doorway(Scene& scene, int parent, const GalleryMaterials& materials) {
     add_mesh_node(scene, "architrave_cabinet", parent, mesh, {back, 0.0, 0.0}, z_to_minus_x);
 }
 
-/// A lamp that hangs from the ceiling: a flat one that shines down, or leans towards a wall, or a lantern that shines
-/// to all sides but up.
-/// @param depth  of a lantern; 0: flat
+/// A lamp that hangs from the ceiling: a flat one that shines down, or leans towards a wall, or a pyramid on its tip
+/// that shines to all sides but up.
+/// @param depth  of the pyramid, m; 0: flat
 void add_lamp(Scene& scene, int parent, const std::string& name, const glm::dvec3& place, const glm::dvec2& size,
               double depth, double lean_degrees, double ceiling, int glow, const GalleryMaterials& materials) {
     const int lamp = add_node(scene, name, parent, place, turn({1.0, 0.0, 0.0}, lean_degrees));
@@ -95,9 +95,9 @@ void add_lamp(Scene& scene, int parent, const std::string& name, const glm::dvec
               {0.0, 0.031, 0.0});
     if (depth > 0.0) {
         const double corner = to_millionth(0.5 * std::numbers::sqrt2 * size.x);
-        Shape lantern = lathe({{0.0, -depth}, {corner, -depth}, {corner, -depth}, {corner, 0.0}}, 4);
-        lantern.smooth = false;
-        add_shape(scene, name + "_glow", lamp, lantern, glow, glm::dvec3(0.0), turn({0.0, 1.0, 0.0}, 45.0));
+        Shape pyramid = lathe({{0.0, -depth}, {corner, 0.0}}, 4);
+        pyramid.smooth = false;
+        add_shape(scene, name + "_glow", lamp, pyramid, glow, glm::dvec3(0.0), turn({0.0, 1.0, 0.0}, 45.0));
     } else {
         add_shape(scene, name + "_glow", lamp, quad(size.x, size.y), glow, glm::dvec3(0.0), z_to_down);
     }
@@ -132,7 +132,7 @@ void add_rooms(Scene& scene, const GalleryMaterials& materials) {
 void add_lamps(Scene& scene, const GalleryMaterials& materials) {
     const int warm = add_emitter(scene, "warm_glow", {1.0, 0.88, 0.7}, 10.0);
     const int day = add_emitter(scene, "day_glow", {0.86, 0.94, 1.0}, 8.0);
-    const int cabinet = add_emitter(scene, "cabinet_glow", {1.0, 0.8, 0.58}, 10.0);
+    const int cabinet = add_emitter(scene, "cabinet_glow", {1.0, 0.8, 0.58}, 14.0);
     const int lamps = add_node(scene, "lamps");
     // Six wash the long walls, one stands for a skylight, one hangs in the cabinet.
     for (int i = 0; i < 3; ++i) {
@@ -143,7 +143,7 @@ void add_lamps(Scene& scene, const GalleryMaterials& materials) {
                  hall_high.y, warm, materials);
     }
     add_lamp(scene, lamps, "lamp_skylight", {0.0, 3.85, 0.0}, {3.2, 1.1}, 0.0, 0.0, hall_high.y, day, materials);
-    add_lamp(scene, lamps, "lamp_cabinet", {-8.1, 3.2, 0.0}, {0.8, 0.8}, 0.24, 0.0, cabinet_high.y, cabinet, materials);
+    add_lamp(scene, lamps, "lamp_cabinet", {-8.1, 3.3, 0.0}, {0.9, 0.9}, 0.36, 0.0, cabinet_high.y, cabinet, materials);
 }
 
 }  // namespace aleph
