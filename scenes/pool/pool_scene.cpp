@@ -17,7 +17,7 @@ void add_camera(Scene& scene, bool moves) {
     // and down towards them, and is still on its way at the end.
     const int first_of_move = 32;                           // frame
     const double arm = 0.6, height = 1.4;                   // m
-    const double first = 68.5, last = 93.0, pitch = -15.2;  // degrees; -x lies ahead at 90
+    const double first = 68.8, last = 93.2, pitch = -15.2;  // degrees; -x lies ahead at 90
     const glm::dvec3 pivot(1.6, 0.0, 0.2), move(-0.82, -0.4, -0.12);
     const double lift = 4.3;                                         // degrees, of the gaze as it moves in
     const double begin = first_of_move / 30.0, rest = 102.0 / 30.0;  // s: between these it would move in, rest to rest
