@@ -12,7 +12,7 @@ namespace aleph {
 namespace {
 
 constexpr int first_stride = 64;         // pixels between the samples of the first tiles
-constexpr int most_reviews = 4;          // looks at all pixels after the last stride
+constexpr int most_reviews = 16;         // looks at all pixels after the last stride
 constexpr std::size_t test_grain = 256;  // look-ups per parallel chunk
 
 /// A pixel whose sample nothing covers yet.

@@ -12,6 +12,15 @@ record() {
     >"$1/results/$2.xml"
 }
 
+# record_skip FOLDER NAME REASON
+record_skip() {
+  mkdir -p "$1/results"
+  printf '<testsuites tests="1" failures="0" disabled="0" errors="0" name="%s">
+<testcase name="%s" classname="Program" result="skipped">
+<skipped message="%s"></skipped>
+</testcase></testsuites>\n' "$2" "$2" "$3" >"$1/results/$2.xml"
+}
+
 # run_tests FOLDER CTEST-OPTIONS...: ctest, under `launcher` if that is set. A failure that left no trace in a program's
 # results (a crash, a sanitizer's report at the end, running out of time) is recorded as one more.
 run_tests() {

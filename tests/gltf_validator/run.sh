@@ -1,38 +1,39 @@
-#!/bin/sh
+#!/usr/bin/env bash
 # run.sh BUILD [ASSETS]: does Khronos' glTF-Validator agree with `aleph explain` on what is valid? Looks at the glTF files
 # below ASSETS, at BUILD/round_trip (test_gltf_round_trip writes there) and at BUILD/gltf_corpus, if there is one.
 # Ends with 0 (agreed), 1 (not), or 77 (skipped, said why).
-here=$(cd "$(dirname "$0")" && pwd)
-build=$(cd "$1" && pwd) || exit 1
+set -euo pipefail
+here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
+build=$(cd "$1" && pwd)
 assets=${2:-$here/../../../shared/assets/gltf}
+source "$here/../results.sh"
+
+skip() {
+  echo "skipped: $1"
+  record_skip "$build" gltf_validator "$1"
+  exit 77
+}
+
 for tool in node npm; do
-  if ! command -v $tool >/dev/null; then
-    echo "skipped: $tool is not installed (scenes/setup.sh can)"
-    exit 77
-  fi
+  command -v "$tool" >/dev/null || skip "$tool is not installed; scenes/setup.sh can"
 done
 modules=$build/gltf_validator
-mkdir -p "$modules" || exit 1
+mkdir -p "$modules"
 if ! cmp -s "$here/package-lock.json" "$modules/package-lock.json" || [ ! -f "$modules/installed" ]; then
   rm -f "$modules/installed"
-  cp "$here/package.json" "$here/package-lock.json" "$modules/" || exit 1
-  if ! (cd "$modules" && npm ci --no-audit --no-fund >npm.log 2>&1); then
-    echo "skipped: npm could not install gltf-validator (no network?); $modules/npm.log says more"
-    exit 77
-  fi
+  cp "$here/package.json" "$here/package-lock.json" "$modules/"
+  (cd "$modules" && npm ci --no-audit --no-fund >npm.log 2>&1) ||
+    skip "npm could not install gltf-validator, perhaps for want of a network; its log is in the build folder"
   : >"$modules/installed"
 fi
-IFS='
-'  # names may hold blanks
-set --
+files=()
 for folder in "$assets" "$build/round_trip" "$build/gltf_corpus"; do
   [ -d "$folder" ] || continue
-  for file in $(cd "$folder" && find . -name '*.gltf' -o -name '*.glb' | sort); do
-    set -- "$@" "$folder/${file#./}"
-  done
+  mapfile -t found < <(find "$folder" -name '*.gltf' -o -name '*.glb' | sort)
+  files+=("${found[@]}")
 done
-if [ $# -eq 0 ]; then
-  echo "skipped: there are no glTF files in $assets or $build"
-  exit 77
-fi
-cd "$modules" && exec node "$here/validate.mjs" "$build/aleph" "$@"
+[ ${#files[@]} -gt 0 ] || skip "there are no glTF files beside this checkout or in the build folder"
+code=0
+(cd "$modules" && node "$here/validate.mjs" "$build/aleph" "${files[@]}") || code=$?
+record "$build" gltf_validator "$code"
+exit "$code"
