@@ -15,11 +15,14 @@ case $kind in
   address)
     programs=(test_base test_pose test_deform test_image_io test_motion test_perception test_scene_file test_gltf
       test_alembic test_subdivide test_maps_images test_hostile aleph)
-    filter='*'
+    # Limits of time and memory are for the Release build; the other reader tests bring the same files.
+    filter='-HostileSceneFile.EndsInTwoSecondsAndHalfAGibibyte'
+    optimize=-O0  # compiling takes longer than running
     ;;
   thread)
     programs=(test_base test_races)
     filter='*'
+    optimize=-O1
     ;;
   *)
     sed -n '2,5s/^# \{0,1\}//p' "${BASH_SOURCE[0]}"
@@ -44,7 +47,7 @@ compare_maps() {
 
 # GCC 12 believes that parts of std::regex are uninitialized once they are instrumented.
 cmake -S "$root" -B "$build" -G Ninja -DALEPH_SANITIZE="$kind" -DCMAKE_BUILD_TYPE=None \
-  -DCMAKE_CXX_FLAGS="-O1 -g1 -Wno-maybe-uninitialized" -DALEPH_TESTS=ON
+  -DCMAKE_CXX_FLAGS="$optimize -g1 -Wno-maybe-uninitialized" -DALEPH_TESTS=ON -DALEPH_PRECOMPILE=ON
 cmake --build "$build" --parallel "$jobs" --target "${programs[@]}"
 
 # GCC 12's sanitizers cannot start where the kernel spreads addresses over more bits than they know; where that cannot

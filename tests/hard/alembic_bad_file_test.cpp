@@ -23,11 +23,13 @@ constexpr double most_seconds = 2.0;
 constexpr double most_seconds = 60.0;
 #endif
 
+#ifndef __SANITIZE_ADDRESS__
 long peak_megabytes() {
     rusage usage{};
     getrusage(RUSAGE_SELF, &usage);
     return usage.ru_maxrss / 1024;
 }
+#endif
 
 /// Loads and poses; the message of a refusal, or empty. Anything but an InputError fails the test by leaving it.
 std::string verdict(const std::filesystem::path& path) {
