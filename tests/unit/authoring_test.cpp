@@ -81,6 +81,8 @@ TEST(Authoring, EveryExampleLoadsWithoutWarnings) {
             for (const Include& include : named.includes) {
                 if (include.path.ends_with(".glb")) {
                     put(include.path, source / "scenes" / "room" / "room.glb");
+                } else if (include.path.ends_with(".abc")) {
+                    put(include.path, source / "tests" / "assets" / "abc" / "subd_creases.abc");
                 } else {
                     std::ofstream(folder / include.path) << R"({"asset": {"version": "2.0"}})";
                 }
