@@ -73,7 +73,8 @@ TEST(HostileSceneFile, EndsInTwoSecondsAndHalfAGibibyte) {
         const double per_byte =
             static_cast<double>(estimate_json_memory(sample, true)) / static_cast<double>(sample.size());
         if (per_byte > 1.0) {
-            bytes = std::min(bytes, static_cast<std::size_t>(0.99 * static_cast<double>(LoadLimits{}.json_values()) / per_byte));
+            bytes = std::min(
+                bytes, static_cast<std::size_t>(0.99 * static_cast<double>(LoadLimits{}.json_values()) / per_byte));
         }
         const ChildCost cost = read_in_child([&] { return repeated(file.head, file.piece, file.tail, bytes); });
         expect_bounded(cost, file.name);

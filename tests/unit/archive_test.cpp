@@ -184,10 +184,11 @@ TEST_F(Archive, WhatIsRenderedOpaqueIsSaid) {
     const Scene holes = load_scene(write_scene(R"("environment": [1, 1, 1],
         "materials": {"leaf": {"alpha_mode": "mask"}, "smoke": {"alpha_mode": "blend"}, "unused": {"alpha_mode": "blend"}},
         "nodes": [{"shape": {"type": "quad"}, "material": "leaf"}, {"shape": {"type": "quad"}, "material": "smoke"}])"));
-    EXPECT_EQ(holes.warnings,
-              (std::vector<std::string>{
-                  "material \"smoke\": alpha mode \"blend\" is not in this version; what has an alpha below 0.5 is left "
-                  "out, the rest is opaque"}));
+    EXPECT_EQ(
+        holes.warnings,
+        (std::vector<std::string>{
+            "material \"smoke\": alpha mode \"blend\" is not in this version; what has an alpha below 0.5 is left "
+            "out, the rest is opaque"}));
     Scene glass;
     glass.materials.resize(1);
     glass.materials[0].name = "glass";
@@ -214,7 +215,8 @@ TEST_F(Archive, RP08_RotationKeysMoreThan170DegreesApartAreSaid) {
     };
     const Scene scene = load(keys(171.0, ""));
     ASSERT_EQ(scene.warnings.size(), 1u);
-    EXPECT_NE(scene.warnings[0].find("\"arm\": neighbouring rotation keys are 171"), std::string::npos) << scene.warnings[0];
+    EXPECT_NE(scene.warnings[0].find("\"arm\": neighbouring rotation keys are 171"), std::string::npos)
+        << scene.warnings[0];
     EXPECT_TRUE(has_warning(load(keys(180.0, "")), "180 degrees"));
     EXPECT_TRUE(has_warning(load(keys(185.0, "")), "185 degrees"));
     EXPECT_TRUE(has_warning(load(keys(270.0, "")), "270 degrees")) << "although the rotation takes the 90 back";

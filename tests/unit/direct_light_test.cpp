@@ -19,8 +19,8 @@ struct Lighting {
     Rgb at(const glm::vec3& position, const SurfaceMaterial& material, const glm::vec3& view, int samples = 1,
            std::uint32_t seed = 0) {
         RandomStream random({seed, 1, 2, 3});
-        return compute_direct_light(stage.lighting(), tracer, make_point(position, up), material, view, {samples}, random,
-                                    counts);
+        return compute_direct_light(stage.lighting(), tracer, make_point(position, up), material, view, {samples},
+                                    random, counts);
     }
     Mean mean_at(const glm::vec3& position, const SurfaceMaterial& material, const glm::vec3& view, int samples,
                  int runs) {
