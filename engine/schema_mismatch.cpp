@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <regex>
 #include <vector>
 
@@ -32,6 +33,13 @@ bool has_type(const json& value, const std::string& type) {
     if (type == "boolean") return value.is_boolean();
     if (type == "integer") return value.is_number_integer();
     return type == "number" && value.is_number();
+}
+
+/// @param types  one name, or a list of those that are allowed
+bool has_some_type(const json& value, const json& types) {
+    if (types.is_string()) return has_type(value, types.get_ref<const std::string&>());
+    return std::any_of(types.begin(), types.end(),
+                       [&](const json& type) { return has_type(value, type.get_ref<const std::string&>()); });
 }
 
 std::string describe_limits(const json& schema) {
@@ -95,8 +103,7 @@ class Walk {
         const auto holds = [&](const char* word, const auto& test) {
             return !schema.contains(word) || test(schema[word]);
         };
-        if (!holds("type", [&](const json& type) { return has_type(value, type.get_ref<const std::string&>()); }))
-            return false;
+        if (!holds("type", [&](const json& type) { return has_some_type(value, type); })) return false;
         if (!holds("const", [&](const json& constant) { return value == constant; })) return false;
         if (!holds("enum",
                    [&](const json& list) { return std::find(list.begin(), list.end(), value) != list.end(); })) {
@@ -149,7 +156,7 @@ class Walk {
 
     bool may_have_type(const json& schema_or_reference, const json& value) const {
         const json& schema = resolve(schema_or_reference);
-        return schema.contains("type") && has_type(value, schema["type"].get_ref<const std::string&>());
+        return schema.contains("type") && has_some_type(value, schema["type"]);
     }
 
     Mismatch check_items(const json& schema, const json& value, const json::json_pointer& place, int depth) const {
