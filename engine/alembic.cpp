@@ -10,7 +10,7 @@
 #include "engine/alembic_reader.h"
 #include "engine/append_part.h"
 #include "engine/base/errors.h"
-#include "engine/gltf_files.h"
+#include "engine/base/files.h"
 
 namespace aleph {
 

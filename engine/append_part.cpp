@@ -2,8 +2,6 @@
 
 #include <iterator>
 
-#include "engine/scene_json_fields.h"
-
 namespace aleph {
 
 namespace {

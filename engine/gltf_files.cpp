@@ -4,7 +4,6 @@
 
 #include <array>
 #include <cctype>
-#include <fstream>
 #include <system_error>
 
 #include "engine/base/errors.h"
@@ -61,27 +60,6 @@ bool is_below(const fs::path& path, const fs::path& folder) {
 }
 
 }  // namespace
-
-Bytes read_regular_file(const fs::path& path, const std::string& file, const std::string& place) {
-    std::error_code error;
-    const fs::file_status status = fs::status(path, error);
-    const std::string name = printable(path.filename().string());
-    if (!fs::exists(status)) throw InputError(file, place, fmt::format("file not found: {}", name));
-    // Only regular files: a folder reports absurd sizes, a device or pipe has no end.
-    if (!fs::is_regular_file(status)) throw InputError(file, place, fmt::format("not a regular file: {}", name));
-    const std::uintmax_t size = fs::file_size(path, error);
-    if (error) throw InputError(file, place, fmt::format("cannot read {}: {}", name, error.message()));
-    if (size > max_gltf_file_bytes) {
-        throw InputError(file, place, fmt::format("{} has {} bytes, more than {}", name, size, max_gltf_file_bytes));
-    }
-    Bytes bytes(static_cast<std::size_t>(size));
-    std::ifstream stream(path, std::ios::binary);
-    stream.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
-    if (!stream || static_cast<std::uintmax_t>(stream.gcount()) != size) {
-        throw InputError(file, place, fmt::format("cannot read {}", name));
-    }
-    return bytes;
-}
 
 GltfChunks split_gltf(const Bytes& bytes, const std::string& file) {
     const std::string_view all(reinterpret_cast<const char*>(bytes.data()), bytes.size());

@@ -1,23 +1,14 @@
 #pragma once
-// Bytes of glTF files: whole files, the binary container, and what a URI may refer to.
+// The binary container of glTF files, and what a URI may refer to.
 
 #include <cstdint>
 #include <filesystem>
 #include <string>
 #include <string_view>
-#include <vector>
+
+#include "engine/base/files.h"
 
 namespace aleph {
-
-using Bytes = std::vector<std::uint8_t>;
-
-/// Largest file that is read, bytes: 2 GiB less one, so that sizes fit 31 bits everywhere.
-inline constexpr std::uint64_t max_gltf_file_bytes = 0x7fffffff;
-
-/// Reads a regular file (no folder, no device) of at most max_gltf_file_bytes.
-/// @param file, place  what an error names
-/// @throws InputError
-Bytes read_regular_file(const std::filesystem::path& path, const std::string& file, const std::string& place);
 
 /// The JSON text of a .gltf, or the chunks of a .glb; views into the file's bytes.
 struct GltfChunks {

@@ -28,7 +28,7 @@ Bytes load_buffer(const GltfSource& source, std::size_t i, const GltfChunks& chu
     }
     // Several buffers may name one large file.
     if (length > bytes_left) {
-        throw InputError(source.file, place, fmt::format("all buffers together exceed {} bytes", max_gltf_file_bytes));
+        throw InputError(source.file, place, fmt::format("all buffers together exceed {} bytes", max_file_bytes));
     }
     const std::string& uri = buffer["uri"].get_ref<const std::string&>();
     if (is_data_uri(uri)) {
@@ -119,7 +119,7 @@ GltfSource load_gltf_source(const fs::path& path, const LoadLimits& limits) {
     source.document = parse_untrusted_json(chunks.json, source.file, limits);
     validate_gltf(JsonRef(source.document, source.file), chunks.has_binary, source.warnings);
 
-    std::uint64_t bytes_left = max_gltf_file_bytes;
+    std::uint64_t bytes_left = max_file_bytes;
     const std::size_t buffer_count = source.document.contains("buffers") ? source.document["buffers"].size() : 0;
     for (std::size_t i = 0; i < buffer_count; ++i) {
         source.buffers.push_back(load_buffer(source, i, chunks, bytes_left));

@@ -13,7 +13,7 @@
 
 namespace aleph {
 
-using Bytes = std::span<const std::uint8_t>;
+using ByteView = std::span<const std::uint8_t>;
 
 enum class ImageFormat { exr, png, jpeg, hdr };
 
@@ -21,13 +21,13 @@ enum class ImageFormat { exr, png, jpeg, hdr };
 constexpr std::uint64_t max_pixels = std::uint64_t{1} << 28;
 
 /// By the first bytes; nothing if the format is not one of ours.
-std::optional<ImageFormat> detect_format(Bytes bytes);
+std::optional<ImageFormat> detect_format(ByteView bytes);
 
 /// Checks format and size from the header; PNG and JPEG come back without the parts that hold no pixels (colour
 /// profiles, EXIF, text), whose parsers have known faults (a broken ICC profile in a JPEG ends this OpenImageIO).
 /// @throws InputError (file = name)
-std::vector<std::uint8_t> strip_png(Bytes bytes, const std::string& name);
-std::vector<std::uint8_t> strip_jpeg(Bytes bytes, const std::string& name);
+std::vector<std::uint8_t> strip_png(ByteView bytes, const std::string& name);
+std::vector<std::uint8_t> strip_jpeg(ByteView bytes, const std::string& name);
 
 /// @throws InputError (file = name) if a picture of this size is refused
 void check_size(std::int64_t width, std::int64_t height, const std::string& name);
@@ -38,11 +38,11 @@ std::string encode_exr(const ChannelImage& image, int threads);
 
 /// Channels in the file's order (by name), half and unsigned widened to float; text, number and fraction attributes.
 /// @throws InputError (file = name)
-ChannelImage decode_exr(Bytes bytes, const std::string& name);
+ChannelImage decode_exr(ByteView bytes, const std::string& name);
 
 /// What read_image does, on bytes. PNG and JPEG carry the metadata `encoding` = "sRGB".
 /// @throws InputError (file = name)
-ChannelImage decode_image(Bytes bytes, const std::string& name);
+ChannelImage decode_image(ByteView bytes, const std::string& name);
 
 /// @throws InputError (file empty)
 std::string encode_png(const Image<Rgb>& linear);

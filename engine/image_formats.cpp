@@ -13,13 +13,13 @@ namespace aleph {
 
 namespace {
 
-bool starts_with(Bytes bytes, std::string_view magic) {
+bool starts_with(ByteView bytes, std::string_view magic) {
     return bytes.size() >= magic.size() &&
            std::equal(magic.begin(), magic.end(), bytes.begin(),
                       [](char m, std::uint8_t b) { return static_cast<std::uint8_t>(m) == b; });
 }
 
-std::uint32_t big_endian(Bytes bytes, std::size_t at, int count) {
+std::uint32_t big_endian(ByteView bytes, std::size_t at, int count) {
     std::uint32_t value = 0;
     for (int i = 0; i < count; ++i) value = value << 8 | bytes[at + static_cast<std::size_t>(i)];
     return value;
@@ -29,7 +29,7 @@ constexpr std::string_view png_magic("\x89PNG\r\n\x1a\n", 8);
 
 }  // namespace
 
-std::optional<ImageFormat> detect_format(Bytes bytes) {
+std::optional<ImageFormat> detect_format(ByteView bytes) {
     if (starts_with(bytes, "\x76\x2f\x31\x01")) return ImageFormat::exr;
     if (starts_with(bytes, png_magic)) return ImageFormat::png;
     if (starts_with(bytes, "\xff\xd8\xff")) return ImageFormat::jpeg;
@@ -47,7 +47,7 @@ void check_size(std::int64_t width, std::int64_t height, const std::string& name
     }
 }
 
-std::vector<std::uint8_t> strip_png(Bytes bytes, const std::string& name) {
+std::vector<std::uint8_t> strip_png(ByteView bytes, const std::string& name) {
     // Chunks (PNG 1.2, section 3.2): length, type, data, CRC. An upper-case first letter marks those needed for pixels;
     // tRNS is the one other chunk that changes them.
     std::vector<std::uint8_t> kept(bytes.begin(), bytes.begin() + static_cast<std::ptrdiff_t>(png_magic.size()));
@@ -79,7 +79,7 @@ std::vector<std::uint8_t> strip_png(Bytes bytes, const std::string& name) {
     throw InputError(name, "", "the PNG has no end: the file is cut");
 }
 
-std::vector<std::uint8_t> strip_jpeg(Bytes bytes, const std::string& name) {
+std::vector<std::uint8_t> strip_jpeg(ByteView bytes, const std::string& name) {
     // Segments (ITU-T T.81, annex B): 0xff, marker, length of two bytes that counts itself, data.
     std::vector<std::uint8_t> kept(bytes.begin(), bytes.begin() + 2);
     kept.reserve(bytes.size());

@@ -29,7 +29,7 @@ struct Interleaved {
     }
 };
 
-ImageFormat require_format(Bytes bytes, const std::string& name) {
+ImageFormat require_format(ByteView bytes, const std::string& name) {
     const auto format = detect_format(bytes);
     if (!format) {
         throw InputError(name, "", bytes.empty() ? "the file is empty" : "this is not a PNG, JPEG, EXR or HDR picture");
@@ -38,7 +38,7 @@ ImageFormat require_format(Bytes bytes, const std::string& name) {
 }
 
 template <class T>
-Interleaved<T> decode_with_library(Bytes bytes, ImageFormat format, const std::string& name) {
+Interleaved<T> decode_with_library(ByteView bytes, ImageFormat format, const std::string& name) {
     std::vector<std::uint8_t> stripped;
     const char* plugin = "hdr";
     if (format == ImageFormat::png) {
@@ -99,7 +99,7 @@ Image<std::array<T, 4>> colours_of(const Interleaved<T>& pixels, T opaque) {
 
 }  // namespace
 
-ChannelImage decode_image(Bytes bytes, const std::string& name) {
+ChannelImage decode_image(ByteView bytes, const std::string& name) {
     const ImageFormat format = require_format(bytes, name);
     if (format == ImageFormat::exr) return decode_exr(bytes, name);
     const auto pixels = decode_with_library<float>(bytes, format, name);

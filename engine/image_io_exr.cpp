@@ -51,7 +51,7 @@ class MemoryOutput : public Imf::OStream {
 
 class MemoryInput : public Imf::IStream {
   public:
-    explicit MemoryInput(Bytes bytes) : Imf::IStream("memory"), bytes_(bytes) {}
+    explicit MemoryInput(ByteView bytes) : Imf::IStream("memory"), bytes_(bytes) {}
 
     bool read(char c[], int n) override {
         const auto count = static_cast<std::size_t>(n);
@@ -66,7 +66,7 @@ class MemoryInput : public Imf::IStream {
     void seekg(std::uint64_t position) override { position_ = position; }
 
   private:
-    Bytes bytes_;
+    ByteView bytes_;
     std::size_t position_ = 0;
 };
 
@@ -163,7 +163,7 @@ std::map<std::string, MetadataValue> read_attributes(const Imf::Header& header) 
 }
 
 /// The flags of the version field (OpenEXR file layout) say what must not reach the decoder at all.
-void refuse_unsupported_kinds(Bytes bytes, const std::string& name) {
+void refuse_unsupported_kinds(ByteView bytes, const std::string& name) {
     if (bytes.size() < 8) throw InputError(name, "", "the file is cut");
     const auto flags = static_cast<int>(bytes[4] | bytes[5] << 8 | bytes[6] << 16 | bytes[7] << 24);
     if (Imf::isMultiPart(flags)) throw InputError(name, "", "multi-part EXR files are not read; write one part a file");
@@ -224,7 +224,7 @@ std::string encode_exr(const ChannelImage& image, int threads) {
     return bytes;
 }
 
-ChannelImage decode_exr(Bytes bytes, const std::string& name) {
+ChannelImage decode_exr(ByteView bytes, const std::string& name) {
     refuse_unsupported_kinds(bytes, name);
     try {
         MemoryInput stream(bytes);

@@ -1,6 +1,7 @@
 #pragma once
 // What a scene's surfaces look like: materials and the images they take their textures from.
 
+#include <array>
 #include <glm/gtc/type_precision.hpp>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
@@ -67,6 +68,21 @@ struct Material {
     int include = no_index;
 
     bool operator==(const Material&) const = default;
+};
+
+/// A texture of a material, and its key in scene files.
+struct MaterialTexture {
+    const char* key;
+    TextureRef Material::*member;
+};
+
+inline constexpr std::array material_textures{
+    MaterialTexture{"base_color_texture", &Material::base_color_texture},
+    MaterialTexture{"metallic_roughness_texture", &Material::metallic_roughness_texture},
+    MaterialTexture{"emission_texture", &Material::emission_texture},
+    MaterialTexture{"specular_texture", &Material::specular_texture},
+    MaterialTexture{"specular_color_texture", &Material::specular_color_texture},
+    MaterialTexture{"transmission_texture", &Material::transmission_texture},
 };
 
 }  // namespace aleph

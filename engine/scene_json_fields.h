@@ -54,15 +54,6 @@ struct Field {
     T Element::*member;
 };
 
-inline constexpr std::array material_textures{
-    Field<Material, TextureRef>{"base_color_texture", &Material::base_color_texture},
-    Field<Material, TextureRef>{"metallic_roughness_texture", &Material::metallic_roughness_texture},
-    Field<Material, TextureRef>{"emission_texture", &Material::emission_texture},
-    Field<Material, TextureRef>{"specular_texture", &Material::specular_texture},
-    Field<Material, TextureRef>{"specular_color_texture", &Material::specular_color_texture},
-    Field<Material, TextureRef>{"transmission_texture", &Material::transmission_texture},
-};
-
 inline constexpr std::array camera_numbers{
     TrackField<Camera, double>{"half_height", &Camera::half_height, above_zero},
     TrackField<Camera, double>{"shift_x", &Camera::shift_x, any_value},

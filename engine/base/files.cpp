@@ -1,0 +1,35 @@
+#include "engine/base/files.h"
+
+#include <fmt/format.h>
+
+#include <fstream>
+#include <system_error>
+
+#include "engine/base/errors.h"
+
+namespace aleph {
+
+namespace fs = std::filesystem;
+
+Bytes read_regular_file(const fs::path& path, const std::string& file, const std::string& place) {
+    std::error_code error;
+    const fs::file_status status = fs::status(path, error);
+    const std::string name = printable(path.filename().string());
+    if (!fs::exists(status)) throw InputError(file, place, fmt::format("file not found: {}", name));
+    // Only regular files: a folder reports absurd sizes, a device or pipe has no end.
+    if (!fs::is_regular_file(status)) throw InputError(file, place, fmt::format("not a regular file: {}", name));
+    const std::uintmax_t size = fs::file_size(path, error);
+    if (error) throw InputError(file, place, fmt::format("cannot read {}: {}", name, error.message()));
+    if (size > max_file_bytes) {
+        throw InputError(file, place, fmt::format("{} has {} bytes, more than {}", name, size, max_file_bytes));
+    }
+    Bytes bytes(static_cast<std::size_t>(size));
+    std::ifstream stream(path, std::ios::binary);
+    stream.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
+    if (!stream || static_cast<std::uintmax_t>(stream.gcount()) != size) {
+        throw InputError(file, place, fmt::format("cannot read {}", name));
+    }
+    return bytes;
+}
+
+}  // namespace aleph
