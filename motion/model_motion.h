@@ -1,10 +1,10 @@
 #pragma once
 // Model-based motion, thesis 5.1.2: reproject the same surface point Q(u,v) at both times and subtract the projections.
 
-#include "engine/camera_view.h"
-#include "engine/first_hits.h"
-#include "engine/pose.h"
-#include "engine/ray_scene.h"
+#include "engine/pose/camera_view.h"
+#include "engine/pose/pose.h"
+#include "engine/rays/first_hits.h"
+#include "engine/rays/ray_scene.h"
 #include "motion/motion_field.h"
 
 namespace aleph {

@@ -8,10 +8,10 @@
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
-#include "engine/camera_view.h"
-#include "engine/pose.h"
-#include "engine/ray_scene.h"
-#include "engine/subdivide.h"
+#include "engine/pose/camera_view.h"
+#include "engine/pose/pose.h"
+#include "engine/rays/ray_scene.h"
+#include "engine/surface/limit_surface.h"
 
 namespace aleph {
 

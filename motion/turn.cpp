@@ -7,9 +7,9 @@
 #include <glm/gtc/type_ptr.hpp>
 #include <glm/mat3x3.hpp>
 
-#include "engine/operation_stack.h"
-#include "engine/time_sampling.h"
-#include "engine/track.h"
+#include "engine/scene/operations.h"
+#include "engine/scene/time_sampling.h"
+#include "engine/scene/track.h"
 
 namespace aleph {
 namespace {

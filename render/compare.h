@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/image_io.h"
+#include "engine/image/image_file.h"
 
 namespace aleph {
 

@@ -1,7 +1,7 @@
 #pragma once
 // A frame as files: channels and metadata (DESIGN "Command line", CONVENTIONS 2).
 
-#include "engine/image_io.h"
+#include "engine/image/image_file.h"
 #include "render/sequence.h"
 
 namespace aleph {

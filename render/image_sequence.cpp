@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "engine/base/errors.h"
-#include "engine/image_io.h"
+#include "engine/image/image_file.h"
 #include "motion/image_motion.h"
 #include "motion/velocity.h"
 #include "perception/sanitize.h"

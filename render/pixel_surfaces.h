@@ -1,8 +1,8 @@
 #pragma once
 // The surface behind each pixel's sample, made ready for shading when it is asked for.
 
-#include "engine/camera_view.h"
-#include "engine/first_hits.h"
+#include "engine/pose/camera_view.h"
+#include "engine/rays/first_hits.h"
 #include "render/bsdf.h"
 
 namespace aleph {

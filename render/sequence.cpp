@@ -5,7 +5,7 @@
 
 #include "engine/base/errors.h"
 #include "engine/base/parallel.h"
-#include "engine/cage_level.h"
+#include "engine/pose/cage_level.h"
 #include "motion/image_motion.h"
 #include "motion/model_motion.h"
 #include "motion/velocity.h"

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/scene.h"
+#include "engine/scene/scene.h"
 #include "perception/perception_settings.h"
 
 namespace aleph {
@@ -44,7 +44,7 @@ struct RenderSettings {
     int light_samples = 16;          ///< direct-light samples per pixel and light, shared out among its spp
     double shade_radius = 1.4;       ///< shading reads records this much farther than filling does
     double min_radius_pixels = 4.0;  ///< a record reaches at least this far at its own accuracy
-    int subdivision_level = -1;      ///< of every subdivision cage; -1: what pixels ask for (engine/cage_level.h)
+    int subdivision_level = -1;      ///< of every subdivision cage; -1: what pixels ask for (engine/pose/cage_level.h)
 
     bool operator==(const RenderSettings&) const = default;
 };

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "engine/transforms.h"
+#include "engine/scene/transforms.h"
 
 namespace aleph {
 

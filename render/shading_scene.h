@@ -8,8 +8,8 @@
 #include <optional>
 #include <vector>
 
-#include "engine/pose_plan.h"
-#include "engine/ray_scene.h"
+#include "engine/pose/plan.h"
+#include "engine/rays/ray_scene.h"
 
 namespace aleph {
 

@@ -8,7 +8,7 @@
 #include <glm/vec4.hpp>
 #include <vector>
 
-#include "engine/scene.h"
+#include "engine/scene/scene.h"
 
 namespace aleph {
 

@@ -1,7 +1,7 @@
 #pragma once
 // How much of a surface one ray stands for, so that textures are averaged over it instead of met at a point.
 
-#include "engine/camera_view.h"
+#include "engine/pose/camera_view.h"
 #include "render/shading_scene.h"
 #include "render/texture.h"
 

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/scene.h"
+#include "engine/scene/scene.h"
 #include "render/settings.h"
 
 namespace aleph {

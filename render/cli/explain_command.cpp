@@ -5,8 +5,8 @@
 #include <iostream>
 #include <memory>
 
-#include "engine/archive.h"
 #include "engine/base/errors.h"
+#include "engine/load/load_scene.h"
 #include "render/cli/commands.h"
 #include "render/cli/explain.h"
 #include "render/cli/scene_options.h"

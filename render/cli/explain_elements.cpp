@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <numbers>
 
-#include "engine/lookup.h"
-#include "engine/scene_json_fields.h"
+#include "engine/scene/points.h"
+#include "engine/scene_file/fields.h"
 #include "render/cli/explain.h"
 
 namespace aleph {

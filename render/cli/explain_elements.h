@@ -4,8 +4,8 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "engine/bounds.h"
-#include "engine/scene.h"
+#include "engine/base/bounds.h"
+#include "engine/scene/scene.h"
 
 namespace aleph {
 

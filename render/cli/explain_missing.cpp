@@ -6,7 +6,7 @@
 #include <iterator>
 
 #include "engine/base/errors.h"
-#include "engine/scene_json.h"
+#include "engine/scene_file/scene_text.h"
 #include "render/cli/explain.h"
 
 namespace aleph {

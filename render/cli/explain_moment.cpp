@@ -2,8 +2,8 @@
 
 #include <map>
 
-#include "engine/lookup.h"
-#include "engine/pose.h"
+#include "engine/pose/pose.h"
+#include "engine/scene/points.h"
 #include "render/cli/explain.h"
 #include "render/cli/explain_elements.h"
 #include "render/cli/world_bounds.h"

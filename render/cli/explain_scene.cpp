@@ -7,8 +7,8 @@
 #include <set>
 
 #include "engine/base/errors.h"
-#include "engine/lookup.h"
-#include "engine/scene_json_fields.h"
+#include "engine/scene/points.h"
+#include "engine/scene_file/fields.h"
 #include "render/cli/explain.h"
 #include "render/cli/explain_elements.h"
 #include "render/cli/world_bounds.h"

@@ -2,9 +2,9 @@
 
 #include <fmt/format.h>
 
-#include "engine/lookup.h"
-#include "engine/operation_stack.h"
-#include "engine/scene_json_fields.h"
+#include "engine/scene/operations.h"
+#include "engine/scene/points.h"
+#include "engine/scene_file/fields.h"
 #include "render/cli/explain.h"
 
 namespace aleph {

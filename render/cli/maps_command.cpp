@@ -5,7 +5,7 @@
 #include <set>
 
 #include "engine/base/errors.h"
-#include "engine/image_io.h"
+#include "engine/image/image_file.h"
 #include "render/cli/commands.h"
 #include "render/cli/frame_list.h"
 #include "render/cli/frame_pattern.h"

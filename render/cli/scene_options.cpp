@@ -7,8 +7,8 @@
 #include <filesystem>
 #include <iostream>
 
-#include "engine/archive.h"
 #include "engine/base/errors.h"
+#include "engine/load/load_scene.h"
 #include "render/cli/frame_list.h"
 #include "render/cli/output_path.h"
 #include "render/cli/progress.h"

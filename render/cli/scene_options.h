@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "engine/base/parallel.h"
-#include "engine/load_limits.h"
+#include "engine/json/load_limits.h"
 #include "render/cli/options.h"
 #include "render/sequence.h"
 

@@ -1,8 +1,8 @@
 #pragma once
 // Boxes around what stands in the world.
 
-#include "engine/bounds.h"
-#include "engine/pose.h"
+#include "engine/base/bounds.h"
+#include "engine/pose/pose.h"
 
 namespace aleph {
 

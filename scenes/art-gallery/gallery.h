@@ -2,7 +2,7 @@
 // The scene `art-gallery`, part by part. Metres; the floor is y = 0; the hall lies along x, a cabinet beyond its far
 // wall.
 
-#include "engine/scene.h"
+#include "engine/scene/scene.h"
 #include "scenes/art-gallery/balls.h"
 
 namespace aleph {

@@ -1,5 +1,5 @@
 // Writes the scene `boomerang` and its textures: make_boomerang OUTPUT_FOLDER (usually scenes).
-// The same bytes every time; tests/unit/boomerang_scene_test.cpp holds it to that.
+// The same bytes every time; tests/unit/scenes/boomerang_scene_test.cpp holds it to that.
 
 #include "scenes/boomerang/boomerang_scene.h"
 #include "scenes/common/generator.h"

@@ -1,10 +1,10 @@
 #pragma once
-// Short ways to say what a scene consists of. Everything goes through the public structures of engine/scene.h.
+// Short ways to say what a scene consists of. Everything goes through the public structures of engine/scene/scene.h.
 
 #include <string>
 
-#include "engine/scene.h"
-#include "engine/shapes.h"
+#include "engine/scene/scene.h"
+#include "engine/surface/shapes.h"
 
 namespace aleph {
 

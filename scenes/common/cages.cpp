@@ -7,7 +7,7 @@
 #include <map>
 #include <numbers>
 
-#include "engine/subdivide.h"
+#include "engine/surface/limit_surface.h"
 #include "scenes/common/build.h"
 
 namespace aleph {

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "engine/scene.h"
+#include "engine/scene/scene.h"
 
 namespace aleph {
 

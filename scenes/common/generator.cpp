@@ -5,7 +5,7 @@
 #include <cstdio>
 #include <exception>
 
-#include "engine/archive.h"
+#include "engine/load/load_scene.h"
 
 namespace aleph {
 

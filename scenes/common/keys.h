@@ -4,7 +4,7 @@
 #include <cmath>
 #include <vector>
 
-#include "engine/track.h"
+#include "engine/scene/track.h"
 
 namespace aleph {
 

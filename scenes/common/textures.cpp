@@ -1,7 +1,7 @@
 #include "scenes/common/textures.h"
 
 #include "engine/base/color.h"
-#include "engine/image_io.h"
+#include "engine/image/image_file.h"
 
 namespace aleph {
 

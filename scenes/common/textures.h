@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "engine/base/image.h"
-#include "engine/scene.h"
+#include "engine/scene/scene.h"
 
 namespace aleph {
 

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "engine/scene.h"
+#include "engine/scene/scene.h"
 #include "scenes/pool/simulation.h"
 
 namespace aleph {

@@ -7,9 +7,9 @@
 #include <cmath>
 #include <iostream>
 
-#include "engine/archive.h"
 #include "engine/base/errors.h"
 #include "engine/base/parallel.h"
+#include "engine/load/load_scene.h"
 #include "render/cli/options.h"
 #include "scenes/studies/study_options.h"
 #include "scenes/studies/study_tools.h"

@@ -6,9 +6,9 @@
 #include <charconv>
 #include <iostream>
 
-#include "engine/archive.h"
 #include "engine/base/errors.h"
 #include "engine/base/parallel.h"
+#include "engine/load/load_scene.h"
 #include "render/cli/options.h"
 #include "render/cli/progress.h"
 #include "scenes/studies/study_options.h"

@@ -7,8 +7,8 @@
 #include <cmath>
 #include <iostream>
 
-#include "engine/archive.h"
 #include "engine/base/parallel.h"
+#include "engine/load/load_scene.h"
 #include "render/cli/frame_list.h"
 #include "render/cli/options.h"
 #include "render/cli/progress.h"

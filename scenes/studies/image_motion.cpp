@@ -8,8 +8,8 @@
 #include <functional>
 #include <iostream>
 
-#include "engine/archive.h"
 #include "engine/base/parallel.h"
+#include "engine/load/load_scene.h"
 #include "motion/image_motion.h"
 #include "render/cli/options.h"
 #include "scenes/studies/study_options.h"

@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "engine/base/errors.h"
-#include "engine/image_io.h"
+#include "engine/image/image_file.h"
 #include "scenes/studies/study_tools.h"
 
 namespace aleph {

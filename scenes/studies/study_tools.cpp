@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "engine/image_io.h"
+#include "engine/image/image_file.h"
 
 namespace aleph {
 

@@ -9,7 +9,7 @@
 #include "perception/perception.h"
 #include "perception/sanitize.h"
 #include "perception/threshold.h"
-#include "tests/unit/perception_scene.h"
+#include "tests/support/perception_scene.h"
 
 namespace aleph {
 namespace {

@@ -5,8 +5,8 @@
 
 #include <vector>
 
-#include "engine/camera_view.h"
-#include "engine/pose.h"
+#include "engine/pose/camera_view.h"
+#include "engine/pose/pose.h"
 
 namespace aleph {
 

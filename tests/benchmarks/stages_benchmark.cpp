@@ -16,10 +16,10 @@
 #include <utility>
 #include <vector>
 
-#include "engine/archive.h"
 #include "engine/base/parallel.h"
-#include "engine/first_hits.h"
-#include "engine/shapes.h"
+#include "engine/load/load_scene.h"
+#include "engine/rays/first_hits.h"
+#include "engine/surface/shapes.h"
 #include "motion/image_motion.h"
 #include "motion/model_motion.h"
 #include "motion/reprojection.h"

@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "engine/base/parallel.h"
-#include "engine/ray_scene.h"
-#include "engine/shapes.h"
+#include "engine/rays/ray_scene.h"
+#include "engine/surface/shapes.h"
 #include "render/lights.h"
 #include "render/shading_scene.h"
 #include "render/texture.h"

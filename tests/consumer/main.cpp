@@ -7,8 +7,8 @@
 #include <numbers>
 
 #include "engine/base/color.h"
-#include "engine/scene.h"
-#include "engine/shapes.h"
+#include "engine/scene/scene.h"
+#include "engine/surface/shapes.h"
 #include "render/sequence.h"
 
 namespace {

@@ -1,8 +1,8 @@
 // Any bytes as an Alembic archive: an InputError or a scene that can be posed.
 
-#include "engine/alembic.h"
+#include "engine/alembic/alembic.h"
 #include "engine/base/errors.h"
-#include "engine/pose.h"
+#include "engine/pose/pose.h"
 #include "tests/fuzz/fuzz_file.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "engine/base/errors.h"
-#include "engine/image_io.h"
+#include "engine/image/image_file.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     try {

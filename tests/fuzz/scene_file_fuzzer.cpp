@@ -6,8 +6,8 @@
 #include <string_view>
 
 #include "engine/base/errors.h"
-#include "engine/pose.h"
-#include "engine/scene_json.h"
+#include "engine/pose/pose.h"
+#include "engine/scene_file/scene_text.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     aleph::SceneText read;

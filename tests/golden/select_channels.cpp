@@ -3,7 +3,7 @@
 #include <exception>
 #include <iostream>
 
-#include "engine/image_io.h"
+#include "engine/image/image_file.h"
 
 int main(int argc, char** argv) {
     if (argc < 4) {

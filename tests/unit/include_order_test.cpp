@@ -15,21 +15,47 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Folders from the bottom up, and which of them each may include besides itself.
+/// A folder, and which other folders its files may include.
 struct Layer {
     std::string folder;
     std::vector<std::string> may_include;
 };
 
+/// From the bottom up: each may include folders that stand above it in this list only.
 const std::vector<Layer>& layers() {
-    static const std::vector<Layer> all = {
-        {"engine/base", {}},
-        {"engine", {"engine/base"}},
-        {"motion", {"engine/base", "engine"}},
-        {"perception", {"engine/base"}},
-        {"render", {"engine/base", "engine", "motion", "perception"}},
-        {"render/cli", {"engine/base", "engine", "motion", "perception", "render"}},
-    };
+    static const std::vector<Layer> all = [] {
+        const std::vector<std::string> model = {"engine/base", "engine/scene", "engine/surface"};
+        const std::vector<std::string> text = {"engine/base", "engine/json", "engine/scene", "engine/surface"};
+        std::vector<std::string> engine = model;
+        for (const char* folder : {"pose", "rays", "image", "json", "scene_file", "gltf", "alembic", "load"})
+            engine.push_back(std::string("engine/") + folder);
+        std::vector<std::string> stages = engine;
+        for (const char* folder : {"motion", "perception"}) stages.push_back(folder);
+        std::vector<std::string> all_below_cli = stages;
+        all_below_cli.push_back("render");
+        const auto with = [](std::vector<std::string> folders, std::initializer_list<const char*> more) {
+            folders.insert(folders.end(), more.begin(), more.end());
+            return folders;
+        };
+        return std::vector<Layer>{
+            {"engine/base", {}},
+            {"engine/scene", {"engine/base"}},
+            {"engine/surface", {"engine/base", "engine/scene"}},
+            {"engine/pose", model},
+            {"engine/rays", with(model, {"engine/pose"})},
+            {"engine/image", {"engine/base"}},
+            {"engine/json", {"engine/base"}},
+            {"engine/scene_file", text},
+            {"engine/gltf/validate", {"engine/base", "engine/json"}},
+            {"engine/gltf", with(text, {"engine/image", "engine/gltf/validate"})},
+            {"engine/alembic", with(model, {"engine/json"})},
+            {"engine/load", engine},
+            {"motion", engine},
+            {"perception", {"engine/base"}},
+            {"render", stages},
+            {"render/cli", all_below_cli},
+        };
+    }();
     return all;
 }
 
@@ -95,14 +121,44 @@ TEST(House, IncludesPointOneWay) {
     EXPECT_GT(own_includes, 100);  // and their includes understood
 }
 
+TEST(House, EveryFolderIsALayer) {
+    const fs::path root = ALEPH_SOURCE_DIR;
+    std::set<std::string> known;
+    for (const Layer& layer : layers()) known.insert(layer.folder);
+    for (const char* folder : {"engine", "motion", "perception", "render"}) {
+        for (const fs::directory_entry& entry : fs::recursive_directory_iterator(root / folder)) {
+            if (entry.path().extension() != ".h" && entry.path().extension() != ".cpp") continue;
+            const std::string own = fs::relative(entry.path().parent_path(), root).generic_string();
+            if (own.find("node_modules") != std::string::npos) continue;
+            EXPECT_TRUE(known.contains(own)) << entry.path() << " lies in a folder that layers() does not list";
+        }
+    }
+}
+
+TEST(House, LayersHaveNoCycle) {
+    std::set<std::string> lower;
+    for (const Layer& layer : layers()) {
+        for (const std::string& folder : layer.may_include) {
+            EXPECT_TRUE(lower.contains(folder)) << layer.folder << " may include " << folder << ", which comes later";
+        }
+        lower.insert(layer.folder);
+    }
+}
+
 TEST(House, CheckerSeesEveryKindOfViolation) {
     const auto count = [](const char* file, const char* text) { return find_violations(file, text).size(); };
-    EXPECT_EQ(count("perception/a.cpp", "#include \"engine/scene.h\"\n"), 1u);
+    EXPECT_EQ(count("perception/a.cpp", "#include \"engine/scene/scene.h\"\n"), 1u);
     EXPECT_EQ(count("perception/a.cpp", "#include \"motion/velocity.h\"\n"), 1u);
-    EXPECT_EQ(count("engine/a.cpp", "// c\n  #  include <motion/velocity.h>\n"), 1u);
-    EXPECT_EQ(count("engine/a.cpp", "#include \"perception/perception.h\"\n#include \"render/settings.h\"\n"), 2u);
-    EXPECT_EQ(count("engine/base/a.h", "#include \"engine/scene.h\"\n"), 1u);
-    EXPECT_EQ(count("engine/base/a.h", "#include \"engine/base/../scene.h\"\n"), 1u);
+    EXPECT_EQ(count("engine/scene/a.cpp", "// c\n  #  include <motion/velocity.h>\n"), 1u);
+    EXPECT_EQ(count("engine/pose/a.cpp", "#include \"perception/perception.h\"\n#include \"render/settings.h\"\n"), 2u);
+    EXPECT_EQ(count("engine/base/a.h", "#include \"engine/scene/scene.h\"\n"), 1u);
+    EXPECT_EQ(count("engine/base/a.h", "#include \"engine/base/../scene/scene.h\"\n"), 1u);
+    EXPECT_EQ(count("engine/scene/a.h", "#include \"engine/pose/pose.h\"\n"), 1u);
+    EXPECT_EQ(count("engine/surface/a.h", "#include \"engine/rays/ray_scene.h\"\n"), 1u);
+    EXPECT_EQ(count("engine/json/a.h", "#include \"engine/gltf/gltf.h\"\n"), 1u);
+    EXPECT_EQ(count("engine/gltf/a.cpp", "#include \"engine/scene_file/fields.h\"\n"), 1u);
+    EXPECT_EQ(count("engine/gltf/validate/a.cpp", "#include \"engine/gltf/reader.h\"\n"), 1u);
+    EXPECT_EQ(count("engine/image/a.h", "#include \"engine/load/load_scene.h\"\n"), 1u);
     EXPECT_EQ(count("motion/a.cpp", "#include \"perception/perception.h\"\n"), 1u);
     EXPECT_EQ(count("render/a.cpp", "#include \"render/cli/options.h\"\n"), 1u);
     EXPECT_EQ(count("render/a.cpp", "#include \"../render/settings.h\"\n"), 1u);
@@ -111,8 +167,9 @@ TEST(House, CheckerSeesEveryKindOfViolation) {
     EXPECT_EQ(
         count("perception/a.cpp", "#include <vector>\n#include \"engine/base/image.h\"\n#include \"perception/b.h\"\n"),
         0u);
-    EXPECT_EQ(count("engine/a.cpp", "#include \"engine/base/image.h\"\n#include \"scene_schema.inc\"\n"), 0u);
-    EXPECT_EQ(count("motion/a.cpp", "#include \"engine/scene.h\"\n"), 0u);
+    EXPECT_EQ(count("engine/scene_file/a.cpp", "#include \"engine/base/image.h\"\n#include \"schema.inc\"\n"), 0u);
+    EXPECT_EQ(count("engine/gltf/a.cpp", "#include \"engine/gltf/validate/validate.h\"\n"), 0u);
+    EXPECT_EQ(count("motion/a.cpp", "#include \"engine/scene/scene.h\"\n"), 0u);
     EXPECT_EQ(count("render/cli/a.cpp", "#include \"render/settings.h\"\n#include \"render/cli/b.h\"\n"), 0u);
     EXPECT_EQ(count("render/a.cpp", "#include \"perception/perception.h\"\n#include \"motion/velocity.h\"\n"), 0u);
 }

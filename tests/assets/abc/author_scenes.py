@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Writes scene files that say in our words what two archives say in theirs, after the truth beside the archives
 (NAME.json, read back through the reference library): NAME.scene.json. The test that compares both is
-tests/unit/alembic_authored_test.cpp. Run it in this folder; it needs the JSON files alone.
+tests/unit/engine/alembic/authored_test.cpp. Run it in this folder; it needs the JSON files alone.
 
 Nodes are called by the path of the object; "#n" behind it tells parts of one object apart.
 """

@@ -1,0 +1,122 @@
+// Geometry parameters: normals, texture coordinates and the like, plain or indexed, in every scope.
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/alembic/surface.h"
+#include "engine/base/errors.h"
+
+namespace aleph {
+namespace {
+
+GeometryScope scope_of(const AlembicMetadata& metadata) {
+    const std::string& name = metadata_value(metadata, "geoScope");
+    if (name == "uni") return GeometryScope::per_face;
+    if (name == "var" || name == "vtx") return GeometryScope::per_point;
+    if (name == "fvr") return GeometryScope::per_corner;
+    return GeometryScope::constant;
+}
+
+}  // namespace
+
+std::optional<GeometryParameter> find_parameter(const AlembicArchive& archive, const AlembicCompound& compound,
+                                                std::string_view name, std::size_t extent) {
+    const AlembicProperty* property = compound.find(name);
+    if (property == nullptr) return std::nullopt;
+    GeometryParameter parameter;
+    parameter.scope = scope_of(property->metadata);
+    if (property->kind == AlembicProperty::Kind::compound) {
+        const AlembicCompound indexed = archive.properties(*property);
+        const AlembicProperty* values = indexed.find(".vals");
+        const AlembicProperty* indices = indexed.find(".indices");
+        if (values == nullptr) return std::nullopt;
+        parameter.values = *values;
+        if (indices != nullptr && indices->sample_count > 0) parameter.indices = *indices;
+    } else {
+        parameter.values = *property;
+    }
+    const PlainType type = parameter.values.type;
+    const bool real = type == PlainType::f16 || type == PlainType::f32 || type == PlainType::f64;
+    if (parameter.values.sample_count == 0 || parameter.values.extent < extent || !real) return std::nullopt;
+    return parameter;
+}
+
+ParameterSample read_parameter(const AlembicArchive& archive, const GeometryParameter& parameter,
+                               std::uint64_t value_sample, std::uint64_t index_sample) {
+    ParameterSample sample;
+    sample.extent = parameter.values.extent;
+    sample.values = archive.numbers<float>(parameter.values, value_sample);
+    if (!parameter.indices) return sample;
+    sample.indices = archive.numbers<int>(*parameter.indices, index_sample);
+    const std::size_t elements = sample.values.size() / sample.extent;
+    for (const int index : sample.indices) {
+        if (index < 0 || static_cast<std::size_t>(index) >= elements) {
+            throw InputError(archive.file(), printable(parameter.values.name),
+                             fmt::format("index {} is beyond the {} values", index, elements));
+        }
+    }
+    if (sample.indices.empty()) sample.values.clear();  // indexed, without items
+    return sample;
+}
+
+ParameterSample read_parameter_at(const AlembicArchive& archive, const GeometryParameter& parameter, double seconds) {
+    return read_parameter(archive, parameter, sample_at(archive, parameter.values, seconds),
+                          parameter.indices ? sample_at(archive, *parameter.indices, seconds) : 0);
+}
+
+bool is_constant(const GeometryParameter& parameter) {
+    return parameter.values.is_constant() && (!parameter.indices || parameter.indices->is_constant());
+}
+
+std::size_t scope_count(GeometryScope scope, const SurfaceRun& run) {
+    switch (scope) {
+        case GeometryScope::constant:
+            return 1;
+        case GeometryScope::per_face:
+            return run.face_counts.size();
+        case GeometryScope::per_point:
+            return run.point_count;
+        case GeometryScope::per_corner:
+            return run.corner_count();
+    }
+    return 0;
+}
+
+std::size_t scope_item(GeometryScope scope, const SurfaceRun& run, std::size_t face, std::size_t corner) {
+    switch (scope) {
+        case GeometryScope::constant:
+            return 0;
+        case GeometryScope::per_face:
+            return face;
+        case GeometryScope::per_point:
+            return static_cast<std::size_t>(run.face_points[corner]);
+        case GeometryScope::per_corner:
+            return corner;
+    }
+    return 0;
+}
+
+std::optional<ParameterSample> read_fitting(AlembicReader& reader, int object, const GeometryParameter& parameter,
+                                            const SurfaceRun& run, double seconds, std::string_view name) {
+    std::optional<ParameterSample> sample;
+    try {
+        sample = read_parameter_at(reader.archive, parameter, seconds);
+    } catch (const InputError& error) {
+        reader.warn(object, fmt::format("{} are left out: {}", name, error.reason()));
+        return std::nullopt;
+    }
+    if (!std::ranges::all_of(sample->values, [](float value) { return std::isfinite(value); })) {
+        reader.warn(object, fmt::format("{} are left out: not all values are finite", name));
+        return std::nullopt;
+    }
+    const std::size_t expected = scope_count(parameter.scope, run);
+    if (sample->count() == expected || (parameter.scope == GeometryScope::constant && sample->count() > 0))
+        return sample;
+    reader.warn(object,
+                fmt::format("{} are left out: {} values where the surface has {}", name, sample->count(), expected));
+    return std::nullopt;
+}
+
+}  // namespace aleph

@@ -1,0 +1,76 @@
+#pragma once
+// The Alembic reader's parts: each turns one schema into scene elements. Only this folder uses them.
+
+#include <limits>
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "engine/alembic/archive.h"
+#include "engine/scene/scene.h"
+
+namespace aleph {
+
+struct AlembicReader {
+    explicit AlembicReader(const AlembicArchive& source);
+
+    const AlembicArchive& archive;
+    std::map<std::pair<int, std::string_view>, int> child_of;  ///< object and name -> object
+    Scene part;                                                ///< what was read; indices count from its own elements
+    std::map<int, std::vector<int>> meshes_of;                 ///< object -> meshes; instances share them
+    std::map<int, int> camera_of;                              ///< object -> camera
+    std::map<std::string, int> material_of;                    ///< path as assigned -> material
+    double first = std::numeric_limits<double>::infinity(), last = -first;  ///< s, of all that is sampled
+
+    /// Collected: the same text is said once, with the first place and how many more there are.
+    void warn(int object, const std::string& text);
+    std::vector<std::string> list_warnings() const;
+
+    /// What a property's samples span counts for the scene's range.
+    void widen(const AlembicProperty& property);
+
+  private:
+    std::vector<std::string> order_;
+    std::map<std::string, std::pair<std::string, int>> warned_;  ///< text -> first place, how often
+    std::size_t left_out_ = 0;
+};
+
+void read_objects(AlembicReader& reader);
+
+/// Fills the node's transform. @param top  the object's properties
+void read_transform(AlembicReader& reader, int object, const AlembicCompound& top, Node& node);
+
+/// Meshes of a polygon mesh or of a subdivision surface, one for each topology and material.
+std::vector<int> read_polygon_mesh(AlembicReader& reader, int object, const AlembicCompound& top);
+std::vector<int> read_subdivision(AlembicReader& reader, int object, const AlembicCompound& top);
+
+int read_camera(AlembicReader& reader, int object, const AlembicCompound& top);
+
+/// The material that a path names; made neutral, with a warning, where the archive does not say how it looks.
+int read_material(AlembicReader& reader, int object, const std::string& path);
+/// For surfaces without an assignment.
+int neutral_material(AlembicReader& reader);
+
+/// Index of the object at a path, through instances; -1 where there is none.
+int find_object(const AlembicReader& reader, const std::string& path);
+
+/// The first text of a property of the compound; empty where there is none.
+std::string read_text(const AlembicReader& reader, const AlembicCompound& compound, std::string_view name);
+
+/// A step or nearest track of a scalar property, each value passed through `convert`.
+template <class Convert>
+Track<double> read_whole_track(const AlembicReader& reader, const AlembicProperty& property,
+                               Interpolation interpolation, const Convert& convert) {
+    const AlembicSamples samples = reader.archive.samples(property);
+    Track<double> track;
+    track.sampling = samples.sampling;
+    track.interpolation = interpolation;
+    for (const std::uint64_t index : samples.indices) {
+        const std::vector<int> values = reader.archive.numbers<int>(property, index);
+        track.values.push_back(convert(values.empty() ? 0 : values.front()));
+    }
+    return track;
+}
+
+}  // namespace aleph

@@ -1,0 +1,302 @@
+// Samples of an archive's properties: where they are stored, their values, and when they lie.
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <limits>
+#include <type_traits>
+
+#include "engine/alembic/archive.h"
+#include "engine/base/errors.h"
+
+namespace aleph {
+namespace {
+
+constexpr std::size_t digest_bytes = 16;  // before the values of every sample
+constexpr double reached = 1e-5;          // s; a sample this near after a time counts as reached
+constexpr std::uint64_t max_rank = 64;    // dimensions of one array
+
+/// Bytes of one plain value; text has none.
+std::size_t width_of(PlainType type) {
+    switch (type) {
+        case PlainType::boolean:
+        case PlainType::u8:
+        case PlainType::i8:
+            return 1;
+        case PlainType::u16:
+        case PlainType::i16:
+        case PlainType::f16:
+            return 2;
+        case PlainType::u32:
+        case PlainType::i32:
+        case PlainType::f32:
+            return 4;
+        case PlainType::u64:
+        case PlainType::i64:
+        case PlainType::f64:
+            return 8;
+        case PlainType::text:
+        case PlainType::wide_text:
+            return 0;
+    }
+    return 0;
+}
+
+std::uint64_t decode(const std::uint8_t* bytes, std::size_t width) {
+    std::uint64_t value = 0;
+    for (std::size_t i = width; i-- > 0;) value = value << 8 | bytes[i];
+    return value;
+}
+
+/// IEEE 754 half precision.
+double decode_half(std::uint64_t bits) {
+    const double sign = bits & 0x8000 ? -1.0 : 1.0;
+    const auto exponent = static_cast<int>(bits >> 10 & 31);
+    const auto mantissa = static_cast<double>(bits & 1023);
+    if (exponent == 0) return sign * std::ldexp(mantissa, -24);
+    if (exponent == 31)
+        return mantissa == 0.0 ? sign * std::numeric_limits<double>::infinity()
+                               : std::numeric_limits<double>::quiet_NaN();
+    return sign * std::ldexp(1024.0 + mantissa, exponent - 25);
+}
+
+template <class T>
+T decode_number(PlainType type, const std::uint8_t* bytes) {
+    const std::uint64_t bits = decode(bytes, width_of(type));
+    switch (type) {
+        case PlainType::boolean:
+            return bits != 0;
+        case PlainType::i8:
+            return static_cast<T>(static_cast<std::int8_t>(bits));
+        case PlainType::i16:
+            return static_cast<T>(static_cast<std::int16_t>(bits));
+        case PlainType::i32:
+            return static_cast<T>(static_cast<std::int32_t>(bits));
+        case PlainType::i64:
+            return static_cast<T>(static_cast<std::int64_t>(bits));
+        case PlainType::f16:
+            return static_cast<T>(decode_half(bits));
+        case PlainType::f32:
+            return static_cast<T>(std::bit_cast<float>(static_cast<std::uint32_t>(bits)));
+        case PlainType::f64:
+            if constexpr (std::is_same_v<T, float>) {  // beyond its range is undefined
+                const double value = std::bit_cast<double>(bits), most = std::numeric_limits<float>::max();
+                return static_cast<float>(std::isnan(value) ? value : std::clamp(value, -most, most));
+            } else {
+                return static_cast<T>(std::bit_cast<double>(bits));
+            }
+        default:
+            return static_cast<T>(bits);
+    }
+}
+
+bool is_real(PlainType type) {
+    return type == PlainType::f16 || type == PlainType::f32 || type == PlainType::f64;
+}
+bool is_text(PlainType type) {
+    return width_of(type) == 0;
+}
+
+void append_utf8(std::string& text, std::uint32_t code) {
+    if (code > 0x10ffff || (code >= 0xd800 && code < 0xe000)) code = 0xfffd;
+    const auto tail = [&](int shift) { text += static_cast<char>(0x80 | (code >> shift & 63)); };
+    if (code < 0x80) {
+        text += static_cast<char>(code);
+    } else if (code < 0x800) {
+        text += static_cast<char>(0xc0 | code >> 6);
+        tail(0);
+    } else if (code < 0x10000) {
+        text += static_cast<char>(0xe0 | code >> 12);
+        tail(6), tail(0);
+    } else {
+        text += static_cast<char>(0xf0 | code >> 18);
+        tail(12), tail(6), tail(0);
+    }
+}
+
+/// Position among the stored samples; the caller knows that there are samples.
+std::uint64_t slot_of(const AlembicProperty& property, std::uint64_t sample) {
+    const std::uint64_t i = std::min(sample, property.sample_count - 1);
+    const std::uint64_t first = property.first_changed, last = property.last_changed;
+    if (i < first || (first == 0 && last == 0)) return 0;
+    return i >= last ? last - first + 1 : i - first + 1;
+}
+
+[[noreturn]] void fail_at(const std::string& file, const AlembicProperty& property, const std::string& reason) {
+    throw InputError(file, printable(property.name), reason);
+}
+
+}  // namespace
+
+OgawaData AlembicArchive::sample_data(const AlembicProperty& property, std::uint64_t sample) const {
+    if (property.kind == AlembicProperty::Kind::compound) fail_at(file(), property, "it is a compound without values");
+    if (property.sample_count == 0) fail_at(file(), property, "it has no samples");
+    const std::uint64_t slot = slot_of(property, sample);
+    const bool array = property.kind == AlembicProperty::Kind::array;
+    const std::uint64_t child = array ? 2 * slot : slot;
+    if (slot > property.group.size || child >= property.group.size)
+        fail_at(file(), property, fmt::format("sample {} is missing from the file", sample));
+    OgawaData data = ogawa_.data(property.group, child);
+    if (data.bytes.empty() && array) return data;
+    if (data.bytes.size() < digest_bytes)
+        fail_at(file(), property, fmt::format("sample {} has {} bytes, too few", sample, data.bytes.size()));
+    data.bytes = data.bytes.subspan(digest_bytes);
+    if (const std::size_t value = width_of(property.type); value != 0 && !array) {
+        if (data.bytes.size() != property.extent * value) {
+            fail_at(
+                file(), property,
+                fmt::format("sample {} has {} bytes, expected {}", sample, data.bytes.size(), property.extent * value));
+        }
+    }
+    return data;
+}
+
+std::uint64_t AlembicArchive::storage(const AlembicProperty& property, std::uint64_t sample) const {
+    return sample_data(property, sample).offset;
+}
+
+std::vector<std::uint64_t> AlembicArchive::dimensions(const AlembicProperty& property, std::uint64_t sample) const {
+    const OgawaData data = sample_data(property, sample);
+    if (property.kind != AlembicProperty::Kind::array) return {1};
+    std::vector<std::uint64_t> sizes;
+    const OgawaData table = ogawa_.data(property.group, 2 * slot_of(property, sample) + 1);
+    if (table.bytes.size() / 8 > max_rank)
+        fail_at(file(), property, fmt::format("an array of {} dimensions", table.bytes.size() / 8));
+    OgawaCursor cursor(table.bytes, file(), printable(property.name) + ": dimensions");
+    while (!cursor.at_end()) sizes.push_back(cursor.take_unsigned(8));
+
+    // Text needs what the table says: its values have no fixed size. For numbers the data decides.
+    std::uint64_t product = 1;
+    bool fits = !sizes.empty();
+    const std::uint64_t most = data.bytes.size();  // each value takes a byte at least
+    for (const std::uint64_t size : sizes) {
+        if (size != 0 && product > most / size) fits = false;
+        product = fits ? product * size : 0;
+    }
+    if (is_text(property.type)) {
+        if (!fits && !sizes.empty())
+            fail_at(file(), property, fmt::format("sample {} claims more text than it has bytes", sample));
+        return sizes.empty() ? std::vector<std::uint64_t>{0} : sizes;
+    }
+    const std::uint64_t stored = data.bytes.size() / (width_of(property.type) * property.extent);
+    return fits && product == stored ? sizes : std::vector<std::uint64_t>{stored};
+}
+
+template <class T>
+std::vector<T> AlembicArchive::numbers(const AlembicProperty& property, std::uint64_t sample) const {
+    if (is_text(property.type)) fail_at(file(), property, "it holds text, expected numbers");
+    if (std::is_integral_v<T> && is_real(property.type)) fail_at(file(), property, "expected whole numbers");
+    const OgawaData data = sample_data(property, sample);
+    const std::size_t width = width_of(property.type);
+    const std::size_t elements = data.bytes.size() / (width * property.extent);  // whole ones
+    const std::size_t count = elements * property.extent;
+    budget_.charge(count, sizeof(T));
+    std::vector<T> values;
+    values.reserve(count);
+    for (std::size_t i = 0; i < count; ++i)
+        values.push_back(decode_number<T>(property.type, data.bytes.data() + i * width));
+    return values;
+}
+
+template std::vector<float> AlembicArchive::numbers(const AlembicProperty&, std::uint64_t) const;
+template std::vector<double> AlembicArchive::numbers(const AlembicProperty&, std::uint64_t) const;
+template std::vector<int> AlembicArchive::numbers(const AlembicProperty&, std::uint64_t) const;
+template std::vector<std::int64_t> AlembicArchive::numbers(const AlembicProperty&, std::uint64_t) const;
+template std::vector<std::uint64_t> AlembicArchive::numbers(const AlembicProperty&, std::uint64_t) const;
+
+std::vector<std::string> AlembicArchive::texts(const AlembicProperty& property, std::uint64_t sample) const {
+    if (!is_text(property.type)) fail_at(file(), property, "it holds numbers, expected text");
+    const OgawaData data = sample_data(property, sample);
+    std::uint64_t count = property.extent;
+    for (const std::uint64_t size : dimensions(property, sample)) count *= size;
+    const bool wide = property.type == PlainType::wide_text;
+    const std::size_t unit = wide ? 4 : 1;
+    if (count > data.bytes.size() / unit)  // each ends with a zero
+        fail_at(file(), property,
+                fmt::format("sample {} claims {} texts in {} bytes", sample, count, data.bytes.size()));
+    budget_.charge(count, sizeof(std::string));
+    budget_.charge(data.bytes.size());
+    std::vector<std::string> texts;
+    texts.reserve(count);
+    std::size_t position = 0;
+    while (texts.size() < count) {
+        std::string text;
+        for (;; position += unit) {
+            if (data.bytes.size() - position < unit)
+                fail_at(file(), property, fmt::format("sample {}: a text does not end", sample));
+            const std::uint64_t code = decode(data.bytes.data() + position, unit);
+            if (code == 0) break;
+            if (wide) {
+                append_utf8(text, static_cast<std::uint32_t>(code));
+            } else {
+                text += static_cast<char>(code);
+            }
+        }
+        position += unit;
+        texts.push_back(std::move(text));
+    }
+    return texts;
+}
+
+AlembicSamples AlembicArchive::samples(const AlembicProperty& property) const {
+    AlembicSamples samples;
+    if (property.sample_count == 0) return samples;
+    if (property.is_constant()) {
+        samples.indices = {0};
+        return samples;
+    }
+    const TimeSampling& sampling = time_samplings_[property.time_sampling];
+    const std::uint64_t begin = property.first_changed - 1, end = property.last_changed + 1;
+    // Two children each for arrays; what the group does not hold is not there, whatever the header claims.
+    if (end - begin > property.group.size)
+        fail_at(file(), property, fmt::format("it claims {} samples and holds {}", end - begin, property.group.size));
+    if (sampling.kind == TimeSampling::Kind::acyclic && sampling.times.size() < end)
+        fail_at(file(), property, fmt::format("{} samples but only {} times", end, sampling.times.size()));
+    budget_.charge(end - begin, 16);
+
+    const bool whole_shutter = sampling.kind == TimeSampling::Kind::cyclic &&
+                               sampling.times.back() - sampling.times.front() >= sampling.period * (1.0 - 1e-6);
+    if (sampling.kind == TimeSampling::Kind::uniform) {
+        samples.sampling = sampling;
+        samples.sampling.start = sample_time(sampling, begin);
+        for (std::uint64_t i = begin; i < end; ++i) samples.indices.push_back(i);
+    } else if (sampling.kind == TimeSampling::Kind::cyclic && begin == 0 && !whole_shutter) {
+        samples.sampling = sampling;
+        for (std::uint64_t i = begin; i < end; ++i) samples.indices.push_back(i);
+    } else {
+        // A shutter as long as the frame ends when the next begins: the sample that comes first stays.
+        samples.sampling.kind = TimeSampling::Kind::acyclic;
+        std::vector<double>& times = samples.sampling.times;
+        for (std::uint64_t i = begin; i < end; ++i) {
+            const double time = sample_time(sampling, i);
+            if (whole_shutter && !times.empty() && time - times.back() < 1e-6 * sampling.period) continue;
+            times.push_back(time);
+            samples.indices.push_back(i);
+        }
+    }
+    validate(samples.sampling, samples.indices.size(), file(), printable(property.name));
+    return samples;
+}
+
+std::size_t alembic_floor(const TimeSampling& sampling, std::size_t count, double seconds) {
+    std::size_t floor = find_samples(sampling, count, seconds).floor;
+    const bool reaches_next = floor + 1 < count && seconds > sample_time(sampling, 0) &&
+                              sample_time(sampling, floor + 1) - seconds <= reached;
+    return reaches_next ? floor + 1 : floor;
+}
+
+std::size_t alembic_ceil(const TimeSampling& sampling, std::size_t count, double seconds) {
+    const std::size_t floor = alembic_floor(sampling, count, seconds);
+    if (floor + 1 >= count || std::abs(sample_time(sampling, floor) - seconds) <= reached) return floor;
+    return seconds <= sample_time(sampling, 0) ? 0 : floor + 1;
+}
+
+std::size_t alembic_near(const TimeSampling& sampling, std::size_t count, double seconds) {
+    const std::size_t floor = alembic_floor(sampling, count, seconds);
+    if (floor + 1 >= count) return floor;
+    return sample_time(sampling, floor + 1) - seconds < seconds - sample_time(sampling, floor) ? floor + 1 : floor;
+}
+
+}  // namespace aleph

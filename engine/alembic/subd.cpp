@@ -1,0 +1,201 @@
+// Subdivision surfaces: cages with creases, corners, holes and texture coordinates.
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <tuple>
+
+#include "engine/alembic/surface.h"
+#include "engine/base/errors.h"
+#include "engine/surface/limit_surface.h"
+
+namespace aleph {
+namespace {
+
+constexpr std::uint64_t bytes_per_face = 1024;  // that refinement takes, about
+constexpr std::size_t many_faces = 30000;       // a cage so fine needs less of it to begin with
+
+/// An optional property's numbers at a time; empty where it is missing.
+template <class T>
+std::vector<T> read_optional(const AlembicReader& reader, const AlembicCompound& geom, const char* name,
+                             double seconds) {
+    const AlembicProperty* property = geom.find(name);
+    if (property == nullptr || property->sample_count == 0) return {};
+    return reader.archive.numbers<T>(*property, sample_at(reader.archive, *property, seconds));
+}
+
+int read_rule(const AlembicReader& reader, const AlembicCompound& geom, const char* name, double seconds) {
+    const std::vector<int> values = read_optional<int>(reader, geom, name, seconds);
+    return values.empty() ? 0 : values.front();
+}
+
+Cage::Scheme read_scheme(AlembicReader& reader, int object, const AlembicCompound& geom) {
+    const std::string name = read_text(reader, geom, ".scheme");
+    if (name == "loop") return Cage::Scheme::loop;
+    if (name == "bilinear") return Cage::Scheme::bilinear;
+    if (!name.empty() && name != "catmull-clark")
+        reader.warn(object, fmt::format("the scheme \"{}\" is unknown; catmull-clark is used", printable(name)));
+    return Cage::Scheme::catmull_clark;
+}
+
+Cage::Boundary read_boundary(AlembicReader& reader, int object, const AlembicCompound& geom, double seconds) {
+    switch (read_rule(reader, geom, ".interpolateBoundary", seconds)) {
+        case 0:
+            return Cage::Boundary::none;
+        case 1:
+            return Cage::Boundary::edge_and_corner;
+        case 2:
+            return Cage::Boundary::edge_only;
+        default:
+            reader.warn(object, "its boundary rule is unknown; edges and corners are kept");
+            return Cage::Boundary::edge_and_corner;
+    }
+}
+
+/// RenderMan's numbers in OpenSubdiv's words.
+Cage::UvRule read_uv_rule(const AlembicReader& reader, const AlembicCompound& geom, double seconds) {
+    const bool propagate = read_rule(reader, geom, ".faceVaryingPropagateCorners", seconds) != 0;
+    switch (read_rule(reader, geom, ".faceVaryingInterpolateBoundary", seconds)) {
+        case 1:
+            return propagate ? Cage::UvRule::linear_corners_plus2 : Cage::UvRule::linear_corners_plus1;
+        case 2:
+            return Cage::UvRule::linear_none;
+        case 3:
+            return Cage::UvRule::linear_boundaries;
+        default:
+            return Cage::UvRule::linear_all;
+    }
+}
+
+/// Corners of a face counter-clockwise: the first stays, the others come backwards.
+std::size_t turned(const SurfaceRun& run, std::size_t face, std::size_t i) {
+    const auto count = static_cast<std::size_t>(run.face_counts[face]);
+    return run.first_corner[face] + (i == 0 ? 0 : count - i);
+}
+
+void add_uv(AlembicReader& reader, int object, const AlembicCompound& geom, const SurfaceRun& run, Cage& cage) {
+    const auto parameter = find_parameter(reader.archive, geom, "uv", 2);
+    if (!parameter) return;
+    const auto sample = read_fitting(reader, object, *parameter, run, run.begin, "its texture coordinates");
+    if (!sample) return;
+    if (!is_constant(*parameter))
+        reader.warn(object, "its texture coordinates change over time; their first state is used");
+    reader.archive.budget().charge(run.corner_count(), 100);
+    // Corners that share point and coordinates are joined there; where the coordinates differ is a seam.
+    std::map<std::tuple<int, float, float>, int> known;
+    for (std::size_t f = 0; f < run.face_counts.size(); ++f) {
+        if (run.face_counts[f] < 3) continue;
+        for (std::size_t i = 0; i < static_cast<std::size_t>(run.face_counts[f]); ++i) {
+            const std::size_t corner = turned(run, f, i);
+            const float* uv = sample->at(scope_item(parameter->scope, run, f, corner));
+            const auto [found, is_new] =
+                known.try_emplace({run.face_points[corner], uv[0], uv[1]}, static_cast<int>(cage.uv.size()));
+            if (is_new) cage.uv.emplace_back(uv[0], 1.0f - uv[1]);
+            cage.face_uv.push_back(found->second);
+        }
+    }
+}
+
+/// Faces, holes and parts; faces of fewer than 3 points are left out.
+void add_faces(AlembicReader& reader, int object, const SurfaceRun& run, const SurfaceParts& parts,
+               const std::vector<int>& holes, Cage& cage) {
+    std::vector<int> new_number(run.face_counts.size(), -1);
+    for (std::size_t f = 0; f < run.face_counts.size(); ++f) {
+        if (run.face_counts[f] < 3) {
+            reader.warn(object, "faces of fewer than 3 points are left out");
+            continue;
+        }
+        new_number[f] = static_cast<int>(cage.face_sizes.size());
+        cage.face_sizes.push_back(run.face_counts[f]);
+        if (parts.materials.size() > 1) cage.face_parts.push_back(parts.face_parts[f]);
+        for (std::size_t i = 0; i < static_cast<std::size_t>(run.face_counts[f]); ++i)
+            cage.face_points.push_back(run.face_points[turned(run, f, i)]);
+    }
+    for (const int hole : holes) {
+        if (hole < 0 || static_cast<std::size_t>(hole) >= new_number.size()) {
+            reader.warn(object, "holes are named for faces that the surface does not have");
+        } else if (const int number = new_number[static_cast<std::size_t>(hole)]; number >= 0) {
+            cage.holes.push_back(number);
+        }
+    }
+    std::ranges::sort(cage.holes);
+    cage.holes.erase(std::unique(cage.holes.begin(), cage.holes.end()), cage.holes.end());
+}
+
+void warn_of_changes(AlembicReader& reader, int object, const AlembicCompound& geom) {
+    for (const char* name : {".creaseIndices", ".creaseLengths", ".creaseSharpnesses", ".cornerIndices",
+                             ".cornerSharpnesses", ".holes", ".interpolateBoundary"}) {
+        const AlembicProperty* property = geom.find(name);
+        if (property == nullptr || property->is_constant()) continue;
+        reader.warn(object, "its creases, corners or holes change over time; their first state is used");
+        return;
+    }
+}
+
+/// Makes the triangles. Archives leave the boundary rule out, or have it at its default, where it does not matter to
+/// their writer: a surface of which nothing would be drawn then keeps its edges.
+void tessellate(AlembicReader& reader, int object, int number) {
+    Cage& cage = reader.part.cages[static_cast<std::size_t>(number)];
+    try {
+        try {
+            tessellate_cage(reader.part, number);
+        } catch (const InputError&) {
+            if (cage.boundary != Cage::Boundary::none) throw;
+            cage.boundary = Cage::Boundary::edge_and_corner;
+            tessellate_cage(reader.part, number);
+            reader.warn(object, "its boundary rule would draw nothing; edges and corners are kept");
+        }
+    } catch (const InputError& error) {
+        reader.archive.fail(object, error.reason());
+    }
+}
+
+}  // namespace
+
+std::vector<int> read_subdivision(AlembicReader& reader, int object, const AlembicCompound& top) {
+    const AlembicArchive& archive = reader.archive;
+    const AlembicProperty* compound = top.find(".geom");
+    if (compound == nullptr) return {};
+    const AlembicCompound geom = archive.properties(*compound);
+    const std::vector<SurfaceRun> runs = read_runs(reader, object, geom);
+    const std::string& name = archive.objects()[static_cast<std::size_t>(object)].name;
+    std::vector<int> meshes;
+    for (const SurfaceRun& run : runs) {
+        const SurfaceParts parts = read_parts(reader, object, top, run);
+        archive.budget().charge(run.face_counts.size(), bytes_per_face);
+        warn_of_changes(reader, object, geom);
+        Cage cage;
+        cage.name = archive.path(object);
+        cage.points = run.points;
+        cage.scheme = read_scheme(reader, object, geom);
+        cage.boundary = read_boundary(reader, object, geom, run.begin);
+        cage.uv_rule = read_uv_rule(reader, geom, run.begin);
+        cage.crease_points = read_optional<int>(reader, geom, ".creaseIndices", run.begin);
+        cage.crease_lengths = read_optional<int>(reader, geom, ".creaseLengths", run.begin);
+        cage.crease_sharpness = read_optional<float>(reader, geom, ".creaseSharpnesses", run.begin);
+        cage.corner_points = read_optional<int>(reader, geom, ".cornerIndices", run.begin);
+        cage.corner_sharpness = read_optional<float>(reader, geom, ".cornerSharpnesses", run.begin);
+        add_faces(reader, object, run, parts, read_optional<int>(reader, geom, ".holes", run.begin), cage);
+        if (cage.face_sizes.empty()) continue;
+        if (cage.face_sizes.size() > many_faces) cage.level = 1;
+        add_uv(reader, object, geom, run, cage);
+
+        const int number = static_cast<int>(reader.part.cages.size());
+        reader.part.cages.push_back(std::move(cage));
+        for (std::size_t part = 0; part < parts.materials.size(); ++part) {
+            Mesh mesh;
+            mesh.name = name;
+            mesh.material = parts.materials[part];
+            mesh.cage = number;
+            mesh.cage_part = static_cast<int>(part);
+            mesh.present = run.present;
+            meshes.push_back(static_cast<int>(reader.part.meshes.size()));
+            reader.part.meshes.push_back(std::move(mesh));
+        }
+        tessellate(reader, object, number);
+    }
+    return meshes;
+}
+
+}  // namespace aleph

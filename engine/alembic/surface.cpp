@@ -1,0 +1,252 @@
+#include "engine/alembic/surface.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "engine/base/errors.h"
+
+namespace aleph {
+namespace {
+
+constexpr double same_time = 1e-5;  // s; the format's own tolerance
+
+std::size_t element_count(const AlembicArchive& archive, const AlembicProperty& property, std::uint64_t sample) {
+    const std::vector<std::uint64_t> sizes = archive.dimensions(property, sample);
+    return std::accumulate(sizes.begin(), sizes.end(), std::size_t{1}, std::multiplies<>());
+}
+
+/// An array property of a surface with the samples that differ.
+struct Sampled {
+    const AlembicProperty* property = nullptr;
+    AlembicSamples samples;
+
+    std::size_t count() const { return samples.indices.size(); }
+    std::size_t floor(double seconds) const {
+        return count() <= 1 ? 0 : alembic_floor(samples.sampling, count(), seconds);
+    }
+    std::uint64_t index_at(double seconds) const { return samples.indices[floor(seconds)]; }
+};
+
+/// None where the property is missing or has no samples.
+std::optional<Sampled> find_sampled(AlembicReader& reader, int object, const AlembicCompound& geom, const char* name,
+                                    std::uint32_t extent) {
+    const AlembicProperty* property = geom.find(name);
+    if (property == nullptr || property->sample_count == 0) return std::nullopt;
+    if (property->extent != extent)
+        reader.archive.fail(object,
+                            fmt::format("{} has {} values to an element, expected {}", name, property->extent, extent));
+    reader.widen(*property);
+    return Sampled{property, reader.archive.samples(*property)};
+}
+
+/// Every time at which points or topology have a sample; one time, any, where nothing changes.
+std::vector<double> merge_times(const std::vector<const Sampled*>& properties) {
+    std::vector<double> times;
+    for (const Sampled* sampled : properties) {
+        if (sampled->count() <= 1) continue;
+        for (std::size_t i = 0; i < sampled->count(); ++i) times.push_back(sampled->samples.time(i));
+    }
+    if (times.empty()) return {0.0};
+    std::ranges::sort(times);
+    const auto same = [](double a, double b) { return b - a <= same_time; };
+    times.erase(std::unique(times.begin(), times.end(), same), times.end());
+    return times;
+}
+
+void check_topology(AlembicReader& reader, int object, SurfaceRun& run) {
+    const AlembicArchive& archive = reader.archive;
+    archive.budget().charge(run.face_counts.size(), sizeof(std::size_t));
+    run.first_corner.reserve(run.face_counts.size());
+    std::size_t corners = 0;
+    for (std::size_t face = 0; face < run.face_counts.size(); ++face) {
+        const int count = run.face_counts[face];
+        if (count < 0 || static_cast<std::size_t>(count) > run.face_points.size() - corners) {
+            archive.fail(object, fmt::format("face {} claims {} points, {} are left", face, count,
+                                             run.face_points.size() - corners));
+        }
+        run.first_corner.push_back(corners);
+        corners += static_cast<std::size_t>(count);
+    }
+    if (corners != run.face_points.size()) {
+        archive.fail(object, fmt::format("its faces take {} points, {} are given", corners, run.face_points.size()));
+    }
+    for (const int point : run.face_points) {
+        if (point < 0 || static_cast<std::size_t>(point) >= run.point_count)
+            archive.fail(object, fmt::format("a face asks for point {}, there are {}", point, run.point_count));
+    }
+}
+
+std::vector<glm::vec3> read_vectors(const AlembicArchive& archive, const AlembicProperty& property,
+                                    std::uint64_t sample) {
+    const std::vector<float> values = archive.numbers<float>(property, sample);
+    std::vector<glm::vec3> vectors(values.size() / 3);
+    archive.budget().charge(vectors.size(), sizeof(glm::vec3));
+    for (std::size_t i = 0; i < vectors.size(); ++i) vectors[i] = {values[3 * i], values[3 * i + 1], values[3 * i + 2]};
+    return vectors;
+}
+
+bool is_finite(const glm::vec3& v) {
+    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+}
+
+void read_point_cache(AlembicReader& reader, int object, const AlembicCompound& geom, const Sampled& points,
+                      SurfaceRun& run) {
+    const AlembicArchive& archive = reader.archive;
+    PointCache cache;
+    cache.name = archive.path(object);
+    cache.sampling = run.sampling;
+    for (const std::uint64_t sample : run.point_samples) {
+        cache.positions.push_back(read_vectors(archive, *points.property, sample));
+        for (std::size_t i = 0; i < run.point_count; ++i) {
+            if (!is_finite(cache.positions.back()[i]))
+                archive.fail(object, fmt::format("point {} of sample {} is not finite", i, sample));
+        }
+    }
+    const AlembicProperty* velocities = geom.find(".velocities");
+    if (velocities != nullptr && velocities->extent == 3 && velocities->sample_count > 0) {
+        for (std::size_t i = 0; i < run.point_samples.size(); ++i) {
+            const double seconds = run.point_samples.size() > 1 ? sample_time(run.sampling, i) : run.begin;
+            std::vector<glm::vec3> sample =
+                read_vectors(archive, *velocities, sample_at(archive, *velocities, seconds));
+            const bool fits = sample.size() == run.point_count && std::ranges::all_of(sample, is_finite);
+            if (!fits) {
+                reader.warn(object, "its velocities do not fit its points and are left out");
+                cache.velocities.clear();
+                break;
+            }
+            cache.velocities.push_back(std::move(sample));
+        }
+    }
+    run.points = static_cast<int>(reader.part.point_caches.size());
+    reader.part.point_caches.push_back(std::move(cache));
+}
+
+/// Shown from its own start to that of the next.
+Track<double> make_presence(const std::vector<SurfaceRun>& runs, std::size_t run) {
+    Track<double> track;
+    track.interpolation = Interpolation::step;
+    track.sampling.kind = TimeSampling::Kind::acyclic;
+    const auto add = [&](double time, double value) {
+        track.sampling.times.push_back(time);
+        track.values.push_back(value);
+    };
+    if (run > 0) add(runs.front().begin, 0.0);
+    add(runs[run].begin, 1.0);
+    if (run + 1 < runs.size()) add(runs[run + 1].begin, 0.0);
+    return track;
+}
+
+}  // namespace
+
+std::vector<SurfaceRun> read_runs(AlembicReader& reader, int object, const AlembicCompound& geom) {
+    const AlembicArchive& archive = reader.archive;
+    const auto points = find_sampled(reader, object, geom, "P", 3);
+    const auto counts = find_sampled(reader, object, geom, ".faceCounts", 1);
+    const auto indices = find_sampled(reader, object, geom, ".faceIndices", 1);
+    if (!points || !counts || !indices) {
+        reader.warn(object, "a surface without points or faces");
+        return {};
+    }
+    std::vector<SurfaceRun> runs;
+    std::uint64_t counts_block = 0, indices_block = 0;
+    std::size_t last_point_sample = 0;
+    for (const double time : merge_times({&*points, &*counts, &*indices})) {
+        const std::size_t at = points->floor(time);
+        const std::uint64_t point_sample = points->samples.indices[at];
+        const std::uint64_t counts_sample = counts->index_at(time), indices_sample = indices->index_at(time);
+        const std::size_t point_count = element_count(archive, *points->property, point_sample);
+        // Sparse files leave points out where they do not change.
+        if (point_count == 0 && element_count(archive, *indices->property, indices_sample) > 0) continue;
+
+        const std::uint64_t new_counts = archive.storage(*counts->property, counts_sample);
+        const std::uint64_t new_indices = archive.storage(*indices->property, indices_sample);
+        bool same = !runs.empty() && runs.back().point_count == point_count;
+        std::vector<int> face_counts, face_points;
+        if (!same || new_counts != counts_block || new_indices != indices_block) {
+            face_counts = archive.numbers<int>(*counts->property, counts_sample);
+            face_points = archive.numbers<int>(*indices->property, indices_sample);
+            same = same && face_counts == runs.back().face_counts && face_points == runs.back().face_points;
+            counts_block = new_counts, indices_block = new_indices;
+        }
+        if (!same) {
+            SurfaceRun run;
+            run.begin = time;
+            run.point_count = point_count;
+            run.face_counts = std::move(face_counts);
+            run.face_points = std::move(face_points);
+            check_topology(reader, object, run);
+            archive.budget().charge(1, 1024);
+            runs.push_back(std::move(run));
+        } else if (at == last_point_sample) {
+            continue;
+        }
+        last_point_sample = at;
+        runs.back().point_samples.push_back(point_sample);
+        runs.back().sampling.times.push_back(time);
+    }
+    for (SurfaceRun& run : runs) run.sampling.kind = TimeSampling::Kind::acyclic;
+    if (runs.size() == 1 && runs.front().point_samples == points->samples.indices)
+        runs.front().sampling = points->samples.sampling;  // as the file has it
+
+    if (runs.size() > 1) {
+        reader.warn(object,
+                    fmt::format("its topology changes {} times: there is no motion across a change", runs.size() - 1));
+        for (std::size_t i = 0; i < runs.size(); ++i) runs[i].present = make_presence(runs, i);
+    }
+    std::erase_if(runs, [](const SurfaceRun& run) { return run.face_points.empty(); });
+    for (SurfaceRun& run : runs) read_point_cache(reader, object, geom, *points, run);
+    return runs;
+}
+
+std::uint64_t sample_at(const AlembicArchive& archive, const AlembicProperty& property, double seconds) {
+    if (property.is_constant()) return 0;
+    const TimeSampling& sampling = archive.time_samplings()[property.time_sampling];
+    std::size_t count = property.sample_count;
+    if (sampling.kind == TimeSampling::Kind::acyclic) count = std::min(count, sampling.times.size());
+    return alembic_floor(sampling, count, seconds);
+}
+
+SurfaceParts read_parts(AlembicReader& reader, int object, const AlembicCompound& top, const SurfaceRun& run) {
+    const AlembicArchive& archive = reader.archive;
+    const std::string own = read_text(reader, top, ".material.assign");
+    std::vector<int> face_materials(run.face_counts.size(),
+                                    own.empty() ? no_index : read_material(reader, object, own));
+    for (const int child : archive.objects()[static_cast<std::size_t>(object)].children) {
+        if (archive.objects()[static_cast<std::size_t>(child)].schema() != "AbcGeom_FaceSet_v1") continue;
+        const AlembicCompound child_top = archive.properties(child);
+        const std::string assigned = read_text(reader, child_top, ".material.assign");
+        const AlembicProperty* compound = child_top.find(".faceset");
+        if (assigned.empty() || compound == nullptr) continue;
+        const AlembicCompound face_set = archive.properties(*compound);
+        const AlembicProperty* faces = face_set.find(".faces");
+        if (faces == nullptr || faces->sample_count == 0) continue;
+        if (!faces->is_constant())
+            reader.warn(child, "the face set changes over time; its first state is used until the topology changes");
+        const int material = read_material(reader, child, assigned);
+        for (const int face : archive.numbers<int>(*faces, sample_at(archive, *faces, run.begin))) {
+            if (face < 0 || static_cast<std::size_t>(face) >= face_materials.size()) {
+                reader.warn(child, "the face set names faces that the surface does not have");
+                continue;
+            }
+            face_materials[static_cast<std::size_t>(face)] = material;
+        }
+    }
+    SurfaceParts parts;
+    parts.face_parts.reserve(face_materials.size());
+    for (std::size_t face = 0; face < face_materials.size(); ++face) {
+        if (run.face_counts[face] < 3) {  // not drawn: asks for no part
+            parts.face_parts.push_back(0);
+            continue;
+        }
+        const int material = face_materials[face] == no_index ? neutral_material(reader) : face_materials[face];
+        const auto found = std::ranges::find(parts.materials, material);
+        parts.face_parts.push_back(static_cast<int>(found - parts.materials.begin()));
+        if (found == parts.materials.end()) parts.materials.push_back(material);
+    }
+    return parts;
+}
+
+}  // namespace aleph

@@ -1,0 +1,128 @@
+#include "engine/base/atomic_file.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <system_error>
+
+#include "engine/base/errors.h"
+
+namespace aleph {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// The reason of a failed system call; strerror is not safe between threads.
+std::string reason(const char* what, int error) {
+    return fmt::format("{}: {}", what, std::generic_category().message(error));
+}
+
+[[noreturn]] void fail(const fs::path& named, const char* what, int error) {
+    throw OutputError(printable(named.string(), 4096), reason(what, error));
+}
+
+/// An open file that is closed at the end of the scope; close() tells whether that worked.
+class FileDescriptor {
+  public:
+    explicit FileDescriptor(int fd) : fd_(fd) {}
+    ~FileDescriptor() {
+        if (fd_ >= 0) ::close(fd_);
+    }
+    FileDescriptor(const FileDescriptor&) = delete;
+    FileDescriptor& operator=(const FileDescriptor&) = delete;
+
+    int get() const { return fd_; }
+    bool close() {
+        const int fd = fd_;
+        fd_ = -1;
+        return ::close(fd) == 0;
+    }
+
+  private:
+    int fd_;
+};
+
+/// Where the bytes really go, after a look at what is there now.
+fs::path checked_target(const fs::path& path) {
+    if (!path.has_filename()) throw OutputError(printable(path.string(), 4096), "this is a folder, not a file name");
+    std::error_code error;
+    fs::path target = path;
+    if (fs::is_symlink(fs::symlink_status(path, error))) {
+        target = fs::weakly_canonical(path, error);
+        if (error) fail(path, "cannot follow the link", error.value());
+    }
+    const fs::path folder = target.has_parent_path() ? target.parent_path() : fs::path(".");
+    const bool is_folder = fs::is_directory(folder, error);
+    if (error && error != std::errc::no_such_file_or_directory) fail(path, "cannot use its folder", error.value());
+    if (!is_folder) {
+        throw OutputError(printable(path.string(), 4096),
+                          fmt::format("the folder '{}' does not exist", printable(folder.string(), 4096)));
+    }
+    const fs::file_status status = fs::status(target, error);
+    if (fs::exists(status)) {
+        if (fs::is_directory(status)) throw OutputError(printable(path.string(), 4096), "this is a folder");
+        if (!fs::is_regular_file(status)) {
+            throw OutputError(printable(path.string(), 4096), "exists and is not a regular file");
+        }
+        if (::faccessat(AT_FDCWD, target.c_str(), W_OK, AT_EACCESS) != 0)
+            fail(path, "cannot replace the existing file", errno);
+    }
+    return target;
+}
+
+void flush_to_disk(const fs::path& file, const fs::path& named) {
+    FileDescriptor fd(::open(file.c_str(), O_RDONLY | O_CLOEXEC));
+    if (fd.get() < 0) fail(named, "cannot re-open the temporary file", errno);
+    if (::fsync(fd.get()) != 0) fail(named, "cannot flush to disk", errno);
+}
+
+}  // namespace
+
+void write_bytes(const fs::path& file, std::string_view bytes, const fs::path& named) {
+    FileDescriptor fd(::open(file.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666));
+    if (fd.get() < 0) fail(named, "cannot create a file in this folder", errno);
+    for (std::size_t done = 0; done < bytes.size();) {
+        const std::size_t piece = std::min<std::size_t>(bytes.size() - done, std::size_t{1} << 26);
+        const ssize_t written = ::write(fd.get(), bytes.data() + done, piece);
+        if (written < 0 && errno == EINTR) continue;
+        if (written < 0) fail(named, "cannot write", errno);
+        done += static_cast<std::size_t>(written);
+    }
+    if (::fsync(fd.get()) != 0) fail(named, "cannot flush to disk", errno);
+    if (!fd.close()) fail(named, "cannot close", errno);
+    std::error_code error;
+    const auto size = fs::file_size(file, error);
+    if (error || size != bytes.size()) {
+        throw OutputError(printable(named.string(), 4096),
+                          fmt::format("{} bytes reached the disk, not {}", error ? 0 : size, bytes.size()));
+    }
+}
+
+void write_atomically(const fs::path& path, const std::function<void(const fs::path& temporary)>& write) {
+    const fs::path target = checked_target(path);
+    const fs::path temporary =
+        target.parent_path() / fmt::format(".{}.{}.part", target.filename().string(), ::getpid());
+    try {
+        write(temporary);
+        flush_to_disk(temporary, path);
+        if (::rename(temporary.c_str(), target.c_str()) != 0) fail(path, "cannot rename the temporary file", errno);
+    } catch (...) {
+        ::unlink(temporary.c_str());
+        throw;
+    }
+    // The name itself lives in the folder. Some file systems refuse to flush folders; the file is complete either way.
+    const FileDescriptor folder(
+        ::open(target.has_parent_path() ? target.parent_path().c_str() : ".", O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+    if (folder.get() >= 0) ::fsync(folder.get());
+}
+
+void write_file(const fs::path& path, std::string_view bytes) {
+    write_atomically(path, [&](const fs::path& temporary) { write_bytes(temporary, bytes, path); });
+}
+
+}  // namespace aleph

@@ -1,0 +1,209 @@
+// glTF reader: animations: each channel's keys go to the property that it moves.
+#include <fmt/format.h>
+
+#include <map>
+
+#include "engine/base/errors.h"
+#include "engine/gltf/reader.h"
+#include "engine/gltf/tracks.h"
+#include "engine/gltf/validate/pointer.h"
+
+namespace aleph {
+
+namespace {
+
+/// A channel that moves something: where its keys are, and what they move.
+struct Channel {
+    const tinygltf::AnimationSampler& sampler;
+    GltfPointer target;
+    std::string place;  ///< of the sampler
+};
+
+void clamp_to_range(GltfReader& reader, GltfKeys& keys, const Channel& channel) {
+    const GltfPropertyInfo& info = *channel.target.info;
+    if (clamp_keys(keys, info.low, info.high)) {
+        reader.warn(channel.place, fmt::format("keys of {} leave {} to {} and are clamped",
+                                               pointer_text(channel.target), info.low, info.high));
+    }
+}
+
+void read_weights(GltfReader& reader, const Channel& channel) {
+    const std::vector<int>& meshes = reader.morphs_of[channel.target.index];
+    if (meshes.empty()) return;
+    const std::size_t count = reader.part.meshes[static_cast<std::size_t>(meshes[0])].targets.size();
+    const GltfKeys keys = read_keys(reader, channel.sampler, channel.place, count);
+    for (const int index : meshes) {
+        Mesh& mesh = reader.part.meshes[static_cast<std::size_t>(index)];
+        for (std::size_t k = 0; k < count; ++k) {
+            mesh.target_weights[k] = number_track(reader, keys, channel.place, k);
+        }
+    }
+}
+
+void read_node_channel(GltfReader& reader, const Channel& channel) {
+    const std::size_t source = channel.target.index;
+    const int index = reader.node_of[source];
+    if (index == no_index) {
+        reader.warn(channel.place, fmt::format("animates node {}, which is not in the scene", source));
+        return;
+    }
+    if (channel.target.info->property == GltfProperty::node_weights) return read_weights(reader, channel);
+    Node& node = reader.part.nodes[static_cast<std::size_t>(index)];
+    const GltfKeys keys = read_keys(reader, channel.sampler, channel.place);
+    switch (channel.target.info->property) {
+        case GltfProperty::node_rotation:
+            node.rotation = rotation_track(reader, keys, channel.place,
+                                           fmt::format("node {} \"{}\"", source, printable(node.name)));
+            break;
+        case GltfProperty::node_translation:
+            node.translation = vector_track(reader, keys, channel.place);
+            break;
+        case GltfProperty::node_scale:
+            node.scale = vector_track(reader, keys, channel.place);
+            break;
+        default: {
+            GltfKeys shown = keys;
+            for (double& value : shown.values) value = value != 0.0 ? 1.0 : 0.0;
+            node.visible = number_track(reader, shown, channel.place);
+        }
+    }
+}
+
+void read_camera_channel(GltfReader& reader, const Channel& channel) {
+    Camera& camera = reader.part.cameras[channel.target.index];
+    GltfKeys keys = read_keys(reader, channel.sampler, channel.place);
+    clamp_to_range(reader, keys, channel);
+    Track<double>& track = channel.target.info->property == GltfProperty::camera_yfov ? camera.fov : camera.half_height;
+    track = number_track(reader, keys, channel.place);
+}
+
+void read_light_channel(GltfReader& reader, const Channel& channel) {
+    Light& light = reader.part.lights[channel.target.index];
+    GltfKeys keys = read_keys(reader, channel.sampler, channel.place);
+    clamp_to_range(reader, keys, channel);
+    switch (channel.target.info->property) {
+        case GltfProperty::light_color:
+            light.color = vector_track(reader, keys, channel.place);
+            break;
+        case GltfProperty::light_intensity:
+            light.intensity = number_track(reader, keys, channel.place);
+            break;
+        case GltfProperty::light_inner_cone:
+            light.inner_cone = number_track(reader, keys, channel.place);
+            break;
+        case GltfProperty::light_outer_cone:
+            light.outer_cone = number_track(reader, keys, channel.place);
+            break;
+        default:
+            if (light.kind != Light::Kind::directional) light.range = number_track(reader, keys, channel.place);
+    }
+}
+
+void read_material_channel(GltfReader& reader, const Channel& channel) {
+    Material& material = reader.part.materials[channel.target.index];
+    GltfKeys keys = read_keys(reader, channel.sampler, channel.place);
+    clamp_to_range(reader, keys, channel);
+    const auto number = [&](std::size_t column = 0) { return number_track(reader, keys, channel.place, column); };
+    const auto vector = [&] { return vector_track(reader, keys, channel.place); };
+    switch (channel.target.info->property) {
+        case GltfProperty::material_base_color:
+            material.base_color = vector();
+            material.alpha = number(3);
+            break;
+        case GltfProperty::material_metallic:
+            material.metallic = number();
+            break;
+        case GltfProperty::material_roughness:
+            material.roughness = number();
+            break;
+        case GltfProperty::material_emission:
+            material.emission = vector();
+            break;
+        case GltfProperty::material_emission_strength:
+            material.emission_strength = number();
+            break;
+        case GltfProperty::material_ior:
+            material.ior = number();
+            break;
+        case GltfProperty::material_specular:
+            material.specular = number();
+            break;
+        case GltfProperty::material_specular_color:
+            material.specular_color = vector();
+            break;
+        default:
+            material.transmission = number();
+    }
+}
+
+void read_channel(GltfReader& reader, const Channel& channel) {
+    switch (channel.target.info->owner) {
+        case GltfOwner::node:
+            return read_node_channel(reader, channel);
+        case GltfOwner::camera:
+            return read_camera_channel(reader, channel);
+        case GltfOwner::light:
+            return read_light_channel(reader, channel);
+        case GltfOwner::material:
+            return read_material_channel(reader, channel);
+    }
+}
+
+/// What a validated channel moves; nothing for one that is left out.
+std::optional<GltfPointer> find_target(const nlohmann::json& target) {
+    if (const auto node = target.find("node"); node != target.end()) {
+        return find_node_property(node->get<std::size_t>(), target["path"].get_ref<const std::string&>());
+    }
+    const auto extensions = target.find("extensions");
+    if (target["path"] != "pointer" || extensions == target.end()) return std::nullopt;
+    const auto extension = extensions->find("KHR_animation_pointer");
+    if (extension == extensions->end()) return std::nullopt;
+    return find_gltf_property((*extension)["pointer"].get_ref<const std::string&>());
+}
+
+/// A channel that ordinary glTF ignores; the validator has warned of pointers that are not supported.
+bool moves_nothing(const nlohmann::json& target) {
+    const auto extensions = target.find("extensions");
+    const bool has_pointer = extensions != target.end() && extensions->contains("KHR_animation_pointer");
+    return !target.contains("node") && !(target["path"] == "pointer" && has_pointer);
+}
+
+}  // namespace
+
+void read_animations(GltfReader& reader) {
+    // Animations play together. Two that move one property were meant to be played one at a time: the first one does.
+    std::map<std::string, std::size_t> moved_by;
+    const std::vector<tinygltf::Animation>& animations = reader.source.model.animations;
+    for (std::size_t i = 0; i < animations.size(); ++i) {
+        const nlohmann::json& raw = reader.source.document["animations"][i];
+        const std::string place = fmt::format("/animations/{}", i);
+        std::size_t without_node = 0, left_out = 0, first_mover = 0;
+        for (const nlohmann::json& channel : raw["channels"]) {
+            if (moves_nothing(channel["target"])) ++without_node;
+            const std::optional<GltfPointer> target = find_target(channel["target"]);
+            if (!target) continue;
+            const auto [mover, is_first] = moved_by.emplace(pointer_text(*target), i);
+            if (!is_first) {
+                if (left_out++ == 0) first_mover = mover->second;
+                continue;
+            }
+            const auto sampler = channel["sampler"].get<std::size_t>();
+            read_channel(reader,
+                         {animations[i].samplers[sampler], *target, fmt::format("{}/samplers/{}", place, sampler)});
+        }
+        if (without_node > 0) {
+            reader.warn(place, fmt::format("{} channels animate no node and are ignored", without_node));
+        }
+        if (left_out > 0) {
+            const auto name = [&](std::size_t k) {
+                return animations[k].name.empty() ? fmt::format("animation {}", k)
+                                                  : fmt::format("\"{}\"", printable(animations[k].name));
+            };
+            reader.warn(place,
+                        fmt::format("{} of the {} channels of {} are left out: {} moves the same and comes first",
+                                    left_out, raw["channels"].size(), name(i), name(first_mover)));
+        }
+    }
+}
+
+}  // namespace aleph

@@ -1,0 +1,86 @@
+#pragma once
+// The glTF reader's parts: each turns one kind of element into scene elements. Only this folder uses them.
+
+#include <string>
+#include <vector>
+
+#include "engine/gltf/accessors.h"
+#include "engine/gltf/source.h"
+#include "engine/scene/scene.h"
+
+namespace aleph {
+
+/// How nodes use a scene mesh that was read from a primitive.
+struct GltfMeshUse {
+    std::size_t mesh = 0, primitive = 0;  ///< the glTF primitive
+    bool shared = false;                  ///< by rigid nodes
+    bool owned = false;                   ///< by one node that deforms it
+    int rigid_copy = no_index;            ///< for rigid nodes, where a deforming one came first
+};
+
+struct GltfReader {
+    explicit GltfReader(const GltfSource& gltf) : source(gltf), accessors(gltf) {}
+
+    const GltfSource& source;
+    GltfAccessors accessors;
+    Scene part;                               ///< what was read; indices count from its own elements
+    std::vector<std::vector<int>> meshes_of;  ///< glTF mesh -> one scene mesh per primitive with triangles
+    std::vector<GltfMeshUse> uses;            ///< of the meshes in `meshes_of`, which come first in the part
+    std::vector<int> node_of;                 ///< glTF node -> scene node, or no_index outside the scene
+    std::vector<std::vector<int>> morphs_of;  ///< glTF node -> scene meshes whose targets its weights move
+    std::vector<int> skin_of;                 ///< glTF skin -> scene skin, or no_index where no node uses it
+
+    void warn(const std::string& place, const std::string& text) {
+        part.warnings.push_back(source.file + ": " + place + ": " + text);
+    }
+};
+
+// In this order.
+void read_materials(GltfReader& reader);
+void read_meshes(GltfReader& reader);
+void read_cameras_and_lights(GltfReader& reader);
+void read_nodes(GltfReader& reader);
+void read_skins(GltfReader& reader);
+void read_animations(GltfReader& reader);
+
+/// The scene meshes that stand under a node: shared ones of a rigid mesh, the node's own of one that deforms.
+/// @param node  of the file
+std::vector<int> take_meshes(GltfReader& reader, std::size_t node);
+
+/// The skin of a vertex: JOINTS_n and WEIGHTS_n, weights brought to a sum of 1.
+void read_joint_weights(GltfReader& reader, const GltfMeshUse& use, std::size_t skin, Mesh& mesh);
+/// The scene skin of a glTF skin; its joints follow once all nodes are read (read_skins).
+int use_skin(GltfReader& reader, std::size_t skin);
+
+/// Morph targets of a primitive, without weights.
+void read_targets(GltfReader& reader, const tinygltf::Primitive& primitive, const std::string& place, Mesh& mesh);
+
+/// Child nodes for EXT_mesh_gpu_instancing in place of the node's own meshes.
+/// @param node  of the file; @param parent  its scene node
+/// @return (node, mesh) pairs made
+std::size_t read_instances(GltfReader& reader, std::size_t node, int parent);
+
+/// The three floats of each element. @param accessor  VEC3
+std::vector<glm::vec3> read_vec3(GltfReader& reader, int accessor);
+
+/// A quaternion made unit, and the length it had.
+struct UnitRotation {
+    glm::dquat rotation;
+    double length = 1.0;
+
+    /// @param tolerance  1e-3, or what small integers are off by
+    bool was_far_from_unit(double tolerance = 1e-3) const {
+        return !(length > 1.0 - tolerance && length < 1.0 + tolerance);
+    }
+};
+
+/// How far from unit a rotation may be without a word: quantised ones are off by up to 7e-3 (HARD_CASES KF-06).
+inline double rotation_tolerance(bool is_float) {
+    return is_float ? 1e-3 : 1.6e-2;
+}
+
+/// From x, y, z, w at `values`; of any length but 0, which is refused (HARD_CASES KF-04, KF-05).
+/// @param place  names node and key in the error
+UnitRotation read_rotation(const GltfReader& reader, const double* values, const std::string& place);
+
+}  // namespace aleph

@@ -1,0 +1,163 @@
+// glTF reader: what deforms meshes: morph targets, skins and their joints.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/base/errors.h"
+#include "engine/gltf/reader.h"
+
+namespace aleph {
+
+namespace {
+
+constexpr int joints_per_set = 4;
+
+const nlohmann::json& attributes_of(const GltfReader& reader, const GltfMeshUse& use) {
+    return reader.source.document["meshes"][use.mesh]["primitives"][use.primitive]["attributes"];
+}
+
+/// Most files round weights; beyond this the sum is worth a word.
+constexpr double weight_sum_tolerance = 1e-2;
+
+/// One vertex's weights to a sum of 1. @return whether they were near it before
+bool normalize_weights(JointWeight* weights, int count) {
+    double sum = 0.0;
+    for (int i = 0; i < count; ++i) sum += static_cast<double>(weights[i].weight);
+    if (sum > 0.0) {
+        for (int i = 0; i < count; ++i) {
+            weights[i].weight = static_cast<float>(static_cast<double>(weights[i].weight) / sum);
+        }
+    } else {
+        weights[0].weight = 1.0f;  // carried by no joint, it would fall to the origin
+    }
+    return std::abs(sum - 1.0) <= weight_sum_tolerance;
+}
+
+/// The top node above each node, itself for a root: parents stand first.
+std::vector<int> find_tops(const std::vector<Node>& nodes) {
+    std::vector<int> tops;
+    for (const Node& node : nodes) {
+        tops.push_back(node.parent == no_index ? static_cast<int>(tops.size())
+                                               : tops[static_cast<std::size_t>(node.parent)]);
+    }
+    return tops;
+}
+
+std::vector<glm::dmat4> read_inverse_binds(GltfReader& reader, const nlohmann::json& raw, std::size_t joints,
+                                           const std::string& place) {
+    std::vector<glm::dmat4> matrices(joints, glm::dmat4(1.0));
+    const auto accessor = raw.find("inverseBindMatrices");
+    if (accessor == raw.end()) return matrices;
+    const std::vector<double> values = reader.accessors.read<double>(accessor->get<int>());
+    for (std::size_t i = 0; i < joints; ++i) {
+        for (int k = 0; k < 16; ++k) matrices[i][k / 4][k % 4] = values[16 * i + static_cast<std::size_t>(k)];
+        for (int column = 0; column < 4; ++column) {
+            const double wanted = column == 3 ? 1.0 : 0.0;
+            if (matrices[i][column].w != wanted) {
+                throw InputError(reader.source.file, place + "/inverseBindMatrices",
+                                 fmt::format("matrix {} is not affine: its last row must be 0 0 0 1", i));
+            }
+        }
+    }
+    return matrices;
+}
+
+}  // namespace
+
+int use_skin(GltfReader& reader, std::size_t skin) {
+    int& index = reader.skin_of[skin];
+    if (index == no_index) {
+        index = static_cast<int>(reader.part.skins.size());
+        reader.part.skins.emplace_back();
+    }
+    return index;
+}
+
+void read_joint_weights(GltfReader& reader, const GltfMeshUse& use, std::size_t skin, Mesh& mesh) {
+    const std::string place = fmt::format("/meshes/{}/primitives/{}", use.mesh, use.primitive);
+    const std::size_t joint_count = reader.source.document["skins"][skin]["joints"].size();
+    const nlohmann::json& attributes = attributes_of(reader, use);
+    const int sets = attributes.contains("JOINTS_1") ? 2 : 1;
+    const std::size_t per_vertex = static_cast<std::size_t>(sets * joints_per_set);
+    reader.accessors.charge(mesh.positions.size() * per_vertex * sizeof(JointWeight), place);
+    mesh.skin = use_skin(reader, skin);
+    mesh.joints_per_vertex = static_cast<int>(per_vertex);
+    mesh.joint_weights.assign(mesh.positions.size() * per_vertex, {});
+    for (int set = 0; set < sets; ++set) {
+        const int joints_accessor = attributes[fmt::format("JOINTS_{}", set)].get<int>();
+        const int weights_accessor = attributes[fmt::format("WEIGHTS_{}", set)].get<int>();
+        const std::vector<std::uint32_t> joints = reader.accessors.read_indices(joints_accessor, joint_count, "joint");
+        const std::vector<float> weights = reader.accessors.read<float>(weights_accessor);
+        for (std::size_t i = 0; i < joints.size(); ++i) {
+            if (weights[i] < 0.0f) {
+                throw InputError(reader.source.file, fmt::format("/accessors/{}", weights_accessor),
+                                 fmt::format("vertex {} has the weight {}: it must not be negative", i / joints_per_set,
+                                             weights[i]));
+            }
+            const std::size_t vertex = i / joints_per_set, k = i % joints_per_set;
+            JointWeight& slot =
+                mesh.joint_weights[vertex * per_vertex + static_cast<std::size_t>(set * joints_per_set) + k];
+            slot = {joints[i], weights[i]};
+        }
+    }
+    std::size_t far_from_one = 0;
+    for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
+        if (!normalize_weights(&mesh.joint_weights[i * per_vertex], mesh.joints_per_vertex)) ++far_from_one;
+    }
+    if (far_from_one > 0) {
+        reader.warn(place,
+                    fmt::format("the joint weights of {} vertices do not sum to 1 and are scaled", far_from_one));
+    }
+    if (attributes.contains("JOINTS_2")) reader.warn(place, "only eight joints per vertex are read");
+}
+
+void read_skins(GltfReader& reader) {
+    const std::vector<int> tops = find_tops(reader.part.nodes);
+    for (std::size_t i = 0; i < reader.skin_of.size(); ++i) {
+        if (reader.skin_of[i] == no_index) continue;
+        const nlohmann::json& raw = reader.source.document["skins"][i];
+        const std::string place = fmt::format("/skins/{}", i);
+        Skin skin;
+        skin.name = raw.value("name", fmt::format("skin{}", i));
+        for (const nlohmann::json& joint : raw["joints"]) {
+            const std::string joint_place = fmt::format("{}/joints/{}", place, skin.joints.size());
+            const int node = reader.node_of[joint.get<std::size_t>()];
+            if (node == no_index) {
+                throw InputError(reader.source.file, joint_place,
+                                 fmt::format("node {} is not in the scene", joint.get<std::size_t>()));
+            }
+            skin.joints.push_back(node);
+            // glTF 2.0, 3.7.3.2.
+            if (tops[static_cast<std::size_t>(node)] != tops[static_cast<std::size_t>(skin.joints[0])]) {
+                throw InputError(reader.source.file, joint_place,
+                                 "the joints of a skin must stand below one root node");
+            }
+        }
+        skin.inverse_binds = read_inverse_binds(reader, raw, skin.joints.size(), place);
+        reader.part.skins[static_cast<std::size_t>(reader.skin_of[i])] = std::move(skin);
+    }
+}
+
+void read_targets(GltfReader& reader, const tinygltf::Primitive& primitive, const std::string& place, Mesh& mesh) {
+    bool dropped_normals = false;
+    for (const std::map<std::string, int>& source : primitive.targets) {
+        MorphTarget target;
+        target.name = fmt::format("target{}", mesh.targets.size());
+        if (const auto found = source.find("POSITION"); found != source.end()) {
+            target.positions = read_vec3(reader, found->second);
+        }
+        if (const auto found = source.find("NORMAL"); found != source.end()) {
+            if (mesh.normals.empty()) {
+                dropped_normals = true;
+            } else {
+                target.normals = read_vec3(reader, found->second);
+            }
+        }
+        mesh.targets.push_back(std::move(target));
+    }
+    mesh.target_weights.assign(mesh.targets.size(), Track<double>(0.0));
+    if (dropped_normals) reader.warn(place, "the mesh is shaded flat, so its morph targets' normals are not used");
+}
+
+}  // namespace aleph

@@ -1,0 +1,157 @@
+#include "engine/gltf/source.h"
+
+#include <fmt/format.h>
+
+#include <exception>
+
+#include "engine/base/errors.h"
+#include "engine/gltf/validate/validate.h"
+
+namespace aleph {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+Bytes load_buffer(const GltfSource& source, std::size_t i, const GltfChunks& chunks, std::uint64_t bytes_left) {
+    const nlohmann::json& buffer = source.document["buffers"][i];
+    const std::string place = fmt::format("/buffers/{}", i);
+    const auto length = buffer["byteLength"].get<std::size_t>();
+    Bytes bytes;
+    if (!buffer.contains("uri")) {
+        if (chunks.binary.size() < length) {
+            throw InputError(source.file, place,
+                             fmt::format("byteLength is {}, the BIN chunk has {} bytes", length, chunks.binary.size()));
+        }
+        bytes.assign(chunks.binary.begin(), chunks.binary.begin() + static_cast<std::ptrdiff_t>(length));
+        return bytes;
+    }
+    // Several buffers may name one large file.
+    if (length > bytes_left) {
+        throw InputError(source.file, place, fmt::format("all buffers together exceed {} bytes", max_file_bytes));
+    }
+    const std::string& uri = buffer["uri"].get_ref<const std::string&>();
+    if (is_data_uri(uri)) {
+        bytes = decode_data_uri(uri, source.file, place + "/uri").bytes;
+    } else {
+        bytes = read_regular_file(resolve_file_uri(uri, source.folder, source.file, place + "/uri"), source.file,
+                                  place + "/uri");
+    }
+    if (bytes.size() < length) {
+        throw InputError(source.file, place,
+                         fmt::format("byteLength is {}, the data has {} bytes", length, bytes.size()));
+    }
+    bytes.resize(length);
+    return bytes;
+}
+
+bool is_image_type(std::string_view type) {
+    return type == "image/png" || type == "image/jpeg";
+}
+
+/// Every image must be there and be reachable, used or not, so that the verdict does not depend on materials.
+void locate_image(const GltfSource& source, std::size_t i) {
+    const nlohmann::json& image = source.document["images"][i];
+    if (!image.contains("uri")) return;
+    const std::string place = fmt::format("/images/{}/uri", i);
+    const std::string& uri = image["uri"].get_ref<const std::string&>();
+    if (is_data_uri(uri)) {
+        const std::string type = uri.substr(5, uri.find_first_of(";,") - 5);
+        if (!is_image_type(type)) {
+            throw InputError(source.file, place,
+                             fmt::format("\"{}\" is not supported, only image/png and image/jpeg", printable(type)));
+        }
+        return;
+    }
+    const fs::path path = resolve_file_uri(uri, source.folder, source.file, place);
+    std::error_code error;
+    if (!fs::is_regular_file(path, error)) {
+        throw InputError(source.file, place, fmt::format("no such file: {}", printable(path.filename().string())));
+    }
+}
+
+/// The document without what tinygltf would open or decode, or what it chokes on: sparse values, indices without a
+/// buffer view, channels without a node. Those are read from the document itself.
+nlohmann::json make_parser_input(const GltfSource& source) {
+    nlohmann::json input = nlohmann::json::object();
+    for (const auto& [key, value] : source.document.items()) {
+        if (key != "buffers" && key != "images" && key != "skins" && key != "extras") input[key] = value;
+    }
+    if (input.contains("accessors")) {
+        for (nlohmann::json& accessor : input["accessors"]) accessor.erase("sparse");
+    }
+    if (input.contains("animations")) {
+        for (nlohmann::json& animation : input["animations"]) animation["channels"] = nlohmann::json::array();
+    }
+    if (input.contains("meshes")) {
+        for (nlohmann::json& mesh : input["meshes"]) {
+            for (nlohmann::json& primitive : mesh["primitives"]) primitive.erase("indices");
+        }
+    }
+    return input;
+}
+
+void parse_model(GltfSource& source) {
+    const std::string text = make_parser_input(source).dump();
+    tinygltf::TinyGLTF parser;
+    parser.SetFsCallbacks({});  // it has nothing to open
+    parser.RemoveImageLoader();
+    std::string error, warning;
+    bool parsed = false;
+    try {
+        parsed = parser.LoadASCIIFromString(&source.model, &error, &warning, text.data(),
+                                            static_cast<unsigned int>(text.size()), "");
+    } catch (const std::exception& exception) {
+        error += exception.what();
+    }
+    // It may return true with an error text, having dropped the element.
+    if (!parsed || !error.empty()) throw InputError(source.file, "", "not valid glTF: " + printable(error, 300));
+}
+
+}  // namespace
+
+GltfSource load_gltf_source(const fs::path& path, const LoadLimits& limits) {
+    GltfSource source;
+    source.file = path.string();
+    source.folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
+    const Bytes bytes = read_regular_file(path, source.file, "");
+    const GltfChunks chunks = split_gltf(bytes, source.file);
+    source.document = parse_untrusted_json(chunks.json, source.file, limits);
+    validate_gltf(JsonRef(source.document, source.file), chunks.has_binary, source.warnings);
+
+    std::uint64_t bytes_left = max_file_bytes;
+    const std::size_t buffer_count = source.document.contains("buffers") ? source.document["buffers"].size() : 0;
+    for (std::size_t i = 0; i < buffer_count; ++i) {
+        source.buffers.push_back(load_buffer(source, i, chunks, bytes_left));
+        bytes_left -= source.buffers.back().size();
+    }
+    const std::size_t image_count = source.document.contains("images") ? source.document["images"].size() : 0;
+    for (std::size_t i = 0; i < image_count; ++i) locate_image(source, i);
+    parse_model(source);
+    return source;
+}
+
+EncodedImage load_encoded_image(const GltfSource& source, std::size_t i) {
+    const nlohmann::json& image = source.document["images"][i];
+    const std::string place = fmt::format("/images/{}", i);
+    EncodedImage encoded;
+    if (image.contains("bufferView")) {
+        const tinygltf::BufferView& view = source.model.bufferViews[image["bufferView"].get<std::size_t>()];
+        const auto begin = source.buffers[static_cast<std::size_t>(view.buffer)].begin() +
+                           static_cast<std::ptrdiff_t>(view.byteOffset);
+        encoded.bytes.assign(begin, begin + static_cast<std::ptrdiff_t>(view.byteLength));
+    } else if (const auto& uri = image["uri"].get_ref<const std::string&>(); is_data_uri(uri)) {
+        encoded.bytes = decode_data_uri(uri, source.file, place + "/uri").bytes;
+    } else {
+        encoded.path = percent_decode(uri, source.file, place + "/uri");
+        encoded.bytes = read_regular_file(resolve_file_uri(uri, source.folder, source.file, place + "/uri"),
+                                          source.file, place + "/uri");
+    }
+    const Bytes& b = encoded.bytes;
+    const bool is_png = b.size() > 8 && b[0] == 0x89 && b[1] == 'P' && b[2] == 'N' && b[3] == 'G';
+    const bool is_jpeg = b.size() > 3 && b[0] == 0xff && b[1] == 0xd8 && b[2] == 0xff;
+    if (!is_png && !is_jpeg) throw InputError(source.file, place, "the data is neither PNG nor JPEG");
+    return encoded;
+}
+
+}  // namespace aleph

@@ -1,0 +1,36 @@
+#pragma once
+// A glTF file after validation: raw JSON, tinygltf's typed model, and the bytes that both refer to.
+
+#include <tiny_gltf.h>
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "engine/gltf/files.h"
+#include "engine/json/json_ref.h"
+
+namespace aleph {
+
+struct GltfSource {
+    std::string file;              ///< what messages call it
+    std::filesystem::path folder;  ///< no URI leads out of it
+    nlohmann::json document;     ///< validated; extensions are read from here: tinygltf cuts their integers to 31 bits
+    tinygltf::Model model;       ///< without buffers, images, skins, indices, channels, sparse values
+    std::vector<Bytes> buffers;  ///< exactly byteLength each
+    std::vector<std::string> warnings;
+};
+
+/// Reads, validates and parses; buffers are loaded, images only located.
+/// @throws InputError
+GltfSource load_gltf_source(const std::filesystem::path& path, const LoadLimits& limits = {});
+
+struct EncodedImage {
+    Bytes bytes;
+    std::string path;  ///< relative to the glTF file; empty where embedded
+};
+
+/// An image's PNG or JPEG bytes. @throws InputError
+EncodedImage load_encoded_image(const GltfSource& source, std::size_t image);
+
+}  // namespace aleph

@@ -1,0 +1,147 @@
+// Validator: materials, and cameras and lights.
+#include <fmt/format.h>
+
+#include <numbers>
+
+#include "engine/base/errors.h"
+#include "engine/gltf/validate/parts.h"
+
+namespace aleph {
+
+namespace {
+
+void check_texture_info(const GltfCheck& check, const JsonRef& owner, std::string_view key) {
+    const std::optional<JsonRef> info = owner.find(key);
+    if (!info) return;
+    info->expect_object();
+    const JsonRef index = info->require("index");
+    index.index(check.counts.textures, "texture");
+    if (const std::optional<JsonRef> set = info->find("texCoord"); set && set->integer(0, 1 << 30) > 1) {
+        set->fail("only texture coordinate sets 0 and 1 are supported");
+    }
+    const ExtensionRef transform(*info, "KHR_texture_transform");
+    if (!transform) return;
+    transform->check_numbers("offset", 2);
+    transform->check_number("rotation");
+    transform->check_numbers("scale", 2);
+    if (const std::optional<JsonRef> set = transform->find("texCoord"); set && set->integer(0, 1 << 30) > 1) {
+        set->fail("only texture coordinate sets 0 and 1 are supported");
+    }
+}
+
+void check_material_extensions(const GltfCheck& check, const JsonRef& material) {
+    if (const ExtensionRef strength(material, "KHR_materials_emissive_strength"); strength) {
+        strength->check_number("emissiveStrength");
+    }
+    if (const ExtensionRef ior(material, "KHR_materials_ior"); ior) ior->check_number("ior");
+    if (const ExtensionRef unlit(material, "KHR_materials_unlit"); unlit) unlit->expect_object();
+    if (const ExtensionRef transmission(material, "KHR_materials_transmission"); transmission) {
+        transmission->check_number("transmissionFactor");
+        check_texture_info(check, *transmission, "transmissionTexture");
+    }
+    if (const ExtensionRef specular(material, "KHR_materials_specular"); specular) {
+        specular->check_number("specularFactor");
+        specular->check_numbers("specularColorFactor", 3);
+        check_texture_info(check, *specular, "specularTexture");
+        check_texture_info(check, *specular, "specularColorTexture");
+    }
+}
+
+/// Nothing is clipped here, but a file whose planes are the wrong way round means something else than it says.
+void check_far_plane(const JsonRef& lens) {
+    const std::optional<JsonRef> far = lens.find("zfar");
+    const double near = lens.require("znear").number();
+    if (far && !(far->number() > near)) far->fail(fmt::format("must lie beyond znear, found {}", far->number()));
+}
+
+void check_camera(const JsonRef& camera) {
+    camera.find_string("name");
+    const JsonRef type = camera.require("type");
+    if (type.string() == "perspective") {
+        const JsonRef lens = camera.require("perspective");
+        const JsonRef yfov = lens.require("yfov");
+        if (yfov.number_above(0.0) >= std::numbers::pi) yfov.fail("must be below pi");
+        lens.require("znear").number_above(0.0);
+        check_far_plane(lens);
+        if (const std::optional<JsonRef> aspect = lens.find("aspectRatio")) aspect->number_above(0.0);
+    } else if (type.string() == "orthographic") {
+        const JsonRef lens = camera.require("orthographic");
+        const JsonRef width = lens.require("xmag");
+        if (width.number() == 0.0) width.fail("must not be 0");
+        lens.require("ymag").number_above(0.0);
+        const JsonRef near = lens.require("znear");
+        if (near.number() < 0.0) near.fail(fmt::format("must not be negative, found {}", near.number()));
+        lens.require("zfar");
+        check_far_plane(lens);
+    } else {
+        type.fail(fmt::format("\"{}\" is no camera type", printable(type.string())));
+    }
+}
+
+void check_cone(const JsonRef& spot) {
+    spot.expect_object();
+    const std::optional<JsonRef> inner = spot.find("innerConeAngle"), outer = spot.find("outerConeAngle");
+    constexpr double widest = std::numbers::pi / 2.0;
+    const double outer_angle = outer ? outer->number_above(0.0) : std::numbers::pi / 4.0;
+    if (outer_angle > static_cast<double>(static_cast<float>(widest))) {  // files hold floats
+        outer->fail(fmt::format("must be at most a quarter turn, found {} radians", outer_angle));
+    }
+    const double inner_angle = inner ? inner->number() : 0.0;
+    if (inner_angle < 0.0) inner->fail(fmt::format("must not be negative, found {}", inner_angle));
+    if (inner_angle >= outer_angle) {
+        spot.fail(fmt::format("the inner cone ({} radians) must be narrower than the outer one ({})", inner_angle,
+                              outer_angle));
+    }
+}
+
+void check_light(const JsonRef& light) {
+    light.find_string("name");
+    const JsonRef type = light.require("type");
+    if (type.string() != "point" && type.string() != "directional" && type.string() != "spot") {
+        type.fail(fmt::format("\"{}\" is no light type", printable(type.string())));
+    }
+    light.check_numbers("color", 3);
+    light.check_number("intensity");
+    if (const std::optional<JsonRef> range = light.find("range")) range->number_above(0.0);
+    if (type.string() == "spot") check_cone(light.require("spot"));
+}
+
+}  // namespace
+
+void check_materials(GltfCheck& check) {
+    for_each_object(check.root, "materials", [&](const JsonRef& material, std::size_t) {
+        material.find_string("name");
+        if (const std::optional<JsonRef> pbr = material.find("pbrMetallicRoughness")) {
+            pbr->expect_object();
+            pbr->check_numbers("baseColorFactor", 4);
+            pbr->check_number("metallicFactor");
+            pbr->check_number("roughnessFactor");
+            check_texture_info(check, *pbr, "baseColorTexture");
+            check_texture_info(check, *pbr, "metallicRoughnessTexture");
+        }
+        material.check_numbers("emissiveFactor", 3);
+        check_texture_info(check, material, "emissiveTexture");
+        check_texture_info(check, material, "normalTexture");
+        check_texture_info(check, material, "occlusionTexture");
+        material.check_boolean("doubleSided");
+        if (const std::optional<JsonRef> cutoff = material.find("alphaCutoff"); cutoff && cutoff->number() < 0.0) {
+            cutoff->fail(fmt::format("must not be negative, found {}", cutoff->number()));
+        }
+        if (const std::optional<JsonRef> mode = material.find("alphaMode")) {
+            const std::string& name = mode->string();
+            if (name != "MASK" && name != "BLEND" && name != "OPAQUE") {
+                mode->fail(fmt::format("\"{}\" is no alpha mode", printable(name)));
+            }
+        }
+        check_material_extensions(check, material);
+    });
+}
+
+void check_cameras_and_lights(GltfCheck& check) {
+    for_each_object(check.root, "cameras", [&](const JsonRef& camera, std::size_t) { check_camera(camera); });
+    if (const ExtensionRef lights(check.root, "KHR_lights_punctual"); lights) {
+        for_each_object(*lights, "lights", [&](const JsonRef& light, std::size_t) { check_light(light); });
+    }
+}
+
+}  // namespace aleph

@@ -1,0 +1,94 @@
+// Validator: the node graph and the scenes.
+#include <fmt/format.h>
+
+#include <set>
+
+#include "engine/gltf/validate/parts.h"
+
+namespace aleph {
+
+namespace {
+
+void check_node_transform(const JsonRef& node) {
+    bool separate = node.check_numbers("translation", 3);
+    if (node.check_numbers("rotation", 4)) separate = true;
+    if (node.check_numbers("scale", 3)) separate = true;
+    if (!node.check_numbers("matrix", 16)) return;
+    const JsonRef matrix = node.require("matrix");
+    if (separate) matrix.fail("a node has either a matrix or translation, rotation and scale");
+    for (const std::size_t i : {3u, 7u, 11u, 15u}) {
+        const JsonRef element = matrix[i];
+        if (element.number() != (i == 15 ? 1.0 : 0.0)) element.fail("the matrix is not affine");
+    }
+}
+
+void check_node(const GltfCheck& check, const JsonRef& node) {
+    node.find_string("name");
+    node.find_index("mesh", check.counts.meshes, "mesh");
+    node.find_index("camera", check.counts.cameras, "camera");
+    check_node_transform(node);
+    if (const ExtensionRef light(node, "KHR_lights_punctual"); light) {
+        const JsonRef index = light->require("light");
+        index.index(check.counts.lights, "light");
+    }
+}
+
+/// Every node under at most one parent and none above itself, without recursion: chains of 10^5 nodes are fine.
+std::vector<bool> check_graph(const GltfCheck& check) {
+    std::vector<std::vector<std::size_t>> children(check.counts.nodes);
+    std::vector<bool> has_parent(check.counts.nodes, false);
+    for_each_object(check.root, "nodes", [&](const JsonRef& node, std::size_t i) {
+        const std::optional<JsonRef> list = node.find("children");
+        for (std::size_t k = 0; list && k < list->array_size(); ++k) {
+            const JsonRef child = (*list)[k];
+            const std::size_t index = child.index(check.counts.nodes, "node");
+            if (index == i) child.fail(fmt::format("node {} is its own child: the node graph has a cycle", i));
+            if (has_parent[index]) child.fail(fmt::format("node {} has two parents", index));
+            has_parent[index] = true;
+            children[i].push_back(index);
+        }
+    });
+    // With one parent each, whatever cannot be reached from the roots lies on a cycle or below one.
+    std::vector<bool> reached(check.counts.nodes, false);
+    std::vector<std::size_t> open;
+    for (std::size_t i = 0; i < check.counts.nodes; ++i) {
+        if (!has_parent[i]) open.push_back(i);
+    }
+    while (!open.empty()) {
+        const std::size_t i = open.back();
+        open.pop_back();
+        reached[i] = true;
+        open.insert(open.end(), children[i].begin(), children[i].end());
+    }
+    for (std::size_t i = 0; i < check.counts.nodes; ++i) {
+        if (reached[i]) continue;
+        const JsonRef nodes = check.root.require("nodes");
+        const JsonRef node = nodes[i];
+        node.fail(fmt::format("node {} lies on a cycle of the node graph, or below one", i));
+    }
+    return has_parent;
+}
+
+}  // namespace
+
+void check_nodes(GltfCheck& check) {
+    for_each_object(check.root, "nodes", [&](const JsonRef& node, std::size_t) { check_node(check, node); });
+    const std::vector<bool> has_parent = check_graph(check);
+    for_each_object(check.root, "scenes", [&](const JsonRef& scene, std::size_t) {
+        scene.find_string("name");
+        const std::optional<JsonRef> roots = scene.find("nodes");
+        std::set<std::size_t> seen;
+        for (std::size_t k = 0; roots && k < roots->array_size(); ++k) {
+            const JsonRef root = (*roots)[k];
+            const std::size_t index = root.index(check.counts.nodes, "node");
+            if (has_parent[index]) root.fail(fmt::format("node {} has a parent and cannot be a root", index));
+            if (!seen.insert(index).second) root.fail(fmt::format("node {} is listed twice", index));
+        }
+    });
+    check.root.find_index("scene", check.counts.scenes, "scene");
+    if (check.counts.scenes > 1) {
+        check.warn(check.root, fmt::format("of {} scenes only the default one is read", check.counts.scenes));
+    }
+}
+
+}  // namespace aleph

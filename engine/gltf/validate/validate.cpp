@@ -1,0 +1,122 @@
+#include "engine/gltf/validate/validate.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <set>
+
+#include "engine/base/errors.h"
+#include "engine/gltf/validate/parts.h"
+
+namespace aleph {
+
+namespace {
+
+constexpr std::array<std::string_view, 11> supported_extensions = {
+    "EXT_mesh_gpu_instancing", "KHR_animation_pointer",  "KHR_lights_punctual",  "KHR_materials_emissive_strength",
+    "KHR_materials_ior",       "KHR_materials_specular", "KHR_materials_unlit",  "KHR_materials_transmission",
+    "KHR_mesh_quantization",   "KHR_node_visibility",    "KHR_texture_transform"};
+
+/// Compressed data cannot be done without, even where the extension is called optional.
+constexpr std::array<std::string_view, 2> refused_extensions = {"EXT_meshopt_compression",
+                                                                "KHR_draco_mesh_compression"};
+
+template <std::size_t N>
+bool contains(const std::array<std::string_view, N>& names, std::string_view name) {
+    for (const std::string_view candidate : names) {
+        if (candidate == name) return true;
+    }
+    return false;
+}
+
+/// Names in all "extensions" objects, wherever they stand; "extras" belong to applications.
+void collect_extensions(const nlohmann::json& value, std::set<std::string>& names) {
+    if (value.is_array()) {
+        for (const nlohmann::json& element : value) collect_extensions(element, names);
+    } else if (value.is_object()) {
+        for (const auto& [key, member] : value.items()) {
+            if (key == "extras") continue;
+            if (key == "extensions" && member.is_object()) {
+                for (const auto& extension : member.items()) names.insert(extension.key());
+            }
+            collect_extensions(member, names);
+        }
+    }
+}
+
+void check_asset(const JsonRef& root) {
+    const JsonRef asset = root.require("asset");
+    const JsonRef version = asset.require("version");
+    if (const std::string& text = version.string(); text.substr(0, 2) != "2.") {
+        version.fail(fmt::format("glTF version \"{}\" is not supported, only 2.x", printable(text)));
+    }
+    if (const std::optional<JsonRef> least = asset.find("minVersion"); least && least->string() != "2.0") {
+        least->fail(fmt::format("the file wants glTF \"{}\", we know 2.0", printable(least->string())));
+    }
+}
+
+GltfCounts count_elements(const JsonRef& root) {
+    GltfCounts counts;
+    counts.buffers = count_of(root, "buffers");
+    counts.views = count_of(root, "bufferViews");
+    counts.accessors = count_of(root, "accessors");
+    counts.images = count_of(root, "images");
+    counts.samplers = count_of(root, "samplers");
+    counts.textures = count_of(root, "textures");
+    counts.materials = count_of(root, "materials");
+    counts.meshes = count_of(root, "meshes");
+    counts.nodes = count_of(root, "nodes");
+    counts.cameras = count_of(root, "cameras");
+    counts.scenes = count_of(root, "scenes");
+    counts.skins = count_of(root, "skins");
+    if (const ExtensionRef lights(root, "KHR_lights_punctual"); lights) counts.lights = count_of(*lights, "lights");
+    return counts;
+}
+
+}  // namespace
+
+void check_extensions(GltfCheck& check) {
+    if (const std::optional<JsonRef> required = check.root.find("extensionsRequired")) {
+        for (std::size_t i = 0; i < required->array_size(); ++i) {
+            const JsonRef name = (*required)[i];
+            if (name.string() == "KHR_mesh_quantization") check.is_quantized = true;
+            if (!contains(supported_extensions, name.string())) {
+                name.fail(fmt::format("the required extension {} is not supported", printable(name.string())));
+            }
+        }
+    }
+    if (const std::optional<JsonRef> used = check.root.find("extensionsUsed")) {
+        for (std::size_t i = 0; i < used->array_size(); ++i) {
+            const JsonRef name = (*used)[i];
+            if (name.string() == "KHR_mesh_quantization") check.is_quantized = true;
+        }
+    }
+    std::set<std::string> names;
+    collect_extensions(check.root.json(), names);
+    for (const std::string& name : names) {
+        if (contains(refused_extensions, name)) {
+            throw InputError(check.root.file(), "extensions", fmt::format("the extension {} is not supported", name));
+        }
+        if (!contains(supported_extensions, name)) {
+            check.warn(check.root, fmt::format("the extension {} is ignored", printable(name)));
+        }
+    }
+}
+
+void validate_gltf(const JsonRef& root, bool has_binary_chunk, std::vector<std::string>& warnings) {
+    root.expect_object();
+    check_asset(root);
+    GltfCheck check{root, has_binary_chunk, warnings, count_elements(root), {}, {}, false};
+    check_extensions(check);
+    check_nodes(check);
+    check_buffers(check);
+    check_accessors(check);
+    check_images(check);
+    check_materials(check);
+    check_cameras_and_lights(check);
+    check_meshes(check);
+    check_skins(check);
+    check_animations(check);
+}
+
+}  // namespace aleph

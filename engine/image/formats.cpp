@@ -1,0 +1,117 @@
+// The allow-list: which bytes are a picture of ours, how large it says it is, and which parts of it a decoder may see.
+
+#include <fmt/format.h>
+#include <zlib.h>
+
+#include <algorithm>
+#include <string_view>
+
+#include "engine/base/errors.h"
+#include "engine/image/codec.h"
+
+namespace aleph {
+
+namespace {
+
+bool starts_with(ByteView bytes, std::string_view magic) {
+    return bytes.size() >= magic.size() &&
+           std::equal(magic.begin(), magic.end(), bytes.begin(),
+                      [](char m, std::uint8_t b) { return static_cast<std::uint8_t>(m) == b; });
+}
+
+std::uint32_t big_endian(ByteView bytes, std::size_t at, int count) {
+    std::uint32_t value = 0;
+    for (int i = 0; i < count; ++i) value = value << 8 | bytes[at + static_cast<std::size_t>(i)];
+    return value;
+}
+
+constexpr std::string_view png_magic("\x89PNG\r\n\x1a\n", 8);
+
+}  // namespace
+
+std::optional<ImageFormat> detect_format(ByteView bytes) {
+    if (starts_with(bytes, "\x76\x2f\x31\x01")) return ImageFormat::exr;
+    if (starts_with(bytes, png_magic)) return ImageFormat::png;
+    if (starts_with(bytes, "\xff\xd8\xff")) return ImageFormat::jpeg;
+    if (starts_with(bytes, "#?RADIANCE") || starts_with(bytes, "#?RGBE")) return ImageFormat::hdr;
+    return std::nullopt;
+}
+
+void check_size(std::int64_t width, std::int64_t height, const std::string& name) {
+    if (width <= 0 || height <= 0) {
+        throw InputError(name, "", fmt::format("the picture is empty ({}x{})", width, height));
+    }
+    if (static_cast<std::uint64_t>(width) > max_pixels / static_cast<std::uint64_t>(height)) {
+        throw InputError(name, "",
+                         fmt::format("the picture is too large ({}x{}; at most {} pixels)", width, height, max_pixels));
+    }
+}
+
+std::vector<std::uint8_t> strip_png(ByteView bytes, const std::string& name) {
+    // Chunks (PNG 1.2, section 3.2): length, type, data, CRC. An upper-case first letter marks those needed for pixels;
+    // tRNS is the one other chunk that changes them.
+    std::vector<std::uint8_t> kept(bytes.begin(), bytes.begin() + static_cast<std::ptrdiff_t>(png_magic.size()));
+    kept.reserve(bytes.size());
+    bool has_pixels = false;
+    for (std::size_t at = png_magic.size(); at < bytes.size();) {
+        if (bytes.size() - at < 12) throw InputError(name, "", "the PNG ends inside a chunk");
+        const std::size_t length = big_endian(bytes, at, 4);
+        if (length > bytes.size() - at - 12) throw InputError(name, "", "the PNG ends inside a chunk");
+        const std::string_view type(reinterpret_cast<const char*>(bytes.data()) + at + 4, 4);
+        if (at == png_magic.size()) {
+            if (type != "IHDR" || length != 13) throw InputError(name, "", "the PNG does not start with its header");
+            check_size(big_endian(bytes, at + 8, 4), big_endian(bytes, at + 12, 4), name);
+        }
+        const auto chunk = bytes.subspan(at, length + 12);
+        if ((type[0] >= 'A' && type[0] <= 'Z') || type == "tRNS") {
+            // libpng would find this out too, and print it.
+            const auto checksum = crc32(0, chunk.data() + 4, static_cast<uInt>(length + 4));
+            if (checksum != big_endian(chunk, length + 8, 4)) {
+                throw InputError(name, "", fmt::format("the PNG is damaged (wrong checksum in {})", printable(type)));
+            }
+            kept.insert(kept.end(), chunk.begin(), chunk.end());
+        }
+        at += chunk.size();
+        has_pixels = has_pixels || type == "IDAT";
+        if (type == "IEND" && !has_pixels) throw InputError(name, "", "the PNG holds no pixels");
+        if (type == "IEND") return kept;
+    }
+    throw InputError(name, "", "the PNG has no end: the file is cut");
+}
+
+std::vector<std::uint8_t> strip_jpeg(ByteView bytes, const std::string& name) {
+    // Segments (ITU-T T.81, annex B): 0xff, marker, length of two bytes that counts itself, data.
+    std::vector<std::uint8_t> kept(bytes.begin(), bytes.begin() + 2);
+    kept.reserve(bytes.size());
+    bool has_size = false;
+    for (std::size_t at = 2; bytes.size() - at >= 4;) {
+        if (bytes[at] != 0xff) break;
+        const std::uint8_t marker = bytes[at + 1];
+        if (marker == 0xff) {  // fill byte
+            ++at;
+            continue;
+        }
+        const std::size_t length = big_endian(bytes, at + 2, 2);
+        if (length < 2 || length > bytes.size() - at - 2) break;
+        const bool starts_frame =
+            marker >= 0xc0 && marker <= 0xcf && marker != 0xc4 && marker != 0xc8 && marker != 0xcc;
+        if (starts_frame) {
+            if (length < 8) break;
+            check_size(big_endian(bytes, at + 7, 2), big_endian(bytes, at + 5, 2), name);
+            has_size = true;
+        }
+        if (marker == 0xda) {  // start of scan: pixels follow
+            if (!has_size) break;
+            kept.insert(kept.end(), bytes.begin() + static_cast<std::ptrdiff_t>(at), bytes.end());
+            return kept;
+        }
+        // Application data is dropped, but for APP0 (JFIF) and APP14 (Adobe: which colour transform); comments as well.
+        const bool application = marker >= 0xe1 && marker <= 0xef && marker != 0xee;
+        const auto segment = bytes.subspan(at, length + 2);
+        if (!application && marker != 0xfe) kept.insert(kept.end(), segment.begin(), segment.end());
+        at += segment.size();
+    }
+    throw InputError(name, "", "the JPEG is damaged before its first pixel");
+}
+
+}  // namespace aleph

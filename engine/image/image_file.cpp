@@ -1,0 +1,71 @@
+#include "engine/image/image_file.h"
+
+#include <fmt/format.h>
+
+#include <fstream>
+#include <system_error>
+
+#include "engine/base/errors.h"
+#include "engine/base/parallel.h"
+#include "engine/image/codec.h"
+
+namespace aleph {
+
+namespace {
+
+/// Bytes a picture's file may have.
+constexpr std::uintmax_t max_file_size = std::uintmax_t{1} << 32;
+
+std::string display_name(const std::filesystem::path& path) {
+    return printable(path.string(), 4096);
+}
+
+/// What the encoders say about a picture, said of the file that was to hold it.
+template <class Encode>
+std::string encode_for(const std::filesystem::path& path, const Encode& encode) {
+    try {
+        return encode();
+    } catch (const InputError& e) {
+        throw OutputError(display_name(path), e.what());
+    }
+}
+
+std::vector<std::uint8_t> read_bytes(const std::filesystem::path& path) {
+    const std::string name = display_name(path);
+    std::error_code error;
+    const auto status = std::filesystem::status(path, error);
+    if (!std::filesystem::exists(status)) throw InputError(name, "", "there is no such file");
+    if (!std::filesystem::is_regular_file(status)) throw InputError(name, "", "this is not a file");
+    const std::uintmax_t size = std::filesystem::file_size(path, error);
+    if (error) throw InputError(name, "", error.message());
+    if (size > max_file_size) throw InputError(name, "", "the file is larger than 4 GiB");
+    std::vector<std::uint8_t> bytes(size);
+    std::ifstream file(path, std::ios::binary);
+    if (!file) throw InputError(name, "", "cannot open the file");
+    file.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(size));
+    if (file.gcount() != static_cast<std::streamsize>(size)) throw InputError(name, "", "cannot read the whole file");
+    return bytes;
+}
+
+}  // namespace
+
+const Image<float>* ChannelImage::find(const std::string& name) const {
+    for (const Channel& channel : channels) {
+        if (channel.name == name) return &channel.values;
+    }
+    return nullptr;
+}
+
+void write_exr(const std::filesystem::path& path, const ChannelImage& image) {
+    write_file(path, encode_for(path, [&] { return encode_exr(image, thread_count()); }));
+}
+
+void write_png(const std::filesystem::path& path, const Image<Rgb>& linear) {
+    write_file(path, encode_for(path, [&] { return encode_png(linear); }));
+}
+
+ChannelImage read_image(const std::filesystem::path& path) {
+    return decode_image(read_bytes(path), display_name(path));
+}
+
+}  // namespace aleph

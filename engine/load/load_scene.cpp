@@ -1,0 +1,184 @@
+#include "engine/load/load_scene.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <system_error>
+
+#include "engine/alembic/alembic.h"
+#include "engine/base/atomic_file.h"
+#include "engine/base/errors.h"
+#include "engine/base/files.h"
+#include "engine/gltf/gltf.h"
+#include "engine/image/image_file.h"
+#include "engine/json/json_ref.h"
+#include "engine/json/text.h"
+#include "engine/load/framing_camera.h"
+#include "engine/load/warnings.h"
+#include "engine/pose/pose.h"
+#include "engine/scene_file/scene_text.h"
+
+namespace aleph {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string extension_of(const fs::path& path) {
+    std::string extension = path.extension().string();
+    std::transform(extension.begin(), extension.end(), extension.begin(),
+                   [](char c) { return static_cast<char>(std::tolower(static_cast<unsigned char>(c))); });
+    return extension;
+}
+
+/// @param accepted  what the place takes, for the message
+void check_asset_name(const fs::path& path, const std::string& file, const std::string& place, const char* accepted) {
+    const std::string extension = extension_of(path);
+    if (extension == ".gltf" || extension == ".glb" || extension == ".abc") return;
+    throw InputError(
+        file, place,
+        fmt::format("\"{}\" is no kind of file that is read here; expected {}", printable(extension), accepted));
+}
+
+void check_regular_file(const fs::path& path, const std::string& file, const std::string& place) {
+    std::error_code error;
+    const fs::file_status status = fs::status(path, error);
+    if (!fs::exists(status))
+        throw InputError(file, place, fmt::format("there is no file {}", printable(path.string(), 300)));
+    if (!fs::is_regular_file(status)) {
+        throw InputError(file, place, fmt::format("{} is not a regular file", printable(path.string(), 300)));
+    }
+}
+
+void load_images(SceneText& text, const fs::path& folder, const std::string& file) {
+    for (std::size_t i = 0; i < text.scene.images.size(); ++i) {
+        SceneImage& image = text.scene.images[i];
+        const std::string& place = text.image_places[i];
+        check_regular_file(folder / image.path, file, place);
+        try {
+            const DecodedTexture decoded =
+                decode_texture(read_regular_file(folder / image.path, file, place), image.path);
+            image.bytes = Image<glm::u8vec4>(decoded.bytes.width, decoded.bytes.height);
+            for (std::size_t p = 0; p < image.bytes.size(); ++p) {
+                const auto& c = decoded.bytes.pixels[p];
+                image.bytes.pixels[p] = {c[0], c[1], c[2], c[3]};
+            }
+            image.floats = Image<glm::vec4>(decoded.floats.width, decoded.floats.height);
+            for (std::size_t p = 0; p < image.floats.size(); ++p) {
+                const auto& c = decoded.floats.pixels[p];
+                image.floats.pixels[p] = {c[0], c[1], c[2], c[3]};
+            }
+        } catch (const InputError& error) {
+            if (error.file() == file) throw;
+            throw InputError(file, place, fmt::format("{}: {}", error.file(), error.reason()));
+        }
+    }
+}
+
+AlembicTiming append_asset(const fs::path& path, Scene& scene, int parent_node, int include, const LoadLimits& limits) {
+    if (extension_of(path) == ".abc") return append_alembic(path, scene, parent_node, include);
+    append_gltf(path, scene, parent_node, include, limits);
+    return {};
+}
+
+Scene load_scene_file(const fs::path& path, const std::string& file, const LoadLimits& limits) {
+    check_regular_file(path, file, "");
+    if (std::error_code error; fs::file_size(path, error) > limits.text()) {
+        throw InputError(file, "",
+                         fmt::format("the file is larger than {} MiB; keep large meshes in a .glb or .abc file and "
+                                     "include that",
+                                     limits.text() >> 20));
+    }
+    const Bytes bytes = read_regular_file(path, file, "");
+    SceneText text = read_scene_text({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, file, limits);
+    Scene& scene = text.scene;
+    scene.file = file;
+    const fs::path folder = path.parent_path();
+    for (std::size_t i = 0; i < scene.includes.size(); ++i) {
+        check_asset_name(scene.includes[i].path, file, text.include_places[i], "a .gltf, .glb or .abc file");
+        check_regular_file(folder / scene.includes[i].path, file, text.include_places[i]);
+    }
+    load_images(text, folder, file);
+    for (std::size_t i = 0; i < scene.includes.size(); ++i) {
+        append_asset(folder / scene.includes[i].path, scene, scene.includes[i].node, static_cast<int>(i), limits);
+    }
+    if (!scene.camera.empty()) {
+        try {
+            find_camera(scene, scene.camera);
+        } catch (const InputError& error) {
+            throw InputError(file, "/camera", error.reason());
+        }
+    }
+    return std::move(scene);
+}
+
+/// An archive says at what rate it was sampled, and its range is what it holds, still parts at both ends included.
+void set_timing(const AlembicTiming& timing, Scene& scene) {
+    if (timing.frame_rate) {
+        scene.frame_rate = *timing.frame_rate;
+        scene.viewing.frames_per_second = scene.frame_rate.per_second();
+    }
+    if (!timing.first) return;
+    Scene ends;  // two keys: frame_range knows how times become frames
+    ends.frame_rate = scene.frame_rate;
+    ends.nodes.emplace_back().visible.values = {1.0, 0.0};
+    ends.nodes.back().visible.sampling.kind = TimeSampling::Kind::acyclic;
+    ends.nodes.back().visible.sampling.times = {*timing.first, *timing.last};
+    scene.range = frame_range(ends);
+}
+
+Scene load_asset_file(const fs::path& path, const std::string& file, const LoadLimits& limits) {
+    check_asset_name(path, file, "", "a .json, .gltf, .glb or .abc file");
+    check_regular_file(path, file, "");
+    Scene scene;
+    scene.file = file;
+    scene.name = path.stem().string();
+    scene.includes.push_back({path.filename().string(), no_index});
+    set_timing(append_asset(path, scene, no_index, 0, limits), scene);
+    const bool has_camera =
+        std::any_of(scene.nodes.begin(), scene.nodes.end(), [](const Node& node) { return node.camera != no_index; });
+    if (!has_camera) add_framing_camera(scene);
+    return scene;
+}
+
+/// A path next to `from`, as it is called next to `to`.
+std::string move_path(const std::string& path, const fs::path& from, const fs::path& to) {
+    return path.empty() ? path : (from / path).lexically_relative(to).generic_string();
+}
+
+fs::path folder_of(const fs::path& file) {
+    std::error_code error;
+    const fs::path folder = fs::weakly_canonical(fs::absolute(file).parent_path(), error);
+    return error ? fs::absolute(file).parent_path() : folder;
+}
+
+}  // namespace
+
+Scene load_scene(const std::filesystem::path& path, const LoadLimits& limits) {
+    const std::string file = path.string();
+    Scene scene =
+        extension_of(path) == ".json" ? load_scene_file(path, file, limits) : load_asset_file(path, file, limits);
+    add_rotation_warnings(scene);
+    add_surface_warnings(scene);
+    add_missing_light(scene);
+    return scene;
+}
+
+void save_scene(const Scene& scene, const std::filesystem::path& path) {
+    const std::string file = path.string();
+    if (extension_of(path) != ".json") {
+        throw InputError(file, "", "a scene file ends in .json: by that load_scene will know it");
+    }
+    Scene own = without_includes(scene, file);
+    if (!scene.file.empty()) {  // paths are relative to the file they stand in
+        const fs::path from = folder_of(scene.file), to = folder_of(path);
+        if (from != to) {
+            for (Include& include : own.includes) include.path = move_path(include.path, from, to);
+            for (SceneImage& image : own.images) image.path = move_path(image.path, from, to);
+        }
+    }
+    write_file(path, write_scene_text(own, file));
+}
+
+}  // namespace aleph

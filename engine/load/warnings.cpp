@@ -1,0 +1,98 @@
+#include "engine/load/warnings.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/base/errors.h"
+
+namespace aleph {
+
+namespace {
+
+void add_rotation_warnings(const Node& node, std::vector<std::string>& warnings) {
+    const Track<glm::dquat>& track = node.rotation;
+    const std::string name = fmt::format("node \"{}\"", printable(node.name));
+    for (std::size_t key = 0; key < track.key_count(); ++key) {
+        const double length = glm::length(key_value(track, key));
+        if (std::abs(length - 1.0) <= 1e-3) continue;
+        warnings.push_back(
+            fmt::format("{}: rotation key {} has length {:.6g}; it counts at length 1", name, key, length));
+        break;
+    }
+    if (track.interpolation == Interpolation::step) return;
+    const double turn = largest_turn_degrees(track);
+    if (!(turn > 170.0)) return;
+    warnings.push_back(fmt::format(
+        "{}: neighbouring rotation keys are {:.4g} degrees apart, and the rotation takes the short way; for a "
+        "longer turn give an axis and degrees",
+        name, turn));
+}
+
+template <class T>
+bool is_positive_somewhere(const Track<T>& track) {
+    return std::any_of(track.values.begin(), track.values.end(), [](const T& value) {
+        if constexpr (std::is_same_v<T, double>) {
+            return value > 0.0;
+        } else {
+            return value.x > 0.0 || value.y > 0.0 || value.z > 0.0;
+        }
+    });
+}
+
+}  // namespace
+
+void add_rotation_warnings(Scene& scene) {
+    for (const Node& node : scene.nodes) {
+        // Readers of other formats say it of theirs, with the place in the file.
+        if (node.include == no_index && !node.matrix && !node.axis_rotation)
+            add_rotation_warnings(node, scene.warnings);
+    }
+}
+
+void add_surface_warnings(Scene& scene) {
+    std::vector<bool> drawn(scene.materials.size());
+    for (const Node& node : scene.nodes) {
+        for (const int mesh : node.meshes) {
+            const int material = scene.meshes[static_cast<std::size_t>(mesh)].material;
+            if (material != no_index) drawn[static_cast<std::size_t>(material)] = true;
+        }
+    }
+    for (std::size_t i = 0; i < scene.materials.size(); ++i) {
+        if (!drawn[i]) continue;
+        const Material& material = scene.materials[i];
+        if (is_positive_somewhere(material.transmission)) {
+            scene.warnings.push_back(
+                fmt::format("material \"{}\": transmission is not in this version; it is rendered opaque",
+                            printable(material.name)));
+        }
+        if (material.alpha_mode == Material::AlphaMode::blend) {
+            scene.warnings.push_back(fmt::format(
+                "material \"{}\": alpha mode \"blend\" is not in this version; what has an alpha below 0.5 is "
+                "left out, the rest is opaque",
+                printable(material.name)));
+        }
+    }
+}
+
+bool has_light(const Scene& scene) {
+    if (scene.environment && is_positive_somewhere(*scene.environment)) return true;
+    return std::any_of(scene.nodes.begin(), scene.nodes.end(), [&](const Node& node) {
+        if (node.light != no_index) return true;
+        return std::any_of(node.meshes.begin(), node.meshes.end(), [&](int mesh) {
+            const int material = scene.meshes[static_cast<std::size_t>(mesh)].material;
+            if (material == no_index) return false;
+            const Material& m = scene.materials[static_cast<std::size_t>(material)];
+            return !m.unlit && is_positive_somewhere(m.emission) && is_positive_somewhere(m.emission_strength);
+        });
+    });
+}
+
+void add_missing_light(Scene& scene) {
+    if (has_light(scene) || scene.environment) return;  // a black environment was asked for
+    scene.environment = Track<glm::dvec3>(glm::dvec3(1.0));
+    scene.warnings.push_back("there is no light: a constant white environment was added");
+}
+
+}  // namespace aleph

@@ -1,0 +1,57 @@
+#include "engine/pose/camera_view.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "engine/base/errors.h"
+#include "engine/scene/transforms.h"
+
+namespace aleph {
+
+CameraView make_camera_view(const CameraValues& camera, int width, int height) {
+    if (width <= 0 || height <= 0)
+        throw InputError("", "size", fmt::format("{} x {} pixels; both must be positive", width, height));
+    CameraView view;
+    view.width = width;
+    view.height = height;
+    view.orthographic = camera.orthographic;
+    view.position = camera.position;
+    view.axes = camera.axes;
+    view.near_plane = camera.near_plane;
+    if (camera.orthographic) {
+        view.pixels_per_unit = 0.5 * height / camera.half_height;
+        if (!(camera.half_height > 0.0 && std::isfinite(view.pixels_per_unit) && view.pixels_per_unit > 0.0))
+            throw InputError(
+                "", "camera",
+                fmt::format("half its height is {} m; it must be positive and finite", camera.half_height));
+    } else {
+        view.pixels_per_unit = 0.5 * height / std::tan(0.5 * camera.fov);
+        if (!(camera.fov > 0.0 && camera.fov < std::numbers::pi && std::isfinite(view.pixels_per_unit)))
+            throw InputError("", "camera",
+                             fmt::format("its field of view is {} degrees; it must lie between 0 and 180",
+                                         camera.fov * 180.0 / std::numbers::pi));
+    }
+    // The view's centre moves right and up, so the axis moves left and down in the picture.
+    view.axis_offset = {-camera.shift_x * height, camera.shift_y * height};
+    if (!std::isfinite(view.axis_offset.x) || !std::isfinite(view.axis_offset.y))
+        throw InputError("", "camera",
+                         fmt::format("its film offset is ({}, {}) heights of the picture; it must be finite",
+                                     camera.shift_x, camera.shift_y));
+    return view;
+}
+
+CameraRay make_camera_ray(const CameraView& view, double x, double y) {
+    const glm::dvec2 at = unproject_pixel(view, x, y);
+    if (view.orthographic) return {view.position + view.axes * glm::dvec3(at, 0.0), -view.axes[2]};
+    return {view.position, view.axes * safe_normalize(glm::dvec3(at, -1.0))};
+}
+
+glm::dvec3 compute_anchor(const CameraView& view) {
+    constexpr double cell = 16.0;  // m: a float is then fine to .5 um near the camera; rarely left by a moving one
+    const auto snap = [](double v) { return std::floor(v / cell + 0.5) * cell; };
+    return {snap(view.position.x), snap(view.position.y), snap(view.position.z)};
+}
+
+}  // namespace aleph

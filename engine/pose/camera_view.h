@@ -1,0 +1,57 @@
+#pragma once
+// A camera with an image behind it: pixel to ray, point to pixel. All in double.
+// Pixels: x right, y down, pixel centres at +.5, row 0 on top.
+
+#include <glm/mat3x3.hpp>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+
+#include "engine/pose/pose.h"
+
+namespace aleph {
+
+struct CameraView {
+    int width = 0, height = 0;  ///< pixels
+    bool orthographic = false;
+    glm::dvec3 position{0.0};      ///< world, m
+    glm::dmat3 axes{1.0};          ///< columns right, up, back
+    double pixels_per_unit = 1.0;  ///< perspective: focal length in pixels; orthographic: pixels per metre
+    double near_plane = 1e-4;      ///< m
+    /// Pixels, x right and y down: where the optical axis meets the picture, from its middle (film offset).
+    glm::dvec2 axis_offset{0.0};
+};
+
+/// @throws InputError where the field of view or half height is not positive and finite, the film offset is not finite,
+/// or the size is not positive
+CameraView make_camera_view(const CameraValues& camera, int width, int height);
+
+/// A point in the camera's own axes: x right, y up, z back (negative in front). The difference is taken first, so
+/// it stays exact far from the origin.
+inline glm::dvec3 to_camera(const CameraView& view, const glm::dvec3& world) {
+    return (world - view.position) * view.axes;  // row vector times columns: transpose(axes) * difference
+}
+
+/// Pixel position of a point in camera axes. Valid only where -z > near_plane; finite wherever z != 0.
+inline glm::dvec2 project_camera_point(const CameraView& view, const glm::dvec3& p) {
+    const double scale = view.orthographic ? view.pixels_per_unit : view.pixels_per_unit / -p.z;
+    return {0.5 * view.width + view.axis_offset.x + p.x * scale, 0.5 * view.height + view.axis_offset.y - p.y * scale};
+}
+
+/// Where a pixel position lies on the plane z = -1 (perspective) or z = 0, m (orthographic), in camera axes.
+inline glm::dvec2 unproject_pixel(const CameraView& view, double x, double y) {
+    return {(x - (0.5 * view.width + view.axis_offset.x)) / view.pixels_per_unit,
+            (0.5 * view.height + view.axis_offset.y - y) / view.pixels_per_unit};
+}
+
+/// Start (world, m) and direction (unit, world) of the ray through a pixel position. Orthographic rays start on the
+/// camera's plane.
+struct CameraRay {
+    glm::dvec3 origin;
+    glm::dvec3 direction;
+};
+CameraRay make_camera_ray(const CameraView& view, double x, double y);
+
+/// Where rays are traced relative to: the camera's position snapped to a coarse grid. A function of the camera alone.
+glm::dvec3 compute_anchor(const CameraView& view);
+
+}  // namespace aleph

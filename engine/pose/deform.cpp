@@ -1,0 +1,228 @@
+#include "engine/pose/deform.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
+#include <map>
+#include <tuple>
+
+#include "engine/scene/points.h"
+#include "engine/scene/transforms.h"
+#include "engine/surface/limit_surface.h"
+
+namespace aleph {
+namespace {
+
+bool is_skinned(const Mesh& mesh) {
+    return mesh.skin != no_index && mesh.joints_per_vertex > 0;
+}
+
+const PointCache& cache_of(const Scene& scene, const Mesh& mesh) {
+    return scene.point_caches[static_cast<std::size_t>(mesh.points)];
+}
+
+bool is_cage_animated(const Scene& scene, const Mesh& mesh) {
+    if (mesh.cage == no_index || mesh.limit.surface == nullptr) return false;
+    const int points = scene.cages[static_cast<std::size_t>(mesh.cage)].points;
+    return points != no_index && is_animated(scene.point_caches[static_cast<std::size_t>(points)]);
+}
+
+bool are_weights_on(const Mesh& mesh) {
+    return std::ranges::any_of(mesh.target_weights, [](const Track<double>& weight) {
+        return is_animated(weight) || key_value(weight, 0) != 0.0;
+    });
+}
+
+bool has_normal_samples(const Mesh& mesh) {
+    return std::ranges::any_of(mesh.normal_samples,
+                               [&](const auto& sample) { return sample != mesh.normal_samples.front(); });
+}
+
+/// Vertices of one point and one rest normal get one number.
+std::vector<std::uint32_t> group_normals(const Mesh& mesh) {
+    std::vector<std::uint32_t> groups(mesh.positions.size());
+    std::map<std::tuple<std::uint32_t, float, float, float>, std::uint32_t> known;
+    for (std::uint32_t v = 0; v < groups.size(); ++v) {
+        const glm::vec3& n = mesh.normals[v];
+        const std::uint32_t point = mesh.vertex_points.empty() ? v : mesh.vertex_points[v];
+        const auto next = static_cast<std::uint32_t>(known.size());
+        groups[v] = known.try_emplace({point, n.x, n.y, n.z}, next).first->second;
+    }
+    return groups;
+}
+
+/// Sums of the triangles' normals about each group, weighted by the angle there, so that it does not matter how a face
+/// was cut into triangles (Thuermer and Wuethrich 1998, Journal of Graphics Tools 3(1)).
+std::vector<glm::vec3> find_normals(const Mesh& mesh, const std::vector<glm::dvec3>& positions,
+                                    const std::vector<std::uint32_t>& groups) {
+    std::vector<glm::dvec3> sums(positions.size(), glm::dvec3(0.0));
+    for (const glm::uvec3& t : mesh.triangles) {
+        const glm::dvec3 corners[3] = {positions[t.x], positions[t.y], positions[t.z]};
+        const glm::dvec3 product = glm::cross(corners[1] - corners[0], corners[2] - corners[0]);
+        const double twice_area = glm::length(product);
+        if (!(twice_area > 0.0)) continue;
+        for (int i = 0; i < 3; ++i) {
+            const glm::dvec3 to_next = corners[(i + 1) % 3] - corners[i], to_last = corners[(i + 2) % 3] - corners[i];
+            const double angle = std::atan2(twice_area, glm::dot(to_next, to_last));
+            sums[groups[t[i]]] += product * (angle / twice_area);
+        }
+    }
+    std::vector<glm::vec3> normals(positions.size());
+    for (std::size_t v = 0; v < normals.size(); ++v) normals[v] = glm::vec3(safe_normalize(sums[groups[v]]));
+    return normals;
+}
+
+std::vector<glm::vec3> sample_normals(const Mesh& mesh, double seconds) {
+    const SampleSpan span = find_samples(mesh.normal_sampling, mesh.normal_samples.size(), seconds);
+    std::vector<glm::vec3> normals = mesh.normal_samples[span.floor];
+    if (span.floor == span.ceil) return normals;
+    const std::vector<glm::vec3>& next = mesh.normal_samples[span.ceil];
+    const auto fraction = static_cast<float>(span.fraction);
+    for (std::size_t v = 0; v < normals.size(); ++v) normals[v] += (next[v] - normals[v]) * fraction;
+    return normals;
+}
+
+void deform_points(const Scene& scene, const Deformer& deformer, double seconds, PosedMesh& posed) {
+    const Mesh& mesh = scene.meshes[static_cast<std::size_t>(deformer.mesh)];
+    std::vector<glm::dvec3> points = sample_points(cache_of(scene, mesh), seconds);
+    if (mesh.vertex_points.empty()) {
+        posed.positions = std::move(points);
+    } else {
+        posed.positions.resize(mesh.vertex_points.size());
+        for (std::size_t v = 0; v < posed.positions.size(); ++v) posed.positions[v] = points[mesh.vertex_points[v]];
+    }
+    if (!deformer.normal_groups.empty()) {
+        posed.normals = find_normals(mesh, posed.positions, deformer.normal_groups);
+    } else if (!mesh.normal_samples.empty()) {
+        posed.normals = sample_normals(mesh, seconds);
+    } else {
+        posed.normals = mesh.normals;
+    }
+}
+
+/// The mesh with its targets on; unit normals where targets move them.
+void morph(const Mesh& mesh, double seconds, PosedMesh& posed) {
+    posed.positions.assign(mesh.positions.begin(), mesh.positions.end());
+    std::vector<glm::dvec3> normals(mesh.normals.begin(), mesh.normals.end());
+    bool moves_normals = false;
+    for (std::size_t i = 0; i < std::min(mesh.targets.size(), mesh.target_weights.size()); ++i) {
+        const double weight = evaluate(mesh.target_weights[i], seconds);
+        if (weight == 0.0) continue;
+        const MorphTarget& target = mesh.targets[i];
+        for (std::size_t v = 0; v < target.positions.size(); ++v)
+            posed.positions[v] += weight * glm::dvec3(target.positions[v]);
+        if (normals.empty() || target.normals.empty()) continue;
+        moves_normals = true;
+        for (std::size_t v = 0; v < normals.size(); ++v) normals[v] += weight * glm::dvec3(target.normals[v]);
+    }
+    posed.normals = mesh.normals;
+    if (!moves_normals) return;
+    for (std::size_t v = 0; v < normals.size(); ++v) posed.normals[v] = glm::vec3(safe_normalize(normals[v]));
+}
+
+/// glTF 2.0, 3.7.3.3: the node's own transform does not matter, so it is taken out again. A node without volume cannot
+/// be undone; no ray meets its mesh anyway, which stays as it is.
+void apply_skin(const Scene& scene, const Mesh& mesh, int node, std::span<const glm::dmat4> world, PosedMesh& posed) {
+    const glm::dmat4& placed = world[static_cast<std::size_t>(node)];
+    if (!has_full_rank(placed)) return;
+    const glm::dmat4 undo = glm::inverse(placed);
+    const Skin& skin = scene.skins[static_cast<std::size_t>(mesh.skin)];
+    std::vector<glm::dmat4> joints;
+    joints.reserve(skin.joints.size());
+    for (std::size_t j = 0; j < skin.joints.size(); ++j)
+        joints.push_back(undo * world[static_cast<std::size_t>(skin.joints[j])] * skin.inverse_binds[j]);
+
+    const auto per_vertex = static_cast<std::size_t>(mesh.joints_per_vertex);
+    for (std::size_t v = 0; v < posed.positions.size(); ++v) {
+        glm::dmat4 blend(0.0);
+        double sum = 0.0;
+        for (std::size_t k = 0; k < per_vertex; ++k) {
+            const JointWeight& influence = mesh.joint_weights[v * per_vertex + k];
+            if (influence.weight == 0.0f) continue;
+            blend += joints[influence.joint] * static_cast<double>(influence.weight);
+            sum += static_cast<double>(influence.weight);
+        }
+        if (!(sum > 0.0)) continue;
+        posed.positions[v] = glm::dvec3(blend * glm::dvec4(posed.positions[v], 1.0)) / sum;
+        if (posed.normals.empty()) continue;
+        const glm::dvec3 normal = safe_normalize(normal_matrix(blend) * glm::dvec3(posed.normals[v]));
+        if (normal != glm::dvec3(0.0)) posed.normals[v] = glm::vec3(normal);
+    }
+}
+
+/// Meshes of one cage follow each other as a rule: the last one's control points are kept.
+struct LastCage {
+    int cage = no_index;
+    const LimitSurface* surface = nullptr;
+    std::vector<glm::dvec3> control;
+};
+
+void deform_cage(const Scene& scene, const Mesh& mesh, double seconds, LastCage& last, PosedMesh& posed) {
+    const LimitSurface& surface = *mesh.limit.surface;
+    if (last.cage != mesh.cage || last.surface != &surface) {
+        last.cage = mesh.cage;
+        last.surface = &surface;
+        last.control = surface.make_control_points(
+            cage_points_at(scene, scene.cages[static_cast<std::size_t>(mesh.cage)], seconds));
+    }
+    posed.control = last.control;
+    surface.evaluate_vertices(mesh.cage_part, posed.control, posed.positions, posed.normals);
+}
+
+}  // namespace
+
+std::vector<Deformer> find_deformers(const Scene& scene, std::span<const std::uint8_t> moving_nodes) {
+    std::vector<int> node_of(scene.meshes.size(), no_index);
+    for (std::size_t n = 0; n < scene.nodes.size(); ++n)
+        for (const int mesh : scene.nodes[n].meshes) node_of[static_cast<std::size_t>(mesh)] = static_cast<int>(n);
+
+    std::vector<Deformer> deformers;
+    for (std::size_t m = 0; m < scene.meshes.size(); ++m) {
+        const Mesh& mesh = scene.meshes[m];
+        if (node_of[m] == no_index) continue;
+        Deformer deformer{static_cast<int>(m), node_of[m], false, {}};
+        if (is_skinned(mesh)) {
+            const auto moves = [&](int node) { return moving_nodes[static_cast<std::size_t>(node)] != 0; };
+            deformer.changes = moves(deformer.node) ||
+                               std::ranges::any_of(scene.skins[static_cast<std::size_t>(mesh.skin)].joints, moves) ||
+                               std::ranges::any_of(mesh.target_weights, [](const auto& w) { return is_animated(w); });
+        } else if (mesh.points != no_index && (is_animated(cache_of(scene, mesh)) || has_normal_samples(mesh))) {
+            deformer.changes = true;
+            if (mesh.normal_samples.empty() && !mesh.normals.empty()) deformer.normal_groups = group_normals(mesh);
+        } else if (are_weights_on(mesh)) {
+            deformer.changes = std::ranges::any_of(mesh.target_weights, [](const auto& w) { return is_animated(w); });
+        } else if (is_cage_animated(scene, mesh)) {
+            deformer.changes = true;
+        } else {
+            continue;
+        }
+        deformers.push_back(std::move(deformer));
+    }
+    return deformers;
+}
+
+void deform(const Scene& scene, std::span<const Deformer> deformers, std::span<const std::uint8_t> shown,
+            std::span<const glm::dmat4> world, double seconds, bool all, std::vector<PosedMesh>& posed) {
+    LastCage last;
+    for (std::size_t d = 0; d < deformers.size(); ++d) {
+        const Deformer& deformer = deformers[d];
+        const auto m = static_cast<std::size_t>(deformer.mesh);
+        const Mesh& mesh = scene.meshes[m];
+        PosedMesh& target = posed[m];
+        if (shown[d] == 0) {
+            target = {};
+        } else if (!all && !deformer.changes && !target.positions.empty()) {
+            continue;
+        } else if (mesh.cage != no_index && mesh.limit.surface != nullptr) {
+            deform_cage(scene, mesh, seconds, last, target);
+        } else if (mesh.points != no_index) {
+            deform_points(scene, deformer, seconds, target);
+        } else {
+            morph(mesh, seconds, target);
+            if (is_skinned(mesh)) apply_skin(scene, mesh, deformer.node, world, target);
+        }
+    }
+}
+
+}  // namespace aleph

@@ -1,0 +1,124 @@
+// The parts of a pose, one by one: pose() makes them all, update_pose() those that can change.
+
+#include "engine/pose/parts.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+
+#include "engine/base/errors.h"
+#include "engine/scene/operations.h"
+#include "engine/scene/transforms.h"
+
+namespace aleph {
+namespace {
+
+/// Cubic keys overshoot; what leaves the range of its quantity is brought back.
+float unit_range(const Track<double>& track, double seconds) {
+    return static_cast<float>(std::clamp(evaluate(track, seconds), 0.0, 1.0));
+}
+double not_negative(const Track<double>& track, double seconds) {
+    return std::max(evaluate(track, seconds), 0.0);
+}
+glm::dvec3 not_negative(const Track<glm::dvec3>& track, double seconds) {
+    return glm::max(evaluate(track, seconds), glm::dvec3(0.0));
+}
+
+glm::dquat local_rotation(const Node& node, double seconds) {
+    if (!node.axis_rotation) return evaluate(node.rotation, seconds);
+    const glm::dvec3 axis = safe_normalize(node.axis_rotation->axis);
+    const double half = 0.5 * evaluate(node.axis_rotation->angle, seconds);
+    return safe_normalize(glm::dquat(std::cos(half), axis * std::sin(half)));
+}
+
+glm::dmat4 local_transform(const Node& node, double seconds) {
+    if (node.operations) return evaluate(*node.operations, seconds);
+    if (node.matrix) return evaluate(*node.matrix, seconds);
+    const glm::dmat3 rotation = glm::mat3_cast(local_rotation(node, seconds));
+    const glm::dvec3 scale = evaluate(node.scale, seconds);
+    return {glm::dvec4(rotation[0] * scale.x, 0.0), glm::dvec4(rotation[1] * scale.y, 0.0),
+            glm::dvec4(rotation[2] * scale.z, 0.0), glm::dvec4(evaluate(node.translation, seconds), 1.0)};
+}
+
+/// For what never fades, whatever its track says.
+double evaluate_whole(const Track<double>& track, double seconds) {
+    const std::size_t key = track.interpolation == Interpolation::nearest
+                                ? nearest_sample(track.sampling, track.key_count(), seconds)
+                                : find_samples(track.sampling, track.key_count(), seconds).floor;
+    return key_value(track, key);
+}
+
+}  // namespace
+
+void place_node(const Scene& scene, int index, double seconds, SceneFrame& frame) {
+    const Node& node = scene.nodes[static_cast<std::size_t>(index)];
+    ALEPH_CHECK(node.parent < index, fmt::format("node {} has parent {}", index, node.parent));
+    const glm::dmat4 local = local_transform(node, seconds);
+    const double visible = evaluate_whole(node.visible, seconds);
+    const bool root = node.parent == no_index;
+    const bool detached = root || evaluate_whole(node.inherits, seconds) == 0.0;
+    const auto n = static_cast<std::size_t>(index), parent = static_cast<std::size_t>(node.parent);
+    frame.world[n] = detached ? local : frame.world[parent] * local;
+    frame.visible[n] = visible >= 2.0 || (visible != 0.0 && (root || frame.visible[parent] != 0));
+}
+
+bool is_shown(const Scene& scene, const SceneFrame& frame, std::size_t instance) {
+    const Instance& of = frame.instances[instance];
+    return frame.visible[static_cast<std::size_t>(of.node)] != 0 &&
+           evaluate_whole(scene.meshes[static_cast<std::size_t>(of.mesh)].present, frame.seconds) != 0.0;
+}
+
+MaterialValues pose_material(const Material& material, double seconds) {
+    MaterialValues values;
+    values.base_color = Rgb(glm::min(not_negative(material.base_color, seconds), glm::dvec3(1.0)));
+    values.alpha = unit_range(material.alpha, seconds);
+    values.metallic = unit_range(material.metallic, seconds);
+    values.roughness = unit_range(material.roughness, seconds);
+    values.emission = Rgb(not_negative(material.emission, seconds) * not_negative(material.emission_strength, seconds));
+    values.specular = unit_range(material.specular, seconds);
+    values.specular_color = Rgb(not_negative(material.specular_color, seconds));
+    values.transmission = unit_range(material.transmission, seconds);
+    values.ior = static_cast<float>(not_negative(material.ior, seconds));
+    return values;
+}
+
+LightValues pose_light(const Scene& scene, int node, const glm::dmat4& world, double seconds) {
+    const Light& light = scene.lights[static_cast<std::size_t>(scene.nodes[static_cast<std::size_t>(node)].light)];
+    LightValues values;
+    values.kind = light.kind;
+    values.node = node;
+    values.position = glm::dvec3(world[3]);
+    const glm::dvec3 direction = safe_normalize(-glm::dvec3(world[2]));
+    if (direction != glm::dvec3(0.0)) values.direction = direction;
+    values.intensity = Rgb(not_negative(light.color, seconds) * not_negative(light.intensity, seconds));
+    values.range = not_negative(light.range, seconds);
+    values.inner_cone = evaluate(light.inner_cone, seconds);
+    values.outer_cone = evaluate(light.outer_cone, seconds);
+    return values;
+}
+
+CameraValues pose_camera(const Scene& scene, int node, const glm::dmat4& world, double seconds) {
+    const Camera& camera = scene.cameras[static_cast<std::size_t>(scene.nodes[static_cast<std::size_t>(node)].camera)];
+    CameraValues values;
+    values.node = node;
+    values.orthographic = camera.orthographic;
+    values.position = glm::dvec3(world[3]);
+    values.axes = orthonormal_axes(world);
+    values.fov = evaluate(camera.fov, seconds);
+    values.half_height = evaluate(camera.half_height, seconds);
+    values.shift_x = evaluate(camera.shift_x, seconds);
+    values.shift_y = evaluate(camera.shift_y, seconds);
+    values.near_plane = camera.near_plane;
+    values.shutter = camera.shutter;
+    values.aperture = not_negative(camera.aperture, seconds);
+    values.focus_distance = not_negative(camera.focus_distance, seconds);
+    return values;
+}
+
+Rgb pose_environment(const Scene& scene, double seconds) {
+    return scene.environment ? Rgb(not_negative(*scene.environment, seconds)) : Rgb(0.0f);
+}
+
+}  // namespace aleph

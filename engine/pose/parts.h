@@ -1,0 +1,21 @@
+#pragma once
+// The parts of a pose, one by one: pose() makes them all, update_pose() those that can change.
+
+#include <cstddef>
+
+#include "engine/pose/pose.h"
+
+namespace aleph {
+
+/// Transform and visibility of a node; its parent's stand in the frame already.
+void place_node(const Scene& scene, int node, double seconds, SceneFrame& frame);
+
+/// Whether the instance's node is visible and its mesh present, at frame.seconds.
+bool is_shown(const Scene& scene, const SceneFrame& frame, std::size_t instance);
+
+MaterialValues pose_material(const Material& material, double seconds);
+LightValues pose_light(const Scene& scene, int node, const glm::dmat4& world, double seconds);
+CameraValues pose_camera(const Scene& scene, int node, const glm::dmat4& world, double seconds);
+Rgb pose_environment(const Scene& scene, double seconds);
+
+}  // namespace aleph

@@ -1,0 +1,103 @@
+#include "engine/pose/plan.h"
+
+#include "engine/pose/parts.h"
+#include "engine/scene/operations.h"
+#include "engine/scene/visit.h"
+
+namespace aleph {
+namespace {
+
+template <class Element>
+bool has_animated_tracks(const Element& element) {
+    bool animated = false;
+    visit_tracks(element, [&](const auto& track) { animated = animated || is_animated(track); });
+    return animated;
+}
+
+void plan_nodes(const Scene& scene, PosePlan& plan) {
+    plan.moving.resize(scene.nodes.size(), 0);
+    int camera = 0;
+    for (std::size_t n = 0; n < scene.nodes.size(); ++n) {
+        const Node& node = scene.nodes[n];
+        const bool carried = node.parent != no_index && plan.moving[static_cast<std::size_t>(node.parent)] != 0;
+        const bool moves = carried || has_animated_tracks(node);
+        plan.moving[n] = moves;
+        if (moves) plan.nodes.push_back(static_cast<int>(n));
+        if (node.light != no_index) {
+            plan.light_nodes.push_back(static_cast<int>(n));
+            plan.lights =
+                plan.lights || moves || has_animated_tracks(scene.lights[static_cast<std::size_t>(node.light)]);
+        }
+        if (node.camera == no_index) continue;
+        if (moves || has_animated_tracks(scene.cameras[static_cast<std::size_t>(node.camera)]))
+            plan.cameras.push_back(camera);
+        ++camera;
+    }
+}
+
+void plan_instances(const Scene& scene, PosePlan& plan) {
+    std::vector<std::uint8_t> deforms(scene.meshes.size(), 0), changes(scene.meshes.size(), 0);
+    for (const Deformer& deformer : plan.deformers) {
+        deforms[static_cast<std::size_t>(deformer.mesh)] = 1;
+        if (deformer.changes) changes[static_cast<std::size_t>(deformer.mesh)] = 1;
+    }
+    for (std::size_t m = 0; m < scene.meshes.size(); ++m)
+        if (is_animated(scene.meshes[m].present)) changes[m] = 1;
+
+    const std::vector<Instance> instances = list_instances(scene);
+    std::vector<std::vector<int>> instances_of(scene.meshes.size());
+    for (std::size_t i = 0; i < instances.size(); ++i) {
+        const auto mesh = static_cast<std::size_t>(instances[i].mesh);
+        if (plan.moving[static_cast<std::size_t>(instances[i].node)] != 0 || changes[mesh] != 0)
+            plan.instances.push_back(static_cast<int>(i));
+        if (deforms[mesh] != 0) instances_of[mesh].push_back(static_cast<int>(i));
+    }
+    for (const Deformer& deformer : plan.deformers)
+        plan.deformer_instances.push_back(std::move(instances_of[static_cast<std::size_t>(deformer.mesh)]));
+}
+
+}  // namespace
+
+PosePlan make_pose_plan(const Scene& scene) {
+    PosePlan plan;
+    plan_nodes(scene, plan);
+    plan.deformers = find_deformers(scene, plan.moving);
+    plan_instances(scene, plan);
+    for (std::size_t i = 0; i < scene.materials.size(); ++i)
+        if (has_animated_tracks(scene.materials[i])) plan.materials.push_back(static_cast<int>(i));
+    plan.environment = scene.environment && is_animated(*scene.environment);
+    return plan;
+}
+
+void update_pose(const Scene& scene, const PosePlan& plan, double seconds, SceneFrame& frame) {
+    frame.seconds = seconds;
+    for (const int node : plan.nodes) place_node(scene, node, seconds, frame);
+    for (const int i : plan.instances) {
+        const auto instance = static_cast<std::size_t>(i);
+        frame.shown[instance] = is_shown(scene, frame, instance);
+    }
+    if (!plan.deformers.empty()) {
+        std::vector<std::uint8_t> shown(plan.deformers.size(), 0);
+        for (std::size_t d = 0; d < shown.size(); ++d)
+            for (const int i : plan.deformer_instances[d]) shown[d] |= frame.shown[static_cast<std::size_t>(i)];
+        deform(scene, plan.deformers, shown, frame.world, seconds, false, frame.meshes);
+    }
+    for (const int material : plan.materials) {
+        const auto m = static_cast<std::size_t>(material);
+        frame.materials[m] = pose_material(scene.materials[m], seconds);
+    }
+    if (plan.lights) {
+        frame.lights.clear();
+        for (const int node : plan.light_nodes) {
+            const auto n = static_cast<std::size_t>(node);
+            if (frame.visible[n] != 0) frame.lights.push_back(pose_light(scene, node, frame.world[n], seconds));
+        }
+    }
+    for (const int camera : plan.cameras) {
+        CameraValues& values = frame.cameras[static_cast<std::size_t>(camera)];
+        values = pose_camera(scene, values.node, frame.world[static_cast<std::size_t>(values.node)], seconds);
+    }
+    if (plan.environment) frame.environment = pose_environment(scene, seconds);
+}
+
+}  // namespace aleph

@@ -1,0 +1,32 @@
+#pragma once
+// Which parts of a scene can differ between two moments, found once, so that a frame costs what moves.
+
+#include <cstdint>
+#include <vector>
+
+#include "engine/pose/deform.h"
+#include "engine/pose/pose.h"
+
+namespace aleph {
+
+struct PosePlan {
+    std::vector<std::uint8_t> moving;  ///< per node: its transform or visibility can change
+    std::vector<int> nodes;            ///< the moving ones, parents first
+    std::vector<int> instances;        ///< into list_instances: those that move, deform, come or go
+    std::vector<Deformer> deformers;
+    std::vector<std::vector<int>> deformer_instances;  ///< per deformer: the instances of its mesh
+    std::vector<int> materials;                        ///< with animated values
+    bool lights = false;                               ///< some light moves, comes, goes or changes
+    std::vector<int> light_nodes;
+    std::vector<int> cameras;  ///< into SceneFrame::cameras
+    bool environment = false;
+};
+
+PosePlan make_pose_plan(const Scene& scene);
+
+/// Takes a frame of the same scene to another time: bit for bit pose(scene, seconds), but only what can have changed
+/// is touched.
+/// @param frame  from pose() or an earlier update
+void update_pose(const Scene& scene, const PosePlan& plan, double seconds, SceneFrame& frame);
+
+}  // namespace aleph

@@ -1,0 +1,95 @@
+#pragma once
+// What a scene looks like at a moment: every transform composed in double, every track evaluated.
+
+#include <glm/mat3x3.hpp>
+#include <glm/mat4x4.hpp>
+#include <vector>
+
+#include "engine/base/color.h"
+#include "engine/scene/scene.h"
+
+namespace aleph {
+
+/// One mesh under one node. The list is the same at every time, so its index names an object over the whole shot.
+struct Instance {
+    int node = no_index;
+    int mesh = no_index;
+    bool operator==(const Instance&) const = default;
+};
+
+struct MaterialValues {
+    Rgb base_color{1.0f};
+    float alpha = 1.0f;
+    float metallic = 1.0f, roughness = 1.0f;
+    Rgb emission{0.0f};  ///< radiance, strength included
+    float specular = 1.0f;
+    Rgb specular_color{1.0f};
+    float ior = 1.5f;
+    float transmission = 0.0f;
+    bool operator==(const MaterialValues&) const = default;
+};
+
+struct LightValues {
+    Light::Kind kind = Light::Kind::point;
+    int node = no_index;
+    glm::dvec3 position{0.0};              ///< world, m
+    glm::dvec3 direction{0.0, 0.0, -1.0};  ///< world, unit, the way the light travels
+    Rgb intensity{1.0f};                   ///< candela or lux, colour included
+    double range = 0.0;
+    double inner_cone = 0.0, outer_cone = 0.0;  ///< spot, radians
+    bool operator==(const LightValues&) const = default;
+};
+
+struct CameraValues {
+    int node = no_index;
+    bool orthographic = false;
+    glm::dvec3 position{0.0};  ///< world, m
+    glm::dmat3 axes{1.0};      ///< columns right, up, back in world; orthonormal (the node's scale taken out)
+    double fov = 0.785;        ///< vertical, radians
+    double half_height = 1.0;  ///< orthographic, m
+    double shift_x = 0.0, shift_y = 0.0;  ///< in heights of the picture
+    double near_plane = 1e-4;
+    glm::dvec2 shutter{0.0};
+    double aperture = 0.0, focus_distance = 1.0;
+    bool operator==(const CameraValues&) const = default;
+};
+
+/// What replaces a deforming mesh's own arrays at a moment. In double: its motion is a difference of projections.
+struct PosedMesh {
+    std::vector<glm::dvec3> positions;  ///< m, object space, per vertex; empty: the mesh is rigid
+    std::vector<glm::vec3> normals;     ///< per vertex; empty: flat
+    std::vector<glm::dvec3> control;    ///< of a cage's mesh: control points of its LimitSurface
+    bool operator==(const PosedMesh&) const = default;
+};
+
+struct SceneFrame {
+    double seconds = 0.0;
+    std::vector<glm::dmat4> world;      ///< per node, object to world
+    std::vector<std::uint8_t> visible;  ///< per node, ancestors included
+    std::vector<Instance> instances;    ///< list_instances(scene)
+    std::vector<std::uint8_t> shown;    ///< per instance: its node is visible and its mesh present
+    std::vector<PosedMesh> meshes;      ///< per mesh of the scene
+    std::vector<MaterialValues> materials;
+    std::vector<LightValues> lights;    ///< visible nodes that hold a light, in node order
+    std::vector<CameraValues> cameras;  ///< nodes that hold a camera, in node order
+    Rgb environment{0.0f};
+};
+
+/// Every (node, mesh) pair in node order, visible or not.
+std::vector<Instance> list_instances(const Scene& scene);
+
+/// The scene at a time. Pure: the same bits whatever was posed before. Iterative, so depth costs no stack.
+SceneFrame pose(const Scene& scene, double seconds);
+
+/// The scene's frames: `range` where given, else the span of all keys rounded inwards to frames.
+FrameRange frame_range(const Scene& scene);
+
+/// Index into SceneFrame::cameras (the same at every time) by node or camera name; an empty name takes the scene's
+/// choice, then the first.
+/// @throws InputError if there is none of that name, listing those that exist, or no camera at all
+int find_camera(const Scene& scene, const std::string& name);
+
+/// True if anything that a SceneFrame holds can differ between two times, apart from cameras.
+bool is_world_animated(const Scene& scene);
+
+}  // namespace aleph

@@ -1,0 +1,128 @@
+// What can be told of a scene without a time: its instances, its range, its cameras, whether it moves.
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "engine/base/errors.h"
+#include "engine/pose/pose.h"
+#include "engine/scene/operations.h"
+#include "engine/scene/points.h"
+#include "engine/scene/visit.h"
+
+namespace aleph {
+namespace {
+
+/// A visitor with a function for each kind of what it meets.
+template <class... Functions>
+struct Overloaded : Functions... {
+    using Functions::operator()...;
+};
+template <class... Functions>  // clang before 17 does not deduce it by itself
+Overloaded(Functions...)->Overloaded<Functions...>;
+
+/// Nodes with a mesh, a light or a joint at or below them.
+std::vector<bool> nodes_with_content(const Scene& scene) {
+    std::vector<bool> content(scene.nodes.size(), false);
+    for (const Skin& skin : scene.skins)
+        for (const int joint : skin.joints) content[static_cast<std::size_t>(joint)] = true;
+    for (std::size_t i = scene.nodes.size(); i-- > 0;) {
+        const Node& node = scene.nodes[i];
+        if (!node.meshes.empty() || node.light != no_index) content[i] = true;
+        if (content[i] && node.parent != no_index) content[node.parent] = true;
+    }
+    return content;
+}
+
+}  // namespace
+
+std::vector<Instance> list_instances(const Scene& scene) {
+    std::vector<Instance> instances;
+    for (std::size_t node = 0; node < scene.nodes.size(); ++node)
+        for (const int mesh : scene.nodes[node].meshes) instances.push_back({static_cast<int>(node), mesh});
+    return instances;
+}
+
+FrameRange frame_range(const Scene& scene) {
+    if (scene.range) return *scene.range;
+    double earliest = std::numeric_limits<double>::infinity(), latest = -earliest;
+    const auto widen_samples = [&](const TimeSampling& sampling, std::size_t count) {
+        if (count <= 1) return;
+        earliest = std::min(earliest, sample_time(sampling, 0));
+        latest = std::max(latest, sample_time(sampling, count - 1));
+    };
+    const Overloaded visit{
+        [&](const auto& track) { widen_samples(track.sampling, track.key_count()); },
+        [&](const OperationStack& stack) { widen_samples(stack.sampling, sample_count(stack)); },
+    };
+    for (const Node& node : scene.nodes) visit_tracks(node, visit);
+    for (const Mesh& mesh : scene.meshes) {
+        visit_tracks(mesh, visit);
+        widen_samples(mesh.normal_sampling, mesh.normal_samples.size());
+    }
+    for (const PointCache& cache : scene.point_caches) widen_samples(cache.sampling, cache.positions.size());
+    for (const Material& material : scene.materials) visit_tracks(material, visit);
+    for (const Light& light : scene.lights) visit_tracks(light, visit);
+    for (const Camera& camera : scene.cameras) visit_tracks(camera, visit);
+    if (scene.environment) visit(*scene.environment);
+    if (!(earliest <= latest)) return {};
+
+    // A key within rounding of a frame is on it: single-precision times are off by up to 6e-8 of themselves.
+    const auto slack = [](double frame) { return 1e-6 + 1.2e-7 * std::abs(frame); };
+    const double per_second = scene.frame_rate.per_second();
+    const double limit = 9e15;  // whole numbers are exact in double up to here
+    const double begin = std::clamp(earliest * per_second, -limit, limit);
+    const double end = std::clamp(latest * per_second, -limit, limit);
+    const auto first = static_cast<std::int64_t>(std::ceil(begin - slack(begin)));
+    const auto last = static_cast<std::int64_t>(std::floor(end + slack(end)));
+    return {first, std::max(first, last)};  // keys that all lie between two frames: the frame after them
+}
+
+int find_camera(const Scene& scene, const std::string& name) {
+    const std::string& wanted = name.empty() ? scene.camera : name;
+    std::vector<const Node*> holders;
+    for (const Node& node : scene.nodes)
+        if (node.camera != no_index) holders.push_back(&node);
+    if (holders.empty()) throw InputError(scene.file, "camera", "the scene has no camera");
+    if (wanted.empty()) return 0;
+
+    const auto index_where = [&](const auto& is_it) {
+        const auto found = std::ranges::find_if(holders, is_it);
+        return found == holders.end() ? no_index : static_cast<int>(found - holders.begin());
+    };
+    const auto camera_name = [&](const Node* node) -> const std::string& { return scene.cameras[node->camera].name; };
+    int index = index_where([&](const Node* node) { return node->name == wanted; });
+    if (index == no_index) index = index_where([&](const Node* node) { return camera_name(node) == wanted; });
+    if (index != no_index) return index;
+
+    std::string known;
+    for (const Node* node : holders) {
+        const std::string& shown = node->name.empty() ? camera_name(node) : node->name;
+        known += fmt::format("{}'{}'", known.empty() ? "" : ", ", printable(shown));
+    }
+    throw InputError(scene.file, "camera",
+                     fmt::format("there is no camera '{}'; there is {}", printable(wanted), known));
+}
+
+bool is_world_animated(const Scene& scene) {
+    bool animated = false;
+    const auto look = [&](const auto& property) { animated = animated || is_animated(property); };
+    const std::vector<bool> content = nodes_with_content(scene);
+    for (std::size_t i = 0; i < scene.nodes.size(); ++i)
+        if (content[i]) visit_tracks(scene.nodes[i], look);
+    for (const Mesh& mesh : scene.meshes) {
+        visit_tracks(mesh, look);
+        animated = animated || std::ranges::any_of(mesh.normal_samples, [&](const auto& sample) {
+                       return sample != mesh.normal_samples.front();
+                   });
+    }
+    for (const PointCache& cache : scene.point_caches) look(cache);
+    for (const Material& material : scene.materials) visit_tracks(material, look);
+    for (const Light& light : scene.lights) visit_tracks(light, look);
+    if (scene.environment) look(*scene.environment);
+    return animated;
+}
+
+}  // namespace aleph

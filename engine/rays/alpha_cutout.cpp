@@ -1,0 +1,100 @@
+#include "engine/rays/alpha_cutout.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace aleph {
+namespace {
+
+int wrap(int i, int size, Wrap how) {
+    switch (how) {
+        case Wrap::clamp:
+            return std::clamp(i, 0, size - 1);
+        case Wrap::repeat:
+            return ((i % size) + size) % size;
+        case Wrap::mirror:
+            break;
+    }
+    const int period = 2 * size, place = ((i % period) + period) % period;
+    return place < size ? place : period - 1 - place;
+}
+
+/// Far out a float holds no fraction of a texel, and the conversion to int would overflow.
+float within_reach(float coordinate) {
+    constexpr float limit = 1e6f;
+    return std::abs(coordinate) < limit ? coordinate : 0.0f;
+}
+
+template <class T>
+T between(const std::vector<T>& values, const glm::uvec3& t, float u, float v) {
+    return values[t.x] * (1.0f - u - v) + values[t.y] * u + values[t.z] * v;
+}
+
+}  // namespace
+
+float AlphaTexture::sample(const glm::vec2& given) const {
+    if (alpha.empty()) return 1.0f;
+    const double c = std::cos(reference.uv_rotation), s = std::sin(reference.uv_rotation);
+    const glm::dvec2 scaled = glm::dvec2(given) * reference.uv_scale;
+    const glm::vec2 uv(reference.uv_offset + glm::dvec2(c * scaled.x + s * scaled.y, c * scaled.y - s * scaled.x));
+    // Mirroring has period 2: indices stay small whatever the repeat count.
+    const auto texels = [](float at, int size, Wrap how) {
+        const float reached = within_reach(at);
+        const float near =
+            how == Wrap::clamp ? std::clamp(reached, 0.0f, 1.0f) : reached - 2.0f * std::floor(0.5f * reached);
+        return near * static_cast<float>(size);
+    };
+    const float x = texels(uv.x, alpha.width, reference.wrap_u), y = texels(uv.y, alpha.height, reference.wrap_v);
+    const auto texel = [&](float column, float row) {
+        return alpha(wrap(static_cast<int>(column), alpha.width, reference.wrap_u),
+                     wrap(static_cast<int>(row), alpha.height, reference.wrap_v));
+    };
+    if (reference.nearest) return texel(std::floor(x), std::floor(y));
+    const float x0 = std::floor(x - 0.5f), y0 = std::floor(y - 0.5f);
+    const float ax = x - 0.5f - x0, ay = y - 0.5f - y0;
+    return (1.0f - ay) * ((1.0f - ax) * texel(x0, y0) + ax * texel(x0 + 1.0f, y0)) +
+           ay * ((1.0f - ax) * texel(x0, y0 + 1.0f) + ax * texel(x0 + 1.0f, y0 + 1.0f));
+}
+
+AlphaTexture make_alpha_texture(const Scene& scene, const TextureRef& reference) {
+    AlphaTexture texture;
+    texture.reference = reference;
+    if (reference.image == no_index) return texture;
+    const SceneImage& image = scene.images[static_cast<std::size_t>(reference.image)];
+    if (!image.bytes.empty()) {
+        texture.alpha = Image<float>(image.bytes.width, image.bytes.height);
+        std::ranges::transform(image.bytes.pixels, texture.alpha.pixels.begin(),
+                               [](const glm::u8vec4& p) { return static_cast<float>(p.w) / 255.0f; });
+    } else if (!image.floats.empty()) {
+        texture.alpha = Image<float>(image.floats.width, image.floats.height);
+        std::ranges::transform(image.floats.pixels, texture.alpha.pixels.begin(),
+                               [](const glm::vec4& p) { return p.w; });
+    }
+    return texture;
+}
+
+bool AlphaCutout::is_hole(float material_alpha, unsigned primitive, float u, float v) const {
+    const glm::uvec3& t = triangles[primitive];
+    float alpha = material_alpha * texture.sample(uv.empty() ? glm::vec2(0.0f) : between(uv, t, u, v));
+    if (!vertex_alpha.empty()) alpha *= between(vertex_alpha, t, u, v);
+    return alpha < cutoff;
+}
+
+bool has_cutout(const Scene& scene, const Mesh& mesh) {
+    if (mesh.material == no_index) return false;
+    return scene.materials[static_cast<std::size_t>(mesh.material)].alpha_mode != Material::AlphaMode::opaque;
+}
+
+AlphaCutout make_alpha_cutout(const Scene& scene, const Mesh& mesh) {
+    const Material& material = scene.materials[static_cast<std::size_t>(mesh.material)];
+    AlphaCutout cutout;
+    cutout.material = mesh.material;
+    if (material.alpha_mode == Material::AlphaMode::mask) cutout.cutoff = static_cast<float>(material.alpha_cutoff);
+    cutout.texture = make_alpha_texture(scene, material.base_color_texture);
+    cutout.triangles = mesh.triangles;
+    cutout.uv = mesh.uv[material.base_color_texture.uv_set == 1 ? 1 : 0];
+    for (const glm::vec4& color : mesh.colors) cutout.vertex_alpha.push_back(color.w);
+    return cutout;
+}
+
+}  // namespace aleph

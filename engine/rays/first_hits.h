@@ -1,0 +1,16 @@
+#pragma once
+// Q(u,v,t), thesis 5.1.2: the surface point behind every pixel, cast once and used by every stage.
+
+#include "engine/base/image.h"
+#include "engine/pose/camera_view.h"
+#include "engine/rays/ray_scene.h"
+
+namespace aleph {
+
+/// Casts the ray through the point (offset_x, offset_y) of every pixel; (.5, .5) is the centre. In packets over
+/// blocks of neighbouring pixels. Hit::distance is along a unit direction, m.
+/// @param rays_cast  if given, increased by the number of rays
+Image<Hit> cast_first_hits(const RayScene& scene, const CameraView& view, double offset_x = 0.5, double offset_y = 0.5,
+                           std::uint64_t* rays_cast = nullptr);
+
+}  // namespace aleph

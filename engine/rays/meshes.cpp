@@ -1,0 +1,182 @@
+// Embree's structures of every mesh, and how the scene's instances are gathered into objects.
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <stdexcept>
+
+#include "engine/base/errors.h"
+#include "engine/base/flush_denormals.h"
+#include "engine/pose/plan.h"
+#include "engine/rays/state.h"
+
+namespace aleph {
+namespace {
+
+std::size_t count_degenerate(const Mesh& mesh) {
+    std::size_t count = 0;
+    for (const glm::uvec3& t : mesh.triangles) {
+        const glm::dvec3 a = mesh.positions[t.x], b = mesh.positions[t.y], c = mesh.positions[t.z];
+        const glm::dvec3 n = glm::cross(b - a, c - a);
+        if (!(glm::dot(n, n) > 0.0)) ++count;
+    }
+    return count;
+}
+
+void check_mesh(const Mesh& mesh, std::size_t index) {
+    const std::string place = fmt::format("mesh {} \"{}\"", index, printable(mesh.name));
+    for (const glm::vec3& p : mesh.positions) {
+        for (int k = 0; k < 3; ++k) {
+            if (!(std::abs(p[k]) < largest_coordinate)) {
+                throw InputError("", place, fmt::format("a position is not finite or too large ({})", p[k]));
+            }
+        }
+    }
+    for (const glm::uvec3& t : mesh.triangles) {
+        const std::uint32_t highest = std::max({t.x, t.y, t.z});
+        if (highest >= mesh.positions.size()) {
+            throw InputError("", place,
+                             fmt::format("vertex {} of {} used by a triangle", highest, mesh.positions.size()));
+        }
+    }
+}
+
+/// @param places  which of the node's meshes; their numbers become Embree's
+RTCScene build_mesh_scene(RTCDevice device, const Scene& scene, const std::vector<int>& meshes,
+                          const std::vector<unsigned>& places,
+                          const std::vector<std::unique_ptr<const AlphaCutout>>& cutouts) {
+    RTCScene built = rtcNewScene(device);
+    rtcSetSceneFlags(built, RTC_SCENE_FLAG_ROBUST);
+    rtcSetSceneBuildQuality(built, RTC_BUILD_QUALITY_HIGH);
+    for (const unsigned place : places) {
+        const Mesh& mesh = scene.meshes[static_cast<std::size_t>(meshes[place])];
+        if (mesh.triangles.empty()) continue;
+        RTCGeometry geometry = make_triangle_geometry(device, mesh.positions.size(), mesh.triangles,
+                                                      cutouts[static_cast<std::size_t>(meshes[place])].get());
+        std::ranges::copy(mesh.positions,
+                          static_cast<glm::vec3*>(rtcGetGeometryBufferData(geometry, RTC_BUFFER_TYPE_VERTEX, 0)));
+        rtcCommitGeometry(geometry);
+        rtcAttachGeometryByID(built, geometry, place);
+        rtcReleaseGeometry(geometry);
+    }
+    rtcCommitScene(built);
+    return built;
+}
+
+/// To sort so many again takes next to no time, but every ray pays a tenth for a second top-level scene.
+constexpr std::size_t most_still_beside_moving = 256;
+
+/// How each mesh of the scene is handled.
+struct MeshKinds {
+    explicit MeshKinds(const Scene& scene, const PosePlan& plan)
+        : deforms(scene.meshes.size(), 0), changes(scene.meshes.size(), 0), comes_and_goes(scene.meshes.size(), 0) {
+        for (const Deformer& deformer : plan.deformers) {
+            deforms[static_cast<std::size_t>(deformer.mesh)] = 1;
+            changes[static_cast<std::size_t>(deformer.mesh)] = deformer.changes;
+        }
+        // A mesh that is never there must not share an object with others either.
+        for (std::size_t m = 0; m < scene.meshes.size(); ++m)
+            comes_and_goes[m] = scene.meshes[m].present != Track<double>(1.0);
+    }
+    std::vector<std::uint8_t> deforms, changes, comes_and_goes;
+};
+
+/// Gathers the scene's meshes into objects, one node after the other.
+class ObjectMaker {
+  public:
+    ObjectMaker(MeshStructures& structures, const Scene& scene)
+        : structures_(structures), scene_(scene), plan_(make_pose_plan(scene)), kinds_(scene, plan_) {}
+
+    void add_node(int node) {
+        const std::vector<int>& meshes = scene_.nodes[static_cast<std::size_t>(node)].meshes;
+        std::vector<unsigned> rigid;
+        for (unsigned place = 0; place < meshes.size(); ++place) {
+            const auto mesh = static_cast<std::size_t>(meshes[place]);
+            if (kinds_.deforms[mesh] != 0) {
+                add(node, place, kinds_.changes[mesh] != 0 || kinds_.comes_and_goes[mesh] != 0).deforming =
+                    deforming(meshes[place], place);
+            } else if (kinds_.comes_and_goes[mesh] != 0) {
+                add(node, place, true).mesh_scene = rigid_scene(meshes, {place});
+            } else {
+                rigid.push_back(place);
+            }
+        }
+        if (!rigid.empty()) add(node, rigid.front(), false).mesh_scene = rigid_scene(meshes, rigid);
+        first_instance_ += static_cast<int>(meshes.size());
+    }
+
+    void finish() {
+        structures_.moving_count = structures_.objects.size();
+        structures_.objects.insert(structures_.objects.end(), still_.begin(), still_.end());
+        structures_.first_layer_count =
+            still_.size() > most_still_beside_moving ? structures_.moving_count : structures_.objects.size();
+    }
+
+  private:
+    MeshStructures::Object& add(int node, unsigned place, bool changes) {
+        const bool moves = changes || plan_.moving[static_cast<std::size_t>(node)] != 0;
+        std::vector<MeshStructures::Object>& objects = moves ? structures_.objects : still_;
+        objects.push_back({node, first_instance_, first_instance_ + static_cast<int>(place)});
+        return objects.back();
+    }
+
+    int deforming(int mesh, unsigned place) {
+        const auto [found, is_new] =
+            deforming_.try_emplace({mesh, place}, static_cast<int>(structures_.deforming.size()));
+        if (is_new) {
+            const auto m = static_cast<std::size_t>(mesh);
+            structures_.deforming.emplace_back(scene_.meshes[m], mesh, place, kinds_.changes[m] != 0,
+                                               structures_.cutouts[m].get());
+        }
+        return found->second;
+    }
+
+    RTCScene rigid_scene(const std::vector<int>& meshes, const std::vector<unsigned>& places) {
+        RTCScene& built = rigid_[{meshes, places}];
+        if (built == nullptr) {
+            built = build_mesh_scene(structures_.device, scene_, meshes, places, structures_.cutouts);
+            structures_.mesh_scenes.push_back(built);
+        }
+        return built;
+    }
+
+    MeshStructures& structures_;
+    const Scene& scene_;
+    PosePlan plan_;
+    MeshKinds kinds_;
+    int first_instance_ = 0;
+    std::vector<MeshStructures::Object> still_;
+    std::map<std::pair<int, unsigned>, int> deforming_;
+    std::map<std::pair<std::vector<int>, std::vector<unsigned>>, RTCScene> rigid_;
+};
+
+}  // namespace
+
+MeshStructures::MeshStructures(const Scene& scene) {
+    const FlushDenormals flush;
+    device = rtcNewDevice(nullptr);
+    if (device == nullptr) throw std::runtime_error("Embree found no way to start on this machine");
+    if (rtcGetDeviceProperty(device, RTC_DEVICE_PROPERTY_NATIVE_RAY16_SUPPORTED)) packet_width = 16;
+    for (std::size_t i = 0; i < scene.meshes.size(); ++i) {
+        check_mesh(scene.meshes[i], i);
+        degenerate_triangles += count_degenerate(scene.meshes[i]);
+    }
+    cutouts.resize(scene.meshes.size());
+    for (std::size_t i = 0; i < scene.meshes.size(); ++i) {
+        if (!has_cutout(scene, scene.meshes[i])) continue;
+        cutouts[i] = std::make_unique<const AlphaCutout>(make_alpha_cutout(scene, scene.meshes[i]));
+        any_cutout = true;
+    }
+    ObjectMaker maker(*this, scene);
+    for (std::size_t n = 0; n < scene.nodes.size(); ++n) maker.add_node(static_cast<int>(n));
+    maker.finish();
+}
+
+MeshStructures::~MeshStructures() {
+    for (RTCScene mesh_scene : mesh_scenes) rtcReleaseScene(mesh_scene);
+    if (device != nullptr) rtcReleaseDevice(device);
+}
+
+}  // namespace aleph

@@ -1,0 +1,190 @@
+#include "engine/rays/ray_scene.h"
+
+#include <embree3/rtcore.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/base/flush_denormals.h"
+#include "engine/rays/state.h"
+#include "engine/scene/transforms.h"
+
+namespace aleph {
+namespace {
+
+/// Of the objects from `first` up to `end`.
+Layer make_layer(const MeshStructures& meshes, std::size_t first, std::size_t end,
+                 const std::vector<std::unique_ptr<RefitMesh>>& refits) {
+    Layer layer;
+    layer.first = first;
+    layer.top = rtcNewScene(meshes.device);
+    rtcSetSceneFlags(layer.top, RTC_SCENE_FLAG_ROBUST);
+    layer.placements.resize(end - first);
+    for (std::size_t i = first; i < end; ++i) {
+        const MeshStructures::Object& object = meshes.objects[i];
+        RTCGeometry geometry = rtcNewGeometry(meshes.device, RTC_GEOMETRY_TYPE_INSTANCE);
+        rtcSetGeometryInstancedScene(geometry, object.deforming == no_index
+                                                   ? object.mesh_scene
+                                                   : refits[static_cast<std::size_t>(object.deforming)]->scene());
+        rtcSetGeometryTimeStepCount(geometry, 1);
+        rtcCommitGeometry(geometry);
+        rtcAttachGeometryByID(layer.top, geometry, static_cast<unsigned>(i));
+        rtcDisableGeometry(geometry);
+        layer.placements[i - first].geometry = geometry;
+    }
+    rtcCommitScene(layer.top);
+    return layer;
+}
+
+void release_layer(Layer& layer) {
+    for (const Placement& placement : layer.placements) rtcReleaseGeometry(placement.geometry);
+    if (layer.top != nullptr) rtcReleaseScene(layer.top);
+}
+
+/// Column by column: RTC_FORMAT_FLOAT3X4_COLUMN_MAJOR.
+std::array<float, 12> make_transform(const glm::dmat4& world, const glm::dvec3& anchor) {
+    std::array<float, 12> transform{};
+    for (int column = 0; column < 4; ++column) {
+        for (int row = 0; row < 3; ++row) {
+            const double value = column < 3 ? world[column][row] : world[3][row] - anchor[row];
+            transform[static_cast<std::size_t>(column * 3 + row)] = static_cast<float>(value);
+        }
+    }
+    return transform;
+}
+
+/// Brings the points of deforming meshes to the frame.
+std::vector<RefitMesh::Change> refit_meshes(RayScene::State& state, const SceneFrame& frame) {
+    std::vector<RefitMesh::Change> changes(state.refits.size(), RefitMesh::Change::none);
+    for (std::size_t d = 0; d < changes.size(); ++d) {
+        const DeformingMesh& mesh = state.meshes->deforming[d];
+        if (!mesh.changes && state.refits[d]->is_filled()) continue;
+        changes[d] = state.refits[d]->update(frame.meshes[static_cast<std::size_t>(mesh.mesh)].positions);
+    }
+    return changes;
+}
+
+/// What the filters of alpha masks read.
+void note_alpha(RayScene::State& state, const SceneFrame& frame) {
+    if (!state.meshes->any_cutout) return;
+    state.alpha.clear();
+    for (const MaterialValues& material : frame.materials) state.alpha.push_back(material.alpha);
+}
+
+/// @return whether the object had to be touched
+bool place(Layer& layer, Placement& placement, const MeshStructures::Object& object, RefitMesh::Change change,
+           const SceneFrame& frame, const glm::dvec3& anchor) {
+    const glm::dmat4& world = frame.world[static_cast<std::size_t>(object.node)];
+    const bool shown = frame.shown[static_cast<std::size_t>(object.instance)] != 0;
+    const bool enabled = shown && change != RefitMesh::Change::unusable && is_traceable(world, anchor);
+    const bool skipped = shown && !enabled;
+    layer.skipped = layer.skipped + (skipped ? 1 : 0) - (placement.skipped ? 1 : 0);
+    placement.skipped = skipped;
+    const std::array<float, 12> transform = make_transform(world, anchor);
+    const bool same = transform == placement.transform && change == RefitMesh::Change::none;
+    if (enabled == placement.enabled && (!enabled || same)) return false;
+    if (enabled) {
+        rtcSetGeometryTransform(placement.geometry, 0, RTC_FORMAT_FLOAT3X4_COLUMN_MAJOR, transform.data());
+        rtcCommitGeometry(placement.geometry);
+    }
+    if (enabled && !placement.enabled) {
+        rtcEnableGeometry(placement.geometry);
+        ++layer.enabled;
+    }
+    if (!enabled && placement.enabled) {
+        rtcDisableGeometry(placement.geometry);
+        --layer.enabled;
+    }
+    placement.enabled = enabled;
+    placement.transform = transform;
+    return true;
+}
+
+/// The layer's first `count` objects.
+std::size_t place_objects(Layer& layer, std::size_t count, const MeshStructures& meshes,
+                          const std::vector<RefitMesh::Change>& changes, const SceneFrame& frame,
+                          const glm::dvec3& anchor) {
+    std::size_t touched = 0;
+    for (std::size_t i = 0; i < count; ++i) {
+        const MeshStructures::Object& object = meshes.objects[layer.first + i];
+        const RefitMesh::Change change = object.deforming == no_index
+                                             ? RefitMesh::Change::none
+                                             : changes[static_cast<std::size_t>(object.deforming)];
+        if (place(layer, layer.placements[i], object, change, frame, anchor)) ++touched;
+    }
+    if (touched > 0) rtcCommitScene(layer.top);
+    return touched;
+}
+
+}  // namespace
+
+RayScene::State::State(std::shared_ptr<const MeshStructures> shared) : meshes(std::move(shared)) {
+    for (const DeformingMesh& mesh : meshes->deforming)
+        refits.push_back(std::make_unique<RefitMesh>(meshes->device, mesh));
+    moving = make_layer(*meshes, 0, meshes->first_layer_count, refits);
+    still = make_layer(*meshes, meshes->first_layer_count, meshes->objects.size(), refits);
+}
+
+RayScene::State::~State() {
+    release_layer(moving);
+    release_layer(still);
+}
+
+bool is_traceable(const glm::dmat4& world, const glm::dvec3& anchor) {
+    if (!has_full_rank(world)) return false;
+    const glm::dmat3 inverse = glm::inverse(glm::dmat3(world));
+    double largest = 0.0;
+    for (int column = 0; column < 3; ++column) {
+        for (int row = 0; row < 3; ++row) largest = std::max(largest, std::abs(inverse[column][row]));
+    }
+    const glm::dvec3 moved = glm::abs(inverse * (glm::dvec3(world[3]) - anchor));
+    return 3.0 * largest * largest_ray_component + std::max({moved.x, moved.y, moved.z}) < largest_coordinate;
+}
+
+RayScene::RayScene(const Scene& scene) : state_(new State(std::make_shared<MeshStructures>(scene))) {}
+RayScene::RayScene(std::unique_ptr<State> state) : state_(std::move(state)) {}
+RayScene::~RayScene() = default;
+RayScene::RayScene(RayScene&&) noexcept = default;
+RayScene& RayScene::operator=(RayScene&&) noexcept = default;
+
+RayScene RayScene::share_meshes() const {
+    return RayScene(std::make_unique<State>(state_->meshes));
+}
+
+std::size_t RayScene::update(const SceneFrame& frame, const glm::dvec3& anchor) {
+    const FlushDenormals flush;
+    note_alpha(*state_, frame);
+    const std::vector<RefitMesh::Change> changes = refit_meshes(*state_, frame);
+    std::size_t touched = 0;
+    for (Layer* layer : {&state_->moving, &state_->still})
+        touched += place_objects(*layer, layer->placements.size(), *state_->meshes, changes, frame, anchor);
+    state_->anchor = anchor;
+    state_->placed = true;
+    return touched;
+}
+
+std::size_t RayScene::update_moving(const SceneFrame& frame, const glm::dvec3& anchor) {
+    if (!state_->placed || anchor != state_->anchor) return update(frame, anchor);
+    const FlushDenormals flush;
+    note_alpha(*state_, frame);
+    const MeshStructures& meshes = *state_->meshes;
+    return place_objects(state_->moving, meshes.moving_count, meshes, refit_meshes(*state_, frame), frame, anchor);
+}
+
+const glm::dvec3& RayScene::anchor() const {
+    return state_->anchor;
+}
+std::size_t RayScene::degenerate_triangles() const {
+    return state_->meshes->degenerate_triangles;
+}
+std::size_t RayScene::skipped_instances() const {
+    return state_->moving.skipped + state_->still.skipped;
+}
+std::uint64_t RayScene::rays_traced() const {
+    return state_->rays_traced.load();
+}
+std::uint64_t RayScene::invalid_rays() const {
+    return state_->invalid_rays.load();
+}
+
+}  // namespace aleph

@@ -1,0 +1,152 @@
+#include "engine/rays/refit.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+#include "engine/rays/state.h"
+
+namespace aleph {
+namespace {
+
+/// Refitted boxes overlap more the further apart neighbours drift; a new tree pays from about here.
+constexpr double largest_spread_growth = 2.0;
+
+constexpr std::size_t cluster_size = 32;
+
+struct Box {
+    glm::vec3 low{std::numeric_limits<float>::infinity()}, high{-std::numeric_limits<float>::infinity()};
+
+    void add(const glm::vec3& p) {
+        low = glm::min(low, p);
+        high = glm::max(high, p);
+    }
+    double half_area() const {
+        const glm::dvec3 d = glm::dvec3(high) - glm::dvec3(low);
+        return d.x * d.y + d.y * d.z + d.z * d.x;
+    }
+};
+
+/// The bits of a number below 1024 with two zeros between each.
+std::uint32_t spread_bits(std::uint32_t v) {
+    v = (v | v << 16) & 0x030000ffu;
+    v = (v | v << 8) & 0x0300f00fu;
+    v = (v | v << 4) & 0x030c30c3u;
+    return (v | v << 2) & 0x09249249u;
+}
+
+/// Triangles along a Morton curve through their first corners.
+std::vector<std::uint32_t> sort_neighbours(const std::vector<glm::uvec3>& triangles,
+                                           const std::vector<glm::vec3>& points) {
+    Box box;
+    for (const glm::vec3& p : points) box.add(p);
+    const glm::vec3 scale = 1023.0f / glm::max(box.high - box.low, glm::vec3(1e-30f));
+    std::vector<std::uint32_t> codes(triangles.size());
+    for (std::size_t i = 0; i < codes.size(); ++i) {
+        const glm::vec3 cell = glm::clamp((points[triangles[i].x] - box.low) * scale, 0.0f, 1023.0f);
+        codes[i] = spread_bits(static_cast<std::uint32_t>(cell.x)) |
+                   spread_bits(static_cast<std::uint32_t>(cell.y)) << 1 |
+                   spread_bits(static_cast<std::uint32_t>(cell.z)) << 2;
+    }
+    std::vector<std::uint32_t> order(triangles.size());
+    std::iota(order.begin(), order.end(), 0u);
+    std::ranges::stable_sort(order, {}, [&](std::uint32_t i) { return codes[i]; });
+    return order;
+}
+
+}  // namespace
+
+DeformingMesh::DeformingMesh(const Mesh& of, int index, unsigned geometry_number, bool can_change,
+                             const AlphaCutout* holes)
+    : mesh(index),
+      geometry(geometry_number),
+      changes(can_change),
+      vertex_count(of.positions.size()),
+      triangles(of.triangles),
+      cutout(holes) {}
+
+RTCGeometry make_triangle_geometry(RTCDevice device, std::size_t vertex_count, const std::vector<glm::uvec3>& triangles,
+                                   const AlphaCutout* cutout) {
+    RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
+    // Embree allocates, which brings the padding that its wide loads need (HARD_CASES RC-14).
+    rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, sizeof(glm::vec3), vertex_count);
+    auto* indices = static_cast<glm::uvec3*>(rtcSetNewGeometryBuffer(
+        geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, sizeof(glm::uvec3), triangles.size()));
+    std::ranges::copy(triangles, indices);
+    if (cutout == nullptr) {
+        rtcSetGeometryIntersectFilterFunction(geometry, keep_lowest_of_nearest);
+        return geometry;
+    }
+    rtcSetGeometryUserData(geometry, const_cast<AlphaCutout*>(cutout));  // which the filters only read
+    rtcSetGeometryIntersectFilterFunction(geometry, keep_lowest_of_nearest_but_holes);
+    rtcSetGeometryOccludedFilterFunction(geometry, pass_holes);
+    return geometry;
+}
+
+RefitMesh::RefitMesh(RTCDevice device, const DeformingMesh& mesh)
+    : device_(device), mesh_(mesh), scene_(rtcNewScene(device)) {
+    // Embree refits only in scenes of this kind; the tree itself is still built with care.
+    rtcSetSceneFlags(scene_, static_cast<RTCSceneFlags>(RTC_SCENE_FLAG_ROBUST | RTC_SCENE_FLAG_DYNAMIC));
+    rtcSetSceneBuildQuality(scene_, RTC_BUILD_QUALITY_LOW);
+    rtcCommitScene(scene_);
+}
+
+RefitMesh::~RefitMesh() {
+    if (geometry_ != nullptr) rtcReleaseGeometry(geometry_);
+    rtcReleaseScene(scene_);
+}
+
+RefitMesh::Change RefitMesh::update(const std::vector<glm::dvec3>& positions) {
+    if (positions.size() != mesh_.vertex_count || mesh_.triangles.empty()) return Change::unusable;
+    bool moved = !current_;
+    current_ = false;
+    points_.resize(positions.size());
+    for (std::size_t i = 0; i < positions.size(); ++i) {
+        const glm::vec3 point(positions[i]);
+        for (int k = 0; k < 3; ++k)
+            if (!(std::abs(point[k]) < largest_coordinate)) return Change::unusable;
+        moved = moved || point != points_[i];
+        points_[i] = point;
+    }
+    current_ = true;
+    if (!moved) return Change::none;
+    if (geometry_ == nullptr || measure_spread() > largest_spread_growth * spread_) build();
+    auto* vertices = static_cast<glm::vec3*>(rtcGetGeometryBufferData(geometry_, RTC_BUFFER_TYPE_VERTEX, 0));
+    std::ranges::copy(points_, vertices);
+    rtcUpdateGeometryBuffer(geometry_, RTC_BUFFER_TYPE_VERTEX, 0);
+    rtcCommitGeometry(geometry_);
+    rtcCommitScene(scene_);
+    return Change::moved;
+}
+
+void RefitMesh::build() {
+    if (geometry_ != nullptr) {
+        rtcDetachGeometry(scene_, mesh_.geometry);
+        rtcReleaseGeometry(geometry_);
+    }
+    geometry_ = make_triangle_geometry(device_, mesh_.vertex_count, mesh_.triangles, mesh_.cutout);
+    rtcSetGeometryBuildQuality(geometry_, RTC_BUILD_QUALITY_REFIT);
+    rtcAttachGeometryByID(scene_, geometry_, mesh_.geometry);
+    neighbours_ = sort_neighbours(mesh_.triangles, points_);
+    spread_ = measure_spread();
+}
+
+/// Area of boxes about runs of neighbours, against that of all points: what a tree's lower levels look like. Growing as
+/// a whole does not count.
+double RefitMesh::measure_spread() const {
+    Box all;
+    for (const glm::vec3& p : points_) all.add(p);
+    double sum = 0.0;
+    for (std::size_t begin = 0; begin < neighbours_.size(); begin += cluster_size) {
+        Box box;
+        const std::size_t end = std::min(begin + cluster_size, neighbours_.size());
+        for (std::size_t i = begin; i < end; ++i)
+            for (int corner = 0; corner < 3; ++corner) box.add(points_[mesh_.triangles[neighbours_[i]][corner]]);
+        sum += box.half_area();
+    }
+    const double whole = all.half_area();
+    return whole > 0.0 ? sum / whole : 0.0;
+}
+
+}  // namespace aleph

@@ -1,0 +1,58 @@
+#pragma once
+// A deforming mesh for rays: its tree is refitted to the moved points, and built anew where it has come apart.
+
+#include <embree3/rtcore.h>
+
+#include <glm/vec3.hpp>
+#include <vector>
+
+#include "engine/rays/alpha_cutout.h"
+
+namespace aleph {
+
+/// What stays of a deforming mesh whatever its points do.
+struct DeformingMesh {
+    DeformingMesh(const Mesh& mesh, int index, unsigned geometry_number, bool can_change, const AlphaCutout* holes);
+
+    int mesh;           ///< into Scene::meshes
+    unsigned geometry;  ///< Embree's number: its place among its node's meshes
+    bool changes;       ///< false: posed once
+    std::size_t vertex_count;
+    std::vector<glm::uvec3> triangles;
+    const AlphaCutout* cutout;  ///< null: rays always meet it
+};
+
+/// A triangle geometry with the settings that every mesh of a RayScene has. The caller releases it.
+/// @param cutout  null: rays always meet it; must outlive the geometry
+RTCGeometry make_triangle_geometry(RTCDevice device, std::size_t vertex_count, const std::vector<glm::uvec3>& triangles,
+                                   const AlphaCutout* cutout);
+
+/// Embree's scene of one deforming mesh.
+class RefitMesh {
+  public:
+    RefitMesh(RTCDevice device, const DeformingMesh& mesh);
+    ~RefitMesh();
+    RefitMesh(const RefitMesh&) = delete;
+    RefitMesh& operator=(const RefitMesh&) = delete;
+
+    enum class Change { none, moved, unusable };
+    /// Unusable: there are no positions, or some that Embree would drop without a word (HARD_CASES RC-08).
+    Change update(const std::vector<glm::dvec3>& positions);
+    bool is_filled() const { return geometry_ != nullptr; }
+    RTCScene scene() const { return scene_; }
+
+  private:
+    void build();
+    double measure_spread() const;
+
+    RTCDevice device_;
+    const DeformingMesh& mesh_;
+    RTCScene scene_;
+    RTCGeometry geometry_ = nullptr;
+    std::vector<glm::vec3> points_;
+    bool current_ = false;                   ///< Embree has these points
+    std::vector<std::uint32_t> neighbours_;  ///< triangles, near ones near each other when the tree was built
+    double spread_ = 0.0;                    ///< then
+};
+
+}  // namespace aleph

@@ -1,0 +1,92 @@
+#pragma once
+// What RayScene keeps, shared with Tracer only: Embree's handles do not leave these files (ray_scene*, tracer).
+
+#include <embree3/rtcore.h>
+
+#include <array>
+#include <atomic>
+#include <memory>
+#include <vector>
+
+#include "engine/rays/ray_scene.h"
+#include "engine/rays/refit.h"
+
+namespace aleph {
+
+/// Embree drops geometry beyond this without a word (HARD_CASES RC-08); so we refuse it with one.
+inline constexpr float largest_coordinate = 1.844e18f;
+
+/// Embree's filter on every geometry: of hits at one distance the lowest (instance, primitive) stays, whatever the
+/// order in which a tree offers them (HARD_CASES RC-07).
+void keep_lowest_of_nearest(const RTCFilterFunctionNArguments* arguments);
+
+/// The filters of meshes with an alpha mask (their user data is the AlphaCutout): rays pass through the holes.
+void keep_lowest_of_nearest_but_holes(const RTCFilterFunctionNArguments* arguments);
+void pass_holes(const RTCFilterFunctionNArguments* arguments);
+
+/// Embree's structures of every mesh in object space, built once and shared by the RayScenes of neighbouring frames,
+/// and which instances they belong to.
+struct MeshStructures {
+    /// Meshes of one node that are placed together.
+    struct Object {
+        int node;            ///< scene node that carries these meshes
+        int first_instance;  ///< SceneFrame::instances index of the node's first mesh; Embree's geometry number is
+                             ///< added
+        int instance;        ///< of those, the one that says whether the object is shown
+        RTCScene mesh_scene = nullptr;  ///< null: deforming, each RayScene has its own
+        int deforming = no_index;       ///< into `deforming`
+    };
+
+    explicit MeshStructures(const Scene& scene);
+    ~MeshStructures();
+    MeshStructures(const MeshStructures&) = delete;
+    MeshStructures& operator=(const MeshStructures&) = delete;
+
+    RTCDevice device = nullptr;
+    int packet_width = 8;
+    std::vector<RTCScene> mesh_scenes;
+    /// First what can move, deform, come or go, then what never does; in the order of the scene within both.
+    std::vector<Object> objects;
+    std::size_t moving_count = 0;
+    /// How many of them share the first top-level scene: the moving ones, or all where there are few.
+    std::size_t first_layer_count = 0;
+    std::vector<DeformingMesh> deforming;
+    std::vector<std::unique_ptr<const AlphaCutout>> cutouts;  ///< as Scene::meshes; null: rays always meet it
+    bool any_cutout = false;
+    std::size_t degenerate_triangles = 0;
+};
+
+/// One object's place in its layer's top-level scene.
+struct Placement {
+    RTCGeometry geometry = nullptr;
+    bool enabled = false;
+    bool skipped = false;  ///< shown, but no ray can meet it
+    std::array<float, 12> transform{};
+};
+
+/// A top-level scene. Where many objects stand still they have their own, so that Embree does not sort them again for
+/// each that moves. The moving ones have the low numbers: Embree looks at every number up to the last when it commits.
+struct Layer {
+    RTCScene top = nullptr;
+    std::size_t first = 0;              ///< its first object; Embree's instance number is the object's
+    std::vector<Placement> placements;  ///< of the objects from `first`
+    std::size_t enabled = 0, skipped = 0;
+};
+
+struct RayScene::State {
+    explicit State(std::shared_ptr<const MeshStructures> shared);
+    ~State();
+    State(const State&) = delete;
+    State& operator=(const State&) = delete;
+
+    std::shared_ptr<const MeshStructures> meshes;
+    std::vector<std::unique_ptr<RefitMesh>> refits;  ///< as MeshStructures::deforming
+    Layer moving, still;
+    std::array<const Layer*, 2> layers() const { return {&still, &moving}; }
+    std::vector<float> alpha;  ///< per material, now; empty where no mesh has an alpha mask
+    glm::dvec3 anchor{0.0};
+    bool placed = false;  ///< by an update
+    std::atomic<std::uint64_t> rays_traced{0}, invalid_rays{0};
+};
+
+}  // namespace aleph

@@ -1,0 +1,297 @@
+// The one checked door to Embree: Debian's build ends the process on a ray with a NaN (HARD_CASES RC-01), so every ray
+// is looked at first, and a bad one is a miss that is counted.
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "engine/base/errors.h"
+#include "engine/rays/ray_scene.h"
+#include "engine/rays/state.h"
+
+namespace aleph {
+
+namespace {
+
+/// The direction with components that are next to nothing made 0: a denormal one of a wrong sign makes Embree's
+/// coherent packets lose hits of the other rays.
+glm::vec3 embree_direction(const Ray& ray) {
+    const auto clean = [](float v) { return std::abs(v) < 1e-30f ? 0.0f : v; };
+    return {clean(ray.direction.x), clean(ray.direction.y), clean(ray.direction.z)};
+}
+
+bool is_valid(const Ray& ray) {
+    const auto fits = [](const glm::vec3& v) {
+        // NaN fails every comparison.
+        return std::abs(v.x) < largest_ray_component && std::abs(v.y) < largest_ray_component &&
+               std::abs(v.z) < largest_ray_component;
+    };
+    return fits(ray.origin) && fits(ray.direction) && ray.near >= 0.0f && ray.near < largest_ray_component &&
+           ray.far >= ray.near && embree_direction(ray) != glm::vec3(0.0f);
+}
+
+constexpr int widest = 16;
+
+/// Distances this near each other, relatively, count as equal: about 30 roundings. Embree's single rays, packets and
+/// processors differ by up to 1.8e-6 of a distance (HARD_CASES RC-15).
+constexpr float tie = 0x1p-19f;
+
+/// What every filter finds behind the context that Embree hands on.
+struct RayContext {
+    RTCIntersectContext embree;
+    const RayScene::State* state;
+
+    RayContext(const RayScene::State& of, bool coherent) : state(&of) {
+        rtcInitIntersectContext(&embree);
+        embree.flags = coherent ? RTC_INTERSECT_CONTEXT_FLAG_COHERENT : RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
+    }
+};
+
+/// What filters of first hits need to know of the rays on their way.
+struct FilterContext {
+    RayContext common;  ///< first
+    /// Embree's own note of what each ray has accepted so far: the hit part of the rays that it was given.
+    RTCHitN* accepted;
+    std::array<float, widest> far;       ///< where each ray ends by itself
+    std::array<float, widest> nearest;   ///< distance of the nearest hit offered
+    std::array<float, widest> distance;  ///< of the one accepted, which ties with it
+
+    FilterContext(const RayScene::State& state, bool coherent, void* hits)
+        : common(state, coherent), accepted(static_cast<RTCHitN*>(hits)) {
+        nearest.fill(std::numeric_limits<float>::infinity());
+    }
+};
+
+/// Instance and primitive of lane i of `count`.
+std::pair<int, unsigned> identify(const MeshStructures& meshes, RTCHitN* hits, unsigned count, unsigned i) {
+    const MeshStructures::Object& object = meshes.objects[RTCHitN_instID(hits, count, i, 0)];
+    return {object.first_instance + static_cast<int>(RTCHitN_geomID(hits, count, i)), RTCHitN_primID(hits, count, i)};
+}
+
+Hit make_hit(const MeshStructures& meshes, unsigned object, unsigned geometry, unsigned primitive, float u, float v,
+             float distance) {
+    if (geometry == RTC_INVALID_GEOMETRY_ID) return {};
+    return {meshes.objects[object].first_instance + static_cast<int>(geometry), static_cast<int>(primitive), u, v,
+            distance};
+}
+
+/// Embree's packet types by width.
+template <int Width>
+struct Packet;
+template <>
+struct Packet<8> {
+    using Rays = RTCRay8;
+    using RayHits = RTCRayHit8;
+    static constexpr auto intersect = rtcIntersect8;
+    static constexpr auto occluded = rtcOccluded8;
+};
+template <>
+struct Packet<16> {
+    using Rays = RTCRay16;
+    using RayHits = RTCRayHit16;
+    static constexpr auto intersect = rtcIntersect16;
+    static constexpr auto occluded = rtcOccluded16;
+};
+
+struct PacketCounts {
+    std::uint64_t traced = 0, invalid = 0;
+};
+
+/// Fills lane i; invalid rays and lanes beyond the end are switched off.
+template <class Rays>
+void fill_lane(Rays& packet, int* valid, int lane, const Ray* ray, PacketCounts& counts) {
+    const bool good = ray != nullptr && is_valid(*ray);
+    if (ray != nullptr) ++(good ? counts.traced : counts.invalid);
+    valid[lane] = good ? -1 : 0;
+    const Ray& r = good ? *ray : Ray{};
+    packet.org_x[lane] = r.origin.x;
+    packet.org_y[lane] = r.origin.y;
+    packet.org_z[lane] = r.origin.z;
+    const glm::vec3 direction = embree_direction(r);
+    packet.dir_x[lane] = direction.x;
+    packet.dir_y[lane] = direction.y;
+    packet.dir_z[lane] = direction.z;
+    packet.tnear[lane] = r.near;
+    packet.tfar[lane] = r.far;
+    packet.time[lane] = 0.0f;
+    packet.mask[lane] = ~0u;
+    packet.id[lane] = static_cast<unsigned>(lane);
+    packet.flags[lane] = 0;
+}
+
+template <int Width>
+PacketCounts intersect_packets(const RayScene::State& state, std::span<const Ray> rays, std::span<Hit> hits,
+                               bool coherent) {
+    PacketCounts counts;
+    alignas(64) int valid[Width];
+    alignas(64) typename Packet<Width>::RayHits packet;
+    for (std::size_t begin = 0; begin < rays.size(); begin += Width) {
+        for (int lane = 0; lane < Width; ++lane) {
+            const std::size_t i = begin + static_cast<std::size_t>(lane);
+            fill_lane(packet.ray, valid, lane, i < rays.size() ? &rays[i] : nullptr, counts);
+            packet.hit.geomID[lane] = RTC_INVALID_GEOMETRY_ID;
+            packet.hit.instID[0][lane] = RTC_INVALID_GEOMETRY_ID;
+        }
+        FilterContext context(state, coherent, &packet.hit);
+        std::copy_n(packet.ray.tfar, Width, context.far.begin());
+        for (const Layer* layer : state.layers())
+            if (layer->enabled > 0) Packet<Width>::intersect(valid, layer->top, &context.common.embree, &packet);
+        const std::size_t count = std::min<std::size_t>(Width, rays.size() - begin);
+        for (std::size_t lane = 0; lane < count; ++lane) {
+            hits[begin + lane] =
+                make_hit(*state.meshes, packet.hit.instID[0][lane], packet.hit.geomID[lane], packet.hit.primID[lane],
+                         packet.hit.u[lane], packet.hit.v[lane], context.distance[lane]);
+        }
+    }
+    return counts;
+}
+
+template <int Width>
+PacketCounts occluded_packets(const RayScene::State& state, std::span<const Ray> rays,
+                              std::span<std::uint8_t> blocked) {
+    PacketCounts counts;
+    // Never "coherent": with that flag this Embree's occlusion packets can loop for ever over instances.
+    RayContext context(state, false);
+    alignas(64) int valid[Width];
+    alignas(64) typename Packet<Width>::Rays packet;
+    for (std::size_t begin = 0; begin < rays.size(); begin += Width) {
+        for (int lane = 0; lane < Width; ++lane) {
+            const std::size_t i = begin + static_cast<std::size_t>(lane);
+            fill_lane(packet, valid, lane, i < rays.size() ? &rays[i] : nullptr, counts);
+        }
+        const std::size_t count = std::min<std::size_t>(Width, rays.size() - begin);
+        for (const Layer* layer : state.layers()) {
+            if (layer->enabled == 0) continue;
+            Packet<Width>::occluded(valid, layer->top, &context.embree, &packet);
+            bool open = false;  // a ray that is stopped has a negative end and is over
+            for (std::size_t lane = 0; lane < count; ++lane) {
+                if (packet.tfar[lane] < 0.0f) valid[lane] = 0;
+                open = open || valid[lane] != 0;
+            }
+            if (!open) break;
+        }
+        for (std::size_t lane = 0; lane < count; ++lane) blocked[begin + lane] = packet.tfar[lane] < 0.0f;
+    }
+    return counts;
+}
+
+}  // namespace
+
+void keep_lowest_of_nearest(const RTCFilterFunctionNArguments* arguments) {
+    FilterContext& context = *reinterpret_cast<FilterContext*>(arguments->context);
+    const MeshStructures& meshes = *context.common.state->meshes;
+    const unsigned count = arguments->N;  // lane i of the packet is ray i of ours
+    int* const valid = arguments->valid;
+    float* const offered = &RTCRayN_tfar(arguments->ray, count, 0);
+    constexpr float beyond = 1.0f + tie;
+    int close = 0;
+    for (unsigned i = 0; i < count; ++i) close |= valid[i] & (offered[i] * beyond < context.nearest[i] ? 0 : -1);
+    if (close == 0) {  // as a rule: whatever was accepted before lies clearly farther
+        for (unsigned i = 0; i < count; ++i) {
+            const bool accept = valid[i] != 0;
+            context.nearest[i] = accept ? offered[i] : context.nearest[i];
+            context.distance[i] = accept ? offered[i] : context.distance[i];
+            offered[i] = accept ? std::min(offered[i] * beyond, context.far[i]) : offered[i];
+        }
+        return;
+    }
+    for (unsigned i = 0; i < count; ++i) {
+        if (valid[i] == 0) continue;
+        const bool lost = !(offered[i] * beyond < context.nearest[i]) &&
+                          RTCHitN_geomID(context.accepted, count, i) != RTC_INVALID_GEOMETRY_ID &&
+                          (offered[i] > context.nearest[i] * beyond ||
+                           identify(meshes, arguments->hit, count, i) >= identify(meshes, context.accepted, count, i));
+        context.nearest[i] = std::min(context.nearest[i], offered[i]);
+        if (lost) {
+            valid[i] = 0;
+            continue;
+        }
+        context.distance[i] = offered[i];
+        // A little more than the hit: what ties with it must be offered too, whichever comes first.
+        offered[i] = std::min(context.nearest[i] * beyond, context.far[i]);
+    }
+}
+
+void pass_holes(const RTCFilterFunctionNArguments* arguments) {
+    const RayContext& context = *reinterpret_cast<const RayContext*>(arguments->context);
+    const AlphaCutout& cutout = *static_cast<const AlphaCutout*>(arguments->geometryUserPtr);
+    const float alpha = context.state->alpha[static_cast<std::size_t>(cutout.material)];
+    const unsigned count = arguments->N;
+    for (unsigned i = 0; i < count; ++i) {
+        if (arguments->valid[i] != 0 &&
+            cutout.is_hole(alpha, RTCHitN_primID(arguments->hit, count, i), RTCHitN_u(arguments->hit, count, i),
+                           RTCHitN_v(arguments->hit, count, i))) {
+            arguments->valid[i] = 0;
+        }
+    }
+}
+
+void keep_lowest_of_nearest_but_holes(const RTCFilterFunctionNArguments* arguments) {
+    pass_holes(arguments);
+    keep_lowest_of_nearest(arguments);
+}
+
+Tracer::Tracer(const RayScene& scene) : state_(*scene.state_) {}
+
+Tracer::~Tracer() {
+    if (traced_ > 0) state_.rays_traced.fetch_add(traced_, std::memory_order_relaxed);
+    if (invalid_ > 0) state_.invalid_rays.fetch_add(invalid_, std::memory_order_relaxed);
+}
+
+Hit Tracer::intersect(const Ray& ray) {
+    if (!is_valid(ray)) {
+        ++invalid_;
+        return {};
+    }
+    ++traced_;
+    RTCRayHit query{};
+    const glm::vec3 direction = embree_direction(ray);
+    query.ray = {ray.origin.x, ray.origin.y, ray.origin.z, ray.near, direction.x, direction.y,
+                 direction.z,  0.0f,         ray.far,      ~0u,      0,           0};
+    query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+    query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+    FilterContext context(state_, false, &query.hit);
+    context.far[0] = ray.far;
+    for (const Layer* layer : state_.layers())
+        if (layer->enabled > 0) rtcIntersect1(layer->top, &context.common.embree, &query);
+    return make_hit(*state_.meshes, query.hit.instID[0], query.hit.geomID, query.hit.primID, query.hit.u, query.hit.v,
+                    context.distance[0]);
+}
+
+bool Tracer::occluded(const Ray& ray) {
+    if (!is_valid(ray)) {
+        ++invalid_;
+        return false;
+    }
+    ++traced_;
+    RayContext context(state_, false);
+    const glm::vec3 direction = embree_direction(ray);
+    RTCRay query = {ray.origin.x, ray.origin.y, ray.origin.z, ray.near, direction.x, direction.y,
+                    direction.z,  0.0f,         ray.far,      ~0u,      0,           0};
+    for (const Layer* layer : state_.layers()) {
+        if (layer->enabled > 0) rtcOccluded1(layer->top, &context.embree, &query);
+        if (query.tfar < 0.0f) return true;
+    }
+    return false;
+}
+
+void Tracer::intersect(std::span<const Ray> rays, std::span<Hit> hits, bool coherent) {
+    ALEPH_CHECK(rays.size() == hits.size(), std::to_string(rays.size()) + " rays, " + std::to_string(hits.size()));
+    const PacketCounts counts = state_.meshes->packet_width == 16 ? intersect_packets<16>(state_, rays, hits, coherent)
+                                                                  : intersect_packets<8>(state_, rays, hits, coherent);
+    traced_ += counts.traced;
+    invalid_ += counts.invalid;
+}
+
+void Tracer::occluded(std::span<const Ray> rays, std::span<std::uint8_t> blocked) {
+    ALEPH_CHECK(rays.size() == blocked.size(),
+                std::to_string(rays.size()) + " rays, " + std::to_string(blocked.size()));
+    const PacketCounts counts = state_.meshes->packet_width == 16 ? occluded_packets<16>(state_, rays, blocked)
+                                                                  : occluded_packets<8>(state_, rays, blocked);
+    traced_ += counts.traced;
+    invalid_ += counts.invalid;
+}
+
+}  // namespace aleph

@@ -1,0 +1,74 @@
+#include "engine/scene/append.h"
+
+#include <iterator>
+
+namespace aleph {
+
+namespace {
+
+void shift(int& index, std::size_t offset) {
+    if (index != no_index) index += static_cast<int>(offset);
+}
+
+/// Calls visit(list...) with the scenes' lists of each kind of element.
+template <class Visit, class... Scenes>
+void for_each_list(const Visit& visit, Scenes&... scenes) {
+    visit(scenes.nodes...);
+    visit(scenes.meshes...);
+    visit(scenes.point_caches...);
+    visit(scenes.skins...);
+    visit(scenes.cages...);
+    visit(scenes.materials...);
+    visit(scenes.images...);
+    visit(scenes.lights...);
+    visit(scenes.cameras...);
+}
+
+/// Makes the part's indices those that its elements have once they stand behind the scene's own.
+void rebase(Scene& part, const Scene& scene, int parent_node) {
+    for (Node& node : part.nodes) {
+        if (node.parent == no_index) {
+            node.parent = parent_node;
+        } else {
+            shift(node.parent, scene.nodes.size());
+        }
+        for (int& mesh : node.meshes) shift(mesh, scene.meshes.size());
+        shift(node.camera, scene.cameras.size());
+        shift(node.light, scene.lights.size());
+    }
+    for (Mesh& mesh : part.meshes) {
+        shift(mesh.material, scene.materials.size());
+        shift(mesh.points, scene.point_caches.size());
+        shift(mesh.skin, scene.skins.size());
+        shift(mesh.cage, scene.cages.size());
+    }
+    for (Cage& cage : part.cages) shift(cage.points, scene.point_caches.size());
+    for (Skin& skin : part.skins) {
+        for (int& joint : skin.joints) shift(joint, scene.nodes.size());
+    }
+    for (Material& material : part.materials) {
+        for (const auto& field : material_textures) shift((material.*field.member).image, scene.images.size());
+    }
+}
+
+}  // namespace
+
+void append_part(Scene& scene, Scene&& part, int parent_node, int include) {
+    rebase(part, scene, parent_node);
+    for_each_list(
+        [&](auto& elements) {
+            for (auto& element : elements) element.include = include;
+        },
+        part);
+    // Room first, for all: after that nothing can fail half way.
+    const auto reserve = [](auto& all, const auto& more) { all.reserve(all.size() + more.size()); };
+    const auto append = [](auto& all, auto& more) {
+        all.insert(all.end(), std::make_move_iterator(more.begin()), std::make_move_iterator(more.end()));
+    };
+    for_each_list(reserve, scene, part);
+    reserve(scene.warnings, part.warnings);
+    for_each_list(append, scene, part);
+    append(scene.warnings, part.warnings);
+}
+
+}  // namespace aleph

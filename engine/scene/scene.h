@@ -1,0 +1,162 @@
+#pragma once
+// The animated scene: plain data, elements refer to each other by index, every property is a track over time.
+// Every reader fills this one structure; pose() (pose.h) says what it looks like at a moment.
+// Right-handed, y up, metres, seconds; angles in radians; colours linear Rec.709; light units unscaled (candela, lux,
+// nits).
+
+#include <cstdint>
+#include <glm/gtc/quaternion.hpp>
+#include <glm/mat4x4.hpp>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <map>
+#include <numbers>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "engine/base/index.h"
+#include "engine/base/viewing.h"
+#include "engine/scene/material.h"
+#include "engine/scene/mesh.h"
+#include "engine/scene/track.h"
+
+namespace aleph {
+
+/// Frames per second as a fraction, so that frame n lies at exactly n * denominator / numerator seconds.
+struct FrameRate {
+    std::int64_t numerator = 30;
+    std::int64_t denominator = 1;
+
+    double per_second() const { return static_cast<double>(numerator) / static_cast<double>(denominator); }
+    /// s; the frame number is the state and time is derived, never accumulated (HARD_CASES KF-14 to KF-16).
+    double seconds_of(std::int64_t frame) const {
+        return static_cast<double>(frame) * static_cast<double>(denominator) / static_cast<double>(numerator);
+    }
+    bool operator==(const FrameRate&) const = default;
+};
+
+/// Rotation about a fixed axis whose angle interpolates as a number, so that a spin beyond 180 degrees works.
+struct AxisRotation {
+    glm::dvec3 axis{0.0, 1.0, 0.0};  ///< unit
+    Track<double> angle{0.0};        ///< radians
+    bool operator==(const AxisRotation&) const = default;
+};
+
+/// Alembic's transform: a list of operations whose channels interpolate one by one before the matrix is built.
+struct OperationStack {
+    /// Channels: translate and scale 3; matrix 16 (column by column, column vectors); rotate axis (3) and angle;
+    /// rotate_x, _y, _z the angle. Angles in radians.
+    enum class Kind : std::uint8_t { translate, scale, matrix, rotate, rotate_x, rotate_y, rotate_z };
+    std::vector<Kind> operations;  ///< M = first * second * ...: the last acts on the point first
+    TimeSampling sampling;
+    std::vector<double> channels;  ///< sample by sample, each in the order of the operations
+
+    bool operator==(const OperationStack&) const = default;
+};
+
+struct Node {
+    std::string name;
+    int parent = no_index;
+
+    /// Local transform: `operations` where set, else `matrix` where set, else translation * rotation * scale.
+    Track<glm::dvec3> translation{glm::dvec3(0.0)};
+    Track<glm::dquat> rotation{glm::dquat(1.0, 0.0, 0.0, 0.0)};
+    std::optional<AxisRotation> axis_rotation;  ///< in place of `rotation`
+    Track<glm::dvec3> scale{glm::dvec3(1.0)};
+    std::optional<Track<glm::dmat4>> matrix;  ///< affine, column vectors
+    std::optional<OperationStack> operations;
+    Track<double> inherits{1.0};  ///< step; where 0 the parent's transform does not apply (Alembic's `.inherits`)
+
+    /// 0: hidden, with everything below; 1: as its parent; 2: shown even below a hidden parent (Alembic's explicit 1).
+    /// Step or nearest, it never fades.
+    Track<double> visible{1.0};
+
+    std::vector<int> meshes;
+    int camera = no_index;
+    int light = no_index;
+    int include = no_index;  ///< which include brought it; not saved again
+
+    bool operator==(const Node&) const = default;
+};
+
+/// KHR_lights_punctual; shines along its node's -z.
+struct Light {
+    enum class Kind { point, directional, spot };
+    std::string name;
+    Kind kind = Kind::point;
+    Track<glm::dvec3> color{glm::dvec3(1.0)};
+    Track<double> intensity{1.0};                      ///< point, spot: candela; directional: lux
+    Track<double> inner_cone{0.0};                     ///< spot: half-angle of full intensity, radians
+    Track<double> outer_cone{std::numbers::pi / 4.0};  ///< spot: half-angle where it ends, at most pi / 2
+    Track<double> range{0.0};                          ///< m; 0: unlimited
+    int include = no_index;
+
+    bool operator==(const Light&) const = default;
+};
+
+/// Looks along its node's -z. The node's scale does not count.
+struct Camera {
+    std::string name;
+    bool orthographic = false;
+    Track<double> fov{std::numbers::pi / 4.0};  ///< vertical, radians
+    Track<double> half_height{1.0};             ///< orthographic, m
+    /// Film offset (lens shift) in heights of the picture: the view's centre moves right and up by so much.
+    Track<double> shift_x{0.0}, shift_y{0.0};
+    double near_plane = 1e-4;           ///< m; what is nearer has no valid motion
+    glm::dvec2 shutter{0.0, 0.0};       ///< open, close: frames relative to the frame's own time
+    Track<double> aperture{0.0};        ///< lens radius, m
+    Track<double> focus_distance{1.0};  ///< m
+    int include = no_index;
+
+    bool operator==(const Camera&) const = default;
+};
+
+/// A .gltf, .glb or .abc file whose content hangs below a node. Its elements follow the scene's own.
+struct Include {
+    std::string path;  ///< relative to the scene file
+    int node = no_index;
+
+    bool operator==(const Include&) const = default;
+};
+
+/// A render setting as it was written; render/settings.h knows the keys and their types.
+using SettingValue = std::variant<bool, double, std::string>;
+using SettingMap = std::map<std::string, SettingValue>;
+
+struct FrameRange {
+    std::int64_t first = 0;
+    std::int64_t last = 0;
+    bool operator==(const FrameRange&) const = default;
+};
+
+struct Scene {
+    std::string name;
+    FrameRate frame_rate;
+    std::optional<FrameRange> range;               ///< frames; unset: the keys' span (frame_range in pose.h)
+    std::vector<std::int64_t> cuts;                ///< frames that begin a new shot: no motion from the frame before
+    ViewingConditions viewing;                     ///< frames_per_second follows frame_rate
+    std::optional<double> exposure;                ///< factor on radiance
+    std::optional<Track<glm::dvec3>> environment;  ///< constant radiance all around
+    std::string camera;                            ///< name of the camera or of its node; empty: the first
+
+    std::vector<Node> nodes;  ///< a parent stands before its children
+    std::vector<Mesh> meshes;
+    std::vector<PointCache> point_caches;
+    std::vector<Skin> skins;
+    std::vector<Cage> cages;
+    std::vector<Material> materials;
+    std::vector<SceneImage> images;
+    std::vector<Light> lights;
+    std::vector<Camera> cameras;
+    std::vector<Include> includes;
+    SettingMap settings;
+
+    std::string file;                   ///< where it was read from; empty for a scene made in code
+    std::vector<std::string> warnings;  ///< what a user should know about the file; the command line prints them
+
+    bool operator==(const Scene&) const = default;
+};
+
+}  // namespace aleph

@@ -1,0 +1,192 @@
+#include "engine/scene/track.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/gtc/type_ptr.hpp>
+#include <limits>
+#include <numbers>
+#include <span>
+
+#include "engine/base/errors.h"
+#include "engine/scene/transforms.h"
+
+namespace aleph {
+namespace {
+
+std::span<const double> components(const double& value) {
+    return {&value, 1};
+}
+std::span<const double> components(const glm::dvec3& value) {
+    return {glm::value_ptr(value), 3};
+}
+std::span<const double> components(const glm::dquat& value) {
+    return {glm::value_ptr(value), 4};
+}
+std::span<const double> components(const glm::dmat4& value) {
+    return {glm::value_ptr(value), 16};
+}
+
+double* data(double& value) {
+    return &value;
+}
+template <class T>
+double* data(T& value) {
+    return glm::value_ptr(value);
+}
+
+double interpolate(double a, double b, double fraction) {
+    return std::lerp(a, b, fraction);
+}
+glm::dvec3 interpolate(const glm::dvec3& a, const glm::dvec3& b, double fraction) {
+    return {std::lerp(a.x, b.x, fraction), std::lerp(a.y, b.y, fraction), std::lerp(a.z, b.z, fraction)};
+}
+glm::dquat interpolate(const glm::dquat& a, const glm::dquat& b, double fraction) {
+    return slerp_short(a, b, fraction);
+}
+glm::dmat4 interpolate(const glm::dmat4& a, const glm::dmat4& b, double fraction) {
+    return interpolate_matrix(a, b, fraction);
+}
+
+/// glTF 2.0, appendix C.5: tangents are per second, so they count times the interval. Written around the first value,
+/// which keeps equal keys without tangents exact.
+template <class T>
+T hermite(const T& a, const T& out_tangent, const T& in_tangent, const T& b, double fraction, double interval) {
+    const double s = fraction, s2 = s * s, s3 = s2 * s;
+    const double to_b = 3.0 * s2 - 2.0 * s3;
+    const double leaving = interval * (s3 - 2.0 * s2 + s), arriving = interval * (s3 - s2);
+    T result = a;
+    for (std::size_t i = 0; i < components(a).size(); ++i) {
+        const double from = components(a)[i];
+        data(result)[i] = from + (components(b)[i] - from) * to_b + components(out_tangent)[i] * leaving +
+                          components(in_tangent)[i] * arriving;
+    }
+    return result;
+}
+
+template <class T>
+T cubic_between(const T* key, double fraction, double interval) {
+    return hermite(key[1], key[2], key[3], key[4], fraction, interval);
+}
+
+/// Keys at length 1, their tangents by the same factor. Where the curve runs through zero it has no direction: the
+/// nearer key holds (HARD_CASES KF-08).
+template <>
+glm::dquat cubic_between(const glm::dquat* key, double fraction, double interval) {
+    const glm::dquat a = safe_normalize(key[1]), b = safe_normalize(key[4]);
+    const double scale_a = a == key[1] ? 1.0 : 1.0 / glm::length(key[1]);
+    const double scale_b = b == key[4] ? 1.0 : 1.0 / glm::length(key[4]);
+    const glm::dquat curve = hermite(a, key[2] * scale_a, key[3] * scale_b, b, fraction, interval);
+    if (!(glm::length(curve) >= 1e-6)) return fraction < 0.5 ? a : b;
+    return safe_normalize(curve);
+}
+
+template <class T>
+const T& as_valid(const T& value) {
+    return value;
+}
+glm::dquat as_valid(const glm::dquat& value) {
+    return safe_normalize(value);
+}
+
+bool is_zero(const glm::dquat& q) {
+    return std::ranges::all_of(components(q),
+                               [](double c) { return std::abs(c) < std::numeric_limits<double>::min(); });
+}
+
+template <class T>
+const char* fault_of_key(const T&) {
+    return nullptr;
+}
+const char* fault_of_key(const glm::dquat& value) {
+    return is_zero(value) ? "its rotation is zero" : nullptr;
+}
+const char* fault_of_key(const glm::dmat4& m) {
+    const bool affine = m[0].w == 0.0 && m[1].w == 0.0 && m[2].w == 0.0 && m[3].w == 1.0;
+    return affine ? nullptr : "its matrix is not affine: the last row must be 0 0 0 1";
+}
+
+}  // namespace
+
+template <class T>
+T evaluate(const Track<T>& track, double seconds) {
+    const std::size_t keys = track.key_count();
+    if (keys <= 1) return as_valid(key_value(track, 0));
+    const SampleSpan span = find_samples(track.sampling, keys, seconds);
+    if (span.floor == span.ceil || track.interpolation == Interpolation::step)
+        return as_valid(key_value(track, span.floor));
+    if (track.interpolation == Interpolation::nearest)
+        return as_valid(key_value(track, nearest_sample(track.sampling, keys, seconds)));
+    if (track.interpolation == Interpolation::linear)
+        return interpolate(track.values[span.floor], track.values[span.ceil], span.fraction);
+    const double interval = sample_time(track.sampling, span.ceil) - sample_time(track.sampling, span.floor);
+    return cubic_between(&track.values[3 * span.floor], span.fraction, interval);
+}
+
+template <class T>
+bool is_animated(const Track<T>& track) {
+    const std::size_t keys = track.key_count();
+    for (std::size_t i = 1; i < keys; ++i)
+        if (key_value(track, i) != key_value(track, 0)) return true;
+    if (track.interpolation != Interpolation::cubic || keys <= 1) return false;
+    for (std::size_t i = 2; i + 2 < track.values.size(); ++i)  // the outermost tangents do nothing
+        if (i % 3 != 1 && std::ranges::any_of(components(track.values[i]), [](double c) { return c != 0.0; }))
+            return true;
+    return false;
+}
+
+template <class T>
+void validate(const Track<T>& track, const std::string& file, const std::string& place) {
+    const bool cubic = track.interpolation == Interpolation::cubic;
+    if (track.values.empty()) throw InputError(file, place, "it has no keys");
+    if (cubic && track.values.size() % 3 != 0)
+        throw InputError(
+            file, place,
+            fmt::format("{} values: a cubic key has three (in-tangent, value, out-tangent)", track.values.size()));
+    const std::size_t keys = track.key_count();
+    if (keys > 1 || !track.sampling.times.empty()) validate(track.sampling, keys, file, place);
+    for (std::size_t i = 0; i < track.values.size(); ++i)
+        for (const double c : components(track.values[i]))
+            if (!std::isfinite(c))
+                throw InputError(file, place, fmt::format("key {}: it holds {}", cubic ? i / 3 : i, c));
+    for (std::size_t i = 0; i < keys; ++i)
+        if (const char* fault = fault_of_key(key_value(track, i)))
+            throw InputError(file, place, fmt::format("key {}: {}", i, fault));
+}
+
+#define ALEPH_INSTANTIATE_TRACK(T)                \
+    template T evaluate(const Track<T>&, double); \
+    template bool is_animated(const Track<T>&);   \
+    template void validate(const Track<T>&, const std::string&, const std::string&);
+ALEPH_INSTANTIATE_TRACK(double)
+ALEPH_INSTANTIATE_TRACK(glm::dvec3)
+ALEPH_INSTANTIATE_TRACK(glm::dquat)
+ALEPH_INSTANTIATE_TRACK(glm::dmat4)
+#undef ALEPH_INSTANTIATE_TRACK
+
+double largest_turn_degrees(const Track<glm::dquat>& track) {
+    constexpr double degrees_per_radian = 180.0 / std::numbers::pi;
+    double largest = 0.0;
+    for (std::size_t i = 1; i < track.key_count(); ++i) {
+        const glm::dquat a = safe_normalize(key_value(track, i - 1)), b = safe_normalize(key_value(track, i));
+        // Half the turn is the angle between the quaternions.
+        const double turn = 4.0 * std::atan2(glm::length(a - b), glm::length(a + b)) * degrees_per_radian;
+        const double shorter = std::min(turn, 360.0 - turn);
+        largest = std::max(largest, shorter <= 20.0 ? shorter : turn);
+    }
+    return largest;
+}
+
+glm::dquat slerp_short(const glm::dquat& from, const glm::dquat& to, double fraction) {
+    const glm::dquat a = safe_normalize(from);
+    glm::dquat b = safe_normalize(to);
+    if (glm::dot(a, b) < 0.0) b = -b;
+    if (a == b) return a;
+    const double theta = 2.0 * std::atan2(glm::length(a - b), glm::length(a + b));  // at most pi / 2 after the flip
+    const double sine = std::sin(theta);
+    if (!(sine > 0.0)) return a;
+    return safe_normalize(a * (std::sin((1.0 - fraction) * theta) / sine) + b * (std::sin(fraction * theta) / sine));
+}
+
+}  // namespace aleph

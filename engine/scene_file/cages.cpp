@@ -1,0 +1,161 @@
+// Subdivision cages of a scene file.
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "engine/base/errors.h"
+#include "engine/scene_file/lists.h"
+#include "engine/scene_file/reader.h"
+#include "engine/scene_file/tracks.h"
+#include "engine/surface/cage_checks.h"
+#include "engine/surface/limit_surface.h"
+
+namespace aleph {
+
+namespace {
+
+/// Lists of any length, one for each face.
+void read_faces(const JsonRef& at, std::size_t points, Cage& cage) {
+    for (std::size_t i = 0; i < at.array_size(); ++i) {
+        const JsonRef face = at[i];
+        const std::vector<int> indices = read_indices(face, 1, points, "point");
+        if (indices.size() < 3) face.fail(fmt::format("has {} points; a face has at least 3", indices.size()));
+        cage.face_sizes.push_back(static_cast<int>(indices.size()));
+        cage.face_points.insert(cage.face_points.end(), indices.begin(), indices.end());
+    }
+}
+
+void read_uv(const JsonRef& at, Cage& cage) {
+    const auto uv = at.find("uv"), faces = at.find("face_uv");
+    if (faces && !uv) faces->fail("\"face_uv\" numbers the entries of \"uv\", which is missing");
+    if (!uv) return;
+    cage.uv = read_vec2s(*uv);
+    if (!faces) {
+        const int most = *std::max_element(cage.face_points.begin(), cage.face_points.end());
+        if (static_cast<std::size_t>(most) >= cage.uv.size()) {
+            uv->fail(
+                fmt::format("has {} texture coordinates, but faces name point {}: one for each point was "
+                            "expected, or \"face_uv\"",
+                            cage.uv.size(), most));
+        }
+        cage.face_uv = cage.face_points;
+        return;
+    }
+    if (faces->array_size() != cage.face_sizes.size()) {
+        faces->fail(fmt::format("has {} lists for {} faces", faces->array_size(), cage.face_sizes.size()));
+    }
+    for (std::size_t i = 0; i < faces->array_size(); ++i) {
+        const JsonRef face = (*faces)[i];
+        const std::vector<int> indices = read_indices(face, 1, cage.uv.size(), "texture coordinate");
+        if (indices.size() != static_cast<std::size_t>(cage.face_sizes[i])) {
+            face.fail(
+                fmt::format("has {} texture coordinates for a face of {} points", indices.size(), cage.face_sizes[i]));
+        }
+        cage.face_uv.insert(cage.face_uv.end(), indices.begin(), indices.end());
+    }
+}
+
+void read_sharp_parts(const JsonRef& at, std::size_t points, Cage& cage) {
+    if (const auto creases = at.find("creases")) {
+        for (std::size_t i = 0; i < creases->array_size(); ++i) {
+            const JsonRef crease = (*creases)[i];
+            const JsonRef chain = crease.require("points"), sharpness = crease.require("sharpness");
+            const std::vector<int> indices = read_indices(chain, 1, points, "point");
+            cage.crease_lengths.push_back(static_cast<int>(indices.size()));
+            cage.crease_points.insert(cage.crease_points.end(), indices.begin(), indices.end());
+            cage.crease_sharpness.push_back(static_cast<float>(sharpness.number()));
+        }
+    }
+    if (const auto corners = at.find("corners")) {
+        for (std::size_t i = 0; i < corners->array_size(); ++i) {
+            const JsonRef corner = (*corners)[i];
+            const JsonRef point = corner.require("point"), sharpness = corner.require("sharpness");
+            cage.corner_points.push_back(read_index(point, points, "point"));
+            cage.corner_sharpness.push_back(static_cast<float>(sharpness.number()));
+        }
+    }
+}
+
+int add_cage(SceneReader& reader, const JsonRef& at, const std::string& name) {
+    if (reader.scene.cages.size() >= max_scene_cages) {
+        at.fail(fmt::format("more than {} cages; join some and tell them apart by \"parts\"", max_scene_cages));
+    }
+    Cage cage;
+    cage.name = name;
+    if (const auto word = at.find("scheme")) cage.scheme = static_cast<Cage::Scheme>(read_word(*word, scheme_words));
+    if (const auto word = at.find("boundary")) {
+        cage.boundary = static_cast<Cage::Boundary>(read_word(*word, boundary_words));
+    }
+    if (const auto word = at.find("uv_rule")) {
+        cage.uv_rule = static_cast<Cage::UvRule>(read_word(*word, uv_rule_words));
+    }
+    const PointsUse points = read_points_use(reader, at, name);
+    cage.points = points.index;
+    const JsonRef faces = at.require("faces");
+    read_faces(faces, points.count, cage);
+    read_sharp_parts(at, points.count, cage);
+    read_uv(at, cage);
+    const std::size_t count = cage.face_sizes.size();
+    if (const auto holes = at.find("holes")) cage.holes = read_indices(*holes, 1, count, "face");
+    if (const auto parts = at.find("parts")) {
+        cage.face_parts = read_indices(*parts, 1, count, "part");
+        if (cage.face_parts.size() != count) {
+            parts->fail(fmt::format("has {} numbers for {} faces", cage.face_parts.size(), count));
+        }
+    }
+    if (const auto level = at.find_integer("level", 0, max_subdivision_level)) cage.level = static_cast<int>(*level);
+    if (const auto level = at.find_integer("max_level", 0, max_subdivision_level)) {
+        cage.max_level = static_cast<int>(*level);
+    }
+    if (cage.max_level < cage.level) {
+        at.fail(fmt::format("\"max_level\" ({}) is below \"level\" ({})", cage.max_level, cage.level));
+    }
+    try {
+        validate(cage, points.count);
+    } catch (const InputError& error) {
+        at.fail(error.reason());
+    }
+    const int index = static_cast<int>(reader.scene.cages.size());
+    reader.cages.add(name, index);
+    reader.cage_places.push_back(at.pointer());
+    reader.scene.cages.push_back(std::move(cage));
+    return index;
+}
+
+}  // namespace
+
+std::size_t count_parts(const Cage& cage) {
+    return cage.face_parts.empty()
+               ? 1
+               : static_cast<std::size_t>(*std::max_element(cage.face_parts.begin(), cage.face_parts.end())) + 1;
+}
+
+std::size_t count_cage_triangles(const Cage& cage) {
+    // A face of n points becomes n quads at level 1, and four of each at the next.
+    const std::size_t loop = cage.scheme == Cage::Scheme::loop ? cage.face_sizes.size() : 0;
+    const std::size_t quads = loop > 0 ? 0 : cage.face_points.size();
+    const std::size_t at_level_1 = 4 * loop + 2 * quads;
+    return at_level_1 << (2 * std::max(cage.level - 1, 0));
+}
+
+void read_cage(SceneReader& reader, const JsonRef& at, const std::string& name) {
+    add_cage(reader, at, name);
+}
+
+int read_cage_use(SceneReader& reader, const JsonRef& at, const std::string& name) {
+    if (at.json().is_string()) return reader.cages.require(at);
+    return add_cage(reader, at, reader.cages.unused(name));
+}
+
+void make_cage_meshes(SceneReader& reader) {
+    for (std::size_t i = 0; i < reader.scene.cages.size(); ++i) {
+        try {
+            tessellate_cage(reader.scene, static_cast<int>(i));
+        } catch (const InputError& error) {
+            throw InputError(reader.file, reader.cage_places[i], error.reason());
+        }
+    }
+}
+
+}  // namespace aleph

@@ -1,0 +1,212 @@
+// Images, materials, lights and cameras of a scene file.
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "engine/base/errors.h"
+#include "engine/json/close_names.h"
+#include "engine/scene_file/reader.h"
+#include "engine/scene_file/tracks.h"
+
+namespace aleph {
+
+namespace {
+
+std::string read_path(const JsonRef& at) {
+    if (const std::string fault = path_fault(at.string()); !fault.empty()) at.fail(fault);
+    return at.string();
+}
+
+int add_image(SceneReader& reader, const JsonRef& at, const std::string& name) {
+    const int index = static_cast<int>(reader.scene.images.size());
+    reader.charge(sizeof(SceneImage) + 300, at, "it has too many images");
+    SceneImage image;
+    image.name = name;
+    image.path = read_path(at);
+    reader.images.add(name, index);
+    reader.image_of_path.emplace(image.path, index);
+    reader.scene.images.push_back(std::move(image));
+    reader.result.image_places.push_back(at.pointer());
+    return index;
+}
+
+int read_image_use(SceneReader& reader, const JsonRef& at) {
+    if (const auto named = reader.images.find(at.string())) return *named;
+    if (const auto known = reader.image_of_path.find(at.string()); known != reader.image_of_path.end())
+        return known->second;
+    return add_image(reader, at, at.string());
+}
+
+TextureRef read_texture(SceneReader& reader, const JsonRef& at) {
+    TextureRef texture;
+    if (at.json().is_string()) {
+        texture.image = read_image_use(reader, at);
+        return texture;
+    }
+    const JsonRef image = at.require("image");
+    texture.image = read_image_use(reader, image);
+    texture.uv_set = static_cast<int>(at.find_integer("uv_set", 0, 1).value_or(0));
+    if (const auto wrap = at.find("wrap")) {
+        const auto read = [](const JsonRef& word) { return static_cast<Wrap>(read_word(word, wrap_words)); };
+        if (wrap->json().is_string()) {
+            texture.wrap_u = texture.wrap_v = read(*wrap);
+        } else {
+            texture.wrap_u = read((*wrap)[0]);
+            texture.wrap_v = read((*wrap)[1]);
+        }
+    }
+    texture.nearest = at.find_string("filter").value_or("linear") == "nearest";
+    if (const auto value = at.find("offset")) texture.uv_offset = read_dvec2(*value);
+    if (const auto value = at.find("scale")) texture.uv_scale = read_dvec2(*value);
+    const auto rotation = at.find("rotation"), radians = at.find("rotation_radians");
+    if (rotation && radians) radians->fail("either \"rotation\" or \"rotation_radians\", not both");
+    if (rotation) texture.uv_rotation = to_radians(rotation->number());
+    if (radians) texture.uv_rotation = radians->number();
+    return texture;
+}
+
+int add_material(SceneReader& reader, const JsonRef& at, const std::string& name) {
+    const FrameRate& rate = reader.scene.frame_rate;
+    reader.charge(sizeof(Material) + 600, at, "let shapes share materials");
+    Material material = absent_material();
+    material.name = name;
+    for (const auto& field : material_numbers) {
+        if (const auto value = at.find(field.key)) material.*field.member = read_number(*value, rate, field.range);
+    }
+    for (const auto& field : material_colors) {
+        if (const auto value = at.find(field.key)) material.*field.member = read_vector(*value, rate, field.range);
+    }
+    for (const auto& field : material_textures) {
+        if (const auto value = at.find(field.key)) material.*field.member = read_texture(reader, *value);
+    }
+    if (const auto value = at.find("alpha_mode")) {
+        material.alpha_mode = static_cast<Material::AlphaMode>(read_word(*value, alpha_words));
+    }
+    if (const auto value = at.find("alpha_cutoff")) {
+        material.alpha_cutoff = value->number();
+        if (material.alpha_mode != Material::AlphaMode::mask) {
+            value->fail("\"alpha_cutoff\" needs \"alpha_mode\": \"mask\"");
+        }
+    }
+    if (const auto value = at.find("unlit")) material.unlit = value->boolean();
+    if (const auto value = at.find("double_sided")) material.double_sided = value->boolean();
+    reader.materials.add(name, static_cast<int>(reader.scene.materials.size()));
+    reader.scene.materials.push_back(std::move(material));
+    return static_cast<int>(reader.scene.materials.size()) - 1;
+}
+
+int add_light(SceneReader& reader, const JsonRef& at, const std::string& name) {
+    const FrameRate& rate = reader.scene.frame_rate;
+    reader.charge(sizeof(Light) + 300, at, "it has too many lights");
+    Light light;
+    light.name = name;
+    const JsonRef type = at.require("type");
+    light.kind = static_cast<Light::Kind>(read_word(type, light_words));
+    if (const auto value = at.find("color")) light.color = read_vector(*value, rate, not_negative);
+    if (const auto value = at.find("intensity")) light.intensity = read_number(*value, rate, not_negative);
+    if (const auto value = at.find("range")) {
+        light.range = read_number(*value, rate, not_negative);
+        if (light.kind == Light::Kind::directional) value->fail("a directional light has no range");
+    }
+    for (const auto& field : light_cones) {
+        const auto degrees = at.find(field.key), radians = at.find(field.key_in_radians);
+        if (degrees && radians) {
+            radians->fail(fmt::format("either \"{}\" or \"{}\", not both", field.key, field.key_in_radians));
+        }
+        if (!degrees && !radians) continue;
+        if (light.kind != Light::Kind::spot) (degrees ? *degrees : *radians).fail("only a spot light has cones");
+        light.*field.member = degrees ? read_degrees(*degrees, rate, cone_degrees)
+                                      : read_number(*radians, rate, {0.0, std::numbers::pi / 2.0, false});
+    }
+    const bool constant = light.inner_cone.values.size() == 1 && light.outer_cone.values.size() == 1;
+    if (constant && light.inner_cone.values[0] > light.outer_cone.values[0]) {
+        at.fail("\"inner_cone\", where the light begins to fade, cannot be wider than \"outer_cone\", where it ends");
+    }
+    reader.lights.add(name, static_cast<int>(reader.scene.lights.size()));
+    reader.scene.lights.push_back(std::move(light));
+    return static_cast<int>(reader.scene.lights.size()) - 1;
+}
+
+int add_camera(SceneReader& reader, const JsonRef& at, const std::string& name) {
+    const FrameRate& rate = reader.scene.frame_rate;
+    reader.charge(sizeof(Camera) + 400, at, "it has too many cameras");
+    Camera camera;
+    camera.name = name;
+    const auto fov = at.find("fov"), fov_radians = at.find("fov_radians"), orthographic = at.find("orthographic");
+    if (fov && fov_radians) fov_radians->fail("either \"fov\" or \"fov_radians\", not both");
+    if (fov) camera.fov = read_degrees(*fov, rate, field_of_view_degrees);
+    if (fov_radians) camera.fov = read_number(*fov_radians, rate, {0.0, std::numbers::pi, true});
+    if (orthographic) camera.orthographic = orthographic->boolean();
+    for (const auto& field : camera_numbers) {
+        if (const auto value = at.find(field.key)) camera.*field.member = read_number(*value, rate, field.range);
+    }
+    if (const auto value = at.find("half_height"); value && !orthographic) {
+        value->fail("\"half_height\" needs \"orthographic\": true");
+    }
+    if (const auto value = at.find("near")) camera.near_plane = value->number();
+    if (const auto value = at.find("shutter")) {
+        camera.shutter = read_dvec2(*value);
+        if (camera.shutter.y < camera.shutter.x) value->fail("the shutter has to open before it closes");
+    }
+    reader.cameras.add(name, static_cast<int>(reader.scene.cameras.size()));
+    reader.scene.cameras.push_back(std::move(camera));
+    return static_cast<int>(reader.scene.cameras.size()) - 1;
+}
+
+/// Calls add(element, name) for the members of one of the root's objects, in the order of the file.
+template <class Add>
+void read_named(const JsonRef& root, const KeyOrder& key_order, const char* kind, const Add& add) {
+    const auto object = root.find(kind);
+    if (!object || object->json().empty()) return;
+    for (const std::string& name : key_order.at(kind)) {
+        const JsonRef element = object->require(name);
+        add(element, name);
+    }
+}
+
+}  // namespace
+
+std::string path_fault(std::string_view path) {
+    if (path.empty()) return "the path is empty";
+    for (const char c : path) {
+        if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) return "a path holds no control characters";
+        if (c == '\\') return "a path has forward slashes, no backslashes";
+    }
+    if (path.front() == '/' || path.front() == '~') return "a path is relative to the scene file, not absolute";
+    const auto scheme = path.substr(0, path.find('/')).find(':');
+    return scheme == std::string_view::npos ? "" : "a path is relative to the scene file: no drives and no addresses";
+}
+
+int read_material_use(SceneReader& reader, const JsonRef& at, const std::string& name) {
+    if (at.json().is_string()) return reader.materials.require(at);
+    return add_material(reader, at, reader.materials.unused(name));
+}
+
+int read_light_use(SceneReader& reader, const JsonRef& at, const std::string& name) {
+    if (at.json().is_string()) return reader.lights.require(at);
+    return add_light(reader, at, reader.lights.unused(name));
+}
+
+int read_camera_use(SceneReader& reader, const JsonRef& at, const std::string& name) {
+    if (at.json().is_string()) return reader.cameras.require(at);
+    return add_camera(reader, at, reader.cameras.unused(name));
+}
+
+void read_elements(SceneReader& reader, const JsonRef& root, const KeyOrder& order) {
+    read_named(root, order, "images", [&](const JsonRef& at, const std::string& name) { add_image(reader, at, name); });
+    read_named(root, order, "materials",
+               [&](const JsonRef& at, const std::string& name) { add_material(reader, at, name); });
+    read_named(root, order, "points",
+               [&](const JsonRef& at, const std::string& name) { read_points(reader, at, name); });
+    read_named(root, order, "cages", [&](const JsonRef& at, const std::string& name) { read_cage(reader, at, name); });
+    read_named(root, order, "meshes", [&](const JsonRef& at, const std::string& name) {
+        const JsonRef shape = at.require("shape");
+        read_mesh(reader, shape, at.find("material"), at.find("present"), name);
+    });
+    read_named(root, order, "lights", [&](const JsonRef& at, const std::string& name) { add_light(reader, at, name); });
+    read_named(root, order, "cameras",
+               [&](const JsonRef& at, const std::string& name) { add_camera(reader, at, name); });
+}
+
+}  // namespace aleph

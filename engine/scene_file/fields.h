@@ -1,0 +1,110 @@
+#pragma once
+// What scene files call the members of materials, lights and cameras, with limits and with the values that stand for
+// absent keys: one table for the reader and the writer.
+
+#include <array>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "engine/scene/scene.h"
+
+namespace aleph {
+
+/// Limits of a value. `open`: the limits themselves are excluded.
+struct ValueRange {
+    double low = -std::numeric_limits<double>::infinity();
+    double high = std::numeric_limits<double>::infinity();
+    bool open = false;
+};
+
+inline constexpr ValueRange any_value{};
+inline constexpr ValueRange zero_to_one{0.0, 1.0, false};
+inline constexpr ValueRange not_negative{0.0, std::numeric_limits<double>::infinity(), false};
+inline constexpr ValueRange at_least_one{1.0, std::numeric_limits<double>::infinity(), false};
+inline constexpr ValueRange above_zero{0.0, std::numeric_limits<double>::infinity(), true};
+inline constexpr ValueRange field_of_view_degrees{0.0, 180.0, true};
+inline constexpr ValueRange cone_degrees{0.0, 90.0, false};
+
+template <class Element, class T>
+struct TrackField {
+    const char* key;
+    Track<T> Element::*member;
+    ValueRange range;
+};
+
+inline constexpr std::array material_numbers{
+    TrackField<Material, double>{"alpha", &Material::alpha, zero_to_one},
+    TrackField<Material, double>{"metallic", &Material::metallic, zero_to_one},
+    TrackField<Material, double>{"roughness", &Material::roughness, zero_to_one},
+    TrackField<Material, double>{"specular", &Material::specular, zero_to_one},
+    TrackField<Material, double>{"ior", &Material::ior, at_least_one},
+    TrackField<Material, double>{"emission_strength", &Material::emission_strength, not_negative},
+    TrackField<Material, double>{"transmission", &Material::transmission, zero_to_one},
+};
+inline constexpr std::array material_colors{
+    TrackField<Material, glm::dvec3>{"base_color", &Material::base_color, zero_to_one},
+    TrackField<Material, glm::dvec3>{"specular_color", &Material::specular_color, not_negative},
+    TrackField<Material, glm::dvec3>{"emission", &Material::emission, not_negative},
+};
+/// What does not change over time.
+template <class Element, class T>
+struct Field {
+    const char* key;
+    T Element::*member;
+};
+
+inline constexpr std::array camera_numbers{
+    TrackField<Camera, double>{"half_height", &Camera::half_height, above_zero},
+    TrackField<Camera, double>{"shift_x", &Camera::shift_x, any_value},
+    TrackField<Camera, double>{"shift_y", &Camera::shift_y, any_value},
+    TrackField<Camera, double>{"aperture", &Camera::aperture, not_negative},
+    TrackField<Camera, double>{"focus", &Camera::focus_distance, above_zero},
+};
+
+struct ConeField {
+    const char* key;
+    const char* key_in_radians;
+    Track<double> Light::*member;
+};
+inline constexpr std::array light_cones{
+    ConeField{"inner_cone", "inner_cone_radians", &Light::inner_cone},
+    ConeField{"outer_cone", "outer_cone_radians", &Light::outer_cone},
+};
+
+inline constexpr std::array shape_numbers{
+    Field<Shape, double>{"radius", &Shape::radius},
+    Field<Shape, double>{"tube_radius", &Shape::tube_radius},
+    Field<Shape, double>{"height", &Shape::height},
+};
+
+/// Nobody who writes a colour by hand expects metal: unlike in glTF an absent `metallic` is 0.
+inline Material absent_material() {
+    Material material;
+    material.metallic = 0.0;
+    return material;
+}
+
+// Words of enumerations, in the order of their values.
+inline constexpr std::array interpolation_words{"step", "linear", "nearest", "cubic"};
+inline constexpr std::array alpha_words{"opaque", "mask", "blend"};
+inline constexpr std::array wrap_words{"repeat", "clamp", "mirror"};
+inline constexpr std::array shape_words{"quad", "box", "sphere", "cylinder", "torus", "lathe"};
+/// What each kind of shape takes, in the order of shape_words.
+inline const std::array<std::vector<std::string>, shape_words.size()> shape_keys{{
+    {"size", "uv_scale"},
+    {"size", "uv_scale"},
+    {"radius", "segments", "uv_scale"},
+    {"radius", "height", "segments", "uv_scale"},
+    {"radius", "tube_radius", "segments", "uv_scale"},
+    {"profile", "smooth", "segments", "uv_scale"},
+}};
+inline const std::vector<std::string> mesh_keys{"positions", "points", "vertex_points", "triangles",
+                                                "normals",   "uv",     "uv1",           "colors"};
+inline constexpr std::array scheme_words{"catmull_clark", "loop", "bilinear"};
+inline constexpr std::array boundary_words{"none", "edge_only", "edge_and_corner"};
+inline constexpr std::array uv_rule_words{"linear_none",          "linear_corners_only", "linear_corners_plus1",
+                                          "linear_corners_plus2", "linear_boundaries",   "linear_all"};
+inline constexpr std::array light_words{"point", "directional", "spot"};
+
+}  // namespace aleph

@@ -1,0 +1,232 @@
+// Meshes of a scene file: shapes, triangles as lists, parts of cages; and the points they are made of.
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "engine/base/errors.h"
+#include "engine/scene_file/lists.h"
+#include "engine/scene_file/reader.h"
+#include "engine/scene_file/tracks.h"
+#include "engine/surface/shapes.h"
+
+namespace aleph {
+
+namespace {
+
+/// Keys that a kind of shape does not have would change nothing: most likely another kind was meant.
+void check_shape_keys(const JsonRef& at, const char* kind, const std::vector<std::string>& known) {
+    for (const auto& member : at.json().items()) {
+        if (member.key() == "type" || std::find(known.begin(), known.end(), member.key()) != known.end()) continue;
+        const JsonRef value = at.require(member.key());
+        value.fail(fmt::format("a {} has no \"{}\"", kind, member.key()));
+    }
+}
+
+Shape read_shape(const JsonRef& at, Shape::Kind kind) {
+    Shape shape;
+    shape.kind = kind;
+    const auto index = static_cast<std::size_t>(kind);
+    check_shape_keys(at, shape_words[index], shape_keys[index]);
+    if (const auto value = at.find("size")) {
+        const bool flat = kind == Shape::Kind::quad;
+        if (value->array_size() != (flat ? 2u : 3u)) {
+            value->fail(flat ? "the size of a quad is 2 numbers" : "the size of a box is 3 numbers");
+        }
+        shape.size = flat ? glm::dvec3(read_dvec2(*value), 1.0) : read_dvec3(*value);
+    }
+    for (const auto& field : shape_numbers) {
+        if (const auto value = at.find(field.key)) shape.*field.member = value->number();
+    }
+    if (const auto value = at.find("profile")) {
+        for (std::size_t i = 0; i < value->array_size(); ++i) {
+            const JsonRef point = (*value)[i];
+            shape.profile.push_back(read_dvec2(point));
+        }
+    }
+    if (const auto value = at.find("smooth")) shape.smooth = value->boolean();
+    if (const auto value = at.find("uv_scale")) shape.uv_scale = read_dvec2(*value);
+    if (const auto value = at.find_integer("segments", min_shape_segments, max_shape_segments)) {
+        shape.segments = static_cast<int>(*value);
+    }
+    validate(shape, at.file(), at.pointer());
+    return shape;
+}
+
+/// Samples of points (or normals) over time: as many in each.
+TimeSampling read_point_samples(const JsonRef& at, const FrameRate& rate,
+                                std::vector<std::vector<glm::vec3>>& samples) {
+    return read_samples(at, rate, [&](const JsonRef& value) {
+        samples.push_back(read_vec3s(value));
+        if (samples.back().size() != samples.front().size()) {
+            value.fail(fmt::format("has {} points, the first key has {}: their number cannot change",
+                                   samples.back().size(), samples.front().size()));
+        }
+    });
+}
+
+int add_point_cache(SceneReader& reader, const JsonRef& at, const std::string& name) {
+    PointCache cache;
+    cache.name = name;
+    if (at.json().is_array()) {
+        cache.positions.push_back(read_vec3s(at));
+    } else {
+        cache.sampling = read_point_samples(at, reader.scene.frame_rate, cache.positions);
+        if (const auto velocities = at.find("velocities")) {
+            for (std::size_t i = 0; i < velocities->array_size(); ++i) {
+                const JsonRef sample = (*velocities)[i];
+                cache.velocities.push_back(read_vec3s(sample));
+                if (cache.velocities.back().size() != cache.point_count()) {
+                    sample.fail(fmt::format("has {} velocities for {} points", cache.velocities.back().size(),
+                                            cache.point_count()));
+                }
+            }
+            if (cache.velocities.size() != cache.positions.size()) {
+                velocities->fail(fmt::format("has {} lists, one for each of {} keys was expected",
+                                             cache.velocities.size(), cache.positions.size()));
+            }
+        }
+    }
+    if (cache.point_count() == 0) at.fail("has no points");
+    const int index = static_cast<int>(reader.scene.point_caches.size());
+    reader.points.add(name, index);
+    reader.scene.point_caches.push_back(std::move(cache));
+    return index;
+}
+
+void expect_count(const JsonRef& at, std::size_t found, std::size_t vertices, const char* kind) {
+    if (found != vertices) {
+        at.fail(fmt::format("has {} {} for {} vertices: one for each was expected", found, kind, vertices));
+    }
+}
+
+/// Mesh::points, vertex_points and positions.
+void read_vertices(SceneReader& reader, const JsonRef& at, Mesh& mesh) {
+    const auto positions = at.find("positions"), points = at.find("points"), map = at.find("vertex_points");
+    const bool keyed = positions && positions->json().is_object();
+    if (!positions && !points) at.fail("a mesh needs \"positions\", or \"points\" with a name from the scene's points");
+    if (keyed && points) positions->fail("keyed positions are points by themselves: without \"points\"");
+    if (points) mesh.points = reader.points.require(*points);
+    if (keyed) mesh.points = add_point_cache(reader, *positions, reader.points.unused(mesh.name));
+    if (positions && !keyed) mesh.positions = read_vec3s(*positions);
+    if (mesh.points == no_index) {
+        if (map) map->fail("\"vertex_points\" goes with \"points\" or keyed positions");
+        return;
+    }
+    const PointCache& cache = reader.scene.point_caches[static_cast<std::size_t>(mesh.points)];
+    if (map) {
+        for (const int point : read_indices(*map, 1, cache.point_count(), "point")) {
+            mesh.vertex_points.push_back(static_cast<std::uint32_t>(point));
+        }
+        if (mesh.vertex_points.empty()) map->fail("names no points; leave it out where vertices are points one to one");
+    }
+    const std::vector<glm::vec3> first = first_positions(mesh, cache);
+    if (positions && !keyed) {
+        expect_count(*positions, mesh.positions.size(), first.size(), "positions");
+    } else {
+        mesh.positions = first;
+    }
+}
+
+void read_triangles(SceneReader& reader, const JsonRef& at, Mesh& mesh) {
+    check_shape_keys(at, "mesh", mesh_keys);
+    read_vertices(reader, at, mesh);
+    const std::size_t vertices = mesh.positions.size();
+    const JsonRef triangles = at.require("triangles");
+    const std::vector<int> indices = read_indices(triangles, 3, vertices, "vertex");
+    mesh.triangles.reserve(indices.size() / 3);
+    for (std::size_t i = 0; i < indices.size(); i += 3) {
+        mesh.triangles.emplace_back(indices[i], indices[i + 1], indices[i + 2]);
+    }
+    if (const auto normals = at.find("normals")) {
+        if (normals->json().is_array()) {
+            mesh.normals = read_vec3s(*normals);
+        } else {
+            if (mesh.points == no_index) normals->fail("normals over time go with points over time");
+            mesh.normal_sampling = read_point_samples(*normals, reader.scene.frame_rate, mesh.normal_samples);
+            mesh.normals = mesh.normal_samples.front();
+        }
+        expect_count(*normals, mesh.normals.size(), vertices, "normals");
+    }
+    for (int set = 0; set < 2; ++set) {
+        const auto uv = at.find(set == 0 ? "uv" : "uv1");
+        if (!uv) continue;
+        mesh.uv[set] = read_vec2s(*uv);
+        expect_count(*uv, mesh.uv[set].size(), vertices, "texture coordinates");
+    }
+    if (const auto colors = at.find("colors")) {
+        mesh.colors = read_vec4s(*colors);
+        expect_count(*colors, mesh.colors.size(), vertices, "colors");
+    }
+}
+
+// Bytes of a triangle with its share of vertices; OpenSubdiv's tables on top.
+constexpr std::size_t shape_triangle_bytes = 28, cage_triangle_bytes = 200;
+constexpr std::size_t mesh_bytes = sizeof(Mesh) + 1000;
+
+}  // namespace
+
+std::vector<glm::vec3> first_positions(const Mesh& mesh, const PointCache& cache) {
+    const std::vector<glm::vec3>& points = cache.positions.front();
+    if (mesh.vertex_points.empty()) return points;
+    std::vector<glm::vec3> positions;
+    positions.reserve(mesh.vertex_points.size());
+    for (const std::uint32_t point : mesh.vertex_points) positions.push_back(points.at(point));
+    return positions;
+}
+
+PointsUse read_points_use(SceneReader& reader, const JsonRef& at, const std::string& name) {
+    const auto positions = at.find("positions"), points = at.find("points");
+    if (positions.has_value() == points.has_value()) {
+        at.fail("expected either \"positions\" or \"points\" with a name from the scene's points");
+    }
+    const int index =
+        points ? reader.points.require(*points) : add_point_cache(reader, *positions, reader.points.unused(name));
+    return {index, reader.scene.point_caches[static_cast<std::size_t>(index)].point_count()};
+}
+
+void read_points(SceneReader& reader, const JsonRef& at, const std::string& name) {
+    add_point_cache(reader, at, name);
+}
+
+int read_mesh(SceneReader& reader, const JsonRef& at, const std::optional<JsonRef>& material,
+              const std::optional<JsonRef>& present, const std::string& name) {
+    reader.charge(mesh_bytes, at, "let nodes share meshes");
+    Mesh mesh;
+    mesh.name = name;
+    const JsonRef type = at.require("type");
+    if (type.string() == "mesh") {
+        read_triangles(reader, at, mesh);
+    } else if (type.string() == "cage") {
+        check_shape_keys(at, "cage", {"cage", "part"});
+        const JsonRef cage = at.require("cage");
+        mesh.cage = read_cage_use(reader, cage, name);
+        const auto parts =
+            static_cast<std::int64_t>(count_parts(reader.scene.cages[static_cast<std::size_t>(mesh.cage)]));
+        mesh.cage_part = static_cast<int>(at.find_integer("part", 0, parts - 1).value_or(0));
+        reader.charge(
+            cage_triangle_bytes * count_cage_triangles(reader.scene.cages[static_cast<std::size_t>(mesh.cage)]), at,
+            "lower the cage's \"level\"");
+    } else {
+        mesh.shape = read_shape(at, static_cast<Shape::Kind>(read_word(type, shape_words)));
+        reader.charge(shape_triangle_bytes * shape_triangle_count(*mesh.shape), at, "lower \"segments\"");
+    }
+    if (material) mesh.material = read_material_use(reader, *material, name);
+    if (present) mesh.present = read_visibility(*present, reader.scene.frame_rate);
+    const int index = static_cast<int>(reader.scene.meshes.size());
+    reader.scene.meshes.push_back(std::move(mesh));
+    reader.meshes.add(name, index);
+    return index;
+}
+
+void make_meshes(SceneReader& reader) {
+    for (Mesh& mesh : reader.scene.meshes) {
+        if (!mesh.shape) continue;
+        Mesh made = make_shape_mesh(*mesh.shape, mesh.material, mesh.name);
+        made.present = std::move(mesh.present);
+        mesh = std::move(made);
+    }
+    make_cage_meshes(reader);
+}
+
+}  // namespace aleph

@@ -1,0 +1,235 @@
+// Nodes of a scene file: the tree, transforms, and what hangs there.
+
+#include <fmt/format.h>
+
+#include <unordered_set>
+
+#include "engine/base/errors.h"
+#include "engine/scene/transforms.h"
+#include "engine/scene_file/operations.h"
+#include "engine/scene_file/reader.h"
+#include "engine/scene_file/tracks.h"
+
+namespace aleph {
+
+namespace {
+
+/// Every name that the file gives, to tell a parent that stands too late from one that is missing, and to see doubles.
+void collect_names(const JsonRef& list, NameIndex& names, std::size_t& count) {
+    for (std::size_t i = 0; i < list.array_size(); ++i) {
+        const JsonRef node = list[i];
+        if (++count > max_scene_nodes) node.fail(fmt::format("more than {} nodes", max_scene_nodes));
+        if (const auto name = node.find("name"); name && !name->string().empty()) {
+            if (names.find(name->string())) {
+                name->fail(fmt::format("two nodes are called \"{}\"", printable(name->string())));
+            }
+            names.add(name->string(), 0);
+        }
+        if (const auto children = node.find("children")) collect_names(*children, names, count);
+    }
+}
+
+class NodeReader {
+  public:
+    NodeReader(SceneReader& reader, const JsonRef& list) : reader_(reader), scene_(reader.scene) {
+        std::size_t count = 0;
+        collect_names(list, all_names_, count);
+    }
+
+    void read_list(const JsonRef& list, int parent) {
+        for (std::size_t i = 0; i < list.array_size(); ++i) {
+            const JsonRef node = list[i];
+            read(node, parent);
+        }
+    }
+
+  private:
+    void read(const JsonRef& at, int parent) {
+        reader_.charge(node_bytes, at, "it has too many nodes");
+        const int index = static_cast<int>(scene_.nodes.size());
+        Node node;
+        node.parent = parent;
+        if (const auto name = at.find("parent")) node.parent = read_parent(*name, parent);
+        const auto name = at.find("name");
+        node.name = name ? name->string() : all_names_.unused(fmt::format("node {}", index));
+        if (!name) all_names_.add(node.name, index);
+
+        read_transform(at, node);
+        if (const auto value = at.find("inherits")) node.inherits = read_visibility(*value, scene_.frame_rate);
+        if (const auto value = at.find("visible")) node.visible = read_visibility(*value, scene_.frame_rate);
+        const std::string inner = node.name.empty() ? fmt::format("node {}", index) : node.name;
+        read_meshes(at, node, inner);
+        if (const auto value = at.find("camera")) node.camera = read_camera_use(reader_, *value, inner);
+        if (const auto value = at.find("light")) node.light = read_light_use(reader_, *value, inner);
+
+        add_node(std::move(node));
+        if (const auto instance = at.find("instance")) read_instance(*instance, index);
+        const std::size_t includes = scene_.includes.size();
+        read_includes(reader_, at, index);
+        if (scene_.includes.size() > includes) with_include_.insert(index);
+        if (const auto children = at.find("children")) read_list(*children, index);
+    }
+
+    int read_parent(const JsonRef& at, int nested_under) const {
+        if (nested_under != no_index) at.fail("this node has a parent already: it stands among its children");
+        return require_earlier(at, "a parent");
+    }
+
+    int require_earlier(const JsonRef& at, const char* what) const {
+        if (const auto found = reader_.nodes.find(at.string())) return *found;
+        if (at.string().empty() || !all_names_.find(at.string())) return all_names_.require(at);
+        at.fail(fmt::format("\"{}\" does not stand before this node: {} has to, and a node cannot lie below itself",
+                            printable(at.string()), what));
+    }
+
+    void read_transform(const JsonRef& at, Node& node) const {
+        const FrameRate& rate = scene_.frame_rate;
+        for (const char* whole : {"matrix", "operations"}) {
+            if (!at.has(whole)) continue;
+            for (const char* other : {"translation", "rotation", "scale", "operations"}) {
+                const auto found = at.find(other);
+                if (!found || std::string(other) == whole) continue;
+                found->fail(fmt::format("a node has either \"{}\" or \"{}\", not both", whole, other));
+            }
+        }
+        if (const auto value = at.find("matrix")) node.matrix = read_matrix(*value, rate);
+        if (const auto value = at.find("operations")) node.operations = read_operations(*value, rate);
+        if (const auto value = at.find("translation")) node.translation = read_vector(*value, rate, any_value);
+        if (const auto value = at.find("scale")) node.scale = read_scale(*value, rate);
+        if (const auto value = at.find("rotation")) read_rotation(*value, node);
+    }
+
+    void read_rotation(const JsonRef& at, Node& node) const {
+        const auto axis = at.json().is_object() ? at.find("axis") : std::nullopt;
+        if (!axis) {
+            node.rotation = read_quaternion(at, scene_.frame_rate);
+            return;
+        }
+        AxisRotation rotation;
+        const glm::dvec3 given = read_dvec3(*axis);
+        const double length = glm::length(safe_normalize(given));
+        if (length == 0.0) axis->fail("the axis cannot be zero");
+        // What is unit within rounding keeps its bits.
+        rotation.axis = std::abs(glm::length(given) - 1.0) < 1e-15 ? given : safe_normalize(given);
+        const auto degrees = at.find("degrees"), radians = at.find("radians");
+        if (degrees.has_value() == radians.has_value()) at.fail("an axis goes with either \"degrees\" or \"radians\"");
+        rotation.angle = degrees ? read_degrees(*degrees, scene_.frame_rate, any_value)
+                                 : read_number(*radians, scene_.frame_rate, any_value);
+        node.axis_rotation = std::move(rotation);
+    }
+
+    void read_meshes(const JsonRef& at, Node& node, const std::string& name) {
+        const auto shape = at.find("shape"), material = at.find("material");
+        if (material && !shape) material->fail("\"material\" goes with \"shape\"; a mesh has its own");
+        if (shape)
+            node.meshes.push_back(read_mesh(reader_, *shape, material, std::nullopt, reader_.meshes.unused(name)));
+        if (const auto mesh = at.find("mesh")) node.meshes.push_back(reader_.meshes.require(*mesh));
+        if (const auto list = at.find("meshes")) {
+            for (std::size_t i = 0; i < list->array_size(); ++i) {
+                const JsonRef mesh = (*list)[i];
+                node.meshes.push_back(reader_.meshes.require(mesh));
+            }
+        }
+    }
+
+    /// What the named node shows is shown here too: its meshes and light at this node, all that stands below it as
+    /// copies of those nodes.
+    void read_instance(const JsonRef& at, int index) {
+        const int source = require_earlier(at, "what it shows");
+        if (!children_[static_cast<std::size_t>(source)].empty()) refuse_ancestor(at, source, index);
+        bool shows = share(at, source, index);
+        struct Copy {
+            int source, parent;
+        };
+        std::vector<Copy> left;
+        const auto add_children = [&](int node, int parent) {
+            const std::vector<int>& below = children_[static_cast<std::size_t>(node)];
+            for (auto child = below.rbegin(); child != below.rend(); ++child) left.push_back({*child, parent});
+        };
+        add_children(source, index);
+        while (!left.empty()) {
+            const Copy next = left.back();
+            left.pop_back();
+            reader_.charge(node_bytes, at, "too many nodes are copied");
+            Node copy = scene_.nodes[static_cast<std::size_t>(next.source)];
+            copy.parent = next.parent;
+            copy.meshes.clear();
+            copy.light = copy.camera = no_index;
+            copy.name =
+                all_names_.unused(fmt::format("{}/{}", scene_.nodes[static_cast<std::size_t>(index)].name, copy.name));
+            reader_.charge(4 * copy.name.size(), at, "too many nodes are copied");
+            const int made = add_node(std::move(copy));
+            all_names_.add(scene_.nodes.back().name, made);
+            shows = share(at, next.source, made) || shows;
+            add_children(next.source, made);
+        }
+        if (!shows) at.fail("neither that node nor one below it has meshes or a light to show");
+    }
+
+    void refuse_ancestor(const JsonRef& at, int source, int index) {
+        for (int above = index; above != no_index; above = scene_.nodes[static_cast<std::size_t>(above)].parent) {
+            if (above == source) at.fail("this node lies below the one it names: it would hold itself");
+            if (++ancestors_seen_ > max_ancestors_seen) at.fail("too many instances of sub-trees stand too deep");
+        }
+    }
+
+    /// True if the source has something to show.
+    bool share(const JsonRef& at, int source, int index) {
+        if (with_include_.contains(source)) {
+            at.fail("what an include brings cannot be shown twice: include the file again");
+        }
+        const Node& from = scene_.nodes[static_cast<std::size_t>(source)];
+        Node& to = scene_.nodes[static_cast<std::size_t>(index)];
+        reader_.charge(from.meshes.size() * sizeof(int), at, "too many meshes are shared");
+        to.meshes.insert(to.meshes.end(), from.meshes.begin(), from.meshes.end());
+        if (to.light == no_index) to.light = from.light;
+        return !from.meshes.empty() || from.light != no_index;
+    }
+
+    int add_node(Node node) {
+        const int index = static_cast<int>(scene_.nodes.size());
+        if (node.parent != no_index) children_[static_cast<std::size_t>(node.parent)].push_back(index);
+        if (!node.name.empty()) reader_.nodes.add(node.name, index);
+        children_.emplace_back();
+        scene_.nodes.push_back(std::move(node));
+        return index;
+    }
+
+    static constexpr std::size_t node_bytes = sizeof(Node) + 600;  // with values of tracks and names to look up
+    static constexpr std::size_t max_ancestors_seen = 10'000'000;
+
+    SceneReader& reader_;
+    Scene& scene_;
+    NameIndex all_names_{"node"};
+    std::size_t ancestors_seen_ = 0;
+    std::vector<std::vector<int>> children_;  ///< by node
+    std::unordered_set<int> with_include_;
+};
+
+}  // namespace
+
+void read_nodes(SceneReader& reader, const JsonRef& root) {
+    const auto list = root.find("nodes");
+    if (!list) return;
+    NodeReader(reader, *list).read_list(*list, no_index);
+}
+
+void read_includes(SceneReader& reader, const JsonRef& parent, int node) {
+    const auto include = parent.find("include");
+    if (!include) return;
+    const auto add = [&](const JsonRef& at) {
+        if (const std::string fault = path_fault(at.string()); !fault.empty()) at.fail(fault);
+        reader.scene.includes.push_back({at.string(), node});
+        reader.result.include_places.push_back(at.pointer());
+    };
+    if (include->json().is_string()) {
+        add(*include);
+        return;
+    }
+    for (std::size_t i = 0; i < include->array_size(); ++i) {
+        const JsonRef path = (*include)[i];
+        add(path);
+    }
+}
+
+}  // namespace aleph

@@ -1,0 +1,214 @@
+#include "engine/scene_file/operations.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "engine/base/errors.h"
+#include "engine/scene/operations.h"
+#include "engine/scene_file/tracks.h"
+
+namespace aleph {
+
+namespace {
+
+using nlohmann::ordered_json;
+using Kind = OperationStack::Kind;
+
+/// In the order of OperationStack::Kind.
+constexpr std::array operation_words{"translate", "scale", "matrix", "rotate", "rotate_x", "rotate_y", "rotate_z"};
+/// Turns whose angle has no exact degrees.
+constexpr std::array radian_words{"rotate_x_radians", "rotate_y_radians", "rotate_z_radians"};
+
+/// Collects channels: constants, and tracks that share one sampling.
+class Stack {
+  public:
+    void add_kind(Kind kind) { stack_.operations.push_back(kind); }
+
+    /// @param channels  of one value, T to doubles
+    template <class T, class Channels>
+    void add(const Track<T>& track, const JsonRef& at, const Channels& channels) {
+        if (track.interpolation != Interpolation::linear) at.fail("operations are linear between their keys");
+        const bool keyed = track.values.size() > 1 || track.sampling != TimeSampling{};
+        if (keyed && samples_ > 0 && (track.sampling != stack_.sampling || track.values.size() != samples_)) {
+            at.fail("the keyed operations of a node have the same times: give this one keys where the first has them");
+        }
+        if (keyed && samples_ == 0) {
+            stack_.sampling = track.sampling;
+            samples_ = track.values.size();
+        }
+        std::vector<std::vector<double>> values;
+        for (const T& value : track.values) values.push_back(channels(value));
+        tracks_.push_back(std::move(values));
+    }
+
+    OperationStack take() {
+        for (std::size_t sample = 0; sample < std::max<std::size_t>(samples_, tracks_.empty() ? 0 : 1); ++sample) {
+            for (const auto& values : tracks_) {
+                const auto& value = values[std::min(sample, values.size() - 1)];
+                stack_.channels.insert(stack_.channels.end(), value.begin(), value.end());
+            }
+        }
+        return std::move(stack_);
+    }
+
+  private:
+    OperationStack stack_;
+    std::size_t samples_ = 0;  ///< 0: nothing is keyed so far
+    std::vector<std::vector<std::vector<double>>> tracks_;
+};
+
+std::vector<double> from_number(double value) {
+    return {value};
+}
+
+std::vector<double> from_vector(const glm::dvec3& v) {
+    return {v.x, v.y, v.z};
+}
+
+std::vector<double> from_matrix(const glm::dmat4& m) {
+    std::vector<double> numbers;
+    for (int i = 0; i < 16; ++i) numbers.push_back(m[i / 4][i % 4]);
+    return numbers;
+}
+
+void read_turn(Stack& stack, const JsonRef& at, const FrameRate& rate) {
+    const JsonRef axis = at.require("axis");
+    stack.add(read_vector(axis, rate, any_value), axis, from_vector);
+    const auto degrees = at.find("degrees"), radians = at.find("radians");
+    if (degrees.has_value() == radians.has_value()) at.fail("an axis goes with either \"degrees\" or \"radians\"");
+    if (degrees) stack.add(read_degrees(*degrees, rate, any_value), *degrees, from_number);
+    if (radians) stack.add(read_number(*radians, rate, any_value), *radians, from_number);
+}
+
+void read_operation(Stack& stack, const JsonRef& at, const FrameRate& rate) {
+    if (at.json().size() != 1) {
+        at.fail(fmt::format("an operation is an object with one key, found {}: write one object for each",
+                            at.json().size()));
+    }
+    const std::string key = at.json().begin().key();
+    const JsonRef value = at.require(key);
+    for (std::size_t i = 0; i < radian_words.size(); ++i) {
+        if (key != radian_words[i]) continue;
+        stack.add_kind(static_cast<Kind>(static_cast<std::size_t>(Kind::rotate_x) + i));
+        stack.add(read_number(value, rate, any_value), value, from_number);
+        return;
+    }
+    const auto word = std::find(operation_words.begin(), operation_words.end(), key);
+    const auto kind = static_cast<Kind>(word - operation_words.begin());
+    stack.add_kind(kind);
+    switch (kind) {
+        case Kind::translate:
+            stack.add(read_vector(value, rate, any_value), value, from_vector);
+            break;
+        case Kind::scale:
+            stack.add(read_scale(value, rate), value, from_vector);
+            break;
+        case Kind::matrix:
+            stack.add(read_matrix(value, rate), value, from_matrix);
+            break;
+        case Kind::rotate:
+            read_turn(stack, value, rate);
+            break;
+        default:
+            stack.add(read_degrees(value, rate, any_value), value, from_number);
+    }
+}
+
+/// Some channels of a stack as a track, for the writers of tracks.
+class Channels {
+  public:
+    Channels(const OperationStack& stack, bool keep_keys) : stack_(stack), keep_keys_(keep_keys) {}
+
+    template <class T, class Make>
+    Track<T> take(std::size_t count, const Make& make) {
+        const std::size_t samples = sample_count(stack_), width = channel_count(stack_);
+        Track<T> track;
+        for (std::size_t sample = 0; sample < samples; ++sample) {
+            track.values.push_back(make(&stack_.channels[sample * width + at_]));
+        }
+        at_ += count;
+        const auto same = [&](const T& value) { return value == track.values.front(); };
+        const bool keyed =
+            std::exchange(keep_keys_, false) || !std::all_of(track.values.begin(), track.values.end(), same);
+        if (!keyed) return Track<T>(track.values.front());
+        track.sampling = stack_.sampling;
+        return track;
+    }
+    Track<double> number() {
+        return take<double>(1, [](const double* c) { return *c; });
+    }
+    Track<glm::dvec3> vector() {
+        return take<glm::dvec3>(3, [](const double* c) { return glm::dvec3(c[0], c[1], c[2]); });
+    }
+    Track<glm::dmat4> matrix() {
+        return take<glm::dmat4>(16, [](const double* c) {
+            glm::dmat4 m(1.0);
+            for (int i = 0; i < 16; ++i) m[i / 4][i % 4] = c[i];
+            return m;
+        });
+    }
+
+  private:
+    const OperationStack& stack_;
+    bool keep_keys_;
+    std::size_t at_ = 0;
+};
+
+ordered_json write_operation(Kind kind, Channels& channels, const FrameRate& rate) {
+    const char* word = operation_words[static_cast<std::size_t>(kind)];
+    switch (kind) {
+        case Kind::translate:
+            return {{word, write_vector(channels.vector(), rate)}};
+        case Kind::scale:
+            return {{word, write_scale(channels.vector(), rate)}};
+        case Kind::matrix:
+            return {{word, write_matrix(channels.matrix(), rate)}};
+        case Kind::rotate: {
+            ordered_json turn = {{"axis", write_vector(channels.vector(), rate)}};
+            const Track<double> angle = channels.number();
+            const auto degrees = write_degrees(angle, rate);
+            turn[degrees ? "degrees" : "radians"] = degrees ? *degrees : write_number(angle, rate);
+            return {{word, turn}};
+        }
+        default: {
+            const Track<double> angle = channels.number();
+            if (const auto degrees = write_degrees(angle, rate)) return {{word, *degrees}};
+            const auto axis = static_cast<std::size_t>(kind) - static_cast<std::size_t>(Kind::rotate_x);
+            return {{radian_words[axis], write_number(angle, rate)}};
+        }
+    }
+}
+
+}  // namespace
+
+OperationStack read_operations(const JsonRef& at, const FrameRate& rate) {
+    Stack stack;
+    for (std::size_t i = 0; i < at.array_size(); ++i) {
+        const JsonRef operation = at[i];
+        read_operation(stack, operation, rate);
+    }
+    return stack.take();
+}
+
+ordered_json write_operations(const OperationStack& stack, const FrameRate& rate, const std::string& file,
+                              const std::string& place) {
+    ordered_json out = ordered_json::array();
+    const std::size_t width = channel_count(stack);
+    if (width == 0) return out;
+    if (stack.channels.empty() || stack.channels.size() % width != 0) {
+        throw InputError(file, place,
+                         fmt::format("its operations have {} channels, found {}", width, stack.channels.size()));
+    }
+    validate(stack.sampling, sample_count(stack), file, place);
+    // Keys that change nothing are kept too, on the first operation.
+    Channels probe(stack, false);
+    bool keyed = false;
+    for (std::size_t i = 0; i < width; ++i) keyed = probe.number().values.size() > 1 || keyed;
+    const bool keep_keys = !keyed && (sample_count(stack) > 1 || stack.sampling != TimeSampling{});
+    Channels channels(stack, keep_keys);
+    for (const Kind kind : stack.operations) out.push_back(write_operation(kind, channels, rate));
+    return out;
+}
+
+}  // namespace aleph

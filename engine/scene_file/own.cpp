@@ -1,0 +1,83 @@
+// Which part of a scene is its file's own, and which came with includes.
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "engine/base/errors.h"
+#include "engine/scene_file/scene_text.h"
+
+namespace aleph {
+
+namespace {
+
+/// The elements before the first that an include brought. Copies no more than those: included meshes are large.
+template <class Element>
+std::vector<Element> own_part(const char* kind, const std::vector<Element>& list, const std::string& file) {
+    const auto is_included = [](const Element& element) { return element.include != no_index; };
+    const auto end = std::find_if(list.begin(), list.end(), is_included);
+    const auto late = std::find_if_not(end, list.end(), is_included);
+    if (late != list.end()) {
+        throw InputError(file, fmt::format("{} {}", kind, late - list.begin()),
+                         "stands after what includes brought; a scene file's own elements come first");
+    }
+    return {list.begin(), end};
+}
+
+void check_index(int index, std::size_t count, const char* kind, std::size_t user, const char* what,
+                 const std::string& file) {
+    if (index >= no_index && index < static_cast<int>(count)) return;
+    throw InputError(file, fmt::format("{} {}", kind, user),
+                     fmt::format("uses {} {}, which an include brought or which is not there", what, index));
+}
+
+}  // namespace
+
+Scene without_includes(const Scene& scene, const std::string& file) {
+    Scene own;
+    own.name = scene.name;
+    own.frame_rate = scene.frame_rate;
+    own.range = scene.range;
+    own.cuts = scene.cuts;
+    own.viewing = scene.viewing;
+    own.exposure = scene.exposure;
+    own.environment = scene.environment;
+    own.camera = scene.camera;
+    own.nodes = own_part("node", scene.nodes, file);
+    own.meshes = own_part("mesh", scene.meshes, file);
+    own.point_caches = own_part("points", scene.point_caches, file);
+    own.skins = own_part("skin", scene.skins, file);
+    own.cages = own_part("cage", scene.cages, file);
+    own.materials = own_part("material", scene.materials, file);
+    own.images = own_part("image", scene.images, file);
+    own.lights = own_part("light", scene.lights, file);
+    own.cameras = own_part("camera", scene.cameras, file);
+    own.includes = scene.includes;
+    own.settings = scene.settings;
+    own.file = scene.file;
+    own.warnings = scene.warnings;
+
+    for (std::size_t i = 0; i < own.nodes.size(); ++i) {
+        const Node& node = own.nodes[i];
+        check_index(node.parent, i, "node", i, "as its parent node", file);
+        for (const int mesh : node.meshes) check_index(mesh, own.meshes.size(), "node", i, "mesh", file);
+        check_index(node.camera, own.cameras.size(), "node", i, "camera", file);
+        check_index(node.light, own.lights.size(), "node", i, "light", file);
+    }
+    for (std::size_t i = 0; i < own.meshes.size(); ++i) {
+        const Mesh& mesh = own.meshes[i];
+        check_index(mesh.material, own.materials.size(), "mesh", i, "material", file);
+        check_index(mesh.points, own.point_caches.size(), "mesh", i, "points", file);
+        check_index(mesh.skin, own.skins.size(), "mesh", i, "skin", file);
+        check_index(mesh.cage, own.cages.size(), "mesh", i, "cage", file);
+    }
+    for (std::size_t i = 0; i < own.cages.size(); ++i) {
+        check_index(own.cages[i].points, own.point_caches.size(), "cage", i, "points", file);
+    }
+    for (std::size_t i = 0; i < own.includes.size(); ++i) {
+        check_index(own.includes[i].node, own.nodes.size(), "include", i, "node", file);
+    }
+    return own;
+}
+
+}  // namespace aleph

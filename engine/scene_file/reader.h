@@ -1,0 +1,103 @@
+#pragma once
+// What the parts of the scene file's reader share: the scene so far and the names in it.
+
+#include <optional>
+#include <string>
+#include <unordered_map>
+#include <vector>
+
+#include "engine/json/json_ref.h"
+#include "engine/scene_file/scene_text.h"
+
+namespace aleph {
+
+/// Elements of one kind by name.
+class NameIndex {
+  public:
+    explicit NameIndex(std::string kind) : kind_(std::move(kind)) {}
+
+    void add(const std::string& name, int index);
+    /// `name`, or "name 2" and so on if an element has it.
+    std::string unused(const std::string& name) const;
+    std::optional<int> find(const std::string& name) const;
+    /// The element that a text in the file names. @throws InputError at that text, with names that are close
+    int require(const JsonRef& at) const;
+
+  private:
+    std::string kind_;
+    std::vector<std::string> names_;
+    std::unordered_map<std::string, int> index_;
+};
+
+struct SceneReader {
+    SceneText result;
+    Scene& scene = result.scene;
+    std::string file;  ///< what errors name
+    LoadLimits limits;
+    NameIndex images{"image"}, materials{"material"}, meshes{"mesh"}, lights{"light"}, cameras{"camera"}, nodes{"node"};
+    NameIndex points{"list of points"}, cages{"cage"};
+    std::vector<std::string> cage_places;  ///< JSON pointer per scene.cages
+    std::unordered_map<std::string, int> image_of_path;
+    std::size_t memory = 0;  ///< that the elements take, about
+
+    /// Counts what is about to be made.
+    /// @throws InputError at `at` beyond limits.scene()
+    void charge(std::size_t bytes, const JsonRef& at, const char* advice);
+};
+
+using KeyOrder = std::map<std::string, std::vector<std::string>>;
+
+/// The root's images, materials, meshes, lights and cameras, in the order of the file.
+void read_elements(SceneReader& reader, const JsonRef& root, const KeyOrder& key_order);
+
+// An element where a node, or a mesh, gives a name or the element itself; `name` is what that one is called then.
+int read_material_use(SceneReader& reader, const JsonRef& at, const std::string& name);
+int read_light_use(SceneReader& reader, const JsonRef& at, const std::string& name);
+int read_camera_use(SceneReader& reader, const JsonRef& at, const std::string& name);
+
+int read_cage_use(SceneReader& reader, const JsonRef& at, const std::string& name);
+
+/// The word that a text is, by its place in the list.
+template <class Words>
+std::size_t read_word(const JsonRef& at, const Words& words) {
+    for (std::size_t i = 0; i < words.size(); ++i) {
+        if (at.string() == words[i]) return i;
+    }
+    at.fail("unknown word");  // the schema has the same words
+}
+
+// Elements of the root's objects "points" and "cages".
+void read_points(SceneReader& reader, const JsonRef& at, const std::string& name);
+void read_cage(SceneReader& reader, const JsonRef& at, const std::string& name);
+
+/// Points that an element names under "points" or holds under "positions".
+struct PointsUse {
+    int index = no_index;
+    std::size_t count = 0;
+};
+PointsUse read_points_use(SceneReader& reader, const JsonRef& at, const std::string& name);
+
+/// Adds a mesh; what follows from shapes and cages is made at the end, by make_meshes.
+/// @param material  nothing: glTF's default material
+int read_mesh(SceneReader& reader, const JsonRef& shape, const std::optional<JsonRef>& material,
+              const std::optional<JsonRef>& present, const std::string& name);
+
+/// Makes the triangles of shapes and cages, when all of them are known to be few enough.
+void make_meshes(SceneReader& reader);
+void make_cage_meshes(SceneReader& reader);
+
+/// Parts that a cage's faces belong to.
+std::size_t count_parts(const Cage& cage);
+/// Triangles of all parts at the cage's level.
+std::size_t count_cage_triangles(const Cage& cage);
+
+/// Where a cache's first sample puts the vertices of a mesh.
+std::vector<glm::vec3> first_positions(const Mesh& mesh, const PointCache& cache);
+
+/// The root's nodes with all that stands in them.
+void read_nodes(SceneReader& reader, const JsonRef& root);
+
+/// Paths under the key "include" of the root or of a node. @param node  no_index for the root
+void read_includes(SceneReader& reader, const JsonRef& parent, int node);
+
+}  // namespace aleph

@@ -1,0 +1,134 @@
+#include "engine/scene_file/scene_text.h"
+
+#include <fmt/format.h>
+
+#include <charconv>
+
+#include "engine/base/errors.h"
+#include "engine/json/close_names.h"
+#include "engine/json/text.h"
+#include "engine/scene_file/reader.h"
+#include "engine/scene_file/schema.h"
+#include "engine/scene_file/tracks.h"
+
+namespace aleph {
+
+namespace {
+
+FrameRate read_frame_rate(const JsonRef& at) {
+    if (!at.json().is_string()) return {at.integer(1, 1000000000), 1};
+    const std::string& text = at.string();  // "30000/1001", by the schema
+    const std::size_t slash = text.find('/');
+    FrameRate rate;
+    std::from_chars(text.data(), text.data() + slash, rate.numerator);
+    std::from_chars(text.data() + slash + 1, text.data() + text.size(), rate.denominator);
+    return rate;
+}
+
+std::int64_t read_frame(const JsonRef& list, std::size_t i) {
+    const JsonRef frame = list[i];
+    return frame.integer(-1000000000, 1000000000);
+}
+
+void read_header(Scene& scene, const JsonRef& root) {
+    scene.name = root.find_string("name").value_or("");
+    scene.camera = root.find_string("camera").value_or("");
+    if (const auto fps = root.find("fps")) scene.frame_rate = read_frame_rate(*fps);
+    scene.viewing.frames_per_second = scene.frame_rate.per_second();
+    if (const auto frames = root.find("frames")) {
+        scene.range = FrameRange{read_frame(*frames, 0), read_frame(*frames, 1)};
+        if (scene.range->last < scene.range->first) frames->fail("the last frame comes before the first");
+    }
+    if (const auto cuts = root.find("cuts")) {
+        for (std::size_t i = 0; i < cuts->array_size(); ++i) {
+            scene.cuts.push_back(read_frame(*cuts, i));
+            if (i > 0 && scene.cuts[i] <= scene.cuts[i - 1]) {
+                const JsonRef cut = (*cuts)[i];
+                cut.fail("cuts have to ascend");
+            }
+        }
+    }
+    if (const auto viewing = root.find("viewing")) {
+        if (const auto value = viewing->find("pixels_per_degree")) scene.viewing.pixels_per_degree = value->number();
+        if (const auto value = viewing->find("display_white")) scene.viewing.display_white = value->number();
+    }
+    if (const auto exposure = root.find("exposure")) scene.exposure = exposure->number();
+    if (const auto value = root.find("environment")) {
+        scene.environment = read_vector(*value, scene.frame_rate, not_negative);
+    }
+}
+
+void read_settings(Scene& scene, const JsonRef& root) {
+    const auto settings = root.find("settings");
+    if (!settings) return;
+    for (const auto& setting : settings->json().items()) {
+        const JsonRef value = settings->require(setting.key());
+        if (value.json().is_boolean()) {
+            scene.settings.emplace(setting.key(), value.boolean());
+        } else if (value.json().is_string()) {
+            scene.settings.emplace(setting.key(), value.string());
+        } else {
+            scene.settings.emplace(setting.key(), value.number());
+        }
+    }
+}
+
+/// A later version is told apart from a file that is wrong.
+void check_version(const nlohmann::json& root, const std::string& file) {
+    if (!root.is_object()) return;
+    const auto version = root.find("aleph");
+    if (version != root.end() && version->is_number_integer() && *version != 1) {
+        throw InputError(file, "/aleph",
+                         fmt::format("this is version {} of the format; version 1 is read", version->dump()));
+    }
+}
+
+}  // namespace
+
+void NameIndex::add(const std::string& name, int index) {
+    index_.emplace(name, index);
+    names_.push_back(name);
+}
+
+std::string NameIndex::unused(const std::string& name) const {
+    std::string candidate = name;
+    for (int i = 2; index_.contains(candidate); ++i) candidate = fmt::format("{} {}", name, i);
+    return candidate;
+}
+
+std::optional<int> NameIndex::find(const std::string& name) const {
+    const auto found = index_.find(name);
+    return found == index_.end() ? std::nullopt : std::optional(found->second);
+}
+
+int NameIndex::require(const JsonRef& at) const {
+    if (const auto found = find(at.string())) return *found;
+    at.fail(
+        fmt::format("there is no {} called \"{}\"{}", kind_, printable(at.string()), suggestion(at.string(), names_)));
+}
+
+void SceneReader::charge(std::size_t bytes, const JsonRef& at, const char* advice) {
+    memory += bytes;
+    if (memory <= limits.scene()) return;
+    at.fail(fmt::format("up to here the scene takes more than {} MiB; {}", limits.scene() >> 20, advice));
+}
+
+SceneText read_scene_text(std::string_view text, const std::string& file, const LoadLimits& limits) {
+    const JsonText parsed = parse_json_text(text, file, limits);
+    check_version(parsed.root, file);
+    check_scene_schema(parsed.root, file);
+    const JsonRef root(parsed.root, file);
+
+    SceneReader reader;
+    reader.file = file;
+    reader.limits = limits;
+    read_header(reader.scene, root);
+    read_elements(reader, root, parsed.key_order);
+    read_nodes(reader, root);
+    read_includes(reader, root, no_index);
+    read_settings(reader.scene, root);
+    make_meshes(reader);
+    return std::move(reader.result);
+}
+
+}  // namespace aleph

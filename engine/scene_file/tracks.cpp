@@ -1,0 +1,268 @@
+#include "engine/scene_file/tracks.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "engine/base/errors.h"
+
+namespace aleph {
+
+namespace {
+
+std::string describe(const ValueRange& range) {
+    if (!std::isfinite(range.high)) {
+        return fmt::format("has to be {} {}", range.open ? "above" : "at least", range.low);
+    }
+    return fmt::format("has to lie between {} and {}{}", range.low, range.high, range.open ? ", both excluded" : "");
+}
+
+void check_range(const JsonRef& at, double value, const ValueRange& range) {
+    const bool inside =
+        range.open ? value > range.low && value < range.high : value >= range.low && value <= range.high;
+    if (!inside) at.fail(fmt::format("{}, found {}", describe(range), value));
+}
+
+/// How one kind of value stands in the file.
+template <class T>
+struct ValueReader {
+    T (*value)(const JsonRef&, const ValueRange&);
+    ValueRange range = any_value;  ///< of values; tangents have none
+
+    T read(const JsonRef& at) const { return value(at, range); }
+    T read_tangent(const JsonRef& at) const { return value(at, any_value); }
+};
+
+double read_time(const JsonRef& at, const FrameRate& rate, bool in_frames) {
+    const double time = at.number();
+    if (!in_frames) return time;
+    return time * static_cast<double>(rate.denominator) / static_cast<double>(rate.numerator);
+}
+
+std::vector<double> read_times(const JsonRef& list, std::size_t count, const FrameRate& rate, bool in_frames,
+                               bool first_of_key) {
+    std::vector<double> times;
+    times.reserve(count);
+    for (std::size_t i = 0; i < count; ++i) {
+        const JsonRef element = list[i];
+        const auto check = [&](const JsonRef& at) {
+            times.push_back(read_time(at, rate, in_frames));
+            if (i > 0 && !(times[i] > times[i - 1])) {
+                at.fail(fmt::format("times have to ascend: {} does not come after the one before", at.json().dump()));
+            }
+        };
+        if (first_of_key) {
+            const JsonRef time = element[0];
+            check(time);
+        } else {
+            check(element);
+        }
+    }
+    return times;
+}
+
+Interpolation read_interpolation(const JsonRef& at, Interpolation absent) {
+    const auto word = at.find_string("interpolation");
+    if (!word) return absent;
+    for (std::size_t i = 0; i < interpolation_words.size(); ++i) {
+        if (*word == interpolation_words[i]) return static_cast<Interpolation>(i);
+    }
+    return absent;
+}
+
+template <class T>
+void read_keys(const JsonRef& keys, Track<T>& track, const ValueReader<T>& read) {
+    const bool cubic = track.interpolation == Interpolation::cubic;
+    for (std::size_t i = 0; i < keys.array_size(); ++i) {
+        const JsonRef key = keys[i];
+        const std::size_t parts = key.array_size();
+        if (parts != (cubic ? 4u : 2u)) {
+            key.fail(cubic ? "a cubic key is [time, in-tangent, value, out-tangent]"
+                           : "a key is [time, value]; tangents need \"interpolation\": \"cubic\"");
+        }
+        for (std::size_t part = 1; part < parts; ++part) {
+            const JsonRef value = key[part];
+            track.values.push_back(cubic && part != 2 ? read.read_tangent(value) : read.read(value));
+        }
+    }
+}
+
+template <class T>
+void read_values(const JsonRef& values, Track<T>& track, const ValueReader<T>& read) {
+    const bool cubic = track.interpolation == Interpolation::cubic;
+    for (std::size_t i = 0; i < values.array_size(); ++i) {
+        const JsonRef value = values[i];
+        if (!cubic) {
+            track.values.push_back(read.read(value));
+            continue;
+        }
+        if (!value.json().is_array() || value.array_size() != 3) {
+            value.fail("a cubic value is [in-tangent, value, out-tangent]");
+        }
+        for (std::size_t part = 0; part < 3; ++part) {
+            const JsonRef inner = value[part];
+            track.values.push_back(part == 1 ? read.read(inner) : read.read_tangent(inner));
+        }
+    }
+}
+
+TimeSampling read_regular_times(const JsonRef& at, const FrameRate& rate, bool in_frames) {
+    TimeSampling sampling;
+    const auto start = at.find("start"), period = at.find("period"), cycle = at.find("cycle");
+    const double frame = static_cast<double>(rate.denominator) / static_cast<double>(rate.numerator);
+    sampling.period = period ? read_time(*period, rate, in_frames) : in_frames ? frame : 1.0;
+    if (!(sampling.period > 0.0)) period->fail("has to be above 0");
+    if (start) sampling.start = read_time(*start, rate, in_frames);
+    if (cycle) {
+        if (start) start->fail("\"start\" does not go with \"cycle\": its times say when it starts");
+        sampling.kind = TimeSampling::Kind::cyclic;
+        sampling.times = read_times(*cycle, cycle->array_size(), rate, in_frames, false);
+        if (!(sampling.times.back() - sampling.times.front() < sampling.period)) {
+            cycle->fail("the times of a cycle have to lie within one \"period\"");
+        }
+    }
+    return sampling;
+}
+
+TimeSampling read_sampling(const JsonRef& at, const FrameRate& rate) {
+    const bool in_frames = at.find_string("unit").value_or("frames") == "frames";
+    const auto keys = at.find("keys"), values = at.find("values");
+    if (keys && values) at.fail("either \"keys\" or \"values\", not both");
+    if (!keys && !values) at.fail("neither \"keys\" nor \"values\"");
+    if (values) return read_regular_times(at, rate, in_frames);
+    for (const char* other : {"start", "period", "cycle"}) {
+        if (const auto found = at.find(other)) {
+            found->fail(fmt::format("\"{}\" goes with \"values\"; keys have their own times", other));
+        }
+    }
+    TimeSampling sampling;
+    sampling.kind = TimeSampling::Kind::acyclic;
+    sampling.times = read_times(*keys, keys->array_size(), rate, in_frames, true);
+    return sampling;
+}
+
+template <class T>
+Track<T> read_track(const JsonRef& at, const FrameRate& rate, const ValueReader<T>& read,
+                    Interpolation absent = Interpolation::linear) {
+    Track<T> track;
+    if (!at.json().is_object()) {
+        track = Track<T>(read.read(at));
+    } else {
+        track.interpolation = read_interpolation(at, absent);
+        track.sampling = read_sampling(at, rate);
+        if (const auto keys = at.find("keys")) read_keys(*keys, track, read);
+        if (const auto values = at.find("values")) read_values(*values, track, read);
+    }
+    validate(track, at.file(), at.pointer());
+    return track;
+}
+
+template <class T>
+T read_components(const JsonRef& at, T value, int count, const ValueRange& range) {
+    for (int i = 0; i < count; ++i) {
+        const JsonRef component = at[static_cast<std::size_t>(i)];
+        value[i] = component.number();
+        check_range(component, value[i], range);
+    }
+    return value;
+}
+
+double read_plain(const JsonRef& at, const ValueRange& range) {
+    const double value = at.number();
+    check_range(at, value, range);
+    return value;
+}
+
+glm::dvec3 read_three(const JsonRef& at, const ValueRange& range) {
+    return read_components(at, glm::dvec3(0.0), 3, range);
+}
+
+glm::dvec3 read_factors(const JsonRef& at, const ValueRange&) {
+    return at.json().is_number() ? glm::dvec3(at.number()) : read_dvec3(at);
+}
+
+/// In the file x, y, z, w. Zero is left to validate: a tangent may be zero.
+glm::dquat read_four(const JsonRef& at, const ValueRange&) {
+    const glm::dvec4 v = read_components(at, glm::dvec4(0.0), 4, any_value);
+    return {v.w, v.x, v.y, v.z};
+}
+
+glm::dmat4 read_sixteen(const JsonRef& at, const ValueRange&) {
+    glm::dmat4 m(1.0);
+    for (int i = 0; i < 16; ++i) {
+        const JsonRef number = at[static_cast<std::size_t>(i)];
+        m[i % 4][i / 4] = number.number();
+        if (i >= 12 && m[i % 4][3] != (i == 15 ? 1.0 : 0.0))
+            number.fail("the last row of a matrix has to be 0, 0, 0, 1");
+    }
+    return m;
+}
+
+}  // namespace
+
+double to_radians(double degrees) {
+    return degrees * (std::numbers::pi / 180.0);
+}
+
+TimeSampling read_samples(const JsonRef& at, const FrameRate& rate, const std::function<void(const JsonRef&)>& visit) {
+    TimeSampling sampling = read_sampling(at, rate);
+    const auto keys = at.find("keys");
+    const JsonRef list = keys ? *keys : at.require("values");
+    for (std::size_t i = 0; i < list.array_size(); ++i) {
+        const JsonRef item = list[i];
+        if (!keys) {
+            visit(item);
+            continue;
+        }
+        const JsonRef value = item[1];
+        visit(value);
+    }
+    validate(sampling, list.array_size(), at.file(), at.pointer());
+    return sampling;
+}
+
+glm::dvec3 read_dvec3(const JsonRef& at) {
+    return read_three(at, any_value);
+}
+
+glm::dvec2 read_dvec2(const JsonRef& at) {
+    return read_components(at, glm::dvec2(0.0), 2, any_value);
+}
+
+Track<double> read_number(const JsonRef& at, const FrameRate& rate, const ValueRange& range) {
+    return read_track<double>(at, rate, {read_plain, range});
+}
+
+Track<double> read_degrees(const JsonRef& at, const FrameRate& rate, const ValueRange& range) {
+    const auto read = [](const JsonRef& value, const ValueRange& limits) {
+        return to_radians(read_plain(value, limits));
+    };
+    return read_track<double>(at, rate, {read, range});
+}
+
+Track<glm::dvec3> read_vector(const JsonRef& at, const FrameRate& rate, const ValueRange& range) {
+    return read_track<glm::dvec3>(at, rate, {read_three, range});
+}
+
+Track<glm::dvec3> read_scale(const JsonRef& at, const FrameRate& rate) {
+    return read_track<glm::dvec3>(at, rate, {read_factors});
+}
+
+Track<glm::dquat> read_quaternion(const JsonRef& at, const FrameRate& rate) {
+    return read_track<glm::dquat>(at, rate, {read_four});
+}
+
+Track<glm::dmat4> read_matrix(const JsonRef& at, const FrameRate& rate) {
+    return read_track<glm::dmat4>(at, rate, {read_sixteen});
+}
+
+Track<double> read_visibility(const JsonRef& at, const FrameRate& rate) {
+    const auto read = [](const JsonRef& value, const ValueRange&) {
+        if (value.json().is_string()) return 2.0;  // "always", by the schema
+        return value.boolean() ? 1.0 : 0.0;
+    };
+    return read_track<double>(at, rate, {read}, Interpolation::step);
+}
+
+}  // namespace aleph

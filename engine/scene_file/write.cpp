@@ -1,0 +1,258 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <unordered_set>
+
+#include "engine/base/errors.h"
+#include "engine/json/text.h"
+#include "engine/scene_file/operations.h"
+#include "engine/scene_file/scene_text.h"
+#include "engine/scene_file/tracks.h"
+#include "engine/scene_file/write_elements.h"
+#include "engine/scene_file/write_meshes.h"
+#include "engine/surface/cage_checks.h"
+#include "engine/surface/shapes.h"
+
+namespace aleph {
+
+namespace {
+
+using nlohmann::ordered_json;
+
+template <class Element>
+std::string place_of(const char* kind, const std::vector<Element>& list, std::size_t i) {
+    return fmt::format("{} {} (\"{}\")", kind, i, printable(list[i].name, 40));
+}
+
+class Writer {
+  public:
+    Writer(const Scene& scene, const std::string& file) : scene_(scene), at_{scene, file, {}} {}
+
+    ordered_json write() {
+        if (!scene_.skins.empty()) {
+            at_.place = place_of("skin", scene_.skins, 0);
+            at_.refuse("a scene file cannot hold skins: keep the mesh in a .glb and include that");
+        }
+        check_names("image", scene_.images);
+        check_names("material", scene_.materials);
+        check_names("points", scene_.point_caches);
+        check_names("cage", scene_.cages);
+        check_names("mesh", scene_.meshes);
+        check_names("light", scene_.lights);
+        check_names("camera", scene_.cameras);
+        check_names("node", scene_.nodes);
+        write_header();
+        write_list("images", scene_.images, [&](const SceneImage& image) { return ordered_json(image.path); });
+        write_list("materials", scene_.materials,
+                   [&](const Material& material) { return write_material(at_, material); });
+        write_list("points", scene_.point_caches, [&](const PointCache& cache) { return write_point_cache(cache); });
+        write_list("cages", scene_.cages, [&](const Cage& cage) { return write_control_mesh(cage); });
+        write_list("meshes", scene_.meshes, [&](const Mesh& mesh) { return write_mesh(mesh); });
+        write_list("lights", scene_.lights, [&](const Light& light) { return write_light(at_, light); });
+        write_list("cameras", scene_.cameras, [&](const Camera& camera) { return write_camera(at_, camera); });
+        for (std::size_t i = 0; i < scene_.nodes.size(); ++i) {
+            at_.place = place_of("node", scene_.nodes, i);
+            out_["nodes"].push_back(write_node(i));
+        }
+        write_includes(out_, no_index);
+        return std::move(out_);
+    }
+
+  private:
+    /// Elements refer to each other by name; only nodes may go without, as long as nothing refers to them.
+    template <class Element>
+    void check_names(const char* kind, const std::vector<Element>& list) {
+        std::unordered_set<std::string> names;
+        for (std::size_t i = 0; i < list.size(); ++i) {
+            if (list[i].name.empty() && std::is_same_v<Element, Node>) continue;
+            at_.place = place_of(kind, list, i);
+            if (list[i].name.empty()) at_.refuse("a scene file needs a name for it");
+            if (!names.insert(list[i].name).second)
+                at_.refuse("another one has this name: a scene file tells them apart by name");
+        }
+    }
+
+    template <class Element, class Write>
+    void write_list(const char* key, const std::vector<Element>& list, const Write& write) {
+        if (list.empty()) return;
+        out_[key] = ordered_json::object();
+        auto& object = out_[key].template get_ref<ordered_json::object_t&>();
+        for (std::size_t i = 0; i < list.size(); ++i) {
+            at_.place = place_of(key, list, i);
+            object.emplace_back(list[i].name, write(list[i]));  // as a vector: names are known to differ
+        }
+    }
+
+    void write_header() {
+        const Scene absent;
+        out_["aleph"] = 1;
+        if (!scene_.name.empty()) out_["name"] = scene_.name;
+        if (at_.rate().denominator == 1) {
+            out_["fps"] = at_.rate().numerator;
+        } else {
+            out_["fps"] = fmt::format("{}/{}", at_.rate().numerator, at_.rate().denominator);
+        }
+        if (scene_.range) out_["frames"] = {scene_.range->first, scene_.range->last};
+        if (!scene_.cuts.empty()) out_["cuts"] = scene_.cuts;
+        at_.place = "viewing";
+        if (scene_.viewing.frames_per_second != at_.rate().per_second()) {
+            at_.refuse(fmt::format("frames_per_second is {}, the frame rate {}: they have to agree",
+                                   scene_.viewing.frames_per_second, at_.rate().per_second()));
+        }
+        if (scene_.viewing.pixels_per_degree != absent.viewing.pixels_per_degree) {
+            out_["viewing"]["pixels_per_degree"] = scene_.viewing.pixels_per_degree;
+        }
+        if (scene_.viewing.display_white != absent.viewing.display_white) {
+            out_["viewing"]["display_white"] = scene_.viewing.display_white;
+        }
+        if (scene_.exposure) out_["exposure"] = *scene_.exposure;
+        if (!scene_.camera.empty()) out_["camera"] = scene_.camera;
+        if (scene_.environment) {
+            at_.place = "environment";
+            validate(*scene_.environment, at_.file, at_.place);
+            out_["environment"] = write_vector(*scene_.environment, at_.rate());
+        }
+        for (const auto& [key, value] : scene_.settings) {
+            std::visit([&, name = key](const auto& v) { out_["settings"][name] = v; }, value);
+        }
+    }
+
+    ordered_json write_mesh(const Mesh& mesh) const {
+        if (!mesh.targets.empty() || mesh.skin != no_index) {
+            at_.refuse("a scene file cannot hold morph targets and skins: keep the mesh in a .glb and include that");
+        }
+        ordered_json out;
+        if (mesh.cage != no_index) {
+            out["shape"] = {{"type", "cage"}, {"cage", at_.name_in(scene_.cages, mesh.cage)}};
+            if (mesh.cage_part != 0) out["shape"]["part"] = mesh.cage_part;
+        } else if (mesh.shape) {
+            validate(*mesh.shape, at_.file, at_.place);
+            out["shape"] = write_shape(*mesh.shape);
+        } else {
+            out["shape"] = write_triangles(mesh, points_of(mesh), at_.rate());
+        }
+        if (mesh.material != no_index) out["material"] = at_.name_in(scene_.materials, mesh.material);
+        at_.track(out, "present", mesh.present, Mesh{}.present, write_visibility);
+        return out;
+    }
+
+    const PointCache* points_of(const Mesh& mesh) const {
+        if (mesh.points == no_index) return nullptr;
+        at_.name_in(scene_.point_caches, mesh.points);
+        const PointCache& cache = scene_.point_caches[static_cast<std::size_t>(mesh.points)];
+        for (const std::uint32_t point : mesh.vertex_points) {
+            if (point >= cache.point_count())
+                at_.refuse(fmt::format("its points \"{}\" have no point {}", cache.name, point));
+        }
+        return &cache;
+    }
+
+    ordered_json write_point_cache(const PointCache& cache) const {
+        if (cache.positions.empty()) at_.refuse("it has no positions");
+        validate(cache.sampling, cache.positions.size(), at_.file, at_.place);
+        return write_points(cache, at_.rate());
+    }
+
+    ordered_json write_control_mesh(const Cage& cage) const {
+        const std::string points = at_.name_in(scene_.point_caches, cage.points);
+        try {
+            validate(cage, scene_.point_caches[static_cast<std::size_t>(cage.points)].point_count());
+        } catch (const InputError& error) {
+            at_.refuse(error.reason());
+        }
+        return write_cage(cage, points);
+    }
+
+    ordered_json write_node(std::size_t index) const {
+        const Node absent;
+        const Node& node = scene_.nodes[index];
+        ordered_json out = {{"name", node.name}};
+        if (node.parent != no_index) {
+            const std::string parent = at_.name_in(scene_.nodes, node.parent);
+            if (parent.empty())
+                at_.refuse(fmt::format("its parent, node {}, needs a name in a scene file", node.parent));
+            out["parent"] = parent;
+        }
+        at_.track(out, "translation", node.translation, absent.translation, write_vector);
+        if (node.axis_rotation) {
+            out["rotation"]["axis"] = write_dvec3(node.axis_rotation->axis);
+            at_.angle(out["rotation"], "degrees", "radians", node.axis_rotation->angle);
+        } else {
+            at_.track(out, "rotation", node.rotation, absent.rotation, write_quaternion);
+        }
+        at_.track(out, "scale", node.scale, absent.scale, write_scale);
+        if (node.matrix) {
+            validate(*node.matrix, at_.file, at_.place + " matrix");
+            out["matrix"] = write_matrix(*node.matrix, at_.rate());
+        }
+        if (node.operations)
+            out["operations"] = write_operations(*node.operations, at_.rate(), at_.file, at_.place + " operations");
+        at_.track(out, "inherits", node.inherits, absent.inherits, write_visibility);
+        at_.track(out, "visible", node.visible, absent.visible, write_visibility);
+        if (node.meshes.size() == 1) {
+            out["mesh"] = at_.name_in(scene_.meshes, node.meshes.front());
+        } else {
+            for (const int mesh : node.meshes) out["meshes"].push_back(at_.name_in(scene_.meshes, mesh));
+        }
+        if (node.camera != no_index) out["camera"] = at_.name_in(scene_.cameras, node.camera);
+        if (node.light != no_index) out["light"] = at_.name_in(scene_.lights, node.light);
+        write_includes(out, static_cast<int>(index));
+        return out;
+    }
+
+    void write_includes(ordered_json& out, int node) const {
+        ordered_json paths = ordered_json::array();
+        for (const Include& include : scene_.includes) {
+            if (include.node == node) paths.push_back(include.path);
+        }
+        if (!paths.empty()) out["include"] = paths.size() == 1 ? paths.front() : paths;
+    }
+
+    const Scene& scene_;
+    SceneWriting at_;
+    ordered_json out_;
+};
+
+template <class Element>
+std::string first_difference(const char* kind, const std::vector<Element>& a, const std::vector<Element>& b) {
+    for (std::size_t i = 0; i < std::min(a.size(), b.size()); ++i) {
+        if (!(a[i] == b[i])) return place_of(kind, a, i);
+    }
+    return a.size() == b.size() ? "" : fmt::format("the list of {}s", kind);
+}
+
+std::string first_difference(const Scene& a, const Scene& b) {
+    for (const std::string& place :
+         {first_difference("node", a.nodes, b.nodes), first_difference("points", a.point_caches, b.point_caches),
+          first_difference("cage", a.cages, b.cages), first_difference("mesh", a.meshes, b.meshes),
+          first_difference("material", a.materials, b.materials), first_difference("image", a.images, b.images),
+          first_difference("light", a.lights, b.lights), first_difference("camera", a.cameras, b.cameras)}) {
+        if (!place.empty()) return place;
+    }
+    return a.includes == b.includes ? "header" : "includes";
+}
+
+}  // namespace
+
+std::string write_scene_text(const Scene& scene, const std::string& file) {
+    Scene own = without_includes(scene, file);
+    const std::string text = format_json(Writer(own, file).write(), file);
+    // What the format cannot say, in one place and for certain: read it again.
+    for (SceneImage& image : own.images) {
+        if (image.path.empty())
+            throw InputError(file, "image " + image.name, "a scene file needs the path of a picture");
+        image.bytes = {};
+        image.floats = {};
+    }
+    own.file.clear();
+    own.warnings.clear();
+    Scene again = read_scene_text(text, file).scene;
+    again.warnings.clear();
+    if (again != own) {
+        throw InputError(file, first_difference(own, again), "holds something that a scene file cannot say exactly");
+    }
+    return text;
+}
+
+}  // namespace aleph

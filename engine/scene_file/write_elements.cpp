@@ -1,0 +1,92 @@
+#include "engine/scene_file/write_elements.h"
+
+#include "engine/scene_file/tracks.h"
+
+namespace aleph {
+
+using nlohmann::ordered_json;
+
+namespace {
+
+ordered_json write_texture(const SceneWriting& at, const TextureRef& texture) {
+    ordered_json out = at.name_in(at.scene.images, texture.image);
+    if (texture == TextureRef{.image = texture.image}) return out;
+    out = {{"image", out}};
+    if (texture.uv_set != 0) out["uv_set"] = texture.uv_set;
+    const auto word = [](Wrap wrap) { return wrap_words[static_cast<std::size_t>(wrap)]; };
+    if (texture.wrap_u != texture.wrap_v) {
+        out["wrap"] = {word(texture.wrap_u), word(texture.wrap_v)};
+    } else if (texture.wrap_u != Wrap::repeat) {
+        out["wrap"] = word(texture.wrap_u);
+    }
+    if (texture.nearest) out["filter"] = "nearest";
+    if (texture.uv_offset != glm::dvec2(0.0)) out["offset"] = {texture.uv_offset.x, texture.uv_offset.y};
+    if (texture.uv_scale != glm::dvec2(1.0)) out["scale"] = {texture.uv_scale.x, texture.uv_scale.y};
+    if (texture.uv_rotation != 0.0) {
+        const auto degrees = exact_degrees(texture.uv_rotation);
+        out[degrees ? "rotation" : "rotation_radians"] = degrees.value_or(texture.uv_rotation);
+    }
+    return out;
+}
+
+}  // namespace
+
+void SceneWriting::angle(ordered_json& out, const char* degrees_key, const char* radians_key,
+                         const Track<double>& value) const {
+    validate(value, file, place + " " + degrees_key);
+    if (const auto degrees = write_degrees(value, rate())) {
+        out[degrees_key] = *degrees;
+    } else {
+        out[radians_key] = write_number(value, rate());
+    }
+}
+
+ordered_json write_material(const SceneWriting& at, const Material& material) {
+    const Material absent = absent_material();
+    ordered_json out = ordered_json::object();
+    for (const auto& field : material_colors) {
+        at.track(out, field.key, material.*field.member, absent.*field.member, write_vector);
+    }
+    for (const auto& field : material_numbers) {
+        at.track(out, field.key, material.*field.member, absent.*field.member, write_number);
+    }
+    for (const auto& field : material_textures) {
+        if ((material.*field.member).image != no_index) out[field.key] = write_texture(at, material.*field.member);
+    }
+    if (material.alpha_mode != absent.alpha_mode) {
+        out["alpha_mode"] = alpha_words[static_cast<std::size_t>(material.alpha_mode)];
+    }
+    if (material.alpha_cutoff != absent.alpha_cutoff) out["alpha_cutoff"] = material.alpha_cutoff;
+    if (material.unlit) out["unlit"] = true;
+    if (material.double_sided) out["double_sided"] = true;
+    return out;
+}
+
+ordered_json write_light(const SceneWriting& at, const Light& light) {
+    const Light absent;
+    ordered_json out = {{"type", light_words[static_cast<std::size_t>(light.kind)]}};
+    at.track(out, "color", light.color, absent.color, write_vector);
+    at.track(out, "intensity", light.intensity, absent.intensity, write_number);
+    at.track(out, "range", light.range, absent.range, write_number);
+    for (const auto& field : light_cones) {
+        if (light.*field.member != absent.*field.member) {
+            at.angle(out, field.key, field.key_in_radians, light.*field.member);
+        }
+    }
+    return out;
+}
+
+ordered_json write_camera(const SceneWriting& at, const Camera& camera) {
+    const Camera absent;
+    ordered_json out = ordered_json::object();
+    if (camera.fov != absent.fov) at.angle(out, "fov", "fov_radians", camera.fov);
+    if (camera.orthographic || camera.half_height != absent.half_height) out["orthographic"] = camera.orthographic;
+    for (const auto& field : camera_numbers) {
+        at.track(out, field.key, camera.*field.member, absent.*field.member, write_number);
+    }
+    if (camera.near_plane != absent.near_plane) out["near"] = camera.near_plane;
+    if (camera.shutter != absent.shutter) out["shutter"] = {camera.shutter.x, camera.shutter.y};
+    return out;
+}
+
+}  // namespace aleph

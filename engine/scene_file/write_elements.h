@@ -1,0 +1,50 @@
+#pragma once
+// What the parts of the scene file writer share, and the parts that write one kind of element each; the reading half is
+// elements.cpp. Only write*.cpp use them.
+
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "engine/base/errors.h"
+#include "engine/scene/scene.h"
+
+namespace aleph {
+
+/// The scene that is written, and where in it the writer is.
+struct SceneWriting {
+    const Scene& scene;
+    const std::string& file;
+    std::string place;  ///< what is being written, for errors
+
+    const FrameRate& rate() const { return scene.frame_rate; }
+    [[noreturn]] void refuse(const std::string& reason) const { throw InputError(file, place, reason); }
+
+    template <class List>
+    const std::string& name_in(const List& list, int index) const {
+        if (index < 0 || static_cast<std::size_t>(index) >= list.size())
+            refuse(fmt::format("there is no element {}", index));
+        return list[static_cast<std::size_t>(index)].name;
+    }
+
+    /// Writes a track under a key unless it says what an absent key says.
+    template <class T, class Write>
+    void track(nlohmann::ordered_json& out, const char* key, const Track<T>& value, const Track<T>& absent,
+               const Write& write) const {
+        if (value == absent) return;
+        validate(value, file, place + " " + key);
+        out[key] = write(value, rate());
+    }
+
+    /// In degrees where they give back every bit, else in radians.
+    void angle(nlohmann::ordered_json& out, const char* degrees_key, const char* radians_key,
+               const Track<double>& value) const;
+};
+
+nlohmann::ordered_json write_material(const SceneWriting& at, const Material& material);
+nlohmann::ordered_json write_light(const SceneWriting& at, const Light& light);
+nlohmann::ordered_json write_camera(const SceneWriting& at, const Camera& camera);
+
+}  // namespace aleph

@@ -1,0 +1,33 @@
+#pragma once
+// Checks a subdivision cage before OpenSubdiv sees it: what it does not check corrupts memory or ends the process
+// (HARD_CASES section 12).
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "engine/scene/scene.h"
+
+namespace aleph {
+
+/// The highest level that Cage::level and Cage::max_level may name.
+inline constexpr int max_subdivision_level = 10;
+
+/// How crowded a cage is: the sum, over its points and faces of more than 16 neighbours, of their number squared. What
+/// OpenSubdiv's time and memory grow with; at most `max_crowding` (one point of 2048 neighbours: 1 s).
+/// @param cage  with indices in range
+std::size_t measure_crowding(const Cage& cage, std::size_t cage_points);
+inline constexpr std::size_t max_crowding = std::size_t{1} << 22;
+
+/// Checks sizes, indices and numbers. Refused: faces of fewer than 3 or of repeated points, indices out of range, too
+/// crowded cages, a sharp edge at an inner point of two edges, Loop faces that are no
+/// triangles, arrays that do not fit each other, numbers that are not finite.
+/// @param cage_points  how many points the cage's point cache has
+/// @throws InputError (place: the cage's name)
+void validate(const Cage& cage, std::size_t cage_points);
+
+/// What is let pass and a user should know: creases that follow no edge (ignored), faces that repeat another, edges of
+/// more than two faces (they become sharp). Of a valid cage.
+std::vector<std::string> list_warnings(const Cage& cage);
+
+}  // namespace aleph

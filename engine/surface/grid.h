@@ -1,0 +1,57 @@
+#pragma once
+// Triangles over a cage's faces at a level: which faces share which vertices, and where every vertex and triangle lies
+// on the limit surface. Included by the sources of limit_surface.h only.
+
+#include <cstdint>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <vector>
+
+#include "engine/surface/patches.h"
+#include "engine/surface/topology.h"
+
+namespace aleph {
+
+/// A vertex of the triangles. Faces that meet at it name the same location for its position, so that there are no
+/// cracks; where the surface is infinitely sharp they have vertices of their own, for their normals, and at seams of
+/// the texture.
+struct GridVertex {
+    LimitLocation position, normal, uv;
+};
+
+/// Half of a cell of a face's grid (a Loop face: every second triangle stands on its head).
+struct GridTriangle {
+    int face = 0;                ///< of the parametrisation, as in LimitLocation
+    std::uint16_t i = 0, j = 0;  ///< cell
+    std::uint8_t half = 0;
+};
+
+/// The triangles of one part.
+struct PartGrid {
+    std::vector<GridVertex> vertices;
+    std::vector<GridTriangle> triangles;
+    std::vector<glm::uvec3> corners;  ///< as triangles, into vertices
+};
+
+/// What grid cells are in a face of the parametrisation.
+struct FaceGrid {
+    std::vector<std::uint16_t> cells;  ///< along an edge, by face
+    bool triangular = false;
+
+    /// A triangle's corners in cells.
+    void find_corners(const GridTriangle& triangle, glm::ivec2 (&corners)[3]) const;
+};
+
+struct SurfaceGrid {
+    int level = 0;  ///< at least 1 where some face is no quad (triangle for Loop)
+    FaceGrid faces;
+    std::vector<PartGrid> parts;
+};
+
+/// The grid of every face that is drawn (no hole), in the cage's order of faces; every edge of the cage has 2^level
+/// segments.
+/// @param refiner  of the cage
+/// @throws InputError where the triangles would be too many
+SurfaceGrid make_surface_grid(const Cage& cage, const Far::TopologyRefiner& refiner, int level);
+
+}  // namespace aleph

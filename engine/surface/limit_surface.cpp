@@ -1,0 +1,235 @@
+#include "engine/surface/limit_surface.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+
+#include "engine/base/errors.h"
+#include "engine/base/parallel.h"
+#include "engine/surface/cage_checks.h"
+#include "engine/surface/grid.h"
+#include "engine/surface/patches.h"
+#include "engine/surface/topology.h"
+
+namespace aleph {
+
+namespace {
+
+struct SurfaceVertex {
+    LimitSample position, normal;
+    LimitLocation normal_location;
+};
+
+struct Part {
+    std::vector<SurfaceVertex> vertices;
+    std::vector<GridTriangle> triangles;
+    std::vector<glm::uvec3> corners;
+    std::vector<glm::vec2> uv;
+};
+
+/// Unit, or 0 where the tangents are parallel or nothing.
+glm::dvec3 normal_of(const Tangents& tangents) {
+    const double longest = std::max(glm::length(tangents.ds), glm::length(tangents.dt));
+    if (!(longest > 0.0)) return glm::dvec3(0.0);
+    const glm::dvec3 normal = glm::cross(tangents.ds / longest, tangents.dt / longest);
+    const double length = glm::length(normal);
+    return length > 1e-9 ? normal / length : glm::dvec3(0.0);
+}
+
+}  // namespace
+
+struct LimitSurface::State {
+    std::unique_ptr<Far::TopologyRefiner> refiner;
+    std::unique_ptr<LimitPatches> patches;
+    int level = 0;
+    FaceGrid faces;
+    std::vector<Part> parts;
+
+    const Part& part(int index) const {
+        ALEPH_CHECK(index >= 0 && static_cast<std::size_t>(index) < parts.size(),
+                    fmt::format("part {} of {}", index, parts.size()));
+        return parts[static_cast<std::size_t>(index)];
+    }
+
+    glm::dvec3 compute_normal(std::span<const glm::dvec3> control, const SurfaceVertex& vertex) const {
+        glm::dvec3 normal = normal_of(patches->tangents(control, vertex.normal));
+        // Where the tangents fail (a degenerate cage, a point between two faces) the surface close by says which way is
+        // out.
+        const double centre = faces.triangular ? 1.0 / 3.0 : 0.5;
+        const LimitLocation& at = vertex.normal_location;
+        for (double step = 1.0 / 1024.0; step <= 1.0 && normal == glm::dvec3(0.0); step *= 32.0) {
+            Tangents tangents;
+            patches->evaluate(control, at.face, at.s + step * (centre - at.s), at.t + step * (centre - at.t),
+                              &tangents);
+            normal = normal_of(tangents);
+        }
+        return normal == glm::dvec3(0.0) ? glm::dvec3(0.0, 1.0, 0.0) : normal;
+    }
+};
+
+LimitSurface::LimitSurface(const Cage& cage, std::size_t cage_points, int level) : state_(std::make_unique<State>()) {
+    if (level < 0 || level > max_subdivision_level) {
+        throw InputError("", "cage " + printable(cage.name),
+                         fmt::format("level {} is not within 0 to {}", level, max_subdivision_level));
+    }
+    State& state = *state_;
+    state.refiner = make_refiner(cage, cage_points);
+    SurfaceGrid grid = make_surface_grid(cage, *state.refiner, level);
+    state.level = grid.level;
+    state.faces = std::move(grid.faces);
+    state.patches = std::make_unique<LimitPatches>(*state.refiner, measure_crowding(cage, cage_points));
+    for (PartGrid& from : grid.parts) {
+        Part& part = state.parts.emplace_back();
+        part.triangles = std::move(from.triangles);
+        part.corners = std::move(from.corners);
+        part.vertices.reserve(from.vertices.size());
+        std::vector<LimitLocation> uv;
+        for (const GridVertex& vertex : from.vertices) {
+            const LimitSample position = state.patches->make_sample(vertex.position);
+            part.vertices.push_back(
+                {position, vertex.normal == vertex.position ? position : state.patches->make_sample(vertex.normal),
+                 vertex.normal});
+            uv.push_back(vertex.uv);
+        }
+        if (!cage.face_uv.empty()) part.uv = state.patches->evaluate_uv(cage.uv, uv);
+    }
+    state.patches->finish_samples();
+}
+
+LimitSurface::~LimitSurface() = default;
+
+int LimitSurface::level() const {
+    return state_->level;
+}
+
+int LimitSurface::part_count() const {
+    return static_cast<int>(state_->parts.size());
+}
+
+std::size_t LimitSurface::vertex_count(int part) const {
+    return state_->part(part).vertices.size();
+}
+
+std::size_t LimitSurface::triangle_count(int part) const {
+    return state_->part(part).triangles.size();
+}
+
+const std::vector<glm::uvec3>& LimitSurface::triangles(int part) const {
+    return state_->part(part).corners;
+}
+
+std::vector<glm::dvec3> LimitSurface::make_control_points(std::span<const glm::dvec3> cage_points) const {
+    return state_->patches->make_control_points(cage_points);
+}
+
+void LimitSurface::evaluate_vertices(int part, std::span<const glm::dvec3> control, std::vector<glm::dvec3>& positions,
+                                     std::vector<glm::vec3>& normals) const {
+    const std::vector<SurfaceVertex>& vertices = state_->part(part).vertices;
+    positions.resize(vertices.size());
+    normals.resize(vertices.size());
+    constexpr std::size_t vertices_per_chunk = 4096;
+    parallel_for(vertices.size(), vertices_per_chunk, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) {
+            positions[i] = state_->patches->position(control, vertices[i].position);
+            normals[i] = glm::vec3(state_->compute_normal(control, vertices[i]));
+        }
+    });
+}
+
+glm::dvec3 LimitSurface::evaluate(int part, std::span<const glm::dvec3> control, int primitive, double u,
+                                  double v) const {
+    const std::vector<GridTriangle>& triangles = state_->part(part).triangles;
+    ALEPH_CHECK(primitive >= 0 && static_cast<std::size_t>(primitive) < triangles.size(),
+                fmt::format("triangle {} of {}", primitive, triangles.size()));
+    ALEPH_CHECK(!std::isnan(u) && !std::isnan(v), fmt::format("({}, {})", u, v));
+    u = std::clamp(u, 0.0, 1.0);
+    v = std::clamp(v, 0.0, 1.0 - u);
+    const GridTriangle& triangle = triangles[static_cast<std::size_t>(primitive)];
+    glm::ivec2 corners[3];
+    state_->faces.find_corners(triangle, corners);
+    const glm::dvec2 place =
+        (1.0 - u - v) * glm::dvec2(corners[0]) + u * glm::dvec2(corners[1]) + v * glm::dvec2(corners[2]);
+    const glm::dvec2 st = place / static_cast<double>(state_->faces.cells[static_cast<std::size_t>(triangle.face)]);
+    return state_->patches->evaluate(control, triangle.face, st.x, st.y);
+}
+
+Mesh LimitSurface::make_mesh(int part, std::span<const glm::dvec3> control) const {
+    Mesh mesh;
+    std::vector<glm::dvec3> positions;
+    evaluate_vertices(part, control, positions, mesh.normals);
+    mesh.positions.assign(positions.begin(), positions.end());
+    mesh.uv[0] = state_->part(part).uv;
+    mesh.triangles = state_->part(part).corners;
+    mesh.cage_part = part;
+    return mesh;
+}
+
+std::vector<glm::dvec3> cage_points_at(const Scene& scene, const Cage& cage, double seconds) {
+    const PointCache& cache = scene.point_caches[static_cast<std::size_t>(cage.points)];
+    const SampleSpan span = find_samples(cache.sampling, cache.positions.size(), seconds);
+    const std::vector<glm::vec3>& from = cache.positions[span.floor];
+    const std::vector<glm::vec3>& to = cache.positions[span.ceil];
+    std::vector<glm::dvec3> points(from.begin(), from.end());
+    if (span.floor == span.ceil || span.fraction == 0.0) return points;
+    // Points that do not move stay the same bit for bit.
+    for (std::size_t i = 0; i < points.size(); ++i) points[i] += span.fraction * (glm::dvec3(to[i]) - points[i]);
+    return points;
+}
+
+namespace {
+
+const PointCache& find_points(const Scene& scene, const Cage& cage) {
+    const std::string place = "cage " + printable(cage.name);
+    if (cage.points < 0 || static_cast<std::size_t>(cage.points) >= scene.point_caches.size()) {
+        throw InputError(scene.file, place, "it has no points");
+    }
+    const PointCache& cache = scene.point_caches[static_cast<std::size_t>(cage.points)];
+    if (cache.positions.empty()) throw InputError(scene.file, place, "it has no points");
+    for (const auto& sample : cache.positions) {
+        if (sample.size() != cache.point_count()) throw InputError(scene.file, place, "its number of points changes");
+        for (const glm::vec3& p : sample) {
+            if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z)) {
+                throw InputError(scene.file, place, "one of its points is not finite");
+            }
+        }
+    }
+    return cache;
+}
+
+}  // namespace
+
+void tessellate_cage(Scene& scene, int cage_index) {
+    const Cage& cage = scene.cages[static_cast<std::size_t>(cage_index)];
+    const PointCache& cache = find_points(scene, cage);
+    std::shared_ptr<const LimitSurface> surface;
+    try {
+        surface = std::make_shared<const LimitSurface>(cage, cache.point_count(), cage.level);
+    } catch (const InputError& error) {
+        throw InputError(scene.file, error.place(), error.reason());
+    }
+    for (const Mesh& mesh : scene.meshes) {
+        if (mesh.cage != cage_index || (mesh.cage_part >= 0 && mesh.cage_part < surface->part_count())) continue;
+        throw InputError(scene.file, "mesh " + printable(mesh.name),
+                         fmt::format("cage {} has no faces for part {}", printable(cage.name), mesh.cage_part));
+    }
+    for (const std::string& warning : list_warnings(cage)) {
+        if (std::find(scene.warnings.begin(), scene.warnings.end(), warning) == scene.warnings.end()) {
+            scene.warnings.push_back(warning);
+        }
+    }
+    const std::vector<glm::dvec3> first(cache.positions.front().begin(), cache.positions.front().end());
+    const std::vector<glm::dvec3> control = surface->make_control_points(first);
+    for (Mesh& mesh : scene.meshes) {
+        if (mesh.cage != cage_index) continue;
+        Mesh made = surface->make_mesh(mesh.cage_part, control);
+        mesh.positions = std::move(made.positions);
+        mesh.normals = std::move(made.normals);
+        mesh.uv[0] = std::move(made.uv[0]);
+        mesh.triangles = std::move(made.triangles);
+        mesh.limit.surface = surface;
+    }
+}
+
+}  // namespace aleph

@@ -1,0 +1,185 @@
+// A corpus of hostile glTF and scene files, made here: every value of a file that holds one of everything is replaced
+// by what does harm, in turn, and files end early at every place. Each is loaded, posed and built for rays in a process
+// of its own and has to be refused in one sentence or to load, within 2 s and 512 MiB (HARD_CASES section 13).
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include "engine/load/load_scene.h"
+#include "engine/pose/pose.h"
+#include "engine/rays/ray_scene.h"
+#include "tests/support/child_cost.h"
+#include "tests/support/gltf_bad_input.h"
+#include "tests/support/gltf_deform_draft.h"
+
+namespace aleph {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// What a viewer does with a file first.
+void use(const fs::path& path) {
+    const Scene scene = load_scene(path);
+    const FrameRange range = frame_range(scene);
+    RayScene rays(scene);
+    for (const std::int64_t frame : {range.first, range.last})
+        rays.update(pose(scene, scene.frame_rate.seconds_of(frame)), glm::dvec3(0.0));
+}
+
+struct Tally {
+    int files = 0, refused = 0;
+
+    void add(const fs::path& path, const std::string& name) {
+        const ChildCost cost = run_in_child([&] { use(path); });
+        expect_bounded(cost, name);
+        ++files;
+        if (!cost.refused) return;
+        ++refused;
+        EXPECT_NE(cost.message.find(path.filename().string()), std::string::npos) << name << ": " << cost.message;
+        EXPECT_EQ(cost.message.find('\n'), std::string::npos) << name << ": " << cost.message;
+        EXPECT_LT(cost.message.size(), 1000u) << name;
+    }
+};
+
+/// As JSON texts: 1e400 is not a number that nlohmann would write.
+const std::vector<std::string>& hostile_values() {
+    static const std::vector<std::string> values = [] {
+        std::string deep = "0";
+        for (int i = 0; i < 4000; ++i) deep = "[" + deep + "]";
+        return std::vector<std::string>{"-1",          "4294967296", "18446744073709551615",
+                                        "1e308",       "1e400",      "-0.5",
+                                        "null",        "\"\"",       "\"../../../../etc/passwd\"",
+                                        "\"\\u0000\"", "true",       "{}",
+                                        "[]",          "[[]]",       "NaN",
+                                        deep};
+    }();
+    return values;
+}
+
+/// Pointers to every value below the root, containers too.
+void collect_pointers(const Json& value, const Json::json_pointer& at, std::vector<Json::json_pointer>& into) {
+    if (!at.empty()) into.push_back(at);
+    if (value.is_object())
+        for (const auto& [key, item] : value.items()) collect_pointers(item, at / key, into);
+    if (value.is_array())
+        for (std::size_t i = 0; i < value.size(); ++i) collect_pointers(value[i], at / i, into);
+}
+
+/// Calls each(text, name) with every value replaced by one hostile one after the other; `skip` leaves some out, in a
+/// fixed pattern, so that the whole stays quick.
+template <class Each>
+void replace_each_value(const Json& document, std::size_t skip, const Each& each) {
+    std::vector<Json::json_pointer> pointers;
+    collect_pointers(document, Json::json_pointer(), pointers);
+    const std::string mark = "\"HOSTILE\"";
+    std::size_t count = 0;
+    for (const Json::json_pointer& pointer : pointers) {
+        Json changed = document;
+        changed[pointer] = "HOSTILE";
+        const std::string text = changed.dump();
+        for (const std::string& value : hostile_values()) {
+            if (count++ % skip != 0) continue;
+            std::string hostile = text;
+            hostile.replace(hostile.find(mark), mark.size(), value);
+            each(hostile, pointer.to_string() + " = " + value.substr(0, 30));
+        }
+    }
+}
+
+const std::string scene_text = R"({"aleph": 1, "name": "n", "fps": "30000/1001", "frames": [0, 9], "cuts": [3, 5],
+  "viewing": {"pixels_per_degree": 31, "display_white": 100}, "exposure": 0.5, "camera": "eye",
+  "environment": {"keys": [[0, [0, 0, 0]], [12, [1, 1, 1]]], "interpolation": "step"}, "settings": {"gather": 16},
+  "materials": {"felt": {"base_color": [0.1, 0.5, 0.1]}, "lamp": {"emission": [1, 1, 1],
+    "emission_strength": {"values": [1, 2, 3], "start": 4, "period": 0.5}}},
+  "meshes": {"ball": {"shape": {"type": "sphere", "radius": 0.5, "segments": 8}, "material": "felt"}},
+  "lights": {"key": {"type": "point", "intensity": 40, "range": 9}}, "cameras": {"eye": {"fov": 45}},
+  "nodes": [{"name": "table", "shape": {"type": "box", "size": [1, 2, 3]}, "material": "lamp", "children": [
+      {"name": "b1", "mesh": "ball", "translation": {"keys": [[0, [0, 0, 0]], [5, [1, 0, 0]]], "unit": "seconds"}},
+      {"rotation": {"axis": [0, 1, 0], "degrees": {"keys": [[0, 0], [30, 720]]}}, "scale": 2, "visible": false}]},
+    {"name": "b2", "instance": "b1", "parent": "table", "rotation": [0, 0, 0, 1]},
+    {"name": "c", "camera": "eye", "light": "key", "matrix": [1,0,0,4, 0,1,0,5, 0,0,1,6, 0,0,0,1]},
+    {"shape": {"type": "lathe", "segments": 6, "profile": [[0, 0], [1, 0.5], [0, 1]]}},
+    {"shape": {"type": "torus", "radius": 2, "tube_radius": 0.5, "segments": 8}},
+    {"shape": {"type": "mesh", "triangles": [[0, 1, 2]], "positions": {"keys": [[0, [[0, 0, 0], [1, 0, 0], [0, 1, 0]]],
+      [9, [[0, 0, 1], [1, 0, 1], [0, 1, 1]]]]}, "uv": [[0, 0], [1, 0], [0, 1]]}},
+    {"shape": {"type": "cage", "cage": {"positions": [[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]], "faces": [[0, 1, 2, 3]],
+      "creases": [{"points": [0, 1, 2], "sharpness": 2}], "corners": [{"point": 0, "sharpness": 1}], "level": 1}}}]})";
+
+TEST(HostileCorpus, S13_11_SceneFilesWithEveryValueReplaced) {
+    const ScratchFolder folder;
+    Tally tally;
+    write_text(folder / "good.json", scene_text);
+    const ChildCost good = run_in_child([&] { use(folder / "good.json"); });
+    ASSERT_TRUE(good.ended_well && !good.refused) << good.message;
+    replace_each_value(Json::parse(scene_text), 7, [&](const std::string& text, const std::string& name) {
+        write_text(folder / "bad.json", text);
+        tally.add(folder / "bad.json", name);
+    });
+    EXPECT_GT(tally.files, 500);
+    EXPECT_GT(tally.refused, tally.files / 2);
+    std::printf("%d scene files, %d of them refused\n", tally.files, tally.refused);
+}
+
+TEST(HostileCorpus, S13_11_GltfFilesWithEveryValueReplaced) {
+    const ScratchFolder folder;
+    Tally tally;
+    for (GltfDraft draft : {full_draft(), morph_draft(), skin_draft()}) {
+        const std::string whole = draft.to_text();
+        write_text(folder / "good.gltf", whole);
+        const ChildCost good = run_in_child([&] { use(folder / "good.gltf"); });
+        ASSERT_TRUE(good.ended_well && !good.refused) << good.message;
+        replace_each_value(Json::parse(whole), 9, [&](const std::string& text, const std::string& name) {
+            write_text(folder / "bad.gltf", text);
+            tally.add(folder / "bad.gltf", name);
+        });
+    }
+    EXPECT_GT(tally.files, 500);
+    EXPECT_GT(tally.refused, tally.files / 2);
+    std::printf("%d glTF files, %d of them refused\n", tally.files, tally.refused);
+}
+
+TEST(HostileCorpus, S13_11_FilesThatEndEarly) {
+    const ScratchFolder folder;
+    Tally tally;
+    const Bytes glb = full_draft().to_glb();
+    for (std::size_t size = 0; size < glb.size(); size += size < 64 ? 1 : 1 + glb.size() / 150) {
+        write_bytes(folder / "bad.glb", Bytes(glb.begin(), glb.begin() + static_cast<std::ptrdiff_t>(size)));
+        tally.add(folder / "bad.glb", std::to_string(size) + " bytes");
+    }
+    EXPECT_EQ(tally.refused, tally.files) << "a .glb that ends early is no .glb";
+    Tally scenes;
+    for (std::size_t size = 0; size + 1 < scene_text.size(); size += 1 + scene_text.size() / 150) {
+        write_text(folder / "bad.json", scene_text.substr(0, size));
+        scenes.add(folder / "bad.json", std::to_string(size) + " characters");
+    }
+    EXPECT_EQ(scenes.refused, scenes.files);
+    std::printf("%d files that end early\n", tally.files + scenes.files);
+}
+
+TEST(HostileCorpus, S13_11_TheLimitOfMemoryIsASetting) {
+    const ScratchFolder folder;
+    std::string cuts = R"({"aleph": 1, "cuts": [0)", numbers = R"({"asset": {"version": "2.0"}, "extras": [0)";
+    for (int i = 1; i < 200000; ++i) {
+        cuts += fmt::format(",{}", i);
+        numbers += ",0";
+    }
+    write_text(folder / "cuts.json", cuts + R"(], "nodes": [{"light": {"type": "point", "intensity": 1}}]})");
+    write_text(folder / "numbers.gltf", numbers + "]}");
+    for (const char* name : {"cuts.json", "numbers.gltf"}) {
+        EXPECT_NO_THROW(load_scene(folder / name)) << name;
+        try {
+            load_scene(folder / name, {std::size_t{16} << 20});
+            ADD_FAILURE() << name << " was read";
+        } catch (const InputError& error) {
+            EXPECT_THAT(error.reason(), testing::HasSubstr("MiB")) << name;
+        }
+    }
+}
+
+}  // namespace
+}  // namespace aleph

@@ -1,0 +1,302 @@
+// Motion of what deforms: RP-14 to RP-16 of HARD_CASES.md, skins and morph targets by known displacements.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <glm/gtc/matrix_transform.hpp>
+#include <numbers>
+#include <optional>
+
+#include "engine/rays/first_hits.h"
+#include "engine/surface/limit_surface.h"
+#include "motion/model_motion.h"
+#include "motion/reprojection.h"
+#include "tests/support/deforming_scenes.h"
+
+namespace aleph {
+namespace {
+
+constexpr int width = 64, height = 48;
+
+/// A camera at +z that sees the sheet.
+int add_camera(Scene& scene, double distance = 4.0) {
+    scene.cameras.emplace_back();
+    Node node;
+    node.camera = 0;
+    node.translation = glm::dvec3(0.1, -0.2, distance);
+    scene.nodes.push_back(node);
+    return static_cast<int>(scene.nodes.size()) - 1;
+}
+
+struct Observed {
+    SceneFrame now, other;
+    CameraView view_now, view_other;
+    Image<Hit> hits;
+    MotionField motion;
+};
+
+Observed observe(const Scene& scene, double from, double to) {
+    Observed seen;
+    seen.now = pose(scene, from);
+    seen.other = pose(scene, to);
+    seen.view_now = make_camera_view(seen.now.cameras[0], width, height);
+    seen.view_other = make_camera_view(seen.other.cameras[0], width, height);
+    RayScene rays(scene);
+    rays.update(seen.now, compute_anchor(seen.view_now));
+    seen.hits = cast_first_hits(rays, seen.view_now);
+    seen.motion =
+        compute_model_motion(scene, {&seen.now, &seen.view_now}, {&seen.other, &seen.view_other}, seen.hits, {});
+    return seen;
+}
+
+std::size_t count_hits(const Observed& seen) {
+    std::size_t count = 0;
+    for (const Hit& hit : seen.hits.pixels) count += hit.instance != no_index;
+    return count;
+}
+
+glm::dvec2 project(const CameraView& view, const glm::dvec3& world) {
+    return project_camera_point(view, to_camera(view, world));
+}
+
+/// Largest difference between the motion found and that of where `at_now` and `at_other` put a rest point, pixels.
+/// Points of the sheet's triangles keep their barycentrics, so that rest points are known from the hits.
+template <class AtNow, class AtOther>
+double largest_error(const Observed& seen, const Mesh& rest, const AtNow& at_now, const AtOther& at_other) {
+    double largest = 0.0;
+    for (std::size_t i = 0; i < seen.hits.size(); ++i) {
+        const Hit& hit = seen.hits.pixels[i];
+        if (hit.instance == no_index) continue;
+        const glm::uvec3 t = rest.triangles[static_cast<std::size_t>(hit.primitive)];
+        const glm::dvec2 uv = clamp_barycentrics(hit);
+        const auto between = [&](const auto& place) {
+            return (1.0 - uv.x - uv.y) * place(rest.positions[t.x]) + uv.x * place(rest.positions[t.y]) +
+                   uv.y * place(rest.positions[t.z]);
+        };
+        const glm::dvec2 expected =
+            project(seen.view_other, between(at_other)) - project(seen.view_now, between(at_now));
+        largest = std::max(largest, glm::length(expected - seen.motion.displacement.pixels[i]));
+    }
+    return largest;
+}
+
+TEST(Deforming, RP14_MovingAllVerticesIsMovingTheObject) {
+    const glm::vec3 shift(0.25f, -0.125f, 0.5f);
+    Scene deforming = make_sheet_scene(), rigid = make_sheet_scene();
+    add_cache(deforming, 0, {0.0, 1.0},
+              [&](const glm::vec3& p, std::size_t sample) { return p + shift * static_cast<float>(sample); });
+    rigid.nodes[0].translation = keyed<glm::dvec3>({0.0, 1.0}, {glm::dvec3(0.0), glm::dvec3(shift)});
+    add_camera(deforming);
+    add_camera(rigid);
+    for (const double from : {0.0, 0.3}) {
+        const Observed a = observe(deforming, from, from + 0.4), b = observe(rigid, from, from + 0.4);
+        EXPECT_GT(count_hits(a), 500u);
+        double largest = 0.0;
+        for (std::size_t i = 0; i < a.hits.size(); ++i) {
+            if (a.hits.pixels[i].instance == no_index || b.hits.pixels[i].instance == no_index) continue;
+            // Rays meet both in the same place up to their own rounding, which moves the point and not its motion.
+            largest = std::max(largest, glm::length(a.motion.displacement.pixels[i] - b.motion.displacement.pixels[i]));
+        }
+        EXPECT_GT(glm::length(a.motion.displacement(width / 2, height / 2)), 1.0);
+        EXPECT_LT(largest, 1e-4);
+        // The same hits: the same motion.
+        const MotionField of_rigid =
+            compute_model_motion(rigid, {&b.now, &b.view_now}, {&b.other, &b.view_other}, a.hits, {});
+        double exact = 0.0;
+        for (std::size_t i = 0; i < a.hits.size(); ++i)
+            exact = std::max(exact, glm::length(a.motion.displacement.pixels[i] - of_rigid.displacement.pixels[i]));
+        EXPECT_LT(exact, 1e-6);
+    }
+}
+
+TEST(Deforming, RP14_WhatStandsStillBetweenSamplesMovesByExactlyNothing) {
+    Scene scene = make_sheet_scene();
+    add_cache(scene, 0, {0.0, 1.0, 2.0}, [](const glm::vec3& p, std::size_t sample) {
+        return p * (sample == 2 ? 3.0f : 1.1f) + glm::vec3(0.0f, 0.0f, 0.3f * p.x);
+    });
+    add_camera(scene);
+    const Observed seen = observe(scene, 0.2, 0.7);
+    EXPECT_FALSE(seen.now.meshes[0].positions.empty());
+    for (const glm::dvec2& d : seen.motion.displacement.pixels) EXPECT_EQ(d, glm::dvec2(0.0));
+    const Observed later = observe(scene, 1.2, 1.7);
+    EXPECT_GT(glm::length(later.motion.displacement(width / 2 + 10, height / 2)), 0.1);
+}
+
+TEST(Deforming, RP15_NoMotionAcrossAChangeOfTopology) {
+    Scene scene = make_sheet_scene(4);
+    scene.meshes.push_back(make_sheet(7));  // the surface from 1 s on
+    scene.nodes[0].meshes = {0, 1};
+    scene.meshes[0].present = keyed<double>({0.0, 1.0}, {1.0, 0.0}, Interpolation::step);
+    scene.meshes[1].present = keyed<double>({0.0, 1.0}, {0.0, 1.0}, Interpolation::step);
+    scene.nodes[0].translation = keyed<glm::dvec3>({0.0, 2.0}, {glm::dvec3(0.0), glm::dvec3(1.0, 0.0, 0.0)});
+    add_camera(scene);
+    const Observed across = observe(scene, 0.9, 1.1), before = observe(scene, 0.5, 0.9),
+                   after = observe(scene, 1.0, 1.5);
+    for (std::size_t i = 0; i < across.hits.size(); ++i) {
+        if (across.hits.pixels[i].instance != no_index) {
+            EXPECT_EQ(across.hits.pixels[i].instance, 0);
+            EXPECT_EQ(across.motion.validity.pixels[i], MotionValidity::no_counterpart);
+        }
+        EXPECT_EQ(across.motion.displacement.pixels[i], glm::dvec2(0.0));
+    }
+    EXPECT_EQ(before.hits(width / 2, height / 2).instance, 0);
+    EXPECT_EQ(after.hits(width / 2, height / 2).instance, 1);
+    for (const Observed* seen : {&before, &after}) {
+        EXPECT_EQ(seen->motion.validity(width / 2, height / 2), MotionValidity::valid);
+        EXPECT_GT(seen->motion.displacement(width / 2, height / 2).x, 1.0);
+    }
+}
+
+/// A cage that bends: the square of make_sheet as a subdivision surface whose corners rise.
+Scene make_cage_scene(bool moves) {
+    Scene scene;
+    PointCache points;
+    points.sampling = {TimeSampling::Kind::acyclic, 0.0, 1.0, {0.0, 1.0}};
+    const Mesh sheet = make_sheet(3);
+    points.positions = {sheet.positions, sheet.positions};
+    if (moves)
+        for (glm::vec3& p : points.positions[1]) p += glm::vec3(0.2f * p.y, 0.3f, 0.5f * p.x * p.x);
+    scene.point_caches = {points};
+    Cage cage;
+    cage.name = "sheet";
+    for (int y = 0; y < 3; ++y) {
+        for (int x = 0; x < 3; ++x) {
+            const int a = 4 * y + x;
+            cage.face_sizes.push_back(4);
+            for (const int p : {a, a + 1, a + 5, a + 4}) cage.face_points.push_back(p);
+        }
+    }
+    cage.points = 0;
+    scene.cages = {cage};
+    Mesh mesh;
+    mesh.cage = 0;
+    scene.meshes = {mesh};
+    tessellate_cage(scene, 0);
+    scene.nodes.resize(1);
+    scene.nodes[0].meshes = {0};
+    return scene;
+}
+
+TEST(Deforming, RP16_CagesAreReprojectedOnTheLimitSurface) {
+    Scene scene = make_cage_scene(true);
+    add_camera(scene);
+    const Observed seen = observe(scene, 0.25, 0.75);
+    const LimitSurface& surface = *scene.meshes[0].limit.surface;
+    // What the posed frame says against the surface asked by itself.
+    const auto control = [&](double seconds) {
+        return surface.make_control_points(cage_points_at(scene, scene.cages[0], seconds));
+    };
+    const std::vector<glm::dvec3> from = control(0.25), to = control(0.75);
+    double largest = 0.0, moved = 0.0;
+    for (std::size_t i = 0; i < seen.hits.size(); ++i) {
+        const Hit& hit = seen.hits.pixels[i];
+        if (hit.instance == no_index) continue;
+        const glm::dvec2 uv = clamp_barycentrics(hit);
+        const glm::dvec2 expected = project(seen.view_other, surface.evaluate(0, to, hit.primitive, uv.x, uv.y)) -
+                                    project(seen.view_now, surface.evaluate(0, from, hit.primitive, uv.x, uv.y));
+        largest = std::max(largest, glm::length(expected - seen.motion.displacement.pixels[i]));
+        moved = std::max(moved, glm::length(expected));
+    }
+    EXPECT_GT(count_hits(seen), 500u);
+    EXPECT_GT(moved, 1.0);
+    EXPECT_LT(largest, 1e-9);
+}
+
+TEST(Deforming, RP16_AStaticCageStandsStillBitForBitAndIsRigid) {
+    Scene scene = make_cage_scene(false);
+    add_camera(scene);
+    const Observed seen = observe(scene, 0.25, 0.75);
+    EXPECT_GT(count_hits(seen), 500u);
+    EXPECT_TRUE(seen.now.meshes[0].positions.empty());
+    for (const glm::dvec2& d : seen.motion.displacement.pixels) EXPECT_EQ(d, glm::dvec2(0.0));
+    Scene held = make_cage_scene(true);  // moves, but not between these times
+    add_camera(held);
+    const Observed late = observe(held, 1.5, 2.5);
+    EXPECT_FALSE(late.now.meshes[0].control.empty());
+    for (const glm::dvec2& d : late.motion.displacement.pixels) EXPECT_EQ(d, glm::dvec2(0.0));
+}
+
+TEST(Deforming, SkinnedPointsTurnWithTheirJoint) {
+    Scene scene = make_skin_scene();
+    Track<double> angle = keyed<double>({0.0, 1.0}, {0.0, std::numbers::pi / 2.0});
+    scene.nodes[2].axis_rotation = AxisRotation{{0.0, 0.0, 1.0}, angle};
+    add_camera(scene);
+    const double from = 0.1, to = 0.25;  // 13.5 degrees
+    const Observed seen = observe(scene, from, to);
+    EXPECT_GT(count_hits(seen), 500u);
+    const auto at = [&](double seconds) {
+        return [seconds](const glm::vec3& p) { return bent_by(p, seconds * std::numbers::pi / 2.0); };
+    };
+    EXPECT_LT(largest_error(seen, scene.meshes[0], at(from), at(to)), 1e-6);
+    EXPECT_GT(glm::length(seen.motion.displacement(width / 2 + 12, height / 2)), 1.0);
+}
+
+TEST(Deforming, RP07_PathsOfTurningJointsAreArcs) {
+    Scene scene = make_skin_scene();
+    scene.nodes[2].axis_rotation =
+        AxisRotation{{0.0, 0.0, 1.0}, keyed<double>({0.0, 1.0}, {0.0, 2.0 * std::numbers::pi})};
+    add_camera(scene);
+    const Observed seen = observe(scene, 0.0, 1.0);  // once around
+    std::size_t checked = 0;
+    for (std::size_t i = 0; i < seen.hits.size(); ++i) {
+        const Hit& hit = seen.hits.pixels[i];
+        if (hit.instance == no_index) continue;
+        const glm::uvec3 t = scene.meshes[0].triangles[static_cast<std::size_t>(hit.primitive)];
+        const glm::dvec2 uv = clamp_barycentrics(hit);
+        const auto on_right = [&](std::uint32_t v) { return scene.meshes[0].positions[v].x > 0.0f; };
+        if (!on_right(t.x) || !on_right(t.y) || !on_right(t.z)) continue;
+        const glm::dvec3 p = point_between(scene.meshes[0].positions, t, uv);
+        const double radius = std::hypot(p.x, p.y) / 4.0 * seen.view_now.pixels_per_unit;
+        EXPECT_LT(glm::length(seen.motion.displacement.pixels[i]), 1e-9);
+        EXPECT_NEAR(seen.motion.path_length.pixels[i], 2.0 * std::numbers::pi * radius,
+                    0.01 * 2.0 * std::numbers::pi * radius);
+        ++checked;
+    }
+    EXPECT_GT(checked, 100u);
+}
+
+TEST(Deforming, MorphedPointsMoveByTheirTargets) {
+    Scene scene = make_sheet_scene();
+    Mesh& mesh = scene.meshes[0];
+    mesh.targets.resize(1);
+    for (const glm::vec3& p : mesh.positions) mesh.targets[0].positions.emplace_back(p.y, 0.5f * p.x, p.x * p.y);
+    mesh.target_weights = {keyed<double>({0.0, 1.0}, {0.0, 1.0})};
+    add_camera(scene);
+    const Observed seen = observe(scene, 0.25, 0.5);
+    EXPECT_GT(count_hits(seen), 400u);
+    const auto at = [](double weight) {
+        return [weight](const glm::vec3& rest) {
+            const glm::dvec3 p(rest);
+            return p + weight * glm::dvec3(p.y, 0.5 * p.x, p.x * p.y);
+        };
+    };
+    EXPECT_LT(largest_error(seen, mesh, at(0.25), at(0.5)), 1e-5);
+}
+
+TEST(Deforming, HiddenPointsAreFoundWhereTheyHaveMoved) {
+    Scene scene = make_sheet_scene(8);  // flat, then its right half folds behind a screen
+    add_cache(scene, 0, {0.0, 1.0}, [](const glm::vec3& p, std::size_t sample) {
+        return p - glm::vec3(0.0f, 0.0f, sample == 1 ? 2.0f : 0.0f);
+    });
+    scene.meshes.push_back(make_sheet(1));
+    Node screen;
+    screen.meshes = {1};
+    screen.translation = glm::dvec3(1.3, 0.0, -1.0);  // before the sheet only once that has gone back
+    scene.nodes.push_back(screen);
+    add_camera(scene);
+    Observed seen = observe(scene, 0.0, 1.0);
+    RayScene rays(scene);
+    rays.update(seen.other, compute_anchor(seen.view_other));
+    mark_hidden(seen.motion, scene, {&seen.other, &seen.view_other}, seen.hits, rays);
+    std::size_t hidden = 0, valid = 0;
+    for (const MotionValidity validity : seen.motion.validity.pixels) {
+        hidden += validity == MotionValidity::hidden;
+        valid += validity == MotionValidity::valid;
+    }
+    EXPECT_GT(hidden, 50u);
+    EXPECT_GT(valid, 100u);
+    EXPECT_EQ(seen.motion.validity(width / 2 - 8, height / 2), MotionValidity::valid);
+}
+
+}  // namespace
+}  // namespace aleph

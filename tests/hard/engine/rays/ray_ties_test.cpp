@@ -1,0 +1,130 @@
+// RC-07: which of several surfaces at one distance is met does not depend on how Embree's trees came about, nor on how
+// the rays are asked.
+
+#include <gtest/gtest.h>
+
+#include <random>
+#include <vector>
+
+#include "engine/rays/ray_scene.h"
+#include "tests/support/deforming_scenes.h"
+
+namespace aleph {
+namespace {
+
+std::vector<Ray> make_rays(std::size_t count, float half_size) {
+    std::mt19937 random(11);
+    std::uniform_real_distribution<float> inside(-half_size, half_size);
+    std::vector<Ray> rays(count);
+    for (std::size_t i = 0; i < count; ++i) {
+        const float x = inside(random), y = inside(random);
+        rays[i].origin = {0.3f, 0.2f, 5.0f};
+        rays[i].direction = glm::vec3(x, y, 0.0f) - rays[i].origin;
+    }
+    return rays;
+}
+
+/// Rays at the edges and corners of make_sheet(cells).
+std::vector<Ray> make_edge_rays(unsigned cells) {
+    std::vector<Ray> rays;
+    for (unsigned i = 0; i <= 4 * cells; ++i) {
+        for (unsigned j = 0; j <= 4 * cells; ++j) {
+            const auto at = [&](unsigned k) {
+                return static_cast<float>(k) / (2.0f * static_cast<float>(cells)) - 1.0f;
+            };
+            Ray ray;
+            ray.origin = {0.25f, 0.5f, 4.0f};
+            ray.direction = glm::vec3(at(i), at(j), 0.0f) - ray.origin;
+            rays.push_back(ray);
+        }
+    }
+    return rays;
+}
+
+enum class Way { single, packets, coherent_packets };
+
+std::vector<Hit> trace(const RayScene& scene, const std::vector<Ray>& rays, Way way) {
+    Tracer tracer(scene);
+    std::vector<Hit> hits(rays.size());
+    if (way == Way::single) {
+        for (std::size_t i = 0; i < rays.size(); ++i) hits[i] = tracer.intersect(rays[i]);
+    } else {
+        tracer.intersect(rays, hits, way == Way::coherent_packets);
+    }
+    return hits;
+}
+
+/// How many rays met another instance or primitive.
+std::size_t count_differences(const std::vector<Hit>& a, const std::vector<Hit>& b) {
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < a.size(); ++i)
+        count += a[i].instance != b[i].instance || a[i].primitive != b[i].primitive;
+    return count;
+}
+
+/// Sheets in one plane: the same one twice, a finer one and a moving one, which deforms into the plane at 1 s.
+Scene make_coplanar_scene() {
+    Scene scene;
+    scene.meshes = {make_sheet(8), make_sheet(5), make_sheet(8)};
+    scene.nodes.resize(5);
+    scene.nodes[0].meshes = {1};
+    scene.nodes[1].meshes = {0};
+    scene.nodes[2].meshes = {2};
+    scene.nodes[3].meshes = {0, 1};
+    scene.nodes[4].meshes = {0};
+    scene.nodes[4].translation = keyed<glm::dvec3>({0.0, 1.0}, {glm::dvec3(0.0, 0.0, -1.0), glm::dvec3(0.0)});
+    add_cache(scene, 2, {0.0, 0.5, 1.0}, [](const glm::vec3& p, std::size_t sample) {
+        return p + glm::vec3(0.0f, 0.0f, sample == 2 ? 0.0f : 0.5f * p.x * p.y + 0.1f * static_cast<float>(sample));
+    });
+    return scene;
+}
+
+TEST(RayTies, RC07_RefitsFreshBuildsPacketsAndSingleRaysAgree) {
+    const Scene scene = make_coplanar_scene();
+    RayScene refitted(scene), fresh(scene);
+    for (const double seconds : {0.0, 0.2, 0.5, 0.9, 1.0}) refitted.update(pose(scene, seconds), glm::dvec3(0.0));
+    fresh.update(pose(scene, 1.0), glm::dvec3(0.0));
+    for (const std::vector<Ray>& rays : {make_rays(20000, 1.1f), make_edge_rays(8), make_edge_rays(5)}) {
+        const std::vector<Hit> expected = trace(fresh, rays, Way::single);
+        std::size_t met = 0;
+        for (const Hit& hit : expected) met += hit.instance != no_index;
+        EXPECT_GT(met, rays.size() / 2);
+        for (const Way way : {Way::single, Way::packets, Way::coherent_packets}) {
+            EXPECT_EQ(count_differences(trace(refitted, rays, way), expected), 0u) << static_cast<int>(way);
+            EXPECT_EQ(count_differences(trace(fresh, rays, way), expected), 0u) << static_cast<int>(way);
+        }
+    }
+}
+
+TEST(RayTies, RC07_TheLowestInstanceAndPrimitiveOfEqualSurfacesWins) {
+    Scene scene;
+    scene.meshes = {make_sheet(4)};
+    Mesh twice = scene.meshes[0];  // every triangle twice
+    twice.triangles.insert(twice.triangles.end(), twice.triangles.begin(), twice.triangles.end());
+    scene.meshes.push_back(twice);
+    scene.nodes.resize(7);
+    for (Node& node : scene.nodes) node.meshes = {1, 0};
+    scene.nodes[0].visible = 0.0;
+    // Instances 2 and 3 belong to node 1, which moves: another top-level scene than the rest, where there are many.
+    scene.nodes[1].translation = keyed<glm::dvec3>({0.0, 1.0}, {glm::dvec3(0.0), glm::dvec3(0.0, 0.0, -1.0)});
+    for (const std::size_t bystanders : {0, 400}) {
+        for (std::size_t i = 0; i < bystanders; ++i) {
+            scene.nodes.emplace_back();
+            scene.nodes.back().meshes = {0};
+            scene.nodes.back().translation = glm::dvec3(10.0 + static_cast<double>(i), 0.0, 0.0);
+        }
+        RayScene rays(scene);
+        rays.update(pose(scene, 0.0), glm::dvec3(0.0));
+        for (const Way way : {Way::single, Way::packets, Way::coherent_packets}) {
+            for (const Hit& hit : trace(rays, make_rays(4000, 0.99f), way)) {
+                ASSERT_EQ(hit.instance, 2);
+                ASSERT_LT(hit.primitive, 32);
+            }
+        }
+        rays.update_moving(pose(scene, 1.0), glm::dvec3(0.0));
+        for (const Hit& hit : trace(rays, make_rays(4000, 0.99f), Way::packets)) ASSERT_EQ(hit.instance, 4);
+    }
+}
+
+}  // namespace
+}  // namespace aleph

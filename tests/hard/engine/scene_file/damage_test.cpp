@@ -1,0 +1,126 @@
+// Randomly damaged scene files: refused with an InputError or read, nothing else; what was read can be saved again.
+
+#include <gtest/gtest.h>
+
+#include <cstdint>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "engine/base/errors.h"
+#include "engine/scene_file/scene_text.h"
+
+namespace aleph {
+namespace {
+
+const std::string whole_file = R"({"aleph": 1, "name": "n", "fps": "30000/1001", "frames": [0, 59], "cuts": [3, 30],
+  "viewing": {"pixels_per_degree": 31, "display_white": 100}, "exposure": 0.5, "camera": "eye",
+  "environment": {"keys": [[0, [0, 0, 0]], [12, [1, 1, 1]]], "interpolation": "step"},
+  "images": {"felt": "felt.png"}, "settings": {"accuracy": 0.1, "gather": 512, "guide": "full", "size": "64x48"},
+  "materials": {"felt": {"base_color": [0.1, 0.5, 0.1], "base_color_texture": {"image": "felt", "wrap": ["clamp", "mirror"]}},
+    "lamp": {"emission": [1, 1, 1], "emission_strength": {"values": [1, 2, 3], "start": 4, "period": 0.5}}},
+  "meshes": {"ball": {"shape": {"type": "sphere", "radius": 0.5, "segments": 8}, "material": "felt"},
+    "flag": {"shape": {"type": "mesh", "points": "cloth", "vertex_points": [0, 1, 2, 0], "triangles": [[0, 1, 2], [3, 1, 2]],
+      "uv": [0, 0, 1, 0, 1, 1, 0, 1], "colors": [1,1,1,1, 1,1,1,1, 1,1,1,1, 1,1,1,1]}, "present": {"keys": [[0, true], [9, false]]}}},
+  "points": {"cloth": {"keys": [[0, [0,0,0, 1,0,0, 1,1,0]], [9, [0,0,0, 1,0,0, 1,1,5]]]}},
+  "cages": {"tent": {"positions": [[0,0,0], [1,0,0], [1,1,0], [0,1,0], [0,0,2]], "faces": [[0,1,2,3], [0,3,4], [1,0,4]], "level": 1,
+    "max_level": 2, "creases": [{"points": [0, 3], "sharpness": 2}], "corners": [{"point": 4, "sharpness": 10}], "holes": [2],
+    "uv": [0,0, 1,0], "face_uv": [[0,1,1,0], [0,1,0], [1,1,1]], "parts": [0, 1, 0]}},
+  "lights": {"key": {"type": "spot", "intensity": 40, "range": 9, "inner_cone": 10, "outer_cone": 20}}, "cameras": {"eye": {"fov": 45, "shutter": [0, 0.5]}},
+  "nodes": [{"name": "table", "shape": {"type": "box", "size": [1, 2, 3]}, "material": "lamp", "children": [
+      {"name": "b1", "mesh": "ball", "translation": {"keys": [[0, [0, 0, 0]], [5, [1, 0, 0]]], "unit": "seconds"}},
+      {"rotation": {"axis": [0, 1, 0], "degrees": {"keys": [[0, 0], [30, 720]]}}, "scale": 2, "visible": false}]},
+    {"name": "b2", "instance": "b1", "parent": "table", "rotation": [0, 0, 0, 1], "include": "a.glb"},
+    {"name": "c", "camera": "eye", "light": "key", "matrix": [1,0,0,4, 0,1,0,5, 0,0,1,6, 0,0,0,1]},
+    {"shape": {"type": "cage", "cage": "tent", "part": 1}, "instance": "b1"}, {"mesh": "flag", "inherits": false, "visible": "always"},
+    {"shape": {"type": "torus", "radius": 0.5, "tube_radius": 0.25, "segments": 6}, "operations": [{"translate": [1, 2, 3]},
+      {"rotate_y": {"keys": [[0, 0], [30, 360]]}}, {"rotate": {"axis": [0, 1, 0], "degrees": 45}}]},
+    {"shape": {"type": "lathe", "segments": 5, "smooth": true, "profile": [[0, 0], [0.5, 0.25], [0.5, 0.25], [0, 1]]}},
+    {"scale": {"cycle": [0, 0.25], "period": 1, "values": [1, [1, 2, 3]]}, "translation": {"interpolation": "cubic",
+      "keys": [[0, [0, 0, 0], [1, 1, 1], [0, 0, 0]], [9, [0, 0, 0], [2, 2, 2], [0, 0, 0]]]}}]})";
+
+class Damage {
+  public:
+    std::string apply(std::string text) {
+        if (below(2) == 0) {  // half of them gently: one digit
+            const std::size_t digit = text.find_first_of("0123456789", static_cast<std::size_t>(below(2700)));
+            text[digit] = static_cast<char>('0' + below(10));
+            return text;
+        }
+        const int times = 1 + below(3);
+        for (int i = 0; i < times; ++i) {
+            const std::size_t at = static_cast<std::size_t>(below(static_cast<int>(text.size())));
+            const auto length = static_cast<std::size_t>(1 + below(12));
+            switch (below(5)) {
+                case 0:
+                    text[at] = static_cast<char>(below(256));
+                    break;
+                case 1:
+                    text.erase(at, length);
+                    break;
+                case 2:
+                    text.insert(at,
+                                text.substr(static_cast<std::size_t>(below(static_cast<int>(text.size()))), length));
+                    break;
+                case 3:
+                    text.insert(at, pieces_[static_cast<std::size_t>(below(static_cast<int>(pieces_.size())))]);
+                    break;
+                default: {  // a number becomes another
+                    const std::size_t digit = text.find_first_of("0123456789", at);
+                    if (digit != std::string::npos) {
+                        text.replace(digit, 1,
+                                     pieces_[static_cast<std::size_t>(below(static_cast<int>(pieces_.size())))]);
+                    }
+                }
+            }
+        }
+        return text;
+    }
+
+  private:
+    int below(int n) { return std::uniform_int_distribution<int>(0, n - 1)(random_); }
+
+    std::mt19937 random_{20};
+    std::vector<std::string> pieces_ = {
+        "{",     "}",    "[",     "]",         ",",      ":",    "\"", "null", "-1",   "0",    "1e308",
+        "1e999", "true", "[[1]]", "{\"a\":1}", "1e-320", "\"\"", "//", "/*",   "-0.0", "4097", "18446744073709551616"};
+};
+
+TEST(DamagedSceneFile, IsReadOrRefusedAndWhatIsReadCanBeSaved) {
+    ASSERT_NO_THROW(read_scene_text(whole_file, "whole.json"));
+    Damage damage;
+    int read = 0, refused = 0;
+    for (int i = 0; i < 4000; ++i) {
+        const std::string text = damage.apply(whole_file);
+        Scene scene;
+        try {
+            scene = read_scene_text(text, "damaged.json").scene;
+            ++read;
+        } catch (const InputError& error) {
+            EXPECT_EQ(error.file(), "damaged.json");
+            EXPECT_FALSE(error.reason().empty());
+            ++refused;
+            continue;
+        } catch (const std::exception& error) {
+            ADD_FAILURE() << error.what() << "\n" << text;
+            continue;
+        }
+        try {
+            EXPECT_TRUE(read_scene_text(write_scene_text(scene, "again.json"), "again.json").scene == scene) << text;
+        } catch (const std::exception& error) {
+            ADD_FAILURE() << "was read but not written: " << error.what() << "\n" << text;
+        }
+    }
+    EXPECT_GT(read, 200);
+    EXPECT_GT(refused, 2000);
+}
+
+TEST(DamagedSceneFile, EveryBeginningOfAFileIsRefused) {
+    for (std::size_t length = 0; length < whole_file.size(); ++length) {
+        EXPECT_THROW(read_scene_text(std::string_view(whole_file).substr(0, length), "short.json"), InputError)
+            << length;
+    }
+}
+
+}  // namespace
+}  // namespace aleph

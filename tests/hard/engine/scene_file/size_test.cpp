@@ -1,0 +1,140 @@
+// Hostile scene files as large as they may be: each ends in 2 s and 512 MiB (release builds), read or refused.
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <cstdio>
+#include <functional>
+#include <string>
+
+#include "engine/base/errors.h"
+#include "engine/json/text.h"
+#include "engine/scene_file/scene_text.h"
+#include "tests/support/child_cost.h"
+
+namespace aleph {
+namespace {
+
+/// Makes the text and reads it; the peak counts both, the time reading alone.
+ChildCost read_in_child(const std::function<std::string()>& make) {
+    std::string text;
+    return run_in_child([&] { read_scene_text(text, "hostile.json"); }, [&] { text = make(); });
+}
+
+std::string repeated(const std::string& head, const std::string& piece, const std::string& tail, std::size_t bytes) {
+    std::string text = "{\"aleph\": 1, " + head;
+    text.reserve(bytes + piece.size() + tail.size());
+    while (text.size() + piece.size() + tail.size() < bytes) text += piece;
+    text += tail;
+    return text;
+}
+
+struct Hostile {
+    const char* name;
+    std::string head, piece, tail;
+};
+
+TEST(HostileSceneFile, EndsInTwoSecondsAndHalfAGibibyte) {
+    const std::vector<Hostile> files = {
+        {"numbers", "\"meshes\": {\"m\": {\"shape\": {\"type\": \"mesh\", \"triangles\": [], \"positions\": [0,0", ",0",
+         "]}}}}"},
+        {"long numbers", "\"meshes\": {\"m\": {\"shape\": {\"type\": \"mesh\", \"triangles\": [], \"positions\": [0,0",
+         ",-1.2345678901234567e-5", "]}}}}"},
+        {"groups", "\"meshes\": {\"m\": {\"shape\": {\"type\": \"mesh\", \"triangles\": [], \"positions\": [[0,0,0]",
+         ",[0,0,0]", "]}}}}"},
+        {"vertex points",
+         "\"points\": {\"p\": [0,0,0]}, \"meshes\": {\"m\": {\"shape\": {\"type\": \"mesh\", \"points\": \"p\", "
+         "\"triangles\": [], \"vertex_points\": [0",
+         ",0", "]}}}}"},
+        {"keys", "\"nodes\": [{\"scale\": {\"values\": [1", ",1", "]}}]}"},
+        {"nodes", "\"nodes\": [{}", ",{}", "]}"},
+        {"boxes", "\"nodes\": [{}", ",{\"shape\":{\"type\":\"box\"}}", "]}"},
+        {"spheres", "\"nodes\": [{}", ",{\"shape\":{\"type\":\"sphere\",\"segments\":512}}", "]}"},
+        {"shared", "\"meshes\": {\"a\": {\"shape\": {\"type\": \"box\"}}}, \"nodes\": [{}", ",{\"mesh\":\"a\"}", "]}"},
+        {"materials", "\"nodes\": [{}", ",{\"shape\":{\"type\":\"quad\"},\"material\":{}}", "]}"},
+        {"instances",
+         "\"nodes\": [{\"name\": \"a\", \"shape\": {\"type\": \"box\"}, \"children\": [{\"shape\": {\"type\": "
+         "\"box\"}}]}",
+         ",{\"instance\":\"a\"}", "]}"},
+        {"faces", "\"cages\": {\"c\": {\"positions\": [0,0,0,1,0,0,0,1,0], \"faces\": [[0,1,2]", ",[0,1,2]", "]}}}"},
+        {"cages", "\"nodes\": [{}",
+         ",{\"shape\":{\"type\":\"cage\",\"cage\":{\"positions\":[0,0,0,1,0,0,0,1,0],\"faces\":[[0,1,2]]}}}", "]}"},
+        {"names", "\"nodes\": [{\"name\": \"a", "a", "\"}]}"},
+        {"comments", "\"nodes\": [/*", "\"[,:", "*/]}"},
+        {"cuts", "\"cuts\": [0", ",0", "]}"},
+        {"lists", "\"nodes\": [[]", ",[]", "]}"},
+        {"profile", "\"nodes\": [{\"shape\": {\"type\": \"lathe\", \"segments\": 4096, \"profile\": [[0,0]",
+         ",[1,0],[2,1]", "]}}]}"},
+    };
+    for (const Hostile& file : files) {
+        // The largest that is parsed at all: below that, more text costs more.
+        std::size_t bytes = LoadLimits{}.text();
+        const std::string sample = repeated(file.head, file.piece, file.tail, std::size_t{1} << 20);
+        const double per_byte =
+            static_cast<double>(estimate_json_memory(sample, true)) / static_cast<double>(sample.size());
+        if (per_byte > 1.0) {
+            bytes = std::min(
+                bytes, static_cast<std::size_t>(0.99 * static_cast<double>(LoadLimits{}.json_values()) / per_byte));
+        }
+        const ChildCost cost = read_in_child([&] { return repeated(file.head, file.piece, file.tail, bytes); });
+        expect_bounded(cost, file.name);
+        std::printf("%-14s %5.1f MB of text, %s: %.2f s, %.0f MiB\n", file.name, static_cast<double>(bytes) / 1e6,
+                    cost.refused ? "refused" : "read", cost.seconds, cost.mebibytes);
+    }
+}
+
+TEST(HostileSceneFile, MemoryIsEstimatedBeforeParsing) {
+    EXPECT_EQ(estimate_json_memory("", true), 0u);
+    EXPECT_GT(estimate_json_memory("[1,2,3]", false), estimate_json_memory("[1,2]", false));
+    EXPECT_LT(estimate_json_memory("[\"[[[[,,,,\"]", false), 300u) << "text is no structure";
+    EXPECT_EQ(estimate_json_memory("1 // [,:\n", true), 0u);
+    EXPECT_EQ(estimate_json_memory("1 /* [,: */", true), 0u);
+    EXPECT_GT(estimate_json_memory("1 /* */ [1,1]", true), 0u);
+    try {
+        read_scene_text(repeated("\"cuts\": [0", ",0", "]}", std::size_t{20} << 20), "hostile.json");
+        FAIL();
+    } catch (const InputError& error) {
+        EXPECT_NE(error.reason().find("include"), std::string::npos) << "says what to do";
+    }
+}
+
+TEST(HostileSceneFile, CagesAreCountedBeforeTheyAreRefined) {
+    const auto cage = [](const char* level) {
+        return fmt::format(
+            R"({{"shape":{{"type":"cage","cage":{{"positions":[0,0,0,1,0,0,1,1,0,0,1,0],"faces":[[0,1,2,3]],)"
+            R"("max_level":10,"level":{}}}}}}})",
+            level);
+    };
+    const auto scene = [](const std::string& nodes) { return fmt::format("{{\"aleph\": 1, \"nodes\": [{}]}}", nodes); };
+    for (const char* level : {"7", "8", "9", "10"}) {
+        const ChildCost cost = read_in_child([&] { return scene(cage(level)); });
+        expect_bounded(cost, level);
+        std::printf("level %s: %s, %.2f s, %.0f MiB\n", level, cost.refused ? "refused" : "read", cost.seconds,
+                    cost.mebibytes);
+    }
+    const ChildCost many = read_in_child([&] {
+        std::string nodes = cage("2");
+        for (std::size_t i = 1; i < max_scene_cages; ++i) {
+            nodes += ',';
+            nodes += cage("2");
+        }
+        return scene(nodes);
+    });
+    EXPECT_FALSE(many.refused) << many.message;
+    expect_bounded(many, "many cages");
+    std::printf("%zu cages: %.2f s, %.0f MiB\n", max_scene_cages, many.seconds, many.mebibytes);
+}
+
+TEST(HostileSceneFile, InstancesOfInstancesAreCounted) {
+    std::string nodes = R"({"name": "n0", "shape": {"type": "box"}, "children": [{"shape": {"type": "quad"}}]})";
+    for (int i = 1; i < 40; ++i) {
+        nodes += fmt::format(R"(,{{"name": "n{}", "children": [{{"instance": "n{}"}}, {{"instance": "n{}"}}]}})", i,
+                             i - 1, i - 1);
+    }
+    const ChildCost cost = read_in_child([&] { return fmt::format("{{\"aleph\": 1, \"nodes\": [{}]}}", nodes); });
+    EXPECT_TRUE(cost.refused) << cost.message;
+    expect_bounded(cost, "instances of instances");
+}
+
+}  // namespace
+}  // namespace aleph

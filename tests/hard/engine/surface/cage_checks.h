@@ -1,0 +1,59 @@
+#pragma once
+// What a damaged cage may come to: refused with a reason, or a surface that is sound everywhere.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <string>
+
+#include "engine/base/errors.h"
+#include "engine/surface/cage_checks.h"
+#include "engine/surface/limit_surface.h"
+#include "tests/support/subdivision_cages.h"
+
+namespace aleph {
+
+inline std::string refusal(const Cage& cage, std::size_t points) {
+    try {
+        validate(cage, points);
+    } catch (const InputError& error) {
+        EXPECT_EQ(error.place(), "cage test");
+        EXPECT_THROW(LimitSurface(cage, points, 1), InputError);
+        return error.reason();
+    }
+    return "";
+}
+
+inline void expect_refused(const Cage& cage, std::size_t points, const std::string& part) {
+    const std::string reason = refusal(cage, points);
+    EXPECT_NE(reason.find(part), std::string::npos) << "'" << reason << "' lacks '" << part << "'";
+}
+
+inline void expect_sound(const LimitSurface& surface, const std::vector<glm::dvec3>& points) {
+    const auto control = surface.make_control_points(points);
+    for (int part = 0; part < surface.part_count(); ++part) {
+        std::vector<glm::dvec3> positions;
+        std::vector<glm::vec3> normals;
+        surface.evaluate_vertices(part, control, positions, normals);
+        for (std::size_t i = 0; i < positions.size(); ++i) {
+            ASSERT_TRUE(std::isfinite(positions[i].x + positions[i].y + positions[i].z));
+            ASSERT_NEAR(glm::length(normals[i]), 1.0f, 1e-5f);
+        }
+        for (const glm::uvec3& t : surface.make_mesh(part, control).triangles) {
+            ASSERT_LT(std::max({t.x, t.y, t.z}), positions.size());
+        }
+        const auto count = static_cast<int>(surface.triangle_count(part));
+        for (int i = 0; i < count; i += std::max(1, count / 50)) {
+            const glm::dvec3 p = surface.evaluate(part, control, i, 0.2, 0.3);
+            ASSERT_TRUE(std::isfinite(p.x + p.y + p.z));
+        }
+    }
+}
+
+inline void expect_sound(const TestCage& test, int level = 2) {
+    expect_sound(LimitSurface(test.cage, test.points.size(), level), test.points);
+}
+
+}  // namespace aleph

@@ -1,0 +1,269 @@
+// HARD_CASES section 2 with real rays: what single-precision hits must not do to motion, and what hides a point in the
+// other frame.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <random>
+
+#include "engine/rays/first_hits.h"
+#include "engine/rays/ray_scene.h"
+#include "motion/model_motion.h"
+#include "motion/reprojection.h"
+#include "tests/support/motion_scenes.h"
+#include "tests/support/motion_truth.h"
+
+namespace aleph {
+namespace {
+
+RayScene trace(const Scene& scene, const SceneFrame& frame, const CameraView& view) {
+    RayScene rays(scene);
+    rays.update(frame, compute_anchor(view));
+    return rays;
+}
+
+TEST(ReprojectionRays, RP01_StaticSceneMovesByExactlyZero) {
+    for (const double tilt : {45.0, 10.0, 1.0, 0.1}) {
+        Scene scene;
+        Node plane;
+        plane.meshes = {add_grid(scene, 1000.0f, 1000.0f, 8)};
+        plane.translation = glm::dvec3(0.0, -1.0, -3.0);
+        plane.axis_rotation = AxisRotation{{1.0, 0.0, 0.0}, (tilt - 90.0) * degrees};
+        add_node(scene, plane);
+        Node mount;
+        mount.axis_rotation = AxisRotation{glm::normalize(glm::dvec3(1.0, 2.0, 3.0)), 0.03};
+        mount.translation = glm::dvec3(0.1, 0.7, -0.3);
+        add_camera(scene, add_node(scene, mount));
+        const TwoMoments moments(scene, 0.0, 1.0 / 30.0, 320, 240);
+        const RayScene rays = trace(scene, moments.frames[0], moments.views[0]);
+        const Image<Hit> hits = cast_first_hits(rays, moments.views[0]);
+        const MotionField field = compute_model_motion(scene, moments.now(), moments.other(), hits, {});
+        std::size_t surface = 0;
+        for (std::size_t i = 0; i < hits.size(); ++i) {
+            ASSERT_EQ(field.displacement.pixels[i], glm::dvec2(0.0)) << tilt;
+            ASSERT_EQ(field.path_length.pixels[i], 0.0) << tilt;
+            if (hits.pixels[i].instance == no_index) continue;
+            ++surface;
+            ASSERT_EQ(field.validity.pixels[i], MotionValidity::valid) << tilt;
+        }
+        EXPECT_GT(surface, hits.size() / 10) << tilt;
+    }
+}
+
+TEST(ReprojectionRays, RP18_BarycentricsOffTheTriangleArePutBack) {
+    Scene scene;
+    add_point(scene, {1.0f, 2.0f, 3.0f});  // corners p, p + x, p + y
+    const float nan = std::numeric_limits<float>::quiet_NaN(), inf = std::numeric_limits<float>::infinity();
+    const struct {
+        float u, v;
+        glm::dvec2 expected;
+    } cases[] = {{0.25f, 0.5f, {0.25, 0.5}}, {1.0f, 0.0f, {1.0, 0.0}},        {0.0f, 1.0f, {0.0, 1.0}},
+                 {1.0000001f, 0.0f, {1, 0}}, {-1e-7f, 0.5f, {0.0, 0.5}},      {0.5f, -1e-7f, {0.5, 0.0}},
+                 {0.75f, 0.75f, {0.5, 0.5}}, {0.50000006f, 0.5f, {0.5, 0.5}}, {nan, 0.5f, {0.0, 0.5}},
+                 {0.5f, nan, {0.5, 0.0}},    {inf, 0.0f, {1.0, 0.0}},         {-inf, -inf, {0.0, 0.0}},
+                 {inf, inf, {0.5, 0.5}},     {-0.0f, 1e-45f, {0.0, 0.0}}};
+    for (const auto& c : cases) {
+        const glm::dvec3 point = surface_point(scene.meshes[0], {.instance = 0, .primitive = 0, .u = c.u, .v = c.v});
+        EXPECT_NEAR(point.x, 1.0 + c.expected.x, 1e-7) << c.u << ' ' << c.v;
+        EXPECT_NEAR(point.y, 2.0 + c.expected.y, 1e-7) << c.u << ' ' << c.v;
+        EXPECT_EQ(point.z, 3.0);
+        EXPECT_LE((point.x - 1.0) + (point.y - 2.0), 1.0 + 1e-15);
+        EXPECT_GE(std::min(point.x - 1.0, point.y - 2.0), 0.0);
+    }
+}
+
+/// Where the hit's own barycentrics put it on the screen.
+glm::dvec2 hit_pixel(const Scene& scene, const SceneFrame& frame, const CameraView& view, const Hit& hit) {
+    const Instance& instance = frame.instances[static_cast<std::size_t>(hit.instance)];
+    const CameraFromObject map = make_camera_from_object(view, frame.world[static_cast<std::size_t>(instance.node)]);
+    return project_camera_point(view, map(surface_point(scene.meshes[static_cast<std::size_t>(instance.mesh)], hit)));
+}
+
+TEST(ReprojectionRays, RP18_HitsOnSubPixelTrianglesLieAtTheirPixel) {
+    // Triangles 1e-3 px across, upright and grazing, around the centre of pixel (70, 40).
+    for (const double tilt : {0.0, 80.0, 89.0}) {
+        Scene scene;
+        const double metres_per_pixel = 5.0 / 1000.0;
+        Node node;
+        node.meshes = {add_grid(scene, static_cast<float>(0.04 * metres_per_pixel),
+                                static_cast<float>(0.04 * metres_per_pixel / std::cos(tilt * degrees)), 40)};
+        node.translation = glm::dvec3((70.5 - 50.0) * metres_per_pixel, (50.0 - 40.5) * metres_per_pixel, -5.0);
+        node.axis_rotation = AxisRotation{{1.0, 0.0, 0.0}, -tilt * degrees};
+        add_node(scene, node);
+        add_camera(scene, no_index, fov_of(1000.0, 100));
+        const TwoMoments moments(scene, 0.0, 1.0, 100, 100);
+        const Image<Hit> hits = cast_first_hits(trace(scene, moments.frames[0], moments.views[0]), moments.views[0]);
+        ASSERT_EQ(hits(70, 40).instance, 0) << tilt;
+        const glm::dvec2 pixel = hit_pixel(scene, moments.frames[0], moments.views[0], hits(70, 40));
+        EXPECT_NEAR(pixel.x, 70.5, 1e-4) << tilt;
+        EXPECT_NEAR(pixel.y, 40.5, 1e-4) << tilt;
+    }
+}
+
+TEST(ReprojectionRays, RP19_BarycentricPointsLieOnTheirTriangles) {
+    // Long slivers 500 away whose planes almost hold the ray: the distance along it says little.
+    Scene scene;
+    Mesh slivers;
+    std::mt19937 random(3);
+    std::uniform_real_distribution<float> uniform(-1.0f, 1.0f);
+    for (unsigned i = 0; i < 30000; ++i) {
+        const glm::vec3 start(40.0f * uniform(random), 30.0f * uniform(random), -500.0f + 50.0f * uniform(random));
+        // Towards the camera, nearly.
+        const glm::vec3 length = -0.2f * start + 0.02f * glm::vec3(uniform(random), uniform(random), 0.0f);
+        const glm::vec3 breadth = -0.1f * start + glm::vec3(uniform(random), uniform(random), 0.0f);
+        slivers.positions.push_back(start);
+        slivers.positions.push_back(start + length);
+        slivers.positions.push_back(start + breadth);
+        slivers.triangles.emplace_back(3 * i, 3 * i + 1, 3 * i + 2);
+    }
+    scene.meshes = {slivers};
+    Node node;
+    node.meshes = {0};
+    add_node(scene, node);
+    add_camera(scene, no_index, 0.12);
+    const TwoMoments moments(scene, 0.0, 1.0, 320, 240);
+    const CameraView& view = moments.views[0];
+    const Image<Hit> hits = cast_first_hits(trace(scene, moments.frames[0], view), view);
+    Real worst = 0, worst_by_distance = 0;
+    std::size_t count = 0;
+    for (int y = 0; y < hits.height; ++y) {
+        for (int x = 0; x < hits.width; ++x) {
+            const Hit& hit = hits(x, y);
+            if (hit.instance == no_index) continue;
+            ++count;
+            const glm::uvec3& triangle = slivers.triangles[static_cast<std::size_t>(hit.primitive)];
+            const RealVector p0 = real(slivers.positions[triangle.x]), p1 = real(slivers.positions[triangle.y]),
+                             p2 = real(slivers.positions[triangle.z]);
+            const RealVector normal = unit(cross(p1 - p0, p2 - p0));
+            const Real length = std::sqrt(dot(p1 - p0, p1 - p0)) + std::sqrt(dot(p2 - p0, p2 - p0));
+            const RealVector point = real(surface_point(slivers, hit));
+            worst = std::max(worst, std::abs(dot(point - p0, normal)) / length);
+            const CameraRay ray = make_camera_ray(view, x + 0.5, y + 0.5);
+            const glm::dvec3 along = ray.origin + static_cast<double>(hit.distance) * ray.direction;
+            const RealVector way = real(along) - point;
+            worst_by_distance = std::max(worst_by_distance, std::sqrt(dot(way, way)));
+        }
+    }
+    EXPECT_GT(count, 1000u);
+    EXPECT_LT(worst, 1e-6L);
+    // The case is hard: along the ray the point is off by a good part of a metre.
+    EXPECT_GT(worst_by_distance, 0.1L);
+}
+
+/// A scene with what it takes to ask who is hidden in its second moment.
+struct Hidden {
+    TwoMoments moments;
+    RayScene rays, other_rays;
+    Image<Hit> hits, other_hits;
+    MotionField before, after;
+    std::uint64_t rays_cast = 0;
+
+    Hidden(const Scene& scene, int width, int height)
+        : moments(scene, 0.0, 1.0, width, height), rays(scene), other_rays(rays.share_meshes()) {
+        rays.update(moments.frames[0], compute_anchor(moments.views[0]));
+        other_rays.update(moments.frames[1], compute_anchor(moments.views[1]));
+        hits = cast_first_hits(rays, moments.views[0]);
+        other_hits = cast_first_hits(other_rays, moments.views[1]);
+        before = compute_model_motion(scene, moments.now(), moments.other(), hits, {});
+        after = before;
+        rays_cast = mark_hidden(after, scene, moments.other(), hits, other_rays);
+    }
+};
+
+/// A card passes before a wall while the camera stands still.
+Scene make_card(bool orthographic, double distance_from_origin) {
+    Scene scene;
+    Node root;
+    root.translation = glm::dvec3(distance_from_origin, -distance_from_origin, distance_from_origin);
+    add_node(scene, root);
+    Node wall;
+    wall.parent = 0;
+    wall.meshes = {add_grid(scene, 30.0f, 30.0f, 3)};
+    wall.translation = glm::dvec3(0.0, 0.0, -10.0);
+    add_node(scene, wall);
+    Node card;
+    card.parent = 0;
+    card.meshes = {add_grid(scene, 1.03f, 1.51f)};
+    card.translation = ramp(glm::dvec3(-0.9, 0.1, -5.0), glm::dvec3(0.7, -0.2, -5.0));
+    add_node(scene, card);
+    add_camera(scene, 0);
+    scene.cameras[0].orthographic = orthographic;
+    scene.cameras[0].half_height = 2.0;
+    return scene;
+}
+
+TEST(ReprojectionRays, HiddenIsWhatTheCardCoversNext) {
+    for (const bool orthographic : {false, true}) {
+        for (const double distance : {0.0, 1e6}) {
+            const Hidden scene(make_card(orthographic, distance), 161, 120);
+            std::size_t hidden = 0, valid_before = 0, wrong = 0;
+            for (std::size_t i = 0; i < scene.hits.size(); ++i) {
+                const bool was_valid = scene.before.validity.pixels[i] == MotionValidity::valid;
+                valid_before += was_valid ? 1 : 0;
+                const bool covered =
+                    was_valid && scene.hits.pixels[i].instance == 0 && scene.other_hits.pixels[i].instance == 1;
+                const bool marked = scene.after.validity.pixels[i] == MotionValidity::hidden;
+                hidden += marked ? 1 : 0;
+                wrong += marked != covered ? 1 : 0;
+            }
+            EXPECT_EQ(wrong, 0u) << orthographic << ' ' << distance;
+            EXPECT_GT(hidden, 500u) << orthographic << ' ' << distance;
+            EXPECT_EQ(scene.rays_cast, valid_before);
+            // Displacement and path stay.
+            EXPECT_EQ(scene.after.displacement, scene.before.displacement);
+            EXPECT_EQ(scene.after.path_length, scene.before.path_length);
+        }
+    }
+}
+
+TEST(ReprojectionRays, ASpinningBallHidesWhatTurnsAway) {
+    Scene scene;
+    Mesh ball;  // latitudes and longitudes, radius 1
+    const unsigned around = 96, down = 48;
+    for (unsigned row = 0; row <= down; ++row) {
+        for (unsigned column = 0; column <= around; ++column) {
+            const double polar = 180.0 * degrees * row / down, angle = 360.0 * degrees * column / around;
+            ball.positions.emplace_back(glm::vec3(
+                glm::dvec3(std::sin(polar) * std::sin(angle), std::cos(polar), std::sin(polar) * std::cos(angle))));
+        }
+    }
+    for (unsigned row = 0; row < down; ++row) {
+        for (unsigned column = 0; column < around; ++column) {
+            const unsigned a = row * (around + 1) + column, c = a + around + 1;
+            if (row > 0) ball.triangles.emplace_back(a, c, a + 1);
+            if (row + 1 < down) ball.triangles.emplace_back(a + 1, c, c + 1);
+        }
+    }
+    scene.meshes = {ball};
+    Node node;
+    node.meshes = {0};
+    node.translation = ramp(glm::dvec3(-0.3, 0.0, -6.0), glm::dvec3(0.3, 0.2, -6.0));
+    node.axis_rotation = AxisRotation{{0.0, 1.0, 0.0}, ramp(0.0, 40.0 * degrees)};
+    add_node(scene, node);
+    add_camera(scene);
+    const Hidden motion(scene, 200, 150);
+    std::size_t hidden = 0, kept = 0;
+    for (std::size_t i = 0; i < motion.hits.size(); ++i) {
+        if (motion.hits.pixels[i].instance == no_index) continue;
+        // On a ball a point is its own normal; it faces the camera where that leans towards it.
+        const RealVector normal = real_turned(real(surface_point(ball, motion.hits.pixels[i])), {0, 1, 0},
+                                              40.0L * std::numbers::pi_v<Real> / 180);
+        const RealVector place = normal + RealVector{0.3L, 0.2L, -6};
+        const Real facing = -dot(unit(place), unit(normal));
+        const MotionValidity validity = motion.after.validity.pixels[i];
+        if (facing > 0.05L) {
+            EXPECT_EQ(validity, MotionValidity::valid) << i;
+            ++kept;
+        } else if (facing < -0.05L) {
+            EXPECT_EQ(validity, MotionValidity::hidden) << i;
+            ++hidden;
+        }
+    }
+    EXPECT_GT(kept, 1000u);
+    EXPECT_GT(hidden, 300u);
+}
+
+}  // namespace
+}  // namespace aleph

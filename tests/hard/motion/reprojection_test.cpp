@@ -1,0 +1,267 @@
+// HARD_CASES section 2: reprojection of Q(u,v,t) where it is fragile. Expected values by hand or in long double.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "motion/model_motion.h"
+#include "motion/velocity.h"
+#include "tests/support/motion_scenes.h"
+
+namespace aleph {
+namespace {
+
+/// What is not known to be still (here: it rotates about the camera together with it) must come out as good as still.
+TEST(Reprojection, RP01_RidingAlongIsStillWithinRounding) {
+    Scene scene;
+    Node cart;
+    cart.translation = ramp(glm::dvec3(0.0), glm::dvec3(300.0, 5.0, 90.0));
+    cart.axis_rotation = AxisRotation{{0.0, 1.0, 0.0}, ramp(0.0, 90.0)};
+    const int root = add_node(scene, cart);
+    Node node;
+    node.parent = root;
+    node.meshes = {add_point(scene, {0.3f, 0.2f, -5.0f})};
+    add_node(scene, node);
+    add_camera(scene, root);
+    const PointMotion motion = motion_of_point(scene, 0.0, 1.0 / 30.0);
+    EXPECT_LT(glm::length(motion.displacement), 1e-9);
+    EXPECT_LT(motion.path_length, 1e-9);  // 170 degrees a frame, but not against the camera
+    EXPECT_EQ(motion.validity, MotionValidity::valid);
+}
+
+TEST(Reprojection, RP02_TinyMotion) {
+    for (const double pixels : {1e-2, 1e-4, 1e-6}) {
+        for (const double distance : {0.0, 1e3, 1e6}) {
+            const double metres = pixels / 200.0;  // 1000 px at 5 m
+            Scene scene = make_point_scene({0.5f, -0.25f, -5.0f});
+            // The far keys are rounded to doubles themselves: what they hold is the truth.
+            const double from = distance, to = distance + metres;
+            scene.nodes[0].translation = ramp(glm::dvec3(from, 0.0, 0.0), glm::dvec3(to, 0.0, 0.0));
+            scene.nodes[1].translation = glm::dvec3(distance, 0.0, 0.0);
+            const PointMotion motion = motion_of_point(scene);
+            EXPECT_NEAR(motion.displacement.x, pixels, distance < 1e6 ? 1e-8 : 1e-6) << pixels << " at " << distance;
+            EXPECT_NEAR(motion.displacement.y, 0.0, 1e-10) << pixels << " at " << distance;
+        }
+    }
+}
+
+/// Everything turns about a centre by whole turns: the pose is the same up to rounding, the motion must stay below the
+/// dead zone of the motion channel.
+TEST(Reprojection, RP03_RoundingStaysFarBelowTheDeadZone) {
+    Scene scene;
+    Node node;
+    node.meshes = {add_triangle_soup(scene, 100, 1.0f)};
+    node.translation = glm::dvec3(0.0, 0.0, -10.0);
+    node.axis_rotation = AxisRotation{{0.0, 1.0, 0.0}, ramp(0.0, 200.0 * std::numbers::pi)};
+    add_node(scene, node);
+    add_camera(scene);
+    const TwoMoments moments(scene, 0.13, 0.14, 320, 240);  // one full turn
+    const Image<Hit> hits = make_random_hits(scene, moments.frames[0], 320, 240);
+    const MotionField field = compute_model_motion(scene, moments.now(), moments.other(), hits, {});
+    double largest = 0.0, shortest_path = 1e9;
+    for (std::size_t i = 0; i < hits.size(); ++i) {
+        largest = std::max(largest, glm::length(field.displacement.pixels[i]));
+        shortest_path = std::min(shortest_path, field.path_length.pixels[i]);
+    }
+    EXPECT_LT(largest, 1e-8);
+    EXPECT_GT(shortest_path, 0.0);  // and yet it is no rest
+}
+
+TEST(Reprojection, RP04_BehindTheNextCamera) {
+    Scene scene = make_point_scene({0.3f, -0.3f, -1.0f});
+    scene.nodes[1].translation = ramp(glm::dvec3(0.0), glm::dvec3(0.0, 0.0, -2.0));
+    const PointMotion motion = motion_of_point(scene);
+    EXPECT_EQ(motion.validity, MotionValidity::behind_camera);
+    EXPECT_EQ(motion.displacement, glm::dvec2(0.0));
+    EXPECT_EQ(motion.path_length, 0.0);
+}
+
+TEST(Reprojection, RP05_OnAndNearTheCameraPlane) {
+    for (const glm::vec3& point : {glm::vec3(0.3f, -0.3f, -1.0f), glm::vec3(0.0f, 0.0f, -1.0f)}) {
+        for (const double remaining : {0.0, 1e-300, 1e-6, 0.99e-4, 1e-4}) {  // m; the near plane is at 1e-4
+            Scene scene = make_point_scene(point);
+            // The point comes to the camera: what remains is exact.
+            scene.nodes[0].translation = ramp(glm::dvec3(0.0), glm::dvec3(0.0, 0.0, 1.0 - remaining));
+            const double depth = 1.0 - (1.0 - remaining);
+            const PointMotion motion = motion_of_point(scene);
+            if (depth <= 1e-4) {
+                EXPECT_EQ(motion.validity, MotionValidity::behind_camera) << remaining;
+                EXPECT_EQ(motion.displacement, glm::dvec2(0.0)) << remaining;
+                EXPECT_EQ(motion.path_length, 0.0) << remaining;
+            } else {
+                EXPECT_NE(motion.validity, MotionValidity::behind_camera) << remaining;
+            }
+        }
+    }
+    // Just beyond the near plane the displacement is 3000 times the image: capped at its diagonal, direction kept.
+    Scene scene = make_point_scene({0.3f, -0.3f, -1.0f});
+    scene.nodes[0].translation = ramp(glm::dvec3(0.0), glm::dvec3(0.0, 0.0, 1.0 - 1.1e-4));
+    const PointMotion motion = motion_of_point(scene);
+    EXPECT_EQ(motion.validity, MotionValidity::leaves_screen);
+    EXPECT_NEAR(motion.displacement.x, 1000.0, 1e-9);  // diagonal 1000 sqrt 2
+    EXPECT_NEAR(motion.displacement.y, 1000.0, 1e-9);
+    EXPECT_NEAR(motion.path_length, 1000.0 * std::sqrt(2.0), 1e-9);
+}
+
+/// A near plane of almost nothing: numbers beyond what a square can hold must still be capped, not turn into NaN.
+TEST(Reprojection, RP05_NoNearPlane) {
+    for (const double near_plane : {0.0, 1e-300, -1.0}) {
+        Scene scene = make_point_scene({3.0e30f, -4.0e30f, -1.0f});
+        scene.cameras[0].near_plane = near_plane;
+        scene.nodes[0].translation = ramp(glm::dvec3(0.0), glm::dvec3(0.0, 0.0, 1.0 - 1e-9));
+        const PointMotion motion = motion_of_point(scene);
+        EXPECT_NEAR(motion.displacement.x, 0.6 * 1000.0 * std::sqrt(2.0), 1e-3) << near_plane;
+        EXPECT_NEAR(motion.displacement.y, 0.8 * 1000.0 * std::sqrt(2.0), 1e-3) << near_plane;
+        scene.nodes[0].translation = ramp(glm::dvec3(0.0), glm::dvec3(0.0, 0.0, 1.0));
+        EXPECT_EQ(motion_of_point(scene).validity, MotionValidity::behind_camera) << near_plane;
+    }
+}
+
+TEST(Reprojection, RP06_ApproachingSurface) {
+    // x = .075 at z = -2 and at z = -.1: f x (1/.1 - 1/2) = 712.5 px, kept although it leaves the screen.
+    Scene scene = make_point_scene({0.075f, 0.0f, -2.0f});
+    scene.nodes[0].translation = ramp(glm::dvec3(0.0), glm::dvec3(0.0, 0.0, 1.9));
+    const PointMotion motion = motion_of_point(scene);
+    EXPECT_NEAR(motion.displacement.x, 712.5, 1e-4);
+    EXPECT_EQ(motion.validity, MotionValidity::leaves_screen);
+    const double half_way = motion_of_point(scene, 0.0, 0.5).displacement.x;
+    EXPECT_NEAR(half_way, 75.0 * (1.0 / 1.05 - 0.5), 1e-4);
+}
+
+/// Focal length 100, 200x100, no surface at all.
+MotionField background_motion(const Scene& scene) {
+    const TwoMoments moments(scene, 0.0, 1.0, 200, 100);
+    return compute_model_motion(scene, moments.now(), moments.other(), Image<Hit>(200, 100), {});
+}
+Scene make_empty_scene() {
+    Scene scene;
+    add_camera(scene, no_index, fov_of(100.0, 100));
+    return scene;
+}
+
+TEST(Reprojection, RP09_BackgroundFollowsRotationAlone) {
+    Scene scene = make_empty_scene();
+    scene.nodes[0].axis_rotation = AxisRotation{{0.0, 1.0, 0.0}, ramp(0.0, 1.0 * degrees)};
+    const MotionField panned = background_motion(scene);
+    for (const int x : {0, 57, 100, 199}) {
+        // Seen at atan(x/f) right of the axis; the camera turns left by a degree, so it goes right.
+        const double column = x + 0.5 - 100.0;
+        const double seen = std::atan2(column, 100.0);
+        EXPECT_NEAR(panned.displacement(x, 50).x, 100.0 * std::tan(seen + 1.0 * degrees) - column, 1e-4) << x;
+        EXPECT_EQ(panned.validity(x, 50), MotionValidity::background);
+        EXPECT_DOUBLE_EQ(panned.path_length(x, 50), glm::length(panned.displacement(x, 50)));
+    }
+    scene.nodes[0].axis_rotation.reset();
+    scene.nodes[0].translation = ramp(glm::dvec3(0.0), glm::dvec3(1.0, -2.0, 3.0));
+    for (const glm::dvec2& d : background_motion(scene).displacement.pixels) ASSERT_EQ(d, glm::dvec2(0.0));
+}
+
+TEST(Reprojection, RP09_StillRotatedCameraExactlyZero) {
+    Scene scene = make_empty_scene();
+    scene.nodes[0].axis_rotation = AxisRotation{glm::normalize(glm::dvec3(1.0, 2.0, 3.0)), 0.7};
+    const MotionField field = background_motion(scene);
+    for (std::size_t i = 0; i < field.displacement.size(); ++i) {
+        ASSERT_EQ(field.displacement.pixels[i], glm::dvec2(0.0));
+        ASSERT_EQ(field.validity.pixels[i], MotionValidity::background);
+    }
+}
+
+TEST(Reprojection, RP09_BackgroundBehindTheTurnedCameraDoesNotMove) {
+    Scene scene = make_empty_scene();
+    scene.nodes[0].axis_rotation = AxisRotation{{0.0, 1.0, 0.0}, ramp(0.0, 180.0 * degrees)};
+    const MotionField field = background_motion(scene);
+    for (std::size_t i = 0; i < field.displacement.size(); ++i) {
+        ASSERT_EQ(field.displacement.pixels[i], glm::dvec2(0.0));
+        ASSERT_EQ(field.path_length.pixels[i], 0.0);
+        ASSERT_EQ(field.validity.pixels[i], MotionValidity::background);
+    }
+}
+
+TEST(Reprojection, RP09_OrthographicBackgroundDoesNotMove) {
+    Scene scene = make_empty_scene();
+    scene.cameras[0].orthographic = true;
+    scene.nodes[0].axis_rotation = AxisRotation{{0.0, 1.0, 0.0}, ramp(0.0, 5.0 * degrees)};
+    for (const glm::dvec2& d : background_motion(scene).displacement.pixels) ASSERT_EQ(d, glm::dvec2(0.0));
+}
+
+TEST(Reprojection, RP10_AcrossACutNothingMoves) {
+    Scene scene = make_point_scene({0.1f, 0.1f, -5.0f});
+    scene.nodes[1].translation = ramp(glm::dvec3(0.0), glm::dvec3(0.3, 0.0, 0.0));
+    scene.nodes[1].axis_rotation = AxisRotation{{0.0, 1.0, 0.0}, ramp(0.0, 25.0 * degrees)};
+    const TwoMoments moments(scene, 0.0, 1.0, 64, 48);
+    Image<Hit> hits(64, 48);
+    for (int x = 0; x < 64; ++x) hits(x, 20) = {.instance = 0, .primitive = 0};
+    const auto expect_rest = [&](const MotionMoment& other) {
+        const MotionField field = compute_model_motion(scene, moments.now(), other, hits, {.cut = true});
+        const Image<float> velocity = compute_image_velocity(field, {});
+        for (int y = 0; y < 48; ++y) {
+            for (int x = 0; x < 64; ++x) {
+                ASSERT_EQ(field.displacement(x, y), glm::dvec2(0.0));
+                ASSERT_EQ(field.path_length(x, y), 0.0);
+                ASSERT_EQ(velocity(x, y), 0.0f);
+                ASSERT_EQ(field.validity(x, y), y == 20 ? MotionValidity::no_counterpart : MotionValidity::background);
+            }
+        }
+    };
+    expect_rest(moments.other());
+    expect_rest({});  // RP-11: a single frame has no other
+}
+
+TEST(Reprojection, RP11_LastFrameGoesBackwards) {
+    // Constant speed on the screen: frame N-1 forwards and frame N backwards agree.
+    Scene scene = make_point_scene({0.1f, 0.2f, -5.0f});
+    scene.nodes[0].translation = ramp(glm::dvec3(-0.5, 0.0, 0.0), glm::dvec3(0.7, -0.3, 0.0));
+    const double last = 1.0, before = last - 1.0 / 30.0;
+    const PointMotion forward = motion_of_point(scene, before, last);
+    const PointMotion backward = motion_of_point(scene, last, before, {.backward = true});
+    EXPECT_NEAR(backward.displacement.x, forward.displacement.x, 1e-6);
+    EXPECT_NEAR(backward.displacement.y, forward.displacement.y, 1e-6);
+    EXPECT_NEAR(forward.displacement.x, 1.2 / 30.0 * 200.0, 1e-6);
+    EXPECT_NEAR(backward.path_length, forward.path_length, 1e-6);
+    EXPECT_EQ(backward.validity, MotionValidity::valid);
+}
+
+TEST(Reprojection, RP12_VisibleInOneFrameOnly) {
+    Scene scene = make_point_scene({0.1f, 0.2f, -5.0f});
+    scene.nodes[0].translation = ramp(glm::dvec3(0.0), glm::dvec3(0.5, 0.0, 0.0));
+    scene.nodes[0].visible = ramp(1.0, 0.0);
+    scene.nodes[0].visible.interpolation = Interpolation::step;
+    const PointMotion vanishes = motion_of_point(scene);
+    EXPECT_EQ(vanishes.validity, MotionValidity::no_counterpart);
+    EXPECT_EQ(vanishes.displacement, glm::dvec2(0.0));
+    EXPECT_EQ(vanishes.path_length, 0.0);
+    // The first that applies: behind the camera too, and yet without counterpart.
+    scene.nodes[0].translation = ramp(glm::dvec3(0.0), glm::dvec3(0.0, 0.0, 9.0));
+    EXPECT_EQ(motion_of_point(scene).validity, MotionValidity::no_counterpart);
+    scene.nodes[0].visible = 1.0;
+    EXPECT_EQ(motion_of_point(scene).validity, MotionValidity::behind_camera);
+}
+
+TEST(Reprojection, RP13_LeavingTheScreen) {
+    // 200 px per metre at 5 m; the screen ends 500 px right of the axis.
+    const struct {
+        double metres;
+        MotionValidity validity;
+    } cases[] = {
+        {2.4, MotionValidity::valid},         {2.5, MotionValidity::valid},  {2.5001, MotionValidity::leaves_screen},
+        {5.0, MotionValidity::leaves_screen}, {-2.5, MotionValidity::valid}, {-2.5001, MotionValidity::leaves_screen}};
+    for (const auto& c : cases) {
+        for (const bool vertical : {false, true}) {
+            Scene scene = make_point_scene({0.0f, 0.0f, -5.0f});
+            scene.nodes[0].translation =
+                ramp(glm::dvec3(0.0), vertical ? glm::dvec3(0.0, c.metres, 0.0) : glm::dvec3(c.metres, 0.0, 0.0));
+            // A focal length of exactly 1000 px, so that the border case is one.
+            TwoMoments moments(scene, 0.0, 1.0, 1000, 1000);
+            for (CameraView& view : moments.views) view.pixels_per_unit = 1000.0;
+            Image<Hit> hits(1000, 1000);
+            hits(500, 500) = {.instance = 0, .primitive = 0};
+            const MotionField field = compute_model_motion(scene, moments.now(), moments.other(), hits, {});
+            EXPECT_EQ(field.validity(500, 500), c.validity) << c.metres;
+            const glm::dvec2 expected = vertical ? glm::dvec2(0.0, -200.0 * c.metres) : glm::dvec2(200.0 * c.metres, 0);
+            EXPECT_NEAR(glm::length(field.displacement(500, 500) - expected), 0.0, 1e-9) << c.metres;
+        }
+    }
+}
+
+}  // namespace
+}  // namespace aleph

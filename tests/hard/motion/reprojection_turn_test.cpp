@@ -1,0 +1,161 @@
+// HARD_CASES RP-07: things that turn far within a frame, whose chord lies.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <vector>
+
+#include "motion/model_motion.h"
+#include "motion/turn.h"
+#include "tests/support/motion_scenes.h"
+
+namespace aleph {
+namespace {
+
+/// Radius 1 at 10 m, 1500 px focal length: 150 px. Turns about the viewing axis.
+Scene make_wheel(double degrees_per_second) {
+    Scene scene = make_point_scene({1.0f, 0.0f, -10.0f}, 1500.0);
+    scene.nodes[0].axis_rotation = AxisRotation{{0.0, 0.0, 1.0}, ramp(0.0, degrees_per_second * degrees)};
+    return scene;
+}
+
+TEST(ReprojectionTurn, RP07_RotationBeyondAHalfTurnPerFrame) {
+    const struct {
+        double turn, chord, arc;
+    } cases[] = {{180.0, 300.0, 471.24}, {270.0, 212.13, 706.86}, {350.0, 26.15, 916.30}, {360.0, 0.0, 942.48}};
+    for (const auto& c : cases) {
+        for (const double sense : {1.0, -1.0}) {
+            const PointMotion motion = motion_of_point(make_wheel(sense * c.turn));
+            EXPECT_NEAR(glm::length(motion.displacement), c.chord, 0.01) << c.turn;
+            EXPECT_NEAR(motion.path_length, c.arc, 0.01 * c.arc) << c.turn;
+            EXPECT_EQ(motion.validity, MotionValidity::valid);
+        }
+    }
+    const PointMotion slow = motion_of_point(make_wheel(1.0));
+    EXPECT_NEAR(slow.path_length, 150.0 * degrees, 1e-4 * 150.0 * degrees);
+    EXPECT_DOUBLE_EQ(slow.path_length, glm::length(slow.displacement));
+}
+
+TEST(ReprojectionTurn, RP07_TheCameraTurnsInstead) {
+    Scene scene = make_point_scene({1.0f, 0.0f, -10.0f}, 1500.0);
+    scene.nodes[1].axis_rotation = AxisRotation{{0.0, 0.0, 1.0}, ramp(0.0, 2.0 * std::numbers::pi)};
+    const TwoMoments moments(scene, 0.0, 1.0, 1000, 1000);
+    Image<Hit> hits(1000, 1000);
+    hits(650, 500) = {.instance = 0, .primitive = 0};
+    const MotionField field = compute_model_motion(scene, moments.now(), moments.other(), hits, {});
+    EXPECT_NEAR(field.path_length(650, 500), 942.48, 9.4);
+    EXPECT_LT(glm::length(field.displacement(650, 500)), 1e-9);
+    // The background too: a roll moves it on a circle around the centre.
+    const double radius = std::hypot(300.5, 0.5);
+    EXPECT_NEAR(field.path_length(800, 500), 2.0 * std::numbers::pi * radius, 0.01 * 2.0 * std::numbers::pi * radius);
+}
+
+/// The same bits at both moments, and yet no rest.
+TEST(ReprojectionTurn, RP07_FullTurnBetweenEqualPoses) {
+    for (const bool camera_turns : {false, true}) {
+        Scene scene = make_point_scene({1.0f, 0.0f, -10.0f}, 1500.0);
+        Track<glm::dquat>& rotation = scene.nodes[camera_turns ? 1 : 0].rotation;
+        rotation.sampling.kind = TimeSampling::Kind::acyclic;
+        rotation.sampling.times = {0.0, 0.25, 0.5, 0.75, 1.0};
+        for (int i = 1; i < 4; ++i) rotation.values.push_back(glm::angleAxis(90.0 * i * degrees, glm::dvec3(0, 0, 1)));
+        rotation.values.push_back(rotation.values.front());
+        const TwoMoments moments(scene, 0.0, 1.0, 1000, 1000);
+        Image<Hit> hits(1000, 1000);
+        hits(650, 500) = {.instance = 0, .primitive = 0};
+        const MotionField field = compute_model_motion(scene, moments.now(), moments.other(), hits, {});
+        EXPECT_EQ(field.displacement(650, 500), glm::dvec2(0.0));
+        EXPECT_NEAR(field.path_length(650, 500), 942.48, 9.4);
+        const double background = camera_turns ? 2.0 * std::numbers::pi * std::hypot(300.5, 0.5) : 0.0;
+        EXPECT_NEAR(field.path_length(800, 500), background, 0.01 * background);
+        EXPECT_EQ(field.displacement(800, 500), glm::dvec2(0.0));
+    }
+}
+
+TEST(ReprojectionTurn, RP07_QuaternionKeysWithinTheFrame) {
+    // A full turn in four keys of 90 degrees between two frames.
+    Scene scene = make_point_scene({1.0f, 0.0f, -10.0f}, 1500.0);
+    Track<glm::dquat>& rotation = scene.nodes[0].rotation;
+    rotation.sampling.kind = TimeSampling::Kind::acyclic;
+    rotation.sampling.times = {0.0, 0.25, 0.5, 0.75, 1.0};
+    rotation.values.clear();
+    for (int i = 0; i <= 4; ++i) rotation.values.push_back(glm::angleAxis(90.0 * i * degrees, glm::dvec3(0, 0, 1)));
+    EXPECT_NEAR(motion_of_point(scene).path_length, 942.48, 9.4);
+    EXPECT_NEAR(motion_of_point(scene, 0.1, 0.9).path_length, 0.8 * 942.48, 9.4);
+    EXPECT_NEAR(motion_of_point(scene, 0.9, 0.1).path_length, 0.8 * 942.48, 9.4);
+    // Held before the first and after the last key.
+    EXPECT_NEAR(motion_of_point(scene, -3.0, 3.0).path_length, 942.48, 9.4);
+    EXPECT_EQ(motion_of_point(scene, 1.0, 2.0).path_length, 0.0);
+}
+
+/// Quaternion keys 270 degrees apart go the short way, 90 back; motion says what the picture will show.
+TEST(ReprojectionTurn, RP08_KeysBeyondAHalfTurnGoTheShortWay) {
+    Scene scene = make_point_scene({1.0f, 0.0f, -10.0f}, 1500.0);
+    scene.nodes[0].rotation =
+        ramp(glm::angleAxis(0.0, glm::dvec3(0, 0, 1)), glm::angleAxis(270.0 * degrees, glm::dvec3(0, 0, 1)));
+    const PointMotion motion = motion_of_point(scene);
+    EXPECT_NEAR(motion.displacement.x, -150.0, 1e-9);
+    EXPECT_NEAR(motion.displacement.y, 150.0, 1e-9);  // down: clockwise
+    EXPECT_NEAR(motion.path_length, 150.0 * 90.0 * degrees, 0.01 * 235.62);
+}
+
+TEST(ReprojectionTurn, RP07_MatrixKeysWithinTheFrame) {
+    Scene scene = make_point_scene({1.0f, 0.0f, -10.0f}, 1500.0);
+    Track<glm::dmat4> matrix;
+    matrix.sampling.kind = TimeSampling::Kind::acyclic;
+    matrix.sampling.times = {0.0, 0.25, 0.5, 0.75, 1.0};
+    matrix.values.clear();
+    for (int i = 0; i <= 4; ++i) {
+        matrix.values.emplace_back(glm::mat4_cast(glm::angleAxis(90.0 * i * degrees, glm::dvec3(0, 0, 1))));
+    }
+    scene.nodes[0].matrix = matrix;
+    EXPECT_NEAR(motion_of_point(scene).path_length, 942.48, 9.4);
+}
+
+TEST(ReprojectionTurn, RP07_SpinsAddUpAlongTheHierarchy) {
+    // Two nested half turns make a full one; against each other they rest.
+    for (const double sense : {1.0, -1.0}) {
+        Scene scene;
+        Node outer;
+        outer.axis_rotation = AxisRotation{{0.0, 0.0, 1.0}, ramp(0.0, std::numbers::pi)};
+        Node inner;
+        inner.parent = add_node(scene, outer);
+        inner.meshes = {add_point(scene, {1.0f, 0.0f, -10.0f})};
+        inner.axis_rotation = AxisRotation{{0.0, 0.0, 1.0}, ramp(0.0, sense * std::numbers::pi)};
+        add_node(scene, inner);
+        add_camera(scene, no_index, fov_of(1500.0, 1000));
+        EXPECT_NEAR(motion_of_point(scene).path_length, sense > 0.0 ? 942.48 : 0.0, 9.4);
+    }
+}
+
+/// Starts at rest and ends fast: even steps would turn 38 degrees in the last of 18.
+TEST(ReprojectionTurn, RP07_UnevenSpin) {
+    Scene scene = make_point_scene({1.0f, 0.0f, -10.0f}, 1500.0);
+    Track<double> angle;
+    angle.interpolation = Interpolation::cubic;
+    angle.sampling.kind = TimeSampling::Kind::acyclic;
+    angle.sampling.times = {0.0, 1.0};
+    const double turn = 2.0 * std::numbers::pi;
+    angle.values = {0.0, 0.0, 0.0, 2.0 * turn, turn, 0.0};  // angle = turn t^2
+    scene.nodes[0].axis_rotation = AxisRotation{{0.0, 0.0, 1.0}, angle};
+    EXPECT_NEAR(motion_of_point(scene).path_length, 942.48, 9.4);
+    const std::vector<double> times = subdivide_turns(scene, 1, 0.0, 1.0, 20.0 * degrees);
+    double previous = 0.0;
+    for (const double time : times) {
+        EXPECT_LE(turn * (time * time - previous * previous), 20.001 * degrees);
+        previous = time;
+    }
+    EXPECT_LE(turn * (1.0 - previous * previous), 20.001 * degrees);
+}
+
+TEST(ReprojectionTurn, RP07_NoSubFramesWithoutAFastSpin) {
+    EXPECT_TRUE(subdivide_turns(make_wheel(19.9), 1, 0.0, 1.0, 20.0 * degrees).empty());
+    EXPECT_EQ(subdivide_turns(make_wheel(20.1), 1, 0.0, 1.0, 20.0 * degrees).size(), 1u);
+    EXPECT_EQ(subdivide_turns(make_wheel(180.0), 1, 0.0, 1.0, 20.0 * degrees).size(), 8u);
+    EXPECT_EQ(subdivide_turns(make_wheel(1e12), 1, 0.0, 1.0, 20.0 * degrees).size(), 511u);
+    Scene jump = make_wheel(180.0);
+    jump.nodes[0].axis_rotation->angle.interpolation = Interpolation::step;
+    EXPECT_TRUE(subdivide_turns(jump, 1, 0.0, 1.0, 20.0 * degrees).empty());
+}
+
+}  // namespace
+}  // namespace aleph

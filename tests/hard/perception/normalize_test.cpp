@@ -1,0 +1,93 @@
+// HARD_CASES, section 4: N(.) where "the average of all other local maxima" is 0/0 or depends on what counts as one.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/base/pyramid.h"
+#include "engine/base/sampling.h"
+#include "perception/normalize.h"
+#include "tests/support/perception_reference.h"
+
+namespace aleph {
+namespace {
+
+Image<float> checker(int width, int height) {
+    Image<float> image(width, height);
+    for (int y = 0; y < height; ++y) {
+        for (int x = 0; x < width; ++x) image(x, y) = static_cast<float>((x + y) % 2);
+    }
+    return image;
+}
+
+TEST(NormalizeHard, PY08_NoOtherLocalMaximum) {
+    Image<float> spike(21, 15);
+    spike(7, 5) = 3.0f;
+    EXPECT_EQ(compute_normalization(spike, 0).weight, 1.0);
+    EXPECT_EQ(compute_normalization(spike, 0).scale(), 1.0 / 3.0);
+
+    EXPECT_TRUE(compute_normalization(Image<float>(1, 1, 2.0f), 0).empty);
+    EXPECT_EQ(compute_normalization(Image<float>(1, 1, 2.0f), 0).scale(), 0.0);
+    Image<float> ramp(1, 40);
+    for (int y = 0; y < 40; ++y) ramp(0, y) = static_cast<float>(y);
+    EXPECT_EQ(compute_normalization(ramp, 0).weight, 1.0);
+}
+
+TEST(NormalizeHard, PY09_PlateausCountOnce) {
+    Image<float> spikes(60, 40), plateaus(60, 40);
+    const int at[][2] = {{10, 10}, {30, 20}, {50, 30}};
+    const float heights[] = {1.0f, 0.5f, 0.25f};
+    for (int i = 0; i < 3; ++i) {
+        spikes(at[i][0], at[i][1]) = heights[i];
+        for (int d = 0; d < 2; ++d) plateaus(at[i][0] + d, at[i][1]) = heights[i];
+    }
+    const double expected = std::pow(1 - (0.5 + 0.25) / 2, 2);
+    EXPECT_NEAR(compute_normalization(spikes, 0).weight, expected, 1e-4);
+    EXPECT_EQ(compute_normalization(plateaus, 0).weight, compute_normalization(spikes, 0).weight);
+
+    // Far larger than what is kept around a candidate, and touching the border.
+    for (int y = 12; y < 40; ++y) std::fill_n(plateaus.row(y) + 40, 20, 0.25f);
+    EXPECT_EQ(compute_normalization(plateaus, 0).weight, compute_normalization(spikes, 0).weight);
+    // A plateau with something higher at its rim is no maximum.
+    plateaus(45, 11) = 0.5f;
+    EXPECT_NEAR(compute_normalization(plateaus, 0).weight, std::pow(1 - 0.5, 2), 1e-4);
+
+    // The bright pixels of a one-pixel checker touch at their corners: 8-connected (MODEL 5.3), they are one plateau.
+    EXPECT_EQ(compute_normalization(checker(20, 20), 0).weight, 1.0);
+}
+
+TEST(NormalizeHard, PY09_RandomPlateausAgreeWithTheFullFloodFill) {
+    for (std::uint32_t seed = 0; seed < 40; ++seed) {
+        RandomStream random({seed, 0, 0, 0});
+        const int width = 1 + static_cast<int>(90 * random.next()), height = 1 + static_cast<int>(70 * random.next());
+        const float steps = 2 + 12 * random.next();
+        Image<float> map(width, height);
+        for (float& v : map.pixels) v = std::floor(random.next() * steps) / steps;
+        if (seed % 2 == 0) map = low_pass(map);
+        DoubleImage exact(width, height);
+        std::copy(map.pixels.begin(), map.pixels.end(), exact.pixels.begin());
+        EXPECT_NEAR(compute_normalization(map, 1e-9).weight, reference_weight(exact, 1e-9), 1e-9) << seed;
+    }
+}
+
+TEST(NormalizeHard, PY10_AllMaximaEqual) {
+    Image<float> lattice(64, 64);
+    for (int y = 4; y < 64; y += 8) {
+        for (int x = 4; x < 64; x += 8) lattice(x, y) = 1.0f;
+    }
+    EXPECT_NEAR(compute_normalization(lattice, 0).weight, 0.0, 1e-12);
+    EXPECT_FALSE(compute_normalization(lattice, 0).empty);
+}
+
+TEST(NormalizeHard, PY10_MaximaUnderATenthAreDropped) {
+    Image<float> map(64, 16);
+    map(5, 5) = 1.0f;
+    for (int x = 12; x < 60; x += 4) map(x, 8) = 0.099f;
+    EXPECT_EQ(compute_normalization(map, 0).weight, 1.0);
+    for (int x = 12; x < 60; x += 4) map(x, 8) = 0.101f;
+    EXPECT_NEAR(compute_normalization(map, 0).weight, std::pow(1 - 0.101, 2), 1e-4);
+}
+
+}  // namespace
+}  // namespace aleph

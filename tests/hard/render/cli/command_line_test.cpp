@@ -1,0 +1,228 @@
+// The built program from outside: exit codes, messages, files left behind.
+
+#include <fcntl.h>
+#include <gtest/gtest.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <fstream>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "engine/base/sampling.h"
+#include "engine/image/image_file.h"
+#include "render/cli/options.h"
+#include "tests/support/german_locale.h"
+#include "tests/support/scratch_folder.h"
+
+namespace aleph {
+namespace {
+
+struct Outcome {
+    int code = -1;  ///< -1 if a signal ended it
+    std::string out, err;
+};
+
+std::string text_of(const std::filesystem::path& path) {
+    std::ifstream file(path, std::ios::binary);
+    return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+}
+
+/// Runs the program; `file_limit` bytes are all that a file may have.
+Outcome run_aleph(std::vector<std::string> arguments, rlim_t file_limit = RLIM_INFINITY) {
+    const ScratchFolder folder;
+    const std::string out = folder / "out", err = folder / "err";
+    arguments.insert(arguments.begin(), ALEPH_PROGRAM);
+    std::vector<char*> argv;
+    for (std::string& argument : arguments) argv.push_back(argument.data());
+    argv.push_back(nullptr);
+    const pid_t child = ::fork();
+    if (child == 0) {
+        ::dup2(::open(out.c_str(), O_WRONLY | O_CREAT, 0600), STDOUT_FILENO);
+        ::dup2(::open(err.c_str(), O_WRONLY | O_CREAT, 0600), STDERR_FILENO);
+        rlimit limit{};
+        ::getrlimit(RLIMIT_FSIZE, &limit);
+        limit.rlim_cur = std::min(limit.rlim_max, file_limit);
+        ::setrlimit(RLIMIT_FSIZE, &limit);
+        ::execv(ALEPH_PROGRAM, argv.data());
+        ::_exit(127);
+    }
+    int status = 0;
+    ::waitpid(child, &status, 0);
+    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, text_of(out), text_of(err)};
+}
+
+ChannelImage grey_image(int width, int height, float value) {
+    ChannelImage image;
+    for (const char* name : {"R", "G", "B"}) image.channels.push_back({name, Image<float>(width, height, value)});
+    return image;
+}
+
+/// Two pictures, .5 apart by `step` in one green pixel.
+struct TwoPictures {
+    ScratchFolder folder;
+    std::string a = folder / "a.exr", b = folder / "b.exr";
+
+    explicit TwoPictures(float step) {
+        ChannelImage image = grey_image(20, 10, 0.5f);
+        write_exr(b, image);
+        image.channels[1].values(4, 7) += step;
+        write_exr(a, image);
+    }
+};
+
+void expect_one_error_line(const Outcome& outcome, const std::string& part) {
+    EXPECT_TRUE(outcome.err.starts_with("aleph: error: ")) << outcome.err;
+    EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
+    EXPECT_NE(outcome.err.find(part), std::string::npos) << outcome.err;
+    EXPECT_EQ(outcome.out, "");
+}
+
+TEST(CommandLine, HelpAndVersion) {
+    const Outcome version = run_aleph({"--version"});
+    EXPECT_EQ(version.code, 0);
+    EXPECT_TRUE(version.out.starts_with("aleph ")) << version.out;
+    for (const std::vector<std::string>& arguments : {std::vector<std::string>{"--help"}, {"compare", "--help"}}) {
+        const Outcome help = run_aleph(arguments);
+        EXPECT_EQ(help.code, 0);
+        EXPECT_NE(help.out.find("compare"), std::string::npos);
+        EXPECT_EQ(help.err, "");
+    }
+}
+
+TEST(CommandLine, BadUsageIsExitCode2) {
+    const std::vector<std::pair<std::vector<std::string>, std::string>> cases{
+        {{}, "compare; aleph --help"},
+        {{"fly"}, "fly (commands: "},
+        {{"compare", "a.exr", "b.exr", "--fast"}, "--fast (aleph compare --help"},
+        {{"compare", "a.exr", "b.exr", "--share", "much"}, "--share: 'much' is not a number"},
+        {{"compare", "a.exr", "b.exr", "--share", "101"}, "--share lies in 0 to 100"}};
+    for (const auto& [arguments, part] : cases) {
+        const Outcome outcome = run_aleph(arguments);
+        EXPECT_EQ(outcome.code, 2);
+        expect_one_error_line(outcome, part);
+    }
+}
+
+TEST(CommandLine, CompareTellsSameFromDifferent) {
+    const TwoPictures files(0.25f);
+    const Outcome different = run_aleph({"compare", files.a, files.b});
+    EXPECT_EQ(different.code, 1);
+    EXPECT_NE(different.out.find("4,7"), std::string::npos) << different.out;
+    EXPECT_TRUE(different.out.ends_with("different\n"));
+    EXPECT_EQ(run_aleph({"compare", files.a, files.b, "--tolerance", "0.25"}).code, 0);
+    EXPECT_EQ(run_aleph({"compare", files.a, files.b, "--relative", "0.49"}).code, 1);
+    EXPECT_EQ(run_aleph({"compare", files.a, files.b, "--share", "0.5"}).code, 0);
+    EXPECT_EQ(run_aleph({"compare", "--channels", "R,B", files.a, files.b}).code, 0);
+    const Outcome quiet = run_aleph({"compare", "-q", files.a, files.b});
+    EXPECT_EQ(quiet.code, 1);
+    EXPECT_EQ(quiet.out, "");
+}
+
+TEST(CommandLine, CompareNeverPassesNan) {
+    const ScratchFolder folder;
+    ChannelImage image = grey_image(4, 4, 0.5f);
+    write_exr(folder / "clean.exr", image);
+    image.channels[0].values(1, 1) = std::numeric_limits<float>::quiet_NaN();
+    write_exr(folder / "nan.exr", image);
+    const std::string clean = folder / "clean.exr", nan = folder / "nan.exr";
+    for (const auto& [a, b] : {std::pair{nan, clean}, {nan, nan}}) {
+        const Outcome outcome = run_aleph({"compare", a, b, "--share", "100"});
+        EXPECT_EQ(outcome.code, 1);
+        EXPECT_NE(outcome.out.find("NaN: "), std::string::npos);
+    }
+}
+
+TEST(CommandLine, CompareOfOtherShapesIsExitCode2) {
+    const ScratchFolder folder;
+    write_exr(folder / "a.exr", grey_image(4, 4, 0.5f));
+    write_exr(folder / "wide.exr", grey_image(5, 4, 0.5f));
+    ChannelImage more = grey_image(4, 4, 0.5f);
+    more.channels.push_back({"Z", Image<float>(4, 4)});
+    write_exr(folder / "more.exr", more);
+    std::ofstream(folder / "text.exr") << "no picture";
+    const std::string a = folder / "a.exr";
+    for (const char* other : {"wide.exr", "more.exr", "text.exr", "missing.exr"}) {
+        const Outcome outcome = run_aleph({"compare", a, folder / other});
+        EXPECT_EQ(outcome.code, 2) << other;
+        expect_one_error_line(outcome, "");
+    }
+}
+
+TEST(CommandLine, CompareAgainstAThresholdMapAsJson) {
+    const TwoPictures files(0.02f);  // 1.43 cd/m2 at a white of 100
+    const std::string map = files.folder / "maps.exr";
+    write_exr(map, {{{"threshold.Y", Image<float>(20, 10, 1.0f)}}, {}});
+    const Outcome outcome = run_aleph({"compare", files.a, files.b, "--threshold", map, "--json"});
+    EXPECT_EQ(outcome.code, 1);
+    const auto json = nlohmann::json::parse(outcome.out);
+    EXPECT_EQ(json["same"], false);
+    EXPECT_EQ(json["threshold"]["pixels"], 1);
+    EXPECT_DOUBLE_EQ(json["threshold"]["percent"], 0.5);
+    EXPECT_NEAR(json["threshold"]["worst"].get<double>(), 1.43, 0.001);
+    EXPECT_EQ(json["channels"].size(), 3u);
+    EXPECT_EQ(json["size"], nlohmann::json({20, 10}));
+    write_exr(map, {{{"threshold.Y", Image<float>(20, 10, 1.5f)}}, {}});
+    EXPECT_EQ(run_aleph({"compare", files.a, files.b, "--threshold", map}).code, 0);
+}
+
+TEST(CommandLine, OU05_FullDiskIsExitCode1AndLeavesNothing) {
+    const ScratchFolder folder;
+    ChannelImage a = grey_image(300, 200, 0.5f);
+    RandomStream random({.seed = 3});
+    for (Channel& channel : a.channels) {
+        for (float& v : channel.values.pixels) v = random.next();
+    }
+    write_exr(folder / "a.exr", a);
+    write_exr(folder / "b.exr", grey_image(300, 200, 0.5f));
+    const std::string picture = folder / "diff.png";
+    const Outcome outcome = run_aleph({"compare", "-q", folder / "a.exr", folder / "b.exr", "--diff", picture}, 20'000);
+    EXPECT_EQ(outcome.code, 1);
+    expect_one_error_line(outcome, picture + ": cannot write: File too large");
+    for (const auto& entry : std::filesystem::directory_iterator(folder.path())) {
+        EXPECT_EQ(entry.path().extension(), ".exr") << entry.path();
+    }
+}
+
+TEST(CommandLine, OU05_ResultsThatCannotBePrintedAreAnError) {
+    if (!std::filesystem::exists("/dev/full")) GTEST_SKIP() << "there is no /dev/full here";
+    const TwoPictures files(0.0f);
+    const std::string command =
+        std::string("'") + ALEPH_PROGRAM + "' compare '" + files.a + "' '" + files.a + "' >/dev/full 2>/dev/null";
+    EXPECT_EQ(WEXITSTATUS(::system(command.c_str())), 1);
+}
+
+TEST(CommandLine, OU06_DifferenceIntoAMissingFolder) {
+    const TwoPictures files(0.25f);
+    const Outcome outcome = run_aleph({"compare", "-q", files.a, files.b, "--diff", files.folder / "no/diff.png"});
+    EXPECT_EQ(outcome.code, 1);
+    expect_one_error_line(outcome, "does not exist");
+}
+
+TEST(CommandLine, DT09_NumbersDoNotFollowTheLocale) {
+    const TwoPictures files(0.25f);
+    const std::vector<std::string> arguments{"compare", files.a, files.b, "--json", "--relative", "0.75"};
+    const Outcome plain = run_aleph(arguments);
+    EXPECT_EQ(plain.code, 0) << plain.err;
+    const Outcome plain_table = run_aleph({"compare", files.a, files.b});
+    const GermanLocale german;
+    if (!german.available()) GTEST_SKIP() << "no locale de_DE.UTF-8, and localedef cannot make one";
+    EXPECT_EQ(parse_value<double>("0.5", "--x"), 0.5);
+    EXPECT_THROW(parse_value<double>("0,5", "--x"), CLI::ConversionError);
+    const Outcome outcome = run_aleph(arguments);
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
+    EXPECT_EQ(outcome.out, plain.out);
+    EXPECT_EQ(run_aleph({"compare", files.a, files.b}).out, plain_table.out);
+    EXPECT_EQ(run_aleph({"compare", files.a, files.b, "--relative", "0,75"}).code, 2);
+    // The same inside a program that has set its locale.
+    ChannelImage image = read_image(files.a);
+    image.metadata["exposure"] = 0.5;
+    const std::string inside = files.folder / "inside.exr";
+    write_exr(inside, image);
+    EXPECT_EQ(std::get<double>(read_image(inside).metadata.at("exposure")), 0.5);
+}
+
+}  // namespace
+}  // namespace aleph

@@ -1,0 +1,307 @@
+// HARD_CASES.md section 6 in pictures: corners, the open, walls, winding, tiny accuracies, threads.
+
+#include <gtest/gtest.h>
+
+#include "engine/base/parallel.h"
+#include "tests/support/render_scenes.h"
+
+namespace aleph {
+namespace {
+
+/// An open corner of three walls, lit, seen from inside.
+Scene make_corner() {
+    Scene scene;
+    const int white = add_lambert(scene, glm::dvec3(0.8));
+    add_mesh(scene, make_quad(2.0, 2.0, white), {0.0, 0.0, 0.0}, z_to_up);
+    add_mesh(scene, make_quad(2.0, 2.0, white), {0.0, 1.0, -1.0});
+    add_mesh(scene, make_quad(2.0, 2.0, white), {-1.0, 1.0, 0.0},
+             glm::angleAxis(std::numbers::pi / 2, glm::dvec3(0.0, 1.0, 0.0)));
+    add_light(scene, Light::Kind::point, glm::dvec3(3.0), {0.3, 0.8, 0.3});
+    add_camera(scene, {0.0, 1.0, 1.0}, {-1.0, 0.0, -1.0}, 0.25);
+    return scene;
+}
+
+TEST(IrradianceCache, IC04_RecordsInACornerAreBounded) {
+    const Stage stage(make_corner(), 64, 48);
+    const ShadedFrame out = shade(stage, plain_settings(0.15, 64));
+    double records = 0.0;
+    for (const float r : out.records.pixels) records += r;
+    // Radii of at least 4 px fill an image with at most about one record per 3.1 px (2 r / sqrt 3 ... packing).
+    EXPECT_GT(records, 3.0);
+    EXPECT_LT(records, 64.0 * 48.0 / 4.0);
+    for (const Rgb& c : out.color.pixels) EXPECT_TRUE(std::isfinite(c.x) && c.x >= 0.0f);
+    EXPECT_EQ(out.invalid_count, 0u);
+}
+
+/// Two floor tiles 10 m apart in the open; beside the second stands a lit red wall.
+Scene make_open_tiles() {
+    Scene scene;
+    const int white = add_lambert(scene, glm::dvec3(0.8)), red = add_lambert(scene, {0.9, 0.05, 0.05});
+    add_mesh(scene, make_quad(1.0, 1.0, white), {0.0, 0.0, 0.0}, z_to_up);
+    add_mesh(scene, make_quad(1.0, 1.0, white), {10.0, 0.0, 0.0}, z_to_up);
+    add_mesh(scene, make_quad(1.0, 1.0, red), {10.5, 0.5, 0.0},
+             glm::angleAxis(-std::numbers::pi / 2, glm::dvec3(0.0, 1.0, 0.0)));
+    const glm::dquat towards_wall = glm::angleAxis(-std::numbers::pi / 2, glm::dvec3(0.0, 1.0, 0.0));
+    add_light(scene, Light::Kind::directional, glm::dvec3(2.0), glm::dvec3(0.0), towards_wall);
+    add_camera(scene, {5.0, 6.0, 6.0}, {5.0, 0.0, 0.0}, 1.2);
+    return scene;
+}
+
+TEST(IrradianceCache, IC06_ARecordInTheOpenDoesNotCoverTheNextObject) {
+    const Stage stage(make_open_tiles(), 80, 40);
+    Tracer tracer(stage.rays);
+    GatherScratch scratch;
+    RayCounts counts;
+    const glm::vec3 up(0.0f, 1.0f, 0.0f), anchor(stage.shading.anchor);
+    const glm::vec3 first = glm::vec3(-0.4f, 0.0f, 0.0f) - anchor, second = glm::vec3(10.3f, 0.0f, 0.0f) - anchor;
+    const auto gather = [&](const glm::vec3& p) {
+        return gather_irradiance(stage.lighting(), tracer, make_point(p, up), choose_strata(1024), {}, scratch, counts);
+    };
+    const float largest = scene_radius(stage.shading);
+    IrradianceCache cache = make_cache(stage.shading);
+    cache.insert(make_record(first, up, gather(first), {1e-3f, largest}));
+    EXPECT_LE(cache.records()[0].radius, largest);
+    EXPECT_TRUE(std::isfinite(cache.records()[0].radius));
+    EXPECT_FALSE(cache.covers({second, up, 1.0f}));
+    EXPECT_LT(gather(first).irradiance.x, 0.01f);
+    EXPECT_GT(gather(second).irradiance.x, 0.1f);
+    // In the picture too: the second tile is red next to the wall, the first is black (no light meets it at all).
+    const ShadedFrame out = shade(stage, plain_settings(1.0, 256));
+    float first_tile = 0.0f, second_tile = 0.0f;
+    const Image<Hit> hits = cast_first_hits(stage.rays, stage.view);
+    for (std::size_t i = 0; i < hits.size(); ++i) {
+        if (hits.pixels[i].instance == 0) first_tile = std::max(first_tile, out.color.pixels[i].x);
+        if (hits.pixels[i].instance == 1) second_tile = std::max(second_tile, out.color.pixels[i].x);
+    }
+    EXPECT_LT(first_tile, 0.01f);
+    EXPECT_GT(second_tile, 0.05f);
+}
+
+/// Two rooms without a roof and a wall of this thickness between; a lamp, lower than the walls, in the left one.
+Scene make_two_rooms(double thickness) {
+    Scene scene;
+    const int white = add_lambert(scene, glm::dvec3(0.8), glm::dvec3(0.0), true);
+    add_mesh(scene, make_quad(4.0, 2.0, white), {0.0, 0.0, 0.0}, z_to_up);
+    add_mesh(scene, make_quad(4.0, 1.0, white), {0.0, 0.5, -1.0});
+    add_mesh(scene, make_quad(4.0, 1.0, white), {0.0, 0.5, 1.0});
+    for (const double x : {-2.0, 2.0}) {
+        add_mesh(scene, make_quad(2.0, 1.0, white), {x, 0.5, 0.0},
+                 glm::angleAxis(std::numbers::pi / 2, glm::dvec3(0.0, 1.0, 0.0)));
+    }
+    add_mesh(scene, make_box({thickness, 1.0, 2.0}, white), {0.0, 0.5, 0.0});
+    add_light(scene, Light::Kind::point, glm::dvec3(2.0), {-1.0, 0.6, 0.0});
+    add_camera(scene, {0.0, 4.0, 0.0}, {0.0, 0.0, 0.0}, 0.9);
+    return scene;
+}
+
+/// Floor and side walls run on from the lit room into the dark one: nothing but distance keeps records apart there.
+struct DarkRoom {
+    int dark = 0, lit = 0;      ///< pixels
+    int leaking = 0;            ///< dark room's pixels that are not 0
+    double farthest = 0.0;      ///< m from the wall to the farthest of them
+    float darkest_lit = 1e30f;  ///< in the lit room
+};
+
+DarkRoom render_two_rooms(double thickness, double accuracy, double min_radius_pixels) {
+    const Stage stage(make_two_rooms(thickness), 64, 48);
+    RenderSettings settings = plain_settings(accuracy, accuracy > 0.0 ? 1024 : 64);  // the default gather
+    settings.min_radius_pixels = min_radius_pixels;
+    const ShadedFrame out = shade(stage, settings);
+    const SampleHits hits = cast_sample(stage.rays, stage.view, 0, 1, nullptr);
+    DarkRoom found;
+    for (int y = 0; y < 48; ++y) {
+        for (int x = 0; x < 64; ++x) {
+            if (hits.hits(x, y).instance == no_index) continue;
+            const PixelSurface s = make_pixel_surface(stage.shading, stage.view, hits, x, y);
+            const double from_wall = s.point.position.x + stage.shading.anchor.x - 0.5 * thickness;
+            if (from_wall > 0.0) {
+                ++found.dark;
+                if (out.color(x, y) == Rgb(0.0f)) continue;
+                ++found.leaking;
+                found.farthest = std::max(found.farthest, from_wall);
+            } else if (from_wall < -thickness - 0.05) {
+                ++found.lit;
+                found.darkest_lit = std::min(found.darkest_lit, out.color(x, y).x);
+            }
+        }
+    }
+    return found;
+}
+
+void expect_dark(const DarkRoom& found) {
+    EXPECT_EQ(found.leaking, 0);
+    EXPECT_GT(found.dark, 200);
+    EXPECT_GT(found.lit, 200);
+    EXPECT_GT(found.darkest_lit, 0.01f);
+}
+
+// Ward's criterion and the smallest radius alone leak here: a record knows by sectors where a wall stands. Sectors
+// are coarse: at loose accuracies a wall met aslant may let single pixels through.
+void expect_nearly_dark(const DarkRoom& found) {
+    EXPECT_LE(50 * found.leaking, found.dark);
+    EXPECT_GT(found.darkest_lit, 0.01f);
+}
+
+TEST(IrradianceCache, IC08_TheDarkRoomStaysDark) {
+    for (const double accuracy : {0.0, 0.05, 0.15}) {
+        SCOPED_TRACE(accuracy);
+        expect_dark(render_two_rooms(0.1, accuracy, 4.0));
+    }
+    for (const double accuracy : {0.3, 0.5, 1.0}) expect_nearly_dark(render_two_rooms(0.1, accuracy, 4.0));
+}
+
+TEST(IrradianceCache, IC09_BehindAThinWallStaysDark) {
+    for (const double accuracy : {0.0, 0.05, 0.15}) {
+        SCOPED_TRACE(accuracy);
+        expect_dark(render_two_rooms(1e-4, accuracy, 4.0));
+    }
+    for (const double accuracy : {0.3, 0.5, 1.0}) expect_nearly_dark(render_two_rooms(1e-4, accuracy, 4.0));
+}
+
+/// Window bars before a shining pane: what lies on the pane sees their bright backs, their fronts see nothing at all.
+TEST(IrradianceCache, IC08_BarsBeforeAShiningPaneStayDark) {
+    Scene scene;
+    const int pane = add_lambert(scene, glm::dvec3(0.8), glm::dvec3(5.0));
+    const int wood = add_lambert(scene, glm::dvec3(0.8));
+    add_mesh(scene, make_quad(4.0, 3.0, pane));
+    for (int i = -6; i <= 6; ++i) add_mesh(scene, make_box({0.04, 3.0, 0.02}, wood), {0.3 * i, 0.0, 0.08});
+    add_camera(scene, {0.0, 0.0, 3.0}, glm::dvec3(0.0), 0.9);
+    const Stage stage(std::move(scene), 96, 72);
+    const SampleHits hits = cast_sample(stage.rays, stage.view, 0, 1, nullptr);
+    for (const double accuracy : {0.05, 0.15, 0.3, 0.5}) {
+        const ShadedFrame out = shade(stage, plain_settings(accuracy, 256));
+        int fronts = 0, leaking = 0;
+        for (int y = 0; y < 72; ++y) {
+            for (int x = 0; x < 96; ++x) {
+                if (hits.hits(x, y).instance <= 0) continue;
+                const PixelSurface s = make_pixel_surface(stage.shading, stage.view, hits, x, y);
+                if (s.point.normal.z < 0.99f) continue;
+                ++fronts;
+                leaking += out.color(x, y) != Rgb(0.0f);
+            }
+        }
+        EXPECT_EQ(leaking, 0) << "accuracy " << accuracy << ", of " << fronts;
+        EXPECT_GT(fronts, 300);
+    }
+}
+
+TEST(IrradianceCache, IC10_WindingDoesNotMatterToATwoSidedSurface) {
+    const auto render = [](bool flipped) {
+        Scene scene;
+        const int white = add_lambert(scene, glm::dvec3(0.7), glm::dvec3(0.0), true);
+        Mesh room = make_box({4.0, 3.0, 4.0}, white), block = make_box({0.8, 0.8, 0.8}, white);
+        if (flipped) room = flip_winding(room), block = flip_winding(block);
+        add_mesh(scene, room);
+        add_mesh(scene, block, {0.5, -1.1, -0.5}, glm::angleAxis(0.4, glm::dvec3(0.0, 1.0, 0.0)));
+        add_light(scene, Light::Kind::point, glm::dvec3(4.0), {-0.5, 1.0, 0.3});
+        add_camera(scene, {0.0, 0.0, 1.8}, {0.0, -0.4, 0.0}, 1.0);
+        const Stage stage(std::move(scene), 64, 48);
+        return shade(stage, plain_settings(0.2, 256)).color;
+    };
+    const Image<Rgb> one = render(false), other = render(true);
+    double difference = 0.0, sum = 0.0;
+    for (std::size_t i = 0; i < one.size(); ++i) {
+        EXPECT_GT(one.pixels[i].x, 0.0f);
+        difference += std::abs(one.pixels[i].x - other.pixels[i].x);
+        sum += one.pixels[i].x;
+    }
+    EXPECT_LT(difference, 0.01 * sum);
+}
+
+/// A closed room with a block in it and a lamp on the ceiling.
+Scene make_room() {
+    Scene scene;
+    const int white = add_lambert(scene, glm::dvec3(0.7), glm::dvec3(0.0), true);
+    const int red = add_lambert(scene, {0.7, 0.1, 0.1}, glm::dvec3(0.0), true);
+    const int lamp = add_lambert(scene, glm::dvec3(0.0), glm::dvec3(10.0));
+    add_mesh(scene, make_box({4.0, 3.0, 4.0}, white));
+    add_mesh(scene, make_box({0.8, 0.8, 0.8}, red), {0.5, -1.1, -0.5}, glm::angleAxis(0.4, glm::dvec3(0.0, 1.0, 0.0)));
+    add_mesh(scene, make_quad(1.0, 1.0, lamp), {0.0, 1.49, 0.0}, z_to_down);
+    add_camera(scene, {0.0, 0.0, 1.8}, {0.0, -0.4, 0.0}, 1.0);
+    return scene;
+}
+
+TEST(IrradianceCache, IC12_TinyAccuracyConvergesToGatheringEverywhere) {
+    const Stage stage(make_room(), 16, 12);
+    constexpr int runs = 12;
+    std::vector<Mean> cached(16 * 12), gathered(16 * 12);
+    Mean cached_mean, gathered_mean;
+    for (std::uint32_t run = 0; run < runs; ++run) {
+        RenderSettings settings = plain_settings(1e-4, 256);
+        settings.light_samples = 4;
+        settings.min_radius_pixels = 0.1;
+        settings.seed = run;
+        const ShadedFrame small = shade(stage, settings);
+        settings.accuracy = 0.0;
+        settings.seed = 100 + run;
+        const ShadedFrame none = shade(stage, settings);
+        double small_sum = 0.0, none_sum = 0.0;
+        for (std::size_t i = 0; i < small.color.size(); ++i) {
+            cached[i].add(small.color.pixels[i].x);
+            gathered[i].add(none.color.pixels[i].x);
+            small_sum += small.color.pixels[i].x;
+            none_sum += none.color.pixels[i].x;
+        }
+        cached_mean.add(small_sum);
+        gathered_mean.add(none_sum);
+    }
+    EXPECT_NEAR(cached_mean.mean(), gathered_mean.mean(), 3.0 * std::hypot(cached_mean.error(), gathered_mean.error()));
+    int beyond = 0;
+    for (std::size_t i = 0; i < cached.size(); ++i) {
+        const double error = std::hypot(cached[i].error(), gathered[i].error());
+        if (std::abs(cached[i].mean() - gathered[i].mean()) > 3.0 * error) ++beyond;
+    }
+    EXPECT_LE(beyond, 6);  // of 192, Student's t with 22 degrees of freedom: 1.3 expected, 6 has a chance of 2e-3
+}
+
+TEST(IrradianceCache, IC12_AccuracyOneRendersWithFewRecords) {
+    const Stage stage(make_room(), 64, 48);
+    const ShadedFrame coarse = shade(stage, plain_settings(1.0, 64)), fine = shade(stage, plain_settings(0.1, 64));
+    EXPECT_GT(coarse.record_count, 5u);
+    EXPECT_LT(2 * coarse.record_count, fine.record_count);  // walls near by limit a record at any accuracy
+    EXPECT_EQ(coarse.invalid_count, 0u);
+}
+
+TEST(IrradianceCache, IC13_TheSameRecordsFromAnyNumberOfThreads) {
+    const Stage stage(make_room(), 96, 72);
+    RenderSettings settings = plain_settings(0.15, 64);
+    settings.light_samples = 4;
+    Image<float> accuracy(96, 72);
+    for (int y = 0; y < 72; ++y) {
+        for (int x = 0; x < 96; ++x) accuracy(x, y) = x < 48 ? 0.15f : 0.6f;  // as a guide would give
+    }
+    const LightingContext lighting = stage.lighting();
+    const IndirectContext context{lighting, stage.view, settings, accuracy, 0, scene_radius(stage.shading), {}};
+    const SampleHits centers = cast_sample(stage.rays, stage.view, 0, 1, nullptr);
+    std::vector<IrradianceRecord> first;
+    Image<Rgb> first_picture;
+    for (const int threads : {1, 2, 4, 8}) {
+        const ThreadLimit limit(threads);
+        IrradianceCache cache = make_cache(stage.shading);
+        Image<float> records(96, 72);
+        RayCounts counts;
+        FillStatistics statistics;
+        fill_cache(cache, context, centers, 0, records, counts, statistics);
+        const Image<Rgb> picture = shade_frame(context, centers, 1.0).color;
+        if (threads == 1) {
+            first = cache.records();
+            first_picture = picture;
+            ASSERT_GT(first.size(), 50u);
+            continue;
+        }
+        ASSERT_EQ(cache.records().size(), first.size());
+        for (std::size_t i = 0; i < first.size(); ++i) {
+            const IrradianceRecord &a = first[i], &b = cache.records()[i];
+            ASSERT_EQ(a.position, b.position);
+            ASSERT_EQ(a.normal, b.normal);
+            ASSERT_EQ(a.irradiance, b.irradiance);
+            ASSERT_EQ(a.radius, b.radius);
+            ASSERT_EQ(a.translation_gradient, b.translation_gradient);
+            ASSERT_EQ(a.rotation_gradient, b.rotation_gradient);
+        }
+        EXPECT_EQ(picture, first_picture) << threads;
+    }
+}
+
+}  // namespace
+}  // namespace aleph

@@ -1,0 +1,280 @@
+// HARD_CASES.md section 6: records that are queried at themselves, in corners, behind thin walls, in the open.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <limits>
+#include <random>
+
+#include "tests/support/render_scenes.h"
+
+namespace aleph {
+namespace {
+
+constexpr float infinite = std::numeric_limits<float>::infinity();
+const RadiusBounds any_radius{1e-3f, 1e3f};
+
+class Randoms {
+  public:
+    float uniform(float low, float high) { return std::uniform_real_distribution<float>(low, high)(engine_); }
+    glm::vec3 in_cube(float half) { return {uniform(-half, half), uniform(-half, half), uniform(-half, half)}; }
+    glm::vec3 direction() {
+        glm::vec3 v;
+        do v = in_cube(1.0f);
+        while (glm::dot(v, v) > 1.0f || glm::dot(v, v) < 1e-4f);
+        return glm::normalize(v);
+    }
+
+    glm::vec3 mostly_up() { return glm::normalize(glm::vec3(0.0f, 1.5f, 0.0f) + in_cube(1.0f)); }
+
+  private:
+    std::mt19937 engine_{2000};
+};
+
+IrradianceRecord make_plain_record(const glm::vec3& position, const glm::vec3& normal, float radius,
+                                   float irradiance = 1.0f) {
+    IrradianceRecord record;
+    record.position = position;
+    record.normal = normal;
+    record.radius = radius;
+    record.irradiance = Rgb(irradiance);
+    return record;
+}
+
+/// (6.6) and the rules of HARD_CASES over all records, one after another.
+std::optional<glm::dvec3> search_all(const IrradianceCache& cache, const CacheQuery& query) {
+    const float accuracy = std::min(query.accuracy, 1.0f);
+    glm::dvec3 sum(0.0);
+    double total = 0.0;
+    for (const IrradianceRecord& record : cache.records()) {
+        const float error = interpolation_error(record, query.position, query.normal);
+        if (!(error < accuracy)) continue;
+        const double weight = 1.0 / std::max(static_cast<double>(error), 1e-3);
+        sum += glm::dvec3(extrapolate(record, query.position, query.normal)) * weight;
+        total += weight;
+    }
+    if (total == 0.0) return std::nullopt;
+    return sum / total;
+}
+
+TEST(IrradianceCache, IC01_ErrorAtTheRecordsOwnNormalIsZeroNeverNan) {
+    Randoms random;
+    for (int i = 0; i < 1'000'000; ++i) {
+        const glm::vec3 n = random.direction();
+        ASSERT_EQ(interpolation_error(make_plain_record(glm::vec3(0.0f), n, 1.0f), glm::vec3(0.0f), n), 0.0f);
+    }
+}
+
+TEST(IrradianceCache, IC02_SmallAnglesKeepTheirSize) {
+    for (const double angle : {1.0, 0.1, 1e-2, 1e-3, 1e-4}) {
+        // Off the axes, where components round.
+        const glm::dvec3 n = glm::normalize(glm::dvec3(1.0, 2.0, 3.0)),
+                         across = glm::normalize(glm::dvec3(3.0, 0.0, -1.0));
+        const glm::dvec3 turned = n * std::cos(angle) + across * std::sin(angle);
+        const IrradianceRecord record = make_plain_record(glm::vec3(0.0f), glm::vec3(n), 1.0f);
+        const double expected = std::sqrt(2.0) * std::sin(0.5 * angle);  // sqrt(1 - cos)
+        EXPECT_NEAR(interpolation_error(record, glm::vec3(0.0f), glm::vec3(turned)), expected, 1e-3 * expected)
+            << angle;
+    }
+}
+
+TEST(IrradianceCache, IC03_AtTheRecordItsOwnValueComesBack) {
+    IrradianceCache cache(glm::vec3(-1.0f), glm::vec3(1.0f));
+    const glm::vec3 up(0.0f, 1.0f, 0.0f);
+    cache.insert(make_plain_record(glm::vec3(0.0f), up, 1.0f, 7.0f));
+    const std::optional<Rgb> found = cache.interpolate({glm::vec3(0.0f), up, 0.1f});
+    ASSERT_TRUE(found.has_value());
+    EXPECT_NEAR(found->x, 7.0f, 7e-5f);
+    // Others far enough for their error to reach nearly alpha weigh 1 / .9 against 1000.
+    cache.insert(make_plain_record({0.9f, 0.0f, 0.0f}, up, 1.0f, 0.0f));
+    EXPECT_NEAR(cache.interpolate({glm::vec3(0.0f), up, 1.0f})->x, 7.0 * 1000.0 / (1000.0 + 1.0 / 0.9), 1e-4);
+}
+
+TEST(IrradianceCache, IC04_RadiiStayWithinTheirBounds) {
+    const glm::vec3 up(0.0f, 1.0f, 0.0f);
+    IrradianceSample corner;
+    corner.irradiance = Rgb(1.0f);
+    corner.harmonic_mean_distance = 0.0f;
+    EXPECT_EQ(make_record(glm::vec3(0.0f), up, corner, {0.01f, 5.0f}).radius, 0.01f);
+    corner.harmonic_mean_distance = infinite;
+    EXPECT_EQ(make_record(glm::vec3(0.0f), up, corner, {0.01f, 5.0f}).radius, 5.0f);
+    corner.harmonic_mean_distance = 1.0f;
+    EXPECT_EQ(make_record(glm::vec3(0.0f), up, corner, {0.01f, 5.0f}).radius, 1.0f);
+    // Neighbour clamping stops at the smallest radius too.
+    IrradianceCache cache(glm::vec3(-1.0f), glm::vec3(1.0f));
+    corner.harmonic_mean_distance = 0.0f;
+    cache.insert(make_record(glm::vec3(0.0f), up, corner, {1e-6f, 5.0f}));
+    cache.insert(make_record(glm::vec3(0.0f), up, corner, {0.02f, 5.0f}));
+    EXPECT_EQ(cache.records()[1].radius, 0.02f);
+}
+
+TEST(IrradianceCache, IC05_SelfHitsDoNotShrinkTheRadius) {
+    const auto mean_distance = [](bool speck) {
+        Scene scene;
+        const int white = add_lambert(scene, glm::dvec3(0.5));
+        add_mesh(scene, make_faceted_sphere(2.0, 96, white));
+        if (speck) {
+            // 1e-5 m over the point, under 1e-4 of the radius, and small: what a rounding of the position looks like.
+            add_mesh(scene, make_quad(1e-6, 1e-6, white), {0.0, 1.2e-5, 0.0}, z_to_down);
+        }
+        const Stage stage(std::move(scene));
+        Tracer tracer(stage.rays);
+        GatherScratch scratch;
+        RayCounts counts;
+        return gather_irradiance(stage.lighting(), tracer, make_point(glm::vec3(0.0f), {0.0f, 1.0f, 0.0f}, 1e-5f),
+                                 choose_strata(2048), {1, 2, 3, 4}, scratch, counts);
+    };
+    const IrradianceSample clean = mean_distance(false), disturbed = mean_distance(true);
+    EXPECT_EQ(clean.ignored_distances, 0);
+    ASSERT_GT(disturbed.ignored_distances, 0);
+    ASSERT_LT(disturbed.ignored_distances, 400);
+    EXPECT_NEAR(disturbed.harmonic_mean_distance, clean.harmonic_mean_distance, 0.01f * clean.harmonic_mean_distance);
+}
+
+TEST(IrradianceCache, IC07_GradientsNextToAWallStayBounded) {
+    for (const double distance : {1e-2, 1e-4, 1e-6, 1e-8, 0.0}) {
+        Scene scene;
+        const int white = add_lambert(scene, glm::dvec3(0.8));
+        add_mesh(scene, make_quad(2.0, 2.0, white), {0.0, 0.0, -distance});
+        add_mesh(scene, make_quad(2.0, 2.0, white), {0.0, 1.0, 0.0}, z_to_down);
+        add_light(scene, Light::Kind::point, glm::dvec3(5.0), {0.1, 0.3, 0.5});
+        const Stage stage(std::move(scene));
+        Tracer tracer(stage.rays);
+        GatherScratch scratch;
+        RayCounts counts;
+        const glm::vec3 up(0.0f, 1.0f, 0.0f);
+        const IrradianceSample sample = gather_irradiance(stage.lighting(), tracer, make_point(glm::vec3(0.0f), up),
+                                                          choose_strata(1024), {}, scratch, counts);
+        ASSERT_GT(sample.irradiance.x, 0.0f) << distance;
+        const IrradianceRecord record = make_record(glm::vec3(0.0f), up, sample, any_radius);
+        for (std::size_t c = 0; c < 3; ++c) {
+            const float e = record.irradiance[static_cast<int>(c)] * 1.0001f;
+            ASSERT_LE(glm::length(record.translation_gradient[c]) * record.radius, e) << distance;
+            ASSERT_LE(glm::length(record.rotation_gradient[c]), e) << distance;
+        }
+        Randoms random;
+        for (int i = 0; i < 1000; ++i) {
+            const Rgb value = extrapolate(record, random.in_cube(record.radius), random.direction());
+            ASSERT_GE(value.x, 0.0f);
+            ASSERT_LE(value.x, 2.0f * record.irradiance.x);
+        }
+    }
+    // An infinite gradient, as a distance of 0 would give, is none.
+    IrradianceSample broken;
+    broken.irradiance = Rgb(1.0f);
+    broken.harmonic_mean_distance = 1.0f;
+    broken.translation_gradient.fill(glm::vec3(infinite, 0.0f, 0.0f));
+    broken.rotation_gradient.fill(glm::vec3(std::nanf(""), 0.0f, 0.0f));
+    const IrradianceRecord record = make_record(glm::vec3(0.0f), {0.0f, 1.0f, 0.0f}, broken, any_radius);
+    EXPECT_EQ(extrapolate(record, glm::vec3(0.1f), {1.0f, 0.0f, 0.0f}), Rgb(1.0f));
+}
+
+TEST(IrradianceCache, IC08_RecordsInFrontOfThePointAreRefused) {
+    const glm::vec3 up(0.0f, 1.0f, 0.0f);
+    const IrradianceRecord above = make_plain_record({0.0f, 0.1f, 0.0f}, up, 1.0f);
+    EXPECT_EQ(interpolation_error(above, glm::vec3(0.0f), up), infinite);  // the record lies on a step over the point
+    EXPECT_NEAR(interpolation_error(above, {0.0f, 0.2f, 0.0f}, up), 0.1f, 1e-6f);
+    EXPECT_NEAR(interpolation_error(above, {0.0f, 0.06f, 0.0f}, up), 0.04f, 1e-6f);  // within .05 R_i
+}
+
+TEST(IrradianceCache, IC09_OppositeNormalsNeverMatch) {
+    const glm::vec3 front(0.0f, 0.0f, 1.0f);
+    IrradianceCache cache(glm::vec3(-1.0f), glm::vec3(1.0f));
+    cache.insert(make_plain_record(glm::vec3(0.0f), front, 100.0f, 3.0f));
+    for (const float accuracy : {0.1f, 1.0f, 1.42f, 100.0f, infinite}) {
+        EXPECT_FALSE(cache.covers({glm::vec3(0.0f), -front, accuracy}));
+        EXPECT_FALSE(cache.covers({glm::vec3(0.0f), {1.0f, 0.0f, 0.0f}, accuracy}));  // at right angles
+        EXPECT_FALSE(cache.interpolate({glm::vec3(0.0f), -front, accuracy}).has_value());
+        EXPECT_TRUE(cache.covers({glm::vec3(0.0f), front, accuracy}));
+    }
+    // Accuracy above 1 counts as 1: a record more than its radius away does not hold.
+    EXPECT_FALSE(cache.covers({{100.5f, 0.0f, 0.0f}, front, 1.42f}));
+}
+
+TEST(IrradianceCache, IC11_TheIndexFindsWhatALinearSearchFinds) {
+    Randoms random;
+    // Bounds smaller than the records' spread: some lie outside.
+    IrradianceCache cache(glm::vec3(-0.9f), glm::vec3(0.9f));
+    for (int i = 0; i < 10'000; ++i) {
+        const float radius = std::exp(random.uniform(std::log(0.01f), std::log(1.0f)));
+        IrradianceRecord record =
+            make_plain_record(random.in_cube(1.0f), random.mostly_up(), radius, random.uniform(0.0f, 5.0f));
+        record.smallest_radius = 0.6f * radius;  // else the smallest of 10,000 would shrink all
+        for (std::size_t c = 0; c < 3; ++c) {
+            record.translation_gradient[c] = random.in_cube(1.0f);
+            record.rotation_gradient[c] = random.in_cube(1.0f);
+        }
+        cache.insert(record);
+    }
+    int covered = 0;
+    for (int i = 0; i < 10'000; ++i) {
+        // The creation's accuracy is not known to a record: queries ask with their own, up to beyond 1.
+        const float accuracy = i % 10 == 0 ? 1.2f : random.uniform(0.05f, 1.0f);
+        const CacheQuery query{random.in_cube(1.1f), random.mostly_up(), accuracy};
+        const std::optional<glm::dvec3> expected = search_all(cache, query);
+        const std::optional<Rgb> found = cache.interpolate(query);
+        ASSERT_EQ(cache.covers(query), expected.has_value());
+        ASSERT_EQ(found.has_value(), expected.has_value());
+        if (!expected) continue;
+        ++covered;
+        for (int c = 0; c < 3; ++c) ASSERT_NEAR((*found)[c], (*expected)[c], 1e-5 * (1.0 + std::abs((*expected)[c])));
+    }
+    EXPECT_GT(covered, 1000);
+    EXPECT_LT(covered, 9900);
+}
+
+TEST(IrradianceCache, IC11_NeighbouringRadiiDifferByNoMoreThanTheirDistance) {
+    Randoms random;
+    IrradianceCache cache(glm::vec3(-1.0f), glm::vec3(1.0f));
+    const glm::vec3 up(0.0f, 1.0f, 0.0f);
+    for (int i = 0; i < 500; ++i) {
+        cache.insert(make_plain_record(random.in_cube(1.0f), up, std::exp(random.uniform(-5.0f, 1.0f))));
+    }
+    for (const IrradianceRecord& a : cache.records()) {
+        for (const IrradianceRecord& b : cache.records()) {
+            ASSERT_LE(a.radius, (b.radius + glm::length(a.position - b.position)) * 1.0001f);
+        }
+    }
+}
+
+TEST(IrradianceCache, IC15_EmptyAndOneRecord) {
+    IrradianceCache cache(glm::vec3(-1.0f), glm::vec3(1.0f));
+    const glm::vec3 up(0.0f, 1.0f, 0.0f);
+    EXPECT_FALSE(cache.covers({glm::vec3(0.0f), up, 1.0f}));
+    EXPECT_FALSE(cache.interpolate({glm::vec3(0.0f), up, 1.0f}).has_value());
+    cache.insert(make_plain_record(glm::vec3(0.5f), up, 0.5f, 2.0f));
+    EXPECT_TRUE(cache.covers({glm::vec3(0.5f), up, 0.01f}));
+    EXPECT_FALSE(cache.covers({glm::vec3(-0.5f), up, 1.0f}));
+    EXPECT_FALSE(cache.covers({glm::vec3(0.5f), up, 0.0f}));  // accuracy 0 accepts nothing
+}
+
+/// Cells and records touched per look-up in a cache of so many records on a square, each reaching a few of its
+/// neighbours. Counted, not timed: machines are noisy.
+double mean_look_up_cost(int side) {
+    IrradianceCache cache(glm::vec3(0.0f), glm::vec3(1.0f));
+    Randoms random;
+    const glm::vec3 up(0.0f, 1.0f, 0.0f);
+    const float spacing = 1.0f / static_cast<float>(side);
+    for (int i = 0; i < side * side; ++i) {
+        const glm::vec3 corner(static_cast<float>(i % side), 0.0f, static_cast<float>(i / side));
+        cache.insert(make_plain_record((corner + glm::vec3(0.5f, 0.0f, 0.5f)) * spacing, up, 2.0f * spacing));
+    }
+    double touched = 0.0;
+    for (int i = 0; i < 20'000; ++i) {
+        const CacheQuery query{{random.uniform(0.0f, 1.0f), 0.0f, random.uniform(0.0f, 1.0f)}, up, 0.75f};
+        const std::optional<Rgb> found = cache.interpolate(query);
+        EXPECT_TRUE(found.has_value());
+        EXPECT_NEAR(found->x, 1.0f, 1e-4f);
+        touched += static_cast<double>(cache.look_up_cost(query));
+    }
+    return touched / 20'000.0;
+}
+
+TEST(IrradianceCache, IC15_LookUpsInAMillionRecords) {
+    const double thousand = mean_look_up_cost(32), million = mean_look_up_cost(1000);
+    EXPECT_GT(thousand, 4.0);
+    EXPECT_LT(million, 4.0 * thousand);  // the logarithms of their numbers are as 2 to 1
+}
+
+}  // namespace
+}  // namespace aleph

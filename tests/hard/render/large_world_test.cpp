@@ -1,0 +1,92 @@
+// KF-25, IC-16: the same scene at the origin and 1000 km away.
+
+#include <gtest/gtest.h>
+
+#include "tests/support/render_scenes.h"
+
+namespace aleph {
+namespace {
+
+constexpr int width = 64, height = 48;
+
+/// Everything under one node, camera included.
+Scene make_room_at(const glm::dvec3& place) {
+    Scene scene;
+    const int root = add_node(scene, place, no_turn);
+    const int white = add_lambert(scene, glm::dvec3(0.7), glm::dvec3(0.0), true);
+    const int lamp = add_lambert(scene, glm::dvec3(0.0), glm::dvec3(10.0));
+    add_mesh(scene, make_box({4.0, 3.0, 4.0}, white), glm::dvec3(0.0), no_turn, root);
+    add_mesh(scene, make_faceted_sphere(0.5, 32, white), {-0.6, -1.0, -0.2}, no_turn, root);
+    add_mesh(scene, make_box({0.8, 0.8, 0.8}, white), {0.5, -1.1, -0.5}, glm::angleAxis(0.4, glm::dvec3(0.0, 1.0, 0.0)),
+             root);
+    add_mesh(scene, make_quad(1.0, 1.0, lamp), {0.0, 1.49, 0.0}, z_to_down, root);
+    add_light(scene, Light::Kind::point, glm::dvec3(1.0), {1.2, 0.5, 1.0}, no_turn, root);
+    add_camera(scene, {0.0, 0.0, 1.8}, {0.0, -0.4, 0.0}, 1.0, root);
+    return scene;
+}
+
+struct Compared {
+    int other_hits = 0;       ///< pixels whose first hit is another triangle
+    double largest_px = 0.0;  ///< distance between projections of the hit points
+    int other_colors = 0;     ///< pixels that differ by more than 1 %
+    double mean_difference = 0.0;
+};
+
+Compared compare_with_origin(const glm::dvec3& place) {
+    const Stage near(make_room_at(glm::dvec3(0.0)), width, height), far(make_room_at(place), width, height);
+    const RenderSettings settings = plain_settings(0.2, 2048);  // records may differ by their noise only
+    const Image<Rgb> a = shade(near, settings).color, b = shade(far, settings).color;
+    const SampleHits near_hits = cast_sample(near.rays, near.view, 0, 1, nullptr);
+    const SampleHits far_hits = cast_sample(far.rays, far.view, 0, 1, nullptr);
+    Compared result;
+    double sum = 0.0, difference = 0.0;
+    for (int y = 0; y < height; ++y) {
+        for (int x = 0; x < width; ++x) {
+            sum += a(x, y).x;
+            difference += a(x, y).x - b(x, y).x;
+            if (std::abs(a(x, y).x - b(x, y).x) > 0.01f * a(x, y).x) ++result.other_colors;
+            const Hit &p = near_hits.hits(x, y), &q = far_hits.hits(x, y);
+            EXPECT_NE(p.instance, no_index);
+            if (p.instance != q.instance || p.primitive != q.primitive) {
+                ++result.other_hits;
+                continue;
+            }
+            const auto pixel_of = [&](const Stage& stage, const SampleHits& hits) {
+                const PixelSurface s = make_pixel_surface(stage.shading, stage.view, hits, x, y);
+                return project_camera_point(stage.view,
+                                            to_camera(stage.view, glm::dvec3(s.point.position) + stage.shading.anchor));
+            };
+            const glm::dvec2 moved = pixel_of(near, near_hits) - pixel_of(far, far_hits);
+            result.largest_px = std::max(result.largest_px, glm::length(moved));
+        }
+    }
+    result.mean_difference = std::abs(difference) / sum;
+    return result;
+}
+
+void expect_the_same(const glm::dvec3& place) {
+    const Compared found = compare_with_origin(place);
+    EXPECT_LE(found.other_hits, width * height / 100);
+    EXPECT_LT(found.largest_px, 1e-3);
+    EXPECT_LE(found.other_colors, width * height / 100);
+    EXPECT_LT(found.mean_difference, 1e-3);
+}
+
+TEST(LargeWorld, KF25_IC16_AThousandKilometresAway) {
+    // A multiple of the anchor's grid: nothing at all changes.
+    const Compared found = compare_with_origin({1e6, 1e6, -1e6});
+    EXPECT_EQ(found.other_hits, 0);
+    EXPECT_LT(found.largest_px, 1e-6);
+    EXPECT_EQ(found.other_colors, 0);
+}
+
+TEST(LargeWorld, KF25_IC16_OffTheAnchorsGrid) {
+    expect_the_same({1'000'020.3, -999'987.7, 1'000'031.9});
+}
+
+TEST(LargeWorld, KF25_IC16_FarInOneDirectionOnly) {
+    expect_the_same({0.0, 0.0, 1'000'001.37});
+}
+
+}  // namespace
+}  // namespace aleph

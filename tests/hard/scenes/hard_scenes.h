@@ -1,0 +1,76 @@
+#pragma once
+// The scenes of scenes/hard, rendered small.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "engine/base/color.h"
+#include "engine/load/load_scene.h"
+#include "render/sequence.h"
+#include "tests/support/quick_settings.h"
+
+namespace aleph {
+
+inline std::filesystem::path hard_scenes_folder() {
+    return std::filesystem::path(ALEPH_SOURCE_DIR) / "scenes" / "hard";
+}
+
+inline RenderSettings small_settings() {
+    return quick_settings(48, 36);
+}
+
+/// A scene of the folder with what renders it.
+struct HardScene {
+    explicit HardScene(const std::string& name)
+        : scene(load_scene(hard_scenes_folder() / (name + ".json"))), sequence(scene, small_settings()) {}
+    FrameOutput render(std::int64_t frame) {
+        return sequence.render(frame, {.frame = true, .maps = true, .progress = {}});
+    }
+    int node(const std::string& name) const {
+        for (std::size_t i = 0; i < scene.nodes.size(); ++i)
+            if (scene.nodes[i].name == name) return static_cast<int>(i);
+        ADD_FAILURE() << "no node " << name;
+        return 0;
+    }
+    SceneFrame posed(double frame) const { return pose(scene, frame / scene.frame_rate.per_second()); }
+    glm::dmat4 world(const std::string& name, double frame) const {
+        return posed(frame).world[static_cast<std::size_t>(node(name))];
+    }
+    /// Pixels whose first hit is on a node.
+    std::vector<std::size_t> pixels_on(const FrameOutput& output, const std::string& name) const {
+        const std::vector<Instance> instances = list_instances(scene);
+        std::vector<std::size_t> pixels;
+        for (std::size_t i = 0; i < output.hits.size(); ++i) {
+            const int instance = output.hits.pixels[i].instance;
+            if (instance != no_index && instances[static_cast<std::size_t>(instance)].node == node(name))
+                pixels.push_back(i);
+        }
+        return pixels;
+    }
+
+    Scene scene;
+    Sequence sequence;
+};
+
+inline double mean_luminance(const Image<Rgb>& image) {
+    double sum = 0.0;
+    for (const Rgb& pixel : image.pixels) sum += luminance(pixel);
+    return sum / static_cast<double>(image.size());
+}
+
+inline double longest_motion(const FrameOutput& output) {
+    double longest = 0.0;
+    for (const glm::dvec2& d : output.motion.displacement.pixels) longest = std::max(longest, glm::length(d));
+    return longest;
+}
+
+inline bool warns(const Scene& scene, const std::string& words) {
+    return std::ranges::any_of(scene.warnings,
+                               [&](const std::string& warning) { return warning.find(words) != std::string::npos; });
+}
+
+}  // namespace aleph

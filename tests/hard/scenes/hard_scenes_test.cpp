@@ -1,0 +1,133 @@
+// The scenes of scenes/hard: every one renders to finite numbers on every frame, and what the first lines promise of
+// those about rays and light holds.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <fstream>
+#include <numbers>
+
+#include "tests/hard/scenes/hard_scenes.h"
+
+namespace aleph {
+namespace {
+
+void expect_all_finite(const FrameOutput& output) {
+    for (const Rgb& pixel : output.shaded.color.pixels)
+        ASSERT_TRUE(std::isfinite(pixel.r) && std::isfinite(pixel.g) && std::isfinite(pixel.b));
+    for (const float aleph : output.perception.aleph.pixels) ASSERT_TRUE(aleph >= 1.0f && aleph <= 250.76f) << aleph;
+    for (const float s : output.perception.saliency.pixels) ASSERT_TRUE(s >= 0.0f && s <= 1.0f) << s;
+    for (const float v : output.velocity.pixels) ASSERT_TRUE(v >= 0.0f && std::isfinite(v)) << v;
+    for (const float t : output.threshold.pixels) ASSERT_TRUE(t > 0.0f && std::isfinite(t)) << t;
+    for (const glm::dvec2& d : output.motion.displacement.pixels)
+        ASSERT_TRUE(glm::length(d) <= std::hypot(48.0, 36.0) + 1e-9) << d.x << " " << d.y;
+    EXPECT_EQ(output.statistics.nan_count, 0u);
+    EXPECT_EQ(output.statistics.invalid_rays, 0u);
+    EXPECT_EQ(output.statistics.traced_rays, output.statistics.rays.total());
+}
+
+class EveryHardScene : public testing::TestWithParam<std::string> {};
+
+TEST_P(EveryHardScene, RendersToFiniteNumbers) {
+    HardScene hard(GetParam());
+    const FrameRange range = hard.sequence.range();
+    for (std::int64_t frame = range.first; frame <= range.last; ++frame) {
+        SCOPED_TRACE(frame);
+        expect_all_finite(hard.render(frame));
+        if (HasFatalFailure()) return;
+    }
+}
+
+std::vector<std::string> scene_names() {
+    std::vector<std::string> names;
+    for (const auto& entry : std::filesystem::directory_iterator(hard_scenes_folder()))
+        if (entry.path().extension() == ".json") names.push_back(entry.path().stem().string());
+    std::ranges::sort(names);
+    return names;
+}
+
+INSTANTIATE_TEST_SUITE_P(All, EveryHardScene, testing::ValuesIn(scene_names()),
+                         [](const auto& parameter) { return parameter.param; });
+
+TEST(HardScenes, AreListedInTheReadme) {
+    std::ifstream file(hard_scenes_folder() / "README.md");
+    const std::string text{std::istreambuf_iterator<char>(file), {}};
+    for (const std::string& name : scene_names()) EXPECT_NE(text.find("| `" + name + "` |"), std::string::npos) << name;
+}
+
+TEST(HardScenes, RC05_MillimetreWorldIsThePictureInMetres) {
+    HardScene tiny("millimetre_world");
+    HardScene hard("still_keys");  // the same things at their own size
+    const Image<Rgb> small = tiny.render(0).shaded.color, large = hard.render(0).shaded.color;
+    EXPECT_NEAR(mean_luminance(small) / mean_luminance(large), 1.0, 0.02);
+}
+void expect_black(const std::string& name) {
+    HardScene hard(name);
+    const FrameOutput output = hard.render(0);
+    for (const Rgb& pixel : output.shaded.color.pixels) ASSERT_EQ(luminance(pixel), 0.0f);
+}
+TEST(HardScenes, RC06_IC08_SealedLampIsDarkOutside) {
+    expect_black("sealed_lamp");
+}
+TEST(HardScenes, RC07_TheFirstOfCoplanarWins) {
+    HardScene hard("coplanar");
+    const FrameOutput output = hard.render(0);
+    const std::vector<std::size_t> one = hard.pixels_on(output, "one"), two = hard.pixels_on(output, "two");
+    ASSERT_FALSE(one.empty());
+    ASSERT_FALSE(two.empty());
+    // In the plane z = 0 the first ends at x = 1; the second may only be seen beyond.
+    const double pixels_per_unit = 18.0 / std::tan(20.0 * std::numbers::pi / 180.0);
+    for (const std::size_t i : two) {
+        const double x = (static_cast<double>(i % 48) + 0.5 - 24.0) / pixels_per_unit * output.depth.pixels[i];
+        EXPECT_GT(x, 1.0 - 1e-6);
+    }
+}
+TEST(HardScenes, RC09_DegenerateTrianglesAreCounted) {
+    const HardScene hard("slivers");
+    EXPECT_EQ(RayScene(hard.scene).degenerate_triangles(), 2u);
+}
+TEST(HardScenes, RC10_EmptySceneShowsItsEnvironment) {
+    HardScene hard("empty");
+    const FrameOutput output = hard.render(0);
+    EXPECT_NEAR(output.shaded.color(5, 5).g, 0.3f, 1e-6f);
+    EXPECT_EQ(output.shaded.coverage(5, 5), 0.0f);
+}
+TEST(HardScenes, RC11_BadNormalsAreReplaced) {
+    HardScene hard("bad_normals");
+    const FrameOutput output = hard.render(0);
+    const std::vector<std::size_t> pixels = hard.pixels_on(output, "thing");
+    ASSERT_FALSE(pixels.empty());
+    for (const std::size_t i : pixels) {
+        EXPECT_NEAR(glm::length(output.normal.pixels[i]), 1.0f, 1e-5f);
+        EXPECT_GT(output.normal.pixels[i].z, 0.0f);
+        EXPECT_GT(luminance(output.shaded.color.pixels[i]), 0.0f);
+    }
+}
+TEST(HardScenes, BlankWallHasAlephOne) {
+    HardScene hard("blank_wall");
+    const FrameOutput output = hard.render(0);
+    for (const float aleph : output.perception.aleph.pixels) ASSERT_EQ(aleph, 1.0f);
+    EXPECT_TRUE(output.statistics.saliency_fallback);
+}
+TEST(HardScenes, CS10_MC17_BlackIsBlack) {
+    expect_black("black");
+}
+TEST(HardScenes, MC10_MC11_NoSpikeBesideALampThatTouches) {
+    HardScene hard("touching_lamp");
+    const FrameOutput output = hard.render(0);
+    // A floor of albedo .6 sees at most half its sky filled by each side of the panel, at radiance 3, and a little of
+    // what the wall returns.
+    for (const std::size_t i : hard.pixels_on(output, "floor"))
+        ASSERT_LT(luminance(output.shaded.color.pixels[i]), 3.0f);
+}
+TEST(HardScenes, OU01_MC13_BrightSparkIsFinite) {
+    HardScene hard("bright_spark");
+    EXPECT_GT(mean_luminance(hard.render(0).shaded.color), 0.1);
+}
+TEST(HardScenes, FX01_EqualKeysAreNoAnimation) {
+    const HardScene hard("still_keys");
+    EXPECT_FALSE(is_world_animated(hard.scene));
+}
+
+}  // namespace
+}  // namespace aleph

@@ -1,0 +1,40 @@
+#pragma once
+// Frames as the bytes of their files: what must not change with threads, order or run (HARD_CASES, section 9).
+
+#include <cstdint>
+#include <string>
+
+#include "engine/load/load_scene.h"
+#include "render/frame_files.h"
+#include "tests/support/quick_settings.h"
+#include "tests/support/read_bytes.h"
+#include "tests/support/scratch_folder.h"
+
+namespace aleph {
+
+/// scenes/pool, loaded once.
+inline const Scene& pool_scene() {
+    static const Scene scene = load_scene(std::string(ALEPH_SOURCE_DIR) + "/scenes/pool/scene.json");
+    return scene;
+}
+
+/// Two samples per pixel, so that a later pass of filling happens as well.
+inline RenderSettings small_settings() {
+    RenderSettings settings = quick_settings(160, 120);
+    settings.spp = 2;
+    settings.light_samples = 2;
+    settings.gather = 32;
+    settings.accuracy = 0.4;
+    return settings;
+}
+
+/// The file of `render --aovs`, byte for byte.
+inline std::string frame_bytes(Sequence& sequence, const Scene& scene, const RenderSettings& settings,
+                               std::int64_t frame) {
+    const ScratchFolder folder;
+    const FrameOutput output = sequence.render(frame, {.frame = true, .maps = true, .progress = {}});
+    write_exr(folder / "frame.exr", make_frame_image(output, true, scene, settings, sequence.exposure()));
+    return read_bytes(folder / "frame.exr");
+}
+
+}  // namespace aleph

@@ -1,0 +1,158 @@
+#pragma once
+// Small moving scenes made in code, and hits on them made by hand, for the tests of motion.
+
+#include <cmath>
+#include <numbers>
+#include <random>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "engine/pose/camera_view.h"
+#include "engine/pose/pose.h"
+#include "engine/scene/scene.h"
+#include "motion/model_motion.h"
+
+namespace aleph {
+
+inline constexpr double degrees = std::numbers::pi / 180.0;
+
+/// Linear from one value to the other between two times, held outside.
+template <class T>
+Track<T> ramp(const T& from, const T& to, double begin = 0.0, double end = 1.0) {
+    Track<T> track;
+    track.sampling.kind = TimeSampling::Kind::acyclic;
+    track.sampling.times = {begin, end};
+    track.values = {from, to};
+    return track;
+}
+
+inline int add_node(Scene& scene, Node node) {
+    scene.nodes.push_back(std::move(node));
+    return static_cast<int>(scene.nodes.size()) - 1;
+}
+
+/// A camera of this vertical field of view under a parent, at its origin.
+inline int add_camera(Scene& scene, int parent = no_index, double fov = std::numbers::pi / 4.0) {
+    Camera camera;
+    camera.fov = fov;
+    scene.cameras.push_back(camera);
+    Node node;
+    node.name = "camera";
+    node.parent = parent;
+    node.camera = static_cast<int>(scene.cameras.size()) - 1;
+    return add_node(scene, node);
+}
+
+/// Random triangles within a box around the origin.
+inline int add_triangle_soup(Scene& scene, int triangles, float half_size) {
+    std::mt19937 random(7);
+    std::uniform_real_distribution<float> inside(-half_size, half_size);
+    Mesh mesh;
+    for (unsigned i = 0; i < static_cast<unsigned>(triangles); ++i) {
+        for (int corner = 0; corner < 3; ++corner) {
+            const float x = inside(random), y = inside(random), z = inside(random);
+            mesh.positions.emplace_back(x, y, z);
+        }
+        mesh.triangles.emplace_back(3 * i, 3 * i + 1, 3 * i + 2);
+    }
+    scene.meshes.push_back(mesh);
+    return static_cast<int>(scene.meshes.size()) - 1;
+}
+
+/// A rectangle in the xy plane, facing +z, of this many cells each way.
+inline int add_grid(Scene& scene, float width, float height, unsigned cells = 1) {
+    Mesh mesh;
+    for (unsigned row = 0; row <= cells; ++row) {
+        for (unsigned column = 0; column <= cells; ++column) {
+            mesh.positions.emplace_back(width * (static_cast<float>(column) / static_cast<float>(cells) - 0.5f),
+                                        height * (static_cast<float>(row) / static_cast<float>(cells) - 0.5f), 0.0f);
+        }
+    }
+    for (unsigned row = 0; row < cells; ++row) {
+        for (unsigned column = 0; column < cells; ++column) {
+            const unsigned a = row * (cells + 1) + column, b = a + 1, c = a + cells + 1, d = c + 1;
+            mesh.triangles.emplace_back(a, b, d);
+            mesh.triangles.emplace_back(a, d, c);
+        }
+    }
+    scene.meshes.push_back(mesh);
+    return static_cast<int>(scene.meshes.size()) - 1;
+}
+
+/// A single triangle whose first corner is the point: a hit with u = v = 0 is exactly there.
+inline int add_point(Scene& scene, const glm::vec3& point) {
+    Mesh mesh;
+    mesh.positions = {point, point + glm::vec3(1.0f, 0.0f, 0.0f), point + glm::vec3(0.0f, 1.0f, 0.0f)};
+    mesh.triangles = {{0, 1, 2}};
+    scene.meshes.push_back(mesh);
+    return static_cast<int>(scene.meshes.size()) - 1;
+}
+
+/// Both moments of a scene, posed and viewed through its first camera.
+struct TwoMoments {
+    SceneFrame frames[2];
+    CameraView views[2];
+
+    TwoMoments(const Scene& scene, double now, double other, int width, int height)
+        : frames{pose(scene, now), pose(scene, other)} {
+        for (int i : {0, 1}) views[i] = make_camera_view(frames[i].cameras.at(0), width, height);
+    }
+    MotionMoment now() const { return {&frames[0], &views[0]}; }
+    MotionMoment other() const { return {&frames[1], &views[1]}; }
+};
+
+/// Hits all over the scene's surfaces, whatever a ray would see: exactness is about the hit's own (primitive, u, v).
+inline Image<Hit> make_random_hits(const Scene& scene, const SceneFrame& frame, int width, int height) {
+    std::mt19937 random(11);
+    std::uniform_real_distribution<float> fraction(0.0f, 1.0f);
+    Image<Hit> hits(width, height);
+    for (std::size_t i = 0; i < hits.size(); ++i) {
+        Hit& hit = hits.pixels[i];
+        hit.instance = static_cast<int>(i % frame.instances.size());
+        const Mesh& mesh =
+            scene.meshes[static_cast<std::size_t>(frame.instances[static_cast<std::size_t>(hit.instance)].mesh)];
+        hit.primitive = static_cast<int>(random() % mesh.triangles.size());
+        hit.u = fraction(random);
+        hit.v = fraction(random) * (1.0f - hit.u);
+        hit.distance = 1.0f;
+    }
+    return hits;
+}
+
+/// The motion of one hit, at the centre of an image otherwise empty.
+struct PointMotion {
+    glm::dvec2 displacement{0.0};
+    double path_length = 0.0;
+    MotionValidity validity = MotionValidity::valid;
+};
+inline PointMotion point_motion(const Scene& scene, double now, double other, const Hit& hit, int width, int height,
+                                const ModelMotionSettings& settings = {}) {
+    const TwoMoments moments(scene, now, other, width, height);
+    Image<Hit> hits(width, height);
+    hits(width / 2, height / 2) = hit;
+    const MotionField field = compute_model_motion(scene, moments.now(), moments.other(), hits, settings);
+    return {field.displacement(width / 2, height / 2), field.path_length(width / 2, height / 2),
+            field.validity(width / 2, height / 2)};
+}
+
+/// Vertical field of view that gives this focal length in pixels.
+inline double fov_of(double focal_length, int height) {
+    return 2.0 * std::atan(0.5 * height / focal_length);
+}
+
+/// One point before a camera of 1000 px focal length, 1000x1000. Node 0 holds the point, node 1 the camera.
+inline Scene make_point_scene(const glm::vec3& point, double focal_length = 1000.0) {
+    Scene scene;
+    Node node;
+    node.meshes = {add_point(scene, point)};
+    add_node(scene, node);
+    add_camera(scene, no_index, fov_of(focal_length, 1000));
+    return scene;
+}
+inline PointMotion motion_of_point(const Scene& scene, double now = 0.0, double other = 1.0,
+                                   const ModelMotionSettings& settings = {}) {
+    return point_motion(scene, now, other, {.instance = 0, .primitive = 0}, 1000, 1000, settings);
+}
+
+}  // namespace aleph

@@ -1,0 +1,152 @@
+#pragma once
+// Where a surface point really goes: the hierarchy walked point by point in long double from the authored keys, without
+// a matrix, a pose or a camera view. Shares no code with engine or motion beyond the scene's plain data.
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+
+#include "engine/rays/ray_scene.h"
+#include "engine/scene/scene.h"
+
+namespace aleph {
+
+using Real = long double;
+
+struct RealVector {
+    Real x = 0, y = 0, z = 0;
+};
+inline RealVector operator+(const RealVector& a, const RealVector& b) {
+    return {a.x + b.x, a.y + b.y, a.z + b.z};
+}
+inline RealVector operator-(const RealVector& a, const RealVector& b) {
+    return {a.x - b.x, a.y - b.y, a.z - b.z};
+}
+inline RealVector operator*(Real s, const RealVector& a) {
+    return {s * a.x, s * a.y, s * a.z};
+}
+inline Real dot(const RealVector& a, const RealVector& b) {
+    return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+inline RealVector cross(const RealVector& a, const RealVector& b) {
+    return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+inline RealVector unit(const RealVector& a) {
+    return (1 / std::sqrt(dot(a, a))) * a;
+}
+inline RealVector real(const glm::dvec3& v) {
+    return {v.x, v.y, v.z};
+}
+inline RealVector real(const glm::vec3& v) {
+    return {v.x, v.y, v.z};
+}
+
+/// The keys around a time and the fraction between them. Acyclic samplings only, as the tests author them.
+struct RealSpan {
+    std::size_t from = 0, to = 0;
+    Real fraction = 0;
+};
+template <class T>
+RealSpan real_span(const Track<T>& track, Real seconds) {
+    if (track.values.size() == 1) return {};
+    const auto& times = track.sampling.times;
+    if (seconds <= times.front()) return {};
+    if (seconds >= times.back()) return {times.size() - 1, times.size() - 1, 0};
+    std::size_t i = 0;
+    while (times[i + 1] < seconds) ++i;
+    return {i, i + 1, (seconds - times[i]) / (Real(times[i + 1]) - Real(times[i]))};
+}
+
+inline Real real_value(const Track<double>& track, Real seconds) {
+    const RealSpan s = real_span(track, seconds);
+    return Real(track.values[s.from]) + s.fraction * (Real(track.values[s.to]) - Real(track.values[s.from]));
+}
+inline RealVector real_value(const Track<glm::dvec3>& track, Real seconds) {
+    const RealSpan s = real_span(track, seconds);
+    const RealVector a = real(track.values[s.from]);
+    return a + s.fraction * (real(track.values[s.to]) - a);
+}
+
+/// Turned by an angle about a unit axis (Rodrigues).
+inline RealVector real_turned(const RealVector& v, const RealVector& axis, Real angle) {
+    return std::cos(angle) * v + std::sin(angle) * cross(axis, v) + ((1 - std::cos(angle)) * dot(axis, v)) * axis;
+}
+
+/// Quaternion as x, y, z, w.
+using RealQuaternion = std::array<Real, 4>;
+inline RealQuaternion real_quaternion(const glm::dquat& q) {
+    const Real length = std::sqrt(Real(q.x) * q.x + Real(q.y) * q.y + Real(q.z) * q.z + Real(q.w) * q.w);
+    return {q.x / length, q.y / length, q.z / length, q.w / length};
+}
+inline RealVector real_turned(const RealVector& v, const RealQuaternion& q) {
+    const RealVector u{q[0], q[1], q[2]};
+    return v + 2 * cross(u, cross(u, v) + q[3] * v);
+}
+inline RealVector real_turned(const RealVector& v, const Track<glm::dquat>& track, Real seconds) {
+    const RealSpan s = real_span(track, seconds);
+    const RealQuaternion a = real_quaternion(track.values[s.from]), b = real_quaternion(track.values[s.to]);
+    Real cosine = 0;
+    for (int i = 0; i < 4; ++i) cosine += a[i] * b[i];
+    const Real sign = cosine < 0 ? -1 : 1;
+    const Real angle = std::acos(std::min<Real>(sign * cosine, 1));
+    RealQuaternion q = a;
+    if (angle > 1e-9L) {
+        for (int i = 0; i < 4; ++i) {
+            q[i] = (std::sin((1 - s.fraction) * angle) * a[i] + std::sin(s.fraction * angle) * sign * b[i]) /
+                   std::sin(angle);
+        }
+    }
+    return real_turned(v, q);
+}
+
+inline RealVector real_to_parent(const Node& node, const RealVector& p, Real seconds) {
+    if (node.matrix) {
+        const glm::dmat4& m = node.matrix->values.front();
+        return p.x * real(glm::dvec3(m[0])) + p.y * real(glm::dvec3(m[1])) + p.z * real(glm::dvec3(m[2])) +
+               real(glm::dvec3(m[3]));
+    }
+    const RealVector scale = real_value(node.scale, seconds);
+    const RealVector scaled{scale.x * p.x, scale.y * p.y, scale.z * p.z};
+    const RealVector turned = node.axis_rotation ? real_turned(scaled, unit(real(node.axis_rotation->axis)),
+                                                               real_value(node.axis_rotation->angle, seconds))
+                                                 : real_turned(scaled, node.rotation, seconds);
+    return turned + real_value(node.translation, seconds);
+}
+
+inline RealVector real_to_world(const Scene& scene, int node, RealVector p, Real seconds) {
+    for (; node != no_index; node = scene.nodes[static_cast<std::size_t>(node)].parent) {
+        p = real_to_parent(scene.nodes[static_cast<std::size_t>(node)], p, seconds);
+    }
+    return p;
+}
+
+struct RealPixel {
+    Real x = 0, y = 0;
+    Real depth = 0;  ///< m, positive before the camera
+};
+
+/// Through the camera of a node, into an image of width x height.
+inline RealPixel real_project(const Scene& scene, int camera_node, const RealVector& world, Real seconds, int width,
+                              int height) {
+    const Camera& camera =
+        scene.cameras[static_cast<std::size_t>(scene.nodes[static_cast<std::size_t>(camera_node)].camera)];
+    const RealVector eye = real_to_world(scene, camera_node, {}, seconds);
+    const RealVector forward = unit(real_to_world(scene, camera_node, {0, 0, -1}, seconds) - eye);
+    const RealVector up_hint = real_to_world(scene, camera_node, {0, 1, 0}, seconds) - eye;
+    const RealVector up = unit(up_hint - dot(up_hint, forward) * forward);
+    const RealVector right = cross(forward, up);
+    const RealVector way = world - eye;
+    const Real depth = dot(way, forward);
+    const Real scale = camera.orthographic ? height / (2 * real_value(camera.half_height, seconds))
+                                           : height / (2 * std::tan(real_value(camera.fov, seconds) / 2)) / depth;
+    return {Real(width) / 2 + dot(way, right) * scale, Real(height) / 2 - dot(way, up) * scale, depth};
+}
+
+inline RealVector real_surface_point(const Mesh& mesh, const Hit& hit) {
+    const glm::uvec3& triangle = mesh.triangles[static_cast<std::size_t>(hit.primitive)];
+    const Real u = hit.u, v = hit.v;
+    return (1 - u - v) * real(mesh.positions[triangle.x]) + u * real(mesh.positions[triangle.y]) +
+           v * real(mesh.positions[triangle.z]);
+}
+
+}  // namespace aleph

@@ -1,0 +1,209 @@
+#pragma once
+// Small scenes made in code for the tests of rendering, posed and made ready for questions.
+
+#include <cmath>
+#include <glm/gtc/quaternion.hpp>
+#include <numbers>
+#include <string>
+#include <utility>
+
+#include "engine/surface/shapes.h"
+#include "render/frame.h"
+
+namespace aleph {
+
+/// A surface without glossy reflection, whose albedo is exactly `albedo`.
+inline int add_lambert(Scene& scene, const glm::dvec3& albedo, const glm::dvec3& emission = glm::dvec3(0.0),
+                       bool double_sided = false) {
+    Material material;
+    material.base_color = albedo;
+    material.metallic = 0.0;
+    material.specular = 0.0;
+    material.emission = emission;
+    material.double_sided = double_sided;
+    scene.materials.push_back(material);
+    return static_cast<int>(scene.materials.size()) - 1;
+}
+
+inline Mesh make_quad(double width, double height, int material) {
+    Shape shape;
+    shape.kind = Shape::Kind::quad;
+    shape.size = {width, height, 1.0};
+    return make_shape_mesh(shape, material);
+}
+
+inline Mesh make_box(const glm::dvec3& size, int material) {
+    Shape shape;
+    shape.kind = Shape::Kind::box;
+    shape.size = size;
+    return make_shape_mesh(shape, material);
+}
+
+/// With flat facets, so that its closed form is that of a polyhedron.
+inline Mesh make_faceted_sphere(double radius, int segments, int material) {
+    Shape shape;
+    shape.kind = Shape::Kind::sphere;
+    shape.radius = radius;
+    shape.segments = segments;
+    Mesh mesh = make_shape_mesh(shape, material);
+    mesh.normals.clear();
+    return mesh;
+}
+
+/// A disc in the xz plane facing down.
+inline Mesh make_disc_facing_down(float radius, unsigned segments, int material) {
+    Mesh mesh;
+    mesh.material = material;
+    mesh.positions.emplace_back(0.0f);
+    for (unsigned i = 0; i < segments; ++i) {
+        const double angle = 2.0 * std::numbers::pi * i / segments;
+        mesh.positions.emplace_back(radius * std::cos(angle), 0.0, radius * std::sin(angle));
+        mesh.triangles.emplace_back(0, 1 + i, 1 + (i + 1) % segments);
+    }
+    return mesh;
+}
+
+/// The same triangles with their other side in front.
+inline Mesh flip_winding(Mesh mesh) {
+    for (glm::uvec3& t : mesh.triangles) std::swap(t.y, t.z);
+    for (glm::vec3& n : mesh.normals) n = -n;
+    return mesh;
+}
+
+inline const glm::dquat no_turn{1.0, 0.0, 0.0, 0.0};
+/// What turns a quad that faces +z, or a light that shines along -z.
+inline const glm::dquat z_to_up = glm::angleAxis(-std::numbers::pi / 2, glm::dvec3(1.0, 0.0, 0.0));
+inline const glm::dquat z_to_down = glm::angleAxis(std::numbers::pi / 2, glm::dvec3(1.0, 0.0, 0.0));
+
+inline int add_node(Scene& scene, const glm::dvec3& translation, const glm::dquat& rotation, int parent = no_index) {
+    Node node;
+    node.translation = translation;
+    node.rotation = rotation;
+    node.parent = parent;
+    scene.nodes.push_back(node);
+    return static_cast<int>(scene.nodes.size()) - 1;
+}
+
+/// A node that carries the mesh.
+inline int add_mesh(Scene& scene, Mesh mesh, const glm::dvec3& translation = glm::dvec3(0.0),
+                    const glm::dquat& rotation = no_turn, int parent = no_index) {
+    scene.meshes.push_back(std::move(mesh));
+    const int node = add_node(scene, translation, rotation, parent);
+    scene.nodes.back().meshes = {static_cast<int>(scene.meshes.size()) - 1};
+    return node;
+}
+
+inline int add_light(Scene& scene, Light::Kind kind, const glm::dvec3& intensity, const glm::dvec3& position,
+                     const glm::dquat& rotation = no_turn, int parent = no_index) {
+    Light light;
+    light.kind = kind;
+    light.color = intensity;
+    scene.lights.push_back(light);
+    const int node = add_node(scene, position, rotation, parent);
+    scene.nodes.back().light = static_cast<int>(scene.lights.size()) - 1;
+    return node;
+}
+
+inline int add_camera(Scene& scene, const glm::dvec3& eye, const glm::dvec3& target, double fov = 0.9,
+                      int parent = no_index) {
+    Camera camera;
+    camera.fov = fov;
+    scene.cameras.push_back(camera);
+    const glm::dvec3 forward = glm::normalize(target - eye);
+    const glm::dvec3 up = std::abs(forward.y) > 0.99 ? glm::dvec3(0.0, 0.0, -1.0) : glm::dvec3(0.0, 1.0, 0.0);
+    const int node = add_node(scene, eye, glm::quatLookAt(forward, up), parent);
+    scene.nodes.back().camera = static_cast<int>(scene.cameras.size()) - 1;
+    return node;
+}
+
+/// A scene at a time, seen by its first camera (or by one at the origin), with everything that shading needs.
+struct Stage {
+    explicit Stage(Scene s, int width = 32, int height = 24, double seconds = 0.0)
+        : scene(std::move(s)),
+          frame((ensure_camera(scene), pose(scene, seconds))),
+          view(make_camera_view(frame.cameras[0], width, height)),
+          textures(make_texture_set(scene)),
+          rays(scene),
+          shading((rays.update(frame, compute_anchor(view)),
+                   make_shading_scene(scene, frame, compute_anchor(view), textures))),
+          lights(make_light_set(shading)) {}
+    Stage(const Stage&) = delete;
+    Stage& operator=(const Stage&) = delete;
+
+    LightingContext lighting() const { return {shading, lights, rays}; }
+
+    static void ensure_camera(Scene& s) {
+        if (s.cameras.empty()) add_camera(s, glm::dvec3(0.0), glm::dvec3(0.0, 0.0, -1.0));
+    }
+
+    Scene scene;
+    SceneFrame frame;
+    CameraView view;
+    TextureSet textures;
+    RayScene rays;
+    ShadingScene shading;
+    LightSet lights;
+};
+
+/// A point of a surface that need not be there.
+inline SurfacePoint make_point(const glm::vec3& position, const glm::vec3& normal, float offset = 1e-6f) {
+    SurfacePoint point;
+    point.position = position;
+    point.geometric = point.normal = normal;
+    point.offset = offset;
+    return point;
+}
+
+inline SurfaceMaterial make_lambert(float albedo) {
+    SurfaceMaterial material;
+    material.diffuse = Rgb(albedo);
+    return material;
+}
+
+/// A white metal.
+inline SurfaceMaterial make_metal(float alpha) {
+    SurfaceMaterial material;
+    material.f0 = Rgb(1.0f);
+    material.f90 = 1.0f;
+    material.alpha = alpha;
+    return material;
+}
+
+/// One pixel sample, uniform accuracy, exposure 1.
+inline RenderSettings plain_settings(double accuracy, int gather) {
+    RenderSettings settings;
+    settings.perception.guide = Guide::none;
+    settings.spp = 1;
+    settings.accuracy = accuracy;
+    settings.gather = gather;
+    return settings;
+}
+
+inline ShadedFrame shade(const Stage& stage, const RenderSettings& settings) {
+    const Image<float> accuracy(stage.view.width, stage.view.height, static_cast<float>(settings.accuracy));
+    const LightingContext lighting = stage.lighting();
+    const IndirectContext context{lighting, stage.view, settings, accuracy, 0, scene_radius(stage.shading), {}};
+    return shade_frame(context, cast_sample(stage.rays, stage.view, 0, 1, nullptr), 1.0);
+}
+
+/// Mean and standard error of independent values.
+class Mean {
+  public:
+    void add(double value) {
+        ++count_;
+        const double delta = value - mean_;
+        mean_ += delta / static_cast<double>(count_);
+        squares_ += delta * (value - mean_);
+    }
+    double mean() const { return mean_; }
+    double error() const {
+        const double n = static_cast<double>(count_);
+        return std::sqrt(squares_ / (n * (n - 1.0)));
+    }
+
+  private:
+    std::size_t count_ = 0;
+    double mean_ = 0.0, squares_ = 0.0;
+};
+
+}  // namespace aleph

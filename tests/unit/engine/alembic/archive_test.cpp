@@ -1,0 +1,215 @@
+// Every property of every object, every sample that the truth lists, metadata, times and look-up by time.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "engine/alembic/archive.h"
+#include "engine/base/errors.h"
+#include "tests/support/alembic_truth.h"
+
+namespace aleph {
+namespace {
+
+AlembicArchive open(const std::string& name) {
+    return {file_bytes(archive_path(name)), archive_path(name).string()};
+}
+
+int find_object(const AlembicArchive& archive, const std::string& path) {
+    for (std::size_t i = 0; i < archive.objects().size(); ++i)
+        if (archive.path(static_cast<int>(i)) == path) return static_cast<int>(i);
+    return -1;
+}
+
+AlembicMetadata metadata_of(const json& truth) {
+    AlembicMetadata metadata;
+    for (const auto& [key, value] : truth.items()) metadata[key] = value;
+    return metadata;
+}
+
+constexpr std::array type_names{"bool_t",   "uint8_t", "int8_t",    "uint16_t",  "int16_t",   "uint32_t", "int32_t",
+                                "uint64_t", "int64_t", "float16_t", "float32_t", "float64_t", "string",   "wstring"};
+
+void expect_values(const AlembicArchive& archive, const AlembicProperty& property, std::uint64_t index,
+                   const json& truth, const std::string& where) {
+    const std::string text = where + fmt::format(" sample {}", index);
+    switch (property.type) {
+        case PlainType::text:
+        case PlainType::wide_text:
+            EXPECT_EQ(archive.texts(property, index), truth.get<std::vector<std::string>>()) << text;
+            return;
+        case PlainType::u64:
+            EXPECT_EQ(archive.numbers<std::uint64_t>(property, index), truth.get<std::vector<std::uint64_t>>()) << text;
+            return;
+        case PlainType::boolean: {
+            std::vector<int> values;
+            for (const bool value : truth) values.push_back(value);
+            EXPECT_EQ(archive.numbers<int>(property, index), values) << text;
+            return;
+        }
+        case PlainType::f64: {
+            const auto values = archive.numbers<double>(property, index);
+            EXPECT_EQ(values, truth.get<std::vector<double>>()) << text;
+            return;
+        }
+        case PlainType::f16:  // printed with the digits of single precision
+        case PlainType::f32: {
+            std::vector<float> values;
+            for (const double value : truth) values.push_back(static_cast<float>(value));
+            EXPECT_EQ(archive.numbers<float>(property, index), values) << text;
+            return;
+        }
+        default:
+            EXPECT_EQ(archive.numbers<std::int64_t>(property, index), truth.get<std::vector<std::int64_t>>()) << text;
+    }
+}
+
+int expect_properties(const AlembicArchive& archive, const AlembicCompound& compound, const json& truth,
+                      const std::string& where) {
+    int samples = 0;
+    EXPECT_EQ(compound.properties.size(), truth.size()) << where;
+    for (const json& entry : truth) {
+        const std::string name = entry["name"], kind = entry["kind"], here = where + " " + name;
+        const AlembicProperty* property = compound.find(name);
+        if (property == nullptr) {
+            ADD_FAILURE() << here << " is missing";
+            continue;
+        }
+        EXPECT_EQ(property->metadata, metadata_of(entry["metadata"])) << here;
+        if (kind == "compound") {
+            EXPECT_EQ(property->kind, AlembicProperty::Kind::compound) << here;
+            samples += expect_properties(archive, archive.properties(*property), entry["properties"], here);
+            continue;
+        }
+        const bool array = kind == "array";
+        EXPECT_EQ(property->kind, array ? AlembicProperty::Kind::array : AlembicProperty::Kind::scalar) << here;
+        EXPECT_EQ(type_names[static_cast<std::size_t>(property->type)], entry["pod"]) << here;
+        EXPECT_EQ(property->extent, entry["extent"]) << here;
+        EXPECT_EQ(property->time_sampling, entry["time_sampling"]) << here;
+        EXPECT_EQ(property->sample_count, entry["num_samples"]) << here;
+        EXPECT_EQ(property->is_constant(), entry["is_constant"].get<bool>()) << here;
+        for (const json& sample : entry["samples"]) {
+            const json sizes = array ? sample[1] : json{1};
+            EXPECT_EQ(archive.dimensions(*property, sample[0]), sizes.get<std::vector<std::uint64_t>>()) << here;
+            expect_values(archive, *property, sample[0], sample.back(), here);
+            ++samples;
+        }
+    }
+    return samples;
+}
+
+TEST_P(AlembicTruth, EveryPropertyOfEveryObject) {
+    const AlembicArchive archive = open(GetParam());
+    const json truth = truth_of(GetParam());
+    EXPECT_EQ(archive.metadata(), metadata_of(truth["archive"]["metadata"]));
+    EXPECT_EQ(archive.library_version(), truth["archive"]["archive_version"]);
+    int samples = 0;
+    std::size_t objects = 0;
+    for (const json& entry : truth["objects"]) {
+        if (entry.contains("inside_instance")) continue;  // the archive has the source once
+        const std::string path = entry["path"];
+        const int object = find_object(archive, path);
+        ASSERT_GE(object, 0) << path;
+        ++objects;
+        if (path != "/") {
+            const AlembicObject& found = archive.objects()[static_cast<std::size_t>(object)];
+            EXPECT_EQ(found.metadata, metadata_of(entry["metadata"])) << path;
+            EXPECT_EQ(found.schema(), entry["schema"]) << path;
+        }
+        samples += expect_properties(archive, archive.properties(object), entry["properties"], path);
+    }
+    for (const AlembicObject& object : archive.objects()) objects += object.is_instance();
+    EXPECT_EQ(archive.objects().size(), objects);
+    EXPECT_GE(samples, GetParam() == "property_zoo" ? 150 : 10);
+}
+
+TEST_P(AlembicTruth, TimesOfSamples) {
+    const AlembicArchive archive = open(GetParam());
+    const json truth = truth_of(GetParam())["archive"]["time_samplings"];
+    ASSERT_EQ(archive.time_samplings().size(), truth.size());
+    for (std::size_t i = 0; i < truth.size(); ++i) {
+        const TimeSampling& sampling = archive.time_samplings()[i];
+        const std::string kind = truth[i]["type"];
+        EXPECT_EQ(sampling.kind, kind == "uniform"  ? TimeSampling::Kind::uniform
+                                 : kind == "cyclic" ? TimeSampling::Kind::cyclic
+                                                    : TimeSampling::Kind::acyclic);
+        EXPECT_EQ(archive.sample_maxima()[i], truth[i]["max_num_samples"]);
+        const json& times = truth[i]["first_sample_times"];
+        for (std::size_t k = 0; k < times.size(); ++k) EXPECT_EQ(sample_time(sampling, k), times[k]) << i << " " << k;
+    }
+}
+
+/// floor, ceil and near of every schema at every query time.
+TEST_P(AlembicTruth, LookUpByTime) {
+    const AlembicArchive archive = open(GetParam());
+    int looked_up = 0;
+    const json truth = truth_of(GetParam());
+    for (const json& entry : truth["objects"]) {
+        for (const char* schema : {"xform", "camera"}) {
+            if (!entry.contains(schema)) continue;
+            const json& at = entry[schema];
+            const std::size_t count = at["num_samples"];
+            if (count < 2 || !at.contains("time_sampling") || at["time_sampling"].is_null()) continue;
+            const TimeSampling& sampling = archive.time_samplings()[at["time_sampling"].get<std::size_t>()];
+            for (const json& query : at["at"]) {
+                const double seconds = query["time"];
+                EXPECT_EQ(alembic_floor(sampling, count, seconds), query["floor"]) << entry["path"] << seconds;
+                EXPECT_EQ(alembic_ceil(sampling, count, seconds), query["ceil"]) << entry["path"] << seconds;
+                EXPECT_EQ(alembic_near(sampling, count, seconds), query["near"]) << entry["path"] << seconds;
+                ++looked_up;
+            }
+        }
+    }
+    EXPECT_GE(looked_up, GetParam().starts_with("xform") ? 30 : 0);
+}
+
+INSTANTIATE_TEST_SUITE_P(All, AlembicTruth, testing::ValuesIn(all_archives()),
+                         [](const auto& archive) { return archive.param; });
+
+TEST(AlembicLookUp, ASampleWithinTheToleranceCountsAsReached) {
+    TimeSampling times;
+    times.kind = TimeSampling::Kind::acyclic;
+    times.times = {0.0, 1.0, 2.0};
+    EXPECT_EQ(alembic_floor(times, 3, -5.0), 0u);
+    EXPECT_EQ(alembic_ceil(times, 3, -5.0), 0u);
+    EXPECT_EQ(alembic_near(times, 3, -5.0), 0u);
+    EXPECT_EQ(alembic_floor(times, 3, 1.0 - 0.9e-5), 1u);
+    EXPECT_EQ(alembic_ceil(times, 3, 1.0 - 0.9e-5), 1u);
+    EXPECT_EQ(alembic_floor(times, 3, 1.0 - 1.1e-5), 0u);
+    EXPECT_EQ(alembic_ceil(times, 3, 1.0 + 0.9e-5), 1u);
+    EXPECT_EQ(alembic_ceil(times, 3, 1.0 + 1.1e-5), 2u);
+    EXPECT_EQ(alembic_near(times, 3, 1.5), 1u);  // a tie
+    EXPECT_EQ(alembic_near(times, 3, 1.51), 2u);
+    EXPECT_EQ(alembic_floor(times, 3, 9.0), 2u);
+    EXPECT_EQ(alembic_ceil(times, 2, 9.0), 1u);  // fewer samples than times
+}
+
+TEST(AlembicSamples, RepeatsAtBothEndsAreLeftOut) {
+    const AlembicArchive archive = open("property_zoo");
+    const AlembicCompound zoo = archive.properties(find_object(archive, "/zoo"));
+    const auto indices = [&](const char* name) { return archive.samples(*zoo.find(name)).indices; };
+    using Indices = std::vector<std::uint64_t>;
+    EXPECT_EQ(indices("p_one"), (Indices{0}));
+    EXPECT_EQ(indices("p_const"), (Indices{0}));
+    EXPECT_EQ(indices("p_all"), (Indices{0, 1, 2, 3}));
+    EXPECT_EQ(indices("p_lead"), (Indices{2, 3, 4, 5}));
+    EXPECT_EQ(indices("p_trail"), (Indices{0, 1, 2, 3}));
+    EXPECT_EQ(indices("p_both"), (Indices{2, 3, 4, 5, 6}));
+    EXPECT_EQ(indices("p_aaab"), (Indices{2, 3}));
+    const AlembicProperty& lead = *zoo.find("p_lead");
+    const AlembicSamples samples = archive.samples(lead);
+    for (std::size_t i = 0; i < samples.indices.size(); ++i)
+        EXPECT_NEAR(samples.time(i), sample_time(archive.time_samplings()[1], samples.indices[i]), 1e-15);
+}
+
+TEST(AlembicSamples, SharedDataIsOneBlock) {
+    const AlembicArchive archive = open("property_zoo");
+    const AlembicCompound zoo = archive.properties(find_object(archive, "/zoo"));
+    EXPECT_EQ(archive.storage(*zoo.find("rank2"), 0), archive.storage(*zoo.find("sharesRank2"), 0));
+    EXPECT_EQ(archive.storage(*zoo.find("p_mid"), 1), archive.storage(*zoo.find("p_mid"), 3));
+    EXPECT_NE(archive.storage(*zoo.find("p_mid"), 0), archive.storage(*zoo.find("p_mid"), 3));
+}
+
+}  // namespace
+}  // namespace aleph

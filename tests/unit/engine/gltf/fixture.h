@@ -1,0 +1,35 @@
+#pragma once
+// Loads drafts of glTF files from a folder of the test's own.
+
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "engine/gltf/gltf.h"
+#include "tests/support/gltf_draft.h"
+#include "tests/support/scratch_folder.h"
+
+namespace aleph {
+
+class GltfFixture : public testing::Test {
+  protected:
+    Scene load(GltfDraft draft) {
+        write_text(folder_ / "scene.gltf", draft.to_text());
+        return load_file("scene.gltf");
+    }
+    Scene load_file(const std::string& name) {
+        Scene scene;
+        append_gltf(folder_ / name, scene, no_index, 0);
+        return scene;
+    }
+    static std::size_t count_warnings(const Scene& scene, const std::string& text) {
+        std::size_t count = 0;
+        for (const std::string& warning : scene.warnings) count += warning.find(text) != std::string::npos ? 1 : 0;
+        return count;
+    }
+    static bool warns(const Scene& scene, const std::string& text) { return count_warnings(scene, text) > 0; }
+
+    ScratchFolder folder_;
+};
+
+}  // namespace aleph

@@ -1,0 +1,329 @@
+// load_scene and save_scene on files: includes, pictures, what is added to scenes that lack it, bad files.
+
+#include "engine/load/load_scene.h"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+
+#include "engine/base/errors.h"
+#include "engine/image/image_file.h"
+#include "engine/load/warnings.h"
+#include "engine/pose/camera_view.h"
+#include "engine/pose/pose.h"
+
+namespace aleph {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A triangle (0,0,0) (1,0,0) (0,1,0) under the node "mover", which goes from x = 0 to x = 10 m in one second.
+constexpr const char* moving_triangle = R"({"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}],
+    "nodes": [{"name": "mover", "mesh": 0}], "meshes": [{"name": "triangle", "primitives": [{"attributes": {"POSITION": 0}, "indices": 3}]}],
+    "buffers": [{"byteLength": 76, "uri": "data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAAAAAAAAAAgD8AAAAAAAAAAAAAAAAAACBBAAAAAAAAAAAAAAEAAgAAAA=="}],
+    "bufferViews": [{"buffer": 0, "byteLength": 36}, {"buffer": 0, "byteOffset": 36, "byteLength": 8}, {"buffer": 0, "byteOffset": 44, "byteLength": 24}, {"buffer": 0, "byteOffset": 68, "byteLength": 6}],
+    "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3", "min": [0, 0, 0], "max": [1, 1, 0]},
+        {"bufferView": 1, "componentType": 5126, "count": 2, "type": "SCALAR", "min": [0], "max": [1]},
+        {"bufferView": 2, "componentType": 5126, "count": 2, "type": "VEC3"}, {"bufferView": 3, "componentType": 5123, "count": 3, "type": "SCALAR"}],
+    "animations": [{"samplers": [{"input": 1, "output": 2}], "channels": [{"sampler": 0, "target": {"node": 0, "path": "translation"}}]}]})";
+
+class Archive : public testing::Test {
+  protected:
+    void SetUp() override {
+        const auto* test = testing::UnitTest::GetInstance()->current_test_info();
+        folder_ =
+            fs::path(testing::TempDir()) / (std::string("aleph_archive_") + test->name() + std::to_string(getpid()));
+        fs::remove_all(folder_);
+        fs::create_directories(folder_ / "lib");
+    }
+    void TearDown() override { fs::remove_all(folder_); }
+
+    fs::path write(const std::string& name, const std::string& text) const {
+        std::ofstream(folder_ / name, std::ios::binary) << text;
+        return folder_ / name;
+    }
+    fs::path write_scene(const std::string& body) const { return write("scene.json", "{\"aleph\": 1, " + body + "}"); }
+
+    void expect_refused(const fs::path& path, const std::string& place, const std::string& word) const {
+        try {
+            load_scene(path);
+            ADD_FAILURE() << path << " was read";
+        } catch (const InputError& error) {
+            EXPECT_EQ(error.file(), path.string()) << error.what();
+            EXPECT_EQ(error.place(), place) << error.what();
+            EXPECT_NE(error.reason().find(word), std::string::npos) << error.what();
+        }
+    }
+
+    fs::path folder_;
+};
+
+bool has_warning(const Scene& scene, const std::string& word) {
+    for (const std::string& warning : scene.warnings) {
+        if (warning.find(word) != std::string::npos) return true;
+    }
+    return false;
+}
+
+Scene without_file(Scene scene) {
+    scene.file.clear();
+    return scene;
+}
+
+TEST_F(Archive, PicturesAreDecoded) {
+    Image<Rgb> picture(2, 1);
+    picture(0, 0) = Rgb(1.0f, 0.0f, 0.0f);
+    picture(1, 0) = Rgb(0.0f, 0.0f, 1.0f);
+    write_png(folder_ / "lib/two.png", picture);
+    write_exr(
+        folder_ / "two.exr",
+        {{{"R", Image<float>(1, 2, 4.0f)}, {"G", Image<float>(1, 2, 5.0f)}, {"B", Image<float>(1, 2, 6.0f)}}, {}});
+    const Scene scene = load_scene(write_scene(R"("environment": [1, 1, 1], "materials": {"m": {
+        "base_color_texture": "lib/two.png", "emission_texture": "two.exr"}})"));
+    ASSERT_EQ(scene.images.size(), 2u);
+    EXPECT_EQ(scene.images[0].bytes.width, 2);
+    EXPECT_EQ(scene.images[0].bytes(0, 0), glm::u8vec4(255, 0, 0, 255));
+    EXPECT_EQ(scene.images[0].bytes(1, 0), glm::u8vec4(0, 0, 255, 255));
+    EXPECT_TRUE(scene.images[0].floats.empty());
+    EXPECT_TRUE(scene.images[1].bytes.empty());
+    EXPECT_EQ(scene.images[1].floats.height, 2);
+    EXPECT_EQ(scene.images[1].floats(0, 1), glm::vec4(4.0f, 5.0f, 6.0f, 1.0f));
+    EXPECT_TRUE(scene.warnings.empty());
+    save_scene(scene, folder_ / "again.json");
+    EXPECT_TRUE(without_file(load_scene(folder_ / "again.json")) == without_file(scene));
+}
+
+TEST_F(Archive, IncludesFollowTheScenesOwnElementsAndStayIncludes) {
+    write("lib/triangle.gltf", moving_triangle);
+    const Scene scene = load_scene(write_scene(R"("camera": "eye", "environment": [1, 1, 1], "nodes": [
+        {"name": "left", "translation": [-5, 0, 0], "include": ["lib/triangle.gltf", "lib/../lib/triangle.gltf"]},
+        {"name": "mover", "shape": {"type": "box"}, "material": {}}, {"name": "eye", "camera": {}}], "include": "lib/triangle.gltf")"));
+    ASSERT_EQ(scene.includes.size(), 3u);
+    ASSERT_EQ(scene.meshes.size(), 4u);
+    EXPECT_EQ(scene.meshes[0].include, no_index);
+    std::vector<int> includes;
+    for (const Node& node : scene.nodes) includes.push_back(node.include);
+    EXPECT_EQ(includes, (std::vector<int>{-1, -1, -1, 0, 1, 2}));
+    EXPECT_EQ(scene.nodes[3].name, "mover");
+    EXPECT_EQ(scene.nodes[3].parent, 0);
+    EXPECT_EQ(scene.nodes[4].parent, 0);
+    EXPECT_EQ(scene.nodes[5].parent, no_index);
+    EXPECT_EQ(pose(scene, 0.5).world[3][3], glm::dvec4(0.0, 0.0, 0.0, 1.0));
+    EXPECT_EQ(pose(scene, 0.5).world[5][3], glm::dvec4(5.0, 0.0, 0.0, 1.0));
+
+    save_scene(scene, folder_ / "again.json");
+    EXPECT_TRUE(without_file(load_scene(folder_ / "again.json")) == without_file(scene));
+}
+
+TEST_F(Archive, PathsChangeWithTheFolder) {
+    write("lib/triangle.gltf", moving_triangle);
+    write_png(folder_ / "dot.png", Image<Rgb>(1, 1));
+    const Scene scene = load_scene(write_scene(
+        R"("materials": {"m": {"base_color_texture": "dot.png"}}, "include": "lib/triangle.gltf", "environment": [1, 1, 1])"));
+    save_scene(scene, folder_ / "lib/moved.json");
+    const Scene moved = load_scene(folder_ / "lib/moved.json");
+    EXPECT_EQ(moved.includes[0].path, "triangle.gltf");
+    EXPECT_EQ(moved.images[0].path, "../dot.png");
+    EXPECT_EQ(moved.nodes, scene.nodes);
+    EXPECT_EQ(moved.images[0].bytes, scene.images[0].bytes);
+}
+
+TEST_F(Archive, GltfWithoutCameraGetsOneThatSeesEverythingAllTheTime) {
+    const Scene scene = load_scene(write("moving.gltf", moving_triangle));
+    EXPECT_TRUE(has_warning(scene, "no camera"));
+    EXPECT_EQ(scene.name, "moving");
+    ASSERT_EQ(scene.nodes.size(), 2u);
+    EXPECT_EQ(scene.nodes[0].camera, 0);
+    EXPECT_EQ(scene.nodes[1].name, "mover");
+    EXPECT_EQ(frame_range(scene), (FrameRange{0, 30}));
+    double widest = 0.0;
+    for (int frame = 0; frame <= 30; ++frame) {
+        const SceneFrame now = pose(scene, scene.frame_rate.seconds_of(frame));
+        const CameraView view = make_camera_view(now.cameras.at(0), 640, 480);
+        EXPECT_GT(view.position.y, 0.5);  // above the middle
+        EXPECT_GT(view.position.z, 1.0);
+        for (const glm::vec3& corner : scene.meshes[0].positions) {
+            const glm::dvec3 p = to_camera(view, glm::dvec3(now.world[1] * glm::dvec4(corner, 1.0)));
+            ASSERT_GT(-p.z, view.near_plane);
+            const glm::dvec2 pixel = project_camera_point(view, p);
+            EXPECT_TRUE(pixel.x > 0.0 && pixel.x < 640.0 && pixel.y > 0.0 && pixel.y < 480.0)
+                << pixel.x << " " << pixel.y;
+            widest = std::max(widest, std::abs(pixel.x - 320.0));
+        }
+    }
+    EXPECT_GT(widest, 150.0);  // and does not look from far away
+
+    save_scene(scene, folder_ / "again.json");
+    Scene again = load_scene(folder_ / "again.json");
+    again.file = scene.file;
+    again.warnings = scene.warnings;
+    EXPECT_TRUE(again == scene);
+}
+
+TEST_F(Archive, SceneWithoutLightGetsAWhiteEnvironment) {
+    const Scene dark = load_scene(
+        write_scene(R"("materials": {"unused": {"emission": [1, 1, 1]}}, "lights": {"unused": {"type": "point"}},
+        "nodes": [{"shape": {"type": "box"}, "material": {"emission": [1, 0, 0], "emission_strength": 0}}])"));
+    EXPECT_EQ(dark.environment, Track<glm::dvec3>(glm::dvec3(1.0)));
+    EXPECT_TRUE(has_warning(dark, "no light"));
+    for (
+        const char* light :
+        {R"("environment": [0, 0, 0.1])", R"("environment": [0, 0, 0])",
+         R"("nodes": [{"light": {"type": "directional"}}])",
+         R"("nodes": [{"shape": {"type": "quad"}, "material": {"emission": {"keys": [[0, [0, 0, 0]], [9, [0, 1, 0]]]}}}])"}) {
+        const Scene lit = load_scene(write_scene(light));
+        EXPECT_FALSE(has_warning(lit, "no light")) << light;
+        EXPECT_NE(lit.environment, Track<glm::dvec3>(glm::dvec3(1.0))) << light;
+    }
+}
+
+TEST_F(Archive, WhatIsRenderedOpaqueIsSaid) {
+    const Scene holes = load_scene(write_scene(R"("environment": [1, 1, 1],
+        "materials": {"leaf": {"alpha_mode": "mask"}, "smoke": {"alpha_mode": "blend"}, "unused": {"alpha_mode": "blend"}},
+        "nodes": [{"shape": {"type": "quad"}, "material": "leaf"}, {"shape": {"type": "quad"}, "material": "smoke"}])"));
+    EXPECT_EQ(
+        holes.warnings,
+        (std::vector<std::string>{
+            "material \"smoke\": alpha mode \"blend\" is not in this version; what has an alpha below 0.5 is left "
+            "out, the rest is opaque"}));
+    Scene glass;
+    glass.materials.resize(1);
+    glass.materials[0].name = "glass";
+    glass.meshes.resize(1);
+    glass.meshes[0].material = 0;
+    glass.nodes.resize(1);
+    glass.nodes[0].meshes = {0};
+    add_surface_warnings(glass);
+    EXPECT_TRUE(glass.warnings.empty());
+    glass.materials[0].transmission = 0.5;
+    add_surface_warnings(glass);
+    EXPECT_TRUE(has_warning(glass, "\"glass\": transmission is not in this version"));
+}
+
+TEST_F(Archive, RP08_RotationKeysMoreThan170DegreesApartAreSaid) {
+    const auto load = [&](const std::string& rotation) {
+        return load_scene(write_scene(
+            "\"environment\": [1, 1, 1], \"nodes\": [{\"name\": \"arm\", \"rotation\": " + rotation + "}]"));
+    };
+    const auto keys = [](double degrees, const std::string& more) {
+        const double half = 0.5 * degrees * std::acos(-1.0) / 180.0;
+        return "{\"keys\": [[0, [0, 0, 0, 1]], [5, [0, 0, 0, 1]], [9, [0, " + std::to_string(std::sin(half)) + ", 0, " +
+               std::to_string(std::cos(half)) + "]]]" + more + "}";
+    };
+    const Scene scene = load(keys(171.0, ""));
+    ASSERT_EQ(scene.warnings.size(), 1u);
+    EXPECT_NE(scene.warnings[0].find("\"arm\": neighbouring rotation keys are 171"), std::string::npos)
+        << scene.warnings[0];
+    EXPECT_TRUE(has_warning(load(keys(180.0, "")), "180 degrees"));
+    EXPECT_TRUE(has_warning(load(keys(185.0, "")), "185 degrees"));
+    EXPECT_TRUE(has_warning(load(keys(270.0, "")), "270 degrees")) << "although the rotation takes the 90 back";
+    EXPECT_TRUE(load(keys(169.0, "")).warnings.empty());
+    EXPECT_TRUE(load(keys(180.0, ", \"interpolation\": \"step\"")).warnings.empty());
+    EXPECT_TRUE(load(R"({"axis": [0, 1, 0], "degrees": {"keys": [[0, 0], [5, 720]]}})").warnings.empty());
+}
+
+TEST_F(Archive, KF04_RotationsThatAreNotUnitAreSaid) {
+    const auto load = [&](const std::string& rotation) {
+        return load_scene(write_scene(
+            "\"environment\": [1, 1, 1], \"nodes\": [{\"name\": \"arm\", \"rotation\": " + rotation + "}]"));
+    };
+    EXPECT_TRUE(has_warning(load("[0, 0, 0, 2]"), "\"arm\": rotation key 0 has length 2"));
+    EXPECT_TRUE(has_warning(load("[0, 1.002, 0, 0]"), "length 1.002"));
+    EXPECT_TRUE(load("[0, 0.70711, 0, 0.70711]").warnings.empty());
+    const Scene tiny = load("[0, 1e-20, 0, 1e-20]");
+    EXPECT_NEAR(pose(tiny, 0.0).world[0][0].z, -1.0, 1e-12);  // a quarter turn about y takes x to -z
+}
+
+TEST_F(Archive, FilesThatCannotBeRead) {
+    expect_refused(folder_ / "missing.json", "", "there is no file");
+    expect_refused(folder_ / "missing.glb", "", "there is no file");
+    fs::create_directories(folder_ / "folder.json");
+    expect_refused(folder_ / "folder.json", "", "not a regular file");
+    expect_refused(folder_, "", "expected a .json, .gltf, .glb or .abc");
+    expect_refused(write("a.abc", "Ogawa"), "header", "ends inside its header");
+    expect_refused(write("old.abc", "\x89HDF\r\n"), "", "abcconvert");
+    expect_refused(write("a.obj", "v 0 0 0"), "", "\".obj\"");
+    expect_refused("/dev/zero", "", "expected a .json");
+    fs::create_symlink("/dev/zero", folder_ / "zero.json");
+    expect_refused(folder_ / "zero.json", "", "not a regular file");
+    write("huge.json", "");
+    fs::resize_file(folder_ / "huge.json", (std::uintmax_t{64} << 20) + 1);
+    expect_refused(folder_ / "huge.json", "", "larger than 64 MiB");
+}
+
+TEST_F(Archive, FilesThatASceneNamesAndThatCannotBeRead) {
+    const auto refused = [&](const std::string& body, const std::string& place, const std::string& word) {
+        expect_refused(write_scene(body), place, word);
+    };
+    fs::create_directories(folder_ / "dir.png");
+    write("text.png", "not a picture");
+    write("scene2.json", "{\"aleph\": 1}");
+    refused(R"("include": "missing.glb")", "/include", "there is no file");
+    refused(R"("nodes": [{}, {"include": ["missing.glb"]}])", "/nodes/1/include/0", "there is no file");
+    refused(R"("include": "scene2.json")", "/include", ".gltf, .glb or .abc");
+    refused(R"("include": "a.abc")", "/include", "there is no file");
+    refused(R"("include": "lib")", "/include", ".gltf, .glb or .abc");
+    refused(R"("materials": {"m": {"base_color_texture": "missing.png"}})", "/materials/m/base_color_texture",
+            "there is no file");
+    refused(R"("materials": {"m": {"base_color_texture": "dir.png"}})", "/materials/m/base_color_texture",
+            "not a regular file");
+    refused(R"("materials": {"m": {"base_color_texture": {"image": "text.png"}}})",
+            "/materials/m/base_color_texture/image", "text.png");
+    refused(R"("images": {"x": "text.png"})", "/images/x", "PNG");
+    refused(R"("camera": "main", "nodes": [{"name": "eye", "camera": {}}])", "/camera", "eye");
+    refused(R"("camera": "main", "cameras": {"main": {}})", "/camera", "no camera");
+
+    write("broken.gltf", R"({"asset": {"version": "1.0"}})");
+    try {
+        load_scene(write_scene(R"("include": "broken.gltf")"));
+        ADD_FAILURE();
+    } catch (const InputError& error) {
+        EXPECT_EQ(error.file(), (folder_ / "broken.gltf").string());
+    }
+}
+
+TEST_F(Archive, SaveIsAllOrNothing) {
+    Scene scene;
+    scene.name = "first";
+    save_scene(scene, folder_ / "s.json");
+    scene.exposure = std::nan("");
+    EXPECT_THROW(save_scene(scene, folder_ / "s.json"), InputError);
+    EXPECT_EQ(load_scene(folder_ / "s.json").name, "first");
+    scene.exposure.reset();
+    EXPECT_THROW(save_scene(scene, folder_ / "no/such/folder/s.json"), OutputError);
+    EXPECT_THROW(save_scene(scene, folder_ / "s.glb"), InputError);
+    EXPECT_EQ(std::distance(fs::directory_iterator(folder_), {}), 2);  // lib and s.json: nothing left over
+}
+
+TEST_F(Archive, ManyIncludesOfOneFileLoadAndSave) {
+    write("lib/triangle.gltf", moving_triangle);
+    std::string nodes;
+    for (int i = 0; i < 50; ++i) nodes += std::string(i ? "," : "") + "{\"include\": \"lib/triangle.gltf\"}";
+    const Scene scene = load_scene(write_scene("\"nodes\": [" + nodes + "], \"environment\": [1, 1, 1]"));
+    EXPECT_EQ(scene.nodes.size(), 100u);
+    save_scene(scene, folder_ / "again.json");
+    EXPECT_TRUE(without_file(load_scene(folder_ / "again.json")) == without_file(scene));
+}
+
+TEST_F(Archive, RealFilesLoadAsScenesAndAsIncludes) {
+    const fs::path assets = ALEPH_ASSETS_DIR;
+    if (!fs::exists(assets)) GTEST_SKIP() << "the shared asset files are not here";
+    for (const char* name : {"gltf/CesiumMilkTruck.glb", "gltf/CornellBox.glb", "room/room.glb"}) {
+        const Scene scene = load_scene(assets / name);
+        EXPECT_NO_THROW(find_camera(scene, "")) << name;
+        fs::copy_file(assets / name, folder_ / "lib/asset.glb", fs::copy_options::overwrite_existing);
+        const Scene included =
+            load_scene(write_scene(R"("nodes": [{"name": "place", "scale": 2, "include": "lib/asset.glb"}])"));
+        EXPECT_EQ(included.meshes.size(), scene.meshes.size()) << name;
+        save_scene(included, folder_ / "again.json");
+        Scene again = load_scene(folder_ / "again.json");
+        again.warnings = included.warnings;
+        EXPECT_TRUE(without_file(again) == without_file(included)) << name;
+    }
+}
+
+}  // namespace
+}  // namespace aleph

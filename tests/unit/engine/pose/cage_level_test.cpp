@@ -1,0 +1,219 @@
+// The level of cages follows the size of their edges in the picture, one for the whole shot.
+#include "engine/pose/cage_level.h"
+
+#include <gtest/gtest.h>
+
+#include <glm/geometric.hpp>
+
+#include "engine/base/errors.h"
+#include "engine/pose/pose.h"
+#include "render/sequence.h"
+#include "tests/support/cage_scenes.h"
+
+namespace aleph {
+namespace {
+
+constexpr int width = 320, height = 200;
+
+/// A wavy sheet of 4 x 4 faces of about 1 m across z = 0, the camera `distance` before its middle.
+Scene make_sheet(double distance, double height_of_waves = 0.3) {
+    TestCage test = make_grid_cage(7, 7);
+    test.cage.boundary = Cage::Boundary::none;  // the outermost faces only shape those within: waves alike everywhere
+    for (std::size_t i = 0; i < test.points.size(); ++i) {
+        const double wave = height_of_waves * (i % 2 == 0 ? 1.0 : -1.0);
+        test.points[i] = glm::dvec3(static_cast<double>(i % 7) - 3.0, static_cast<double>(i / 7) - 3.0, wave);
+    }
+    Scene scene = make_cage_scene(test, {test.points}, 0);
+    scene.cages[0].max_level = 8;
+    scene.nodes[1].translation = glm::dvec3(0.0, 0.0, distance);
+    return scene;
+}
+
+int level_of(const Scene& scene, const CageLevelSettings& settings = {}) {
+    return choose_cage_levels(scene, 0, width, height, settings).at(0);
+}
+
+CageLevelSettings with_triangles(std::size_t most) {
+    CageLevelSettings settings;
+    settings.max_triangles = most;
+    return settings;
+}
+
+/// Of a sheet's triangles at a level: the longest edge, and the largest distance of finer triangles' points from these
+/// triangles' edges' middles, pixels. All triangles as if at the sheet's nearest point.
+struct Fineness {
+    double edge = 0.0, bend = 0.0;
+};
+Fineness measure(const Scene& scene, int level, double distance) {
+    const double pixels = height / (2.0 * std::tan(std::numbers::pi / 8.0)) / distance;
+    const LimitSurface surface(scene.cages[0], scene.point_caches[0].point_count(), level);
+    const auto control = surface.make_control_points(cage_points_at(scene, scene.cages[0], 0.0));
+    const Mesh mesh = surface.make_mesh(0, control);
+    Fineness result;
+    for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+        for (int k = 0; k < 3; ++k) {
+            const glm::dvec3 a(mesh.positions[mesh.triangles[i][k]]), b(mesh.positions[mesh.triangles[i][(k + 1) % 3]]);
+            result.edge = std::max(result.edge, glm::length(b - a) * pixels);
+            const glm::dvec3 middle = surface.evaluate(0, control, static_cast<int>(i), k == 0 || k == 1 ? 0.5 : 0.0,
+                                                       k == 1 || k == 2 ? 0.5 : 0.0);
+            const glm::dvec3 along = glm::normalize(b - a), off = middle - a;
+            result.bend = std::max(result.bend, glm::length(off - along * glm::dot(off, along)) * pixels);
+        }
+    }
+    return result;
+}
+
+TEST(CageLevel, TrianglesAreFineEnoughAndNotMuchFiner) {
+    for (const double waves : {0.3, 0.03, 0.003}) {
+        for (const double distance : {6.0, 15.0, 50.0}) {  // the whole sheet is in view
+            const Scene scene = make_sheet(distance, waves);
+            const int level = level_of(scene);
+            const Fineness now = measure(scene, level, distance);
+            // Parts farther away need less, and bends shrink by 4 only about: half a level of slack.
+            EXPECT_TRUE(now.edge <= 4.0 * 1.5 || now.bend <= 0.1 * 2.0) << distance << " " << waves;
+            if (level == 0) continue;
+            const Fineness coarser = measure(scene, level - 1, distance - waves);
+            EXPECT_TRUE(coarser.edge > 4.0 / 1.5 && coarser.bend > 0.1 / 2.0) << distance << " " << waves;
+        }
+    }
+}
+
+TEST(CageLevel, FlatAndStraightFacesStayWhole) {
+    EXPECT_EQ(level_of(make_sheet(1.0, 0.0)), 0);
+    EXPECT_GT(level_of(make_sheet(1.0, 0.01)), 0);
+    // A skirting board: 5 m of straight lines, creased along its edges.
+    TestCage board = make_cage({{0, 0, 0}, {5, 0, 0}, {0, 0.1, 0}, {5, 0.1, 0}, {0, 0.1, -0.02}, {5, 0.1, -0.02}},
+                               {{0, 1, 3, 2}, {2, 3, 5, 4}});
+    add_crease(board.cage, {2, 3}, 10.0f);
+    Scene scene = make_cage_scene(board, {board.points}, 1);
+    scene.nodes[1].translation = glm::dvec3(2.5, 0.1, 0.3);
+    EXPECT_EQ(level_of(scene), 1);
+}
+
+TEST(CageLevel, AsksForMoreAsTheCameraNears) {
+    int last = 99;
+    for (const double distance : {1.0, 8.0, 60.0, 500.0}) {
+        const int level = level_of(make_sheet(distance));
+        EXPECT_LT(level, last) << distance;
+        last = level;
+    }
+    EXPECT_LE(last, 1);
+}
+
+TEST(CageLevel, NearestFrameOfTheShotDecidesForAll) {
+    Scene scene = make_sheet(0.0);
+    scene.range = FrameRange{0, 100};
+    Track<glm::dvec3>& path = scene.nodes[1].translation;
+    path.sampling.kind = TimeSampling::Kind::acyclic;
+    path.sampling.times = {0.0, 50.0 / 30.0, 100.0 / 30.0};
+    path.values = {{0.0, 0.0, 40.0}, {0.0, 0.0, 1.0}, {0.0, 0.0, 40.0}};
+    EXPECT_EQ(level_of(scene), level_of(make_sheet(1.0)));
+    scene.range = FrameRange{0, 10};
+    EXPECT_LT(level_of(scene), level_of(make_sheet(1.0)));
+}
+
+TEST(CageLevel, PictureSizeScaleAndDeformationCount) {
+    const Scene scene = make_sheet(6.0);
+    const int level = level_of(scene);
+    EXPECT_GE(choose_cage_levels(scene, 0, 4 * width, 4 * height).at(0), level + 1);  // + 2 by edges, + 1 by bends
+    Scene scaled = make_sheet(6.0);
+    scaled.nodes[0].scale = glm::dvec3(5.0);
+    EXPECT_GT(level_of(scaled), level);
+    Scene stretched = make_sheet(6.0);
+    PointCache& cache = stretched.point_caches[0];
+    cache.positions.push_back(cache.positions[0]);
+    for (glm::vec3& p : cache.positions[1]) p *= glm::vec3(2.0f, 2.0f, 20.0f);
+    stretched.range = FrameRange{0, 1};
+    EXPECT_GT(level_of(stretched), level);
+}
+
+TEST(CageLevel, OrthographicCamerasDoNotNear) {
+    Scene scene = make_sheet(6.0);
+    scene.cameras[0].orthographic = true;
+    scene.cameras[0].half_height = 2.0;
+    const int level = level_of(scene);
+    EXPECT_GT(level, 2);
+    scene.nodes[1].translation = glm::dvec3(0.0, 0.0, 60.0);
+    EXPECT_EQ(level_of(scene), level);
+    scene.cameras[0].half_height = 0.25;
+    EXPECT_GT(level_of(scene), level);
+}
+
+TEST(CageLevel, WhatIsNotInViewKeepsItsLevel) {
+    Scene beside = make_sheet(3.0);
+    beside.nodes[0].translation = glm::dvec3(100.0, 0.0, 0.0);
+    EXPECT_EQ(level_of(beside), 0);
+    Scene behind = make_sheet(-3.0);
+    EXPECT_EQ(level_of(behind), 0);
+    behind.cages[0].level = 2;
+    EXPECT_EQ(level_of(behind), 2);
+    Scene hidden = make_sheet(3.0);
+    hidden.nodes[0].visible = 0.0;
+    EXPECT_EQ(level_of(hidden), 0);
+    // Triangles all around the picture, whose corners lie outside on all sides.
+    EXPECT_GE(level_of(make_sheet(0.12)), 5);
+}
+
+TEST(CageLevel, StaysWithinTheCagesAndTheScenesLimits) {
+    Scene scene = make_sheet(1.0);
+    scene.cages[0].max_level = 3;
+    EXPECT_EQ(level_of(scene), 3);
+    scene.cages[0].max_level = 99;
+    EXPECT_LE(level_of(scene), 10);
+    scene.cages[0].max_level = -1;
+    EXPECT_EQ(level_of(scene), 0);
+    scene.cages[0].max_level = 8;
+    EXPECT_EQ(level_of(scene, with_triangles(36 * 2 * 64)), 3);
+    EXPECT_EQ(level_of(scene, with_triangles(36 * 2 * 64 - 1)), 2);
+    EXPECT_EQ(level_of(scene, with_triangles(1)), 0);
+    scene.cages[0].level = 1;  // as authored at least
+    EXPECT_EQ(level_of(scene, with_triangles(1)), 1);
+}
+
+TEST(CageLevel, CameraInTheSurfaceIsNoHarm) {
+    for (const double tilt : {0.0, 0.5, 1.5}) {
+        Scene through = make_sheet(0.0);
+        through.nodes[0].rotation = glm::angleAxis(tilt, glm::dvec3(1.0, 0.0, 0.0));
+        EXPECT_LE(level_of(through), 8);
+    }
+}
+
+TEST(CageLevel, ScenesAreRemadeOnlyWhereALevelDiffers) {
+    const Scene scene = make_sheet(3.0);
+    const int same[] = {0}, finer[] = {4}, beyond_all[] = {99};
+    EXPECT_EQ(make_scene_at_levels(scene, same), nullptr);
+    const auto copy = make_scene_at_levels(scene, finer);
+    ASSERT_NE(copy, nullptr);
+    EXPECT_EQ(copy->meshes[0].triangles.size(), 16u * 2u * 256u);
+    EXPECT_EQ(scene.meshes[0].triangles.size(), 16u * 2u);
+    EXPECT_EQ(copy->meshes[0].limit.surface->level(), 4);
+    EXPECT_EQ(make_scene_at_levels(scene, beyond_all)->cages[0].level, 8);
+}
+
+TEST(CageLevel, SequencesTakeItAndTheSettingFixesIt) {
+    Scene scene = make_sheet(20.0, 0.01);
+    scene.environment = glm::dvec3(1.0);
+    scene.exposure = 1.0;
+    RenderSettings settings;
+    settings.width = 32;
+    settings.height = 20;
+    const auto hits_at = [&](const Scene& from, int level) {
+        settings.subdivision_level = level;
+        Sequence sequence(from, settings, "");
+        int highest = 0;
+        const FrameOutput out = sequence.render(0, {.frame = false, .maps = true, .progress = {}});
+        for (const Hit& hit : out.hits.pixels) {
+            if (hit.instance != no_index) highest = std::max(highest, hit.primitive);
+        }
+        return highest;
+    };
+    EXPECT_LT(hits_at(scene, 0), 32);
+    EXPECT_GT(hits_at(scene, 3), 16 * 2 * 16);
+    EXPECT_LT(hits_at(scene, 3), 16 * 2 * 64);
+    EXPECT_LT(hits_at(scene, -1), 32);  // far away and nearly flat
+    scene.cages[0].max_level = 1;
+    EXPECT_LT(hits_at(scene, 3), 16 * 2 * 4);
+}
+
+}  // namespace
+}  // namespace aleph

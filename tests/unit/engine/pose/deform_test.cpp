@@ -1,0 +1,223 @@
+// Known answers of deforming meshes, and of updates that touch only what moves: engine/pose/deform.h, scene/points.h,
+// plan.h.
+
+#include "engine/pose/deform.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <glm/gtc/matrix_transform.hpp>
+#include <numbers>
+
+#include "engine/pose/plan.h"
+#include "engine/scene/points.h"
+#include "tests/support/deforming_scenes.h"
+
+namespace aleph {
+namespace {
+
+constexpr double pi = std::numbers::pi;
+
+void expect_near(const glm::dvec3& a, const glm::dvec3& b, double tolerance = 1e-12) {
+    for (int i = 0; i < 3; ++i) EXPECT_NEAR(a[i], b[i], tolerance);
+}
+
+TEST(Lookup, FloorCeilNearAndInterpolated) {
+    PointCache cache;
+    cache.sampling = {TimeSampling::Kind::acyclic, 0.0, 1.0, {0.0, 1.0, 3.0}};
+    cache.positions = {{{0.0f, 0.0f, 0.0f}}, {{1.0f, 0.0f, 0.0f}}, {{5.0f, 0.0f, 0.0f}}};
+    const auto x = [&](double seconds, Lookup lookup) { return sample_points(cache, seconds, lookup)[0].x; };
+    EXPECT_EQ(x(1.5, Lookup::floor), 1.0);
+    EXPECT_EQ(x(1.5, Lookup::ceil), 5.0);
+    EXPECT_EQ(x(1.5, Lookup::near), 1.0);
+    EXPECT_EQ(x(2.5, Lookup::near), 5.0);
+    EXPECT_EQ(x(2.0, Lookup::near), 1.0);  // a tie
+    EXPECT_EQ(x(1.5, Lookup::interpolated), 2.0);
+    for (const Lookup lookup : {Lookup::floor, Lookup::ceil, Lookup::near, Lookup::interpolated}) {
+        EXPECT_EQ(x(-1.0, lookup), 0.0);
+        EXPECT_EQ(x(1.0, lookup), 1.0);
+        EXPECT_EQ(x(9.0, lookup), 5.0);
+    }
+    Track<double> track;
+    track.sampling = cache.sampling;
+    track.values = {0.0, 1.0, 5.0};
+    EXPECT_EQ(evaluate(track, 1.5, Lookup::floor), 1.0);
+    EXPECT_EQ(evaluate(track, 1.5, Lookup::ceil), 5.0);
+    EXPECT_EQ(evaluate(track, 1.5, Lookup::interpolated), 2.0);
+}
+
+TEST(Lookup, CyclicSamplesRepeatTheirTimes) {
+    PointCache cache;
+    cache.sampling = {TimeSampling::Kind::cyclic, 0.0, 1.0, {0.0, 0.25}};
+    cache.positions = {{{0.0f, 0.0f, 0.0f}}, {{1.0f, 0.0f, 0.0f}}, {{2.0f, 0.0f, 0.0f}}, {{3.0f, 0.0f, 0.0f}}};
+    EXPECT_EQ(sample_points(cache, 1.0)[0].x, 2.0);
+    EXPECT_DOUBLE_EQ(sample_points(cache, 0.625)[0].x, 1.5);
+    EXPECT_EQ(sample_points(cache, 1.25)[0].x, 3.0);
+}
+
+TEST(Deform, PointsAreLinearBetweenSamplesAndExactOnThem) {
+    Scene scene = make_sheet_scene();
+    add_cache(scene, 0, {0.0, 2.0}, [](const glm::vec3& p, std::size_t sample) {
+        return p + glm::vec3(0.0f, 0.0f, static_cast<float>(sample) * (1.0f + p.x));
+    });
+    const Mesh& mesh = scene.meshes[0];
+    const SceneFrame middle = pose(scene, 0.5);
+    ASSERT_EQ(middle.meshes[0].positions.size(), mesh.positions.size());
+    for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
+        const glm::dvec3 rest(mesh.positions[v]);
+        expect_near(middle.meshes[0].positions[v], rest + glm::dvec3(0.0, 0.0, 0.25 * (1.0 + rest.x)), 1e-7);
+        EXPECT_EQ(pose(scene, 2.0).meshes[0].positions[v], glm::dvec3(scene.point_caches[0].positions[1][v]));
+        EXPECT_EQ(pose(scene, -1.0).meshes[0].positions[v], rest);
+    }
+}
+
+TEST(Deform, VerticesFindTheirPoints) {
+    Scene scene = make_sheet_scene();
+    add_cache(scene, 0, {0.0, 1.0}, [](const glm::vec3& p, std::size_t sample) {
+        return p + glm::vec3(0.0f, static_cast<float>(sample), 0.0f);
+    });
+    Mesh& mesh = scene.meshes[0];
+    std::vector<std::uint32_t>& to = mesh.vertex_points;
+    for (std::uint32_t v = 0; v < mesh.positions.size(); ++v)
+        to.push_back(static_cast<std::uint32_t>(mesh.positions.size()) - 1 - v);
+    const SceneFrame frame = pose(scene, 1.0);
+    for (std::size_t v = 0; v < to.size(); ++v)
+        EXPECT_EQ(frame.meshes[0].positions[v], glm::dvec3(scene.point_caches[0].positions[1][to[v]]));
+}
+
+TEST(Deform, WhatNeverMovesIsRigid) {
+    Scene scene = make_sheet_scene();
+    add_cache(scene, 0, {0.0, 1.0, 2.0}, [](const glm::vec3& p, std::size_t) { return p; });
+    EXPECT_TRUE(pose(scene, 0.5).meshes[0].positions.empty());
+    EXPECT_TRUE(make_pose_plan(scene).deformers.empty());
+    EXPECT_TRUE(make_pose_plan(scene).instances.empty());
+    scene.meshes[0].targets.resize(1);
+    scene.meshes[0].targets[0].positions.assign(scene.meshes[0].positions.size(), glm::vec3(1.0f));
+    scene.meshes[0].points = no_index;
+    scene.meshes[0].target_weights = {Track<double>(0.0)};
+    EXPECT_TRUE(pose(scene, 0.5).meshes[0].positions.empty());
+    scene.meshes[0].target_weights = {Track<double>(0.5)};  // posed, though always alike
+    EXPECT_EQ(pose(scene, 0.5).meshes[0].positions[0], glm::dvec3(scene.meshes[0].positions[0]) + 0.5);
+    EXPECT_TRUE(make_pose_plan(scene).instances.empty());
+}
+
+TEST(Deform, OnlyShownMeshesAreFilled) {
+    Scene scene = make_sheet_scene();
+    add_cache(scene, 0, {0.0, 1.0},
+              [](const glm::vec3& p, std::size_t s) { return p * (1.0f + static_cast<float>(s)); });
+    scene.nodes[0].visible = keyed<double>({0.0, 1.0}, {0.0, 1.0});
+    EXPECT_TRUE(pose(scene, 0.5).meshes[0].positions.empty());
+    EXPECT_FALSE(pose(scene, 1.0).meshes[0].positions.empty());
+    scene.nodes[0].visible = 1.0;
+    scene.meshes[0].present = keyed<double>({0.0, 1.0}, {1.0, 0.0}, Interpolation::step);
+    EXPECT_FALSE(pose(scene, 0.5).meshes[0].positions.empty());
+    EXPECT_TRUE(pose(scene, 1.0).meshes[0].positions.empty());
+}
+
+TEST(Deform, NormalsFollowTheTrianglesAndEdgesStaySharp) {
+    Scene scene;
+    scene.nodes.resize(1);
+    scene.nodes[0].meshes = {0};
+    Mesh mesh;  // a hinge of two squares; the points of its axis are shared, the vertices are not
+    mesh.positions = {{0, 0, 0}, {0, 1, 0}, {-1, 0, 0}, {-1, 1, 0}, {0, 0, 0}, {0, 1, 0}, {1, 0, 0}, {1, 1, 0}};
+    mesh.triangles = {{2, 0, 1}, {2, 1, 3}, {4, 6, 7}, {4, 7, 5}};
+    mesh.vertex_points = {0, 1, 2, 3, 0, 1, 4, 5};
+    mesh.normals.assign(8, glm::vec3(0.0f, 0.0f, 1.0f));
+    scene.meshes = {mesh};
+    PointCache cache;
+    cache.sampling.period = 1.0;
+    cache.positions = {{{0, 0, 0}, {0, 1, 0}, {-1, 0, 0}, {-1, 1, 0}, {1, 0, 0}, {1, 1, 0}},
+                       {{0, 0, 0}, {0, 1, 0}, {-1, 0, 0}, {-1, 1, 0}, {0, 0, 1}, {0, 1, 1}}};
+    scene.point_caches = {cache};
+    scene.meshes[0].points = 0;
+    const SceneFrame smooth = pose(scene, 1.0);  // the right square stands up and faces -x
+    expect_near(smooth.meshes[0].normals[2], {0.0, 0.0, 1.0}, 1e-6);
+    expect_near(smooth.meshes[0].normals[6], {-1.0, 0.0, 0.0}, 1e-6);
+    expect_near(smooth.meshes[0].normals[0], glm::normalize(glm::dvec3(-1.0, 0.0, 1.0)), 1e-6);
+    EXPECT_EQ(smooth.meshes[0].normals[0], smooth.meshes[0].normals[4]);
+    for (const std::size_t v : {4, 5, 6, 7})
+        scene.meshes[0].normals[v] = glm::vec3(0.1f, 0.0f, 1.0f);  // an edge at rest
+    const SceneFrame sharp = pose(scene, 1.0);
+    expect_near(sharp.meshes[0].normals[0], {0.0, 0.0, 1.0}, 1e-6);
+    expect_near(sharp.meshes[0].normals[4], {-1.0, 0.0, 0.0}, 1e-6);
+    scene.meshes[0].normals.clear();
+    EXPECT_TRUE(pose(scene, 1.0).meshes[0].normals.empty());  // flat stays flat
+}
+
+TEST(Deform, NormalSamplesAreTakenWhereGiven) {
+    Scene scene = make_sheet_scene();
+    add_cache(scene, 0, {0.0, 1.0}, [](const glm::vec3& p, std::size_t) { return p; });
+    const std::size_t count = scene.meshes[0].positions.size();
+    scene.meshes[0].normals.assign(count, glm::vec3(0.0f, 0.0f, 1.0f));
+    scene.meshes[0].normal_sampling.period = 2.0;
+    scene.meshes[0].normal_samples = {scene.meshes[0].normals, {count, glm::vec3(1.0f, 0.0f, 0.0f)}};
+    const SceneFrame frame = pose(scene, 1.0);  // the points stand still, the normals do not
+    EXPECT_EQ(frame.meshes[0].normals[3], glm::vec3(0.5f, 0.0f, 0.5f));
+    EXPECT_EQ(frame.meshes[0].positions[3], glm::dvec3(scene.meshes[0].positions[3]));
+}
+
+TEST(Deform, MorphTargetsAddUp) {
+    Scene scene = make_sheet_scene();
+    Mesh& mesh = scene.meshes[0];
+    mesh.normals.assign(mesh.positions.size(), glm::vec3(0.0f, 0.0f, 1.0f));
+    mesh.targets.resize(2);
+    mesh.targets[0].positions.assign(mesh.positions.size(), glm::vec3(0.0f, 2.0f, 0.0f));
+    mesh.targets[0].normals.assign(mesh.positions.size(), glm::vec3(2.0f, 0.0f, 0.0f));
+    mesh.targets[1].positions.assign(mesh.positions.size(), glm::vec3(0.0f, 0.0f, -4.0f));
+    mesh.target_weights = {keyed<double>({0.0, 1.0}, {0.0, 1.0}), Track<double>(0.25)};
+    const PosedMesh posed = pose(scene, 0.5).meshes[0];
+    EXPECT_EQ(posed.positions[0], glm::dvec3(mesh.positions[0]) + glm::dvec3(0.0, 1.0, -1.0));
+    expect_near(posed.normals[0], glm::normalize(glm::dvec3(1.0, 0.0, 1.0)), 1e-7);
+}
+
+TEST(Deform, SkinFollowsItsJointsWhateverItsOwnNodeDoes) {
+    Scene scene = make_skin_scene();
+    for (const double angle : {0.0, 30.0, 90.0, 210.0}) {
+        scene.nodes[2].rotation = glm::angleAxis(angle * pi / 180.0, glm::dvec3(0.0, 0.0, 1.0));
+        const SceneFrame frame = pose(scene, 0.0);
+        for (std::size_t v = 0; v < scene.meshes[0].positions.size(); ++v) {
+            const glm::dvec3 world(frame.world[0] * glm::dvec4(frame.meshes[0].positions[v], 1.0));
+            expect_near(world, bent_by(scene.meshes[0].positions[v], angle * pi / 180.0), 1e-6);
+        }
+    }
+    scene.nodes[0].scale = glm::dvec3(1.0, 0.0, 1.0);
+    const SceneFrame flat = pose(scene, 0.0);
+    for (const glm::dvec3& p : flat.meshes[0].positions) EXPECT_TRUE(std::isfinite(p.x + p.y + p.z));
+}
+
+void expect_same(const SceneFrame& a, const SceneFrame& b) {
+    EXPECT_EQ(a.seconds, b.seconds);
+    EXPECT_EQ(a.world, b.world);
+    EXPECT_EQ(a.visible, b.visible);
+    EXPECT_EQ(a.instances, b.instances);
+    EXPECT_EQ(a.shown, b.shown);
+    EXPECT_EQ(a.meshes, b.meshes);
+    EXPECT_EQ(a.materials, b.materials);
+    EXPECT_EQ(a.lights, b.lights);
+    EXPECT_EQ(a.cameras, b.cameras);
+    EXPECT_EQ(a.environment, b.environment);
+}
+
+TEST(PosePlan, UpdatesGiveTheBitsOfAFreshPose) {
+    const Scene scene = make_everything_scene();
+    const PosePlan plan = make_pose_plan(scene);
+    EXPECT_LT(plan.nodes.size(), scene.nodes.size());
+    SceneFrame frame = pose(scene, 0.0);
+    for (const double seconds : {0.0, 0.3, 2.0, 1.1, 1.0, -4.0, 0.5, 0.77, 9.0, 0.25}) {
+        SCOPED_TRACE(seconds);
+        update_pose(scene, plan, seconds, frame);
+        expect_same(frame, pose(scene, seconds));
+    }
+}
+
+TEST(PosePlan, NamesOnlyWhatCanChange) {
+    const Scene scene = make_everything_scene();
+    const PosePlan plan = make_pose_plan(scene);
+    const SceneFrame a = pose(scene, 0.1), b = pose(scene, 0.9);
+    for (std::size_t n = 0; n < scene.nodes.size(); ++n)
+        EXPECT_TRUE(plan.moving[n] != 0 || a.world[n] == b.world[n]) << n;
+    EXPECT_EQ(make_pose_plan(make_sheet_scene()).nodes, std::vector<int>{});
+}
+
+}  // namespace
+}  // namespace aleph

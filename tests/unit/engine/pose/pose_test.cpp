@@ -1,0 +1,244 @@
+// Known answers of engine/pose/pose.h.
+
+#include "engine/pose/pose.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <glm/gtc/matrix_transform.hpp>
+#include <numbers>
+
+#include "engine/base/errors.h"
+#include "tests/support/keyed_track.h"
+
+namespace aleph {
+namespace {
+
+constexpr double pi = std::numbers::pi;
+
+Node child_of(int parent, const glm::dvec3& translation = glm::dvec3(0.0)) {
+    Node node;
+    node.parent = parent;
+    node.translation = translation;
+    return node;
+}
+
+void expect_near(const glm::dvec3& a, const glm::dvec3& b, double tolerance = 1e-14) {
+    for (int i = 0; i < 3; ++i) EXPECT_NEAR(a[i], b[i], tolerance);
+}
+
+TEST(Pose, LocalTransformIsTranslationRotationScale) {
+    Scene scene;
+    scene.nodes.push_back(child_of(no_index, {1.0, 2.0, 3.0}));
+    scene.nodes[0].rotation = glm::angleAxis(pi / 2.0, glm::dvec3(0.0, 0.0, 1.0));
+    scene.nodes[0].scale = glm::dvec3(2.0, 3.0, 4.0);
+    scene.nodes.push_back(child_of(0, {1.0, 1.0, 1.0}));
+    const SceneFrame frame = pose(scene, 0.0);
+    expect_near(frame.world[0] * glm::dvec4(1.0, 1.0, 1.0, 1.0), {-2.0, 4.0, 7.0});
+    expect_near(frame.world[1][3], {-2.0, 4.0, 7.0});
+    expect_near(frame.world[1] * glm::dvec4(1.0, 0.0, 0.0, 1.0), {-2.0, 6.0, 7.0});
+}
+
+TEST(Pose, MatrixStandsForTheWholeTransform) {
+    Scene scene;
+    scene.nodes.push_back(child_of(no_index, {9.0, 9.0, 9.0}));
+    const glm::dmat4 m(1.0, 2.0, 3.0, 0.0, -4.0, 5.0, 6.0, 0.0, 7.0, -8.0, 9.0, 0.0, 1.0, 2.0, 3.0, 1.0);
+    scene.nodes[0].matrix = m;
+    EXPECT_EQ(pose(scene, 0.0).world[0], m);
+}
+
+TEST(Pose, AxisRotationSpinsMoreThanOnce) {
+    Scene scene;
+    scene.nodes.push_back(child_of(no_index));
+    AxisRotation spin;
+    spin.axis = {0.0, 2.0, 0.0};
+    spin.angle = keyed<double>({0.0, 1.0}, {0.0, 4.0 * pi});
+    scene.nodes[0].axis_rotation = spin;
+    for (double t = 0.0; t <= 1.0; t += 0.0625)
+        expect_near(pose(scene, t).world[0][0], {std::cos(4.0 * pi * t), 0.0, -std::sin(4.0 * pi * t)}, 1e-13);
+}
+
+TEST(Pose, VisibilityIsSteppedAndInherited) {
+    Scene scene;
+    scene.nodes = {child_of(no_index), child_of(0), child_of(1), child_of(no_index)};
+    scene.nodes[1].visible = keyed<double>({0.0, 1.0, 2.0}, {1.0, 0.0, 1.0}, Interpolation::linear);
+    scene.nodes[2].visible = keyed<double>({0.0, 3.0}, {0, 1, 0, 0, 0, 0}, Interpolation::cubic);
+    EXPECT_EQ(pose(scene, 0.5).visible, (std::vector<std::uint8_t>{1, 1, 1, 1}));
+    EXPECT_EQ(pose(scene, 1.0).visible, (std::vector<std::uint8_t>{1, 0, 0, 1}));
+    EXPECT_EQ(pose(scene, 1.5).visible, (std::vector<std::uint8_t>{1, 0, 0, 1}));
+    EXPECT_EQ(pose(scene, 2.5).visible, (std::vector<std::uint8_t>{1, 1, 1, 1}));
+    EXPECT_EQ(pose(scene, 3.0).visible, (std::vector<std::uint8_t>{1, 1, 0, 1}));
+}
+
+TEST(Pose, InstancesAreTheSameAtEveryTime) {
+    Scene scene;
+    scene.nodes = {child_of(no_index), child_of(0), child_of(0)};
+    scene.meshes.resize(3);
+    scene.nodes[0].meshes = {2};
+    scene.nodes[2].meshes = {1, 0};
+    scene.nodes[2].visible = keyed<double>({0.0, 1.0}, {1.0, 0.0});
+    const std::vector<Instance> expected{{0, 2}, {2, 1}, {2, 0}};
+    EXPECT_EQ(list_instances(scene), expected);
+    EXPECT_EQ(pose(scene, 5.0).instances, expected);
+}
+
+TEST(Pose, LightsShineAlongMinusZWithoutTheirScale) {
+    Scene scene;
+    Light light;
+    light.kind = Light::Kind::directional;
+    light.color = glm::dvec3(1.0, 0.5, 0.25);
+    light.intensity = keyed<double>({0.0, 1.0}, {10.0, 20.0});
+    scene.lights = {light};
+    scene.nodes = {child_of(no_index, {1.0, 2.0, 3.0}), child_of(no_index)};
+    scene.nodes[0].rotation = glm::angleAxis(-pi / 2.0, glm::dvec3(1.0, 0.0, 0.0));  // -z to -y
+    scene.nodes[0].scale = glm::dvec3(1e-3, 5.0, 1e-20);
+    scene.nodes[0].light = 0;
+    scene.nodes[1].light = 0;
+    scene.nodes[1].visible = 0.0;
+    const SceneFrame frame = pose(scene, 0.5);
+    ASSERT_EQ(frame.lights.size(), 1u);
+    expect_near(frame.lights[0].direction, {0.0, -1.0, 0.0});
+    expect_near(frame.lights[0].position, {1.0, 2.0, 3.0});
+    EXPECT_EQ(frame.lights[0].intensity, Rgb(15.0f, 7.5f, 3.75f));
+    scene.nodes[0].scale = glm::dvec3(0.0);
+    EXPECT_EQ(pose(scene, 0.5).lights[0].direction, glm::dvec3(0.0, 0.0, -1.0));
+}
+
+TEST(Pose, CamerasAreOrthonormalWhateverTheScale) {
+    Scene scene;
+    scene.cameras.resize(1);
+    scene.cameras[0].shutter = {-0.25, 0.25};
+    scene.nodes = {child_of(no_index), child_of(0, {0.0, 0.0, 10.0})};
+    scene.nodes[1].camera = 0;
+    scene.nodes[1].visible = 0.0;  // a hidden camera still sees
+    const glm::dquat rotation = glm::angleAxis(0.7, glm::normalize(glm::dvec3(1.0, 2.0, -1.0)));
+    scene.nodes[1].rotation = rotation;
+    for (const glm::dvec3 scale :
+         {glm::dvec3(1.0), glm::dvec3(2.0, 0.1, 1e-20), glm::dvec3(1e30), glm::dvec3(-1, 1, 1)}) {
+        scene.nodes[1].scale = scale;
+        const CameraValues camera = pose(scene, 0.0).cameras.at(0);
+        const glm::dmat3 expected = glm::mat3_cast(rotation);
+        for (int i = 0; i < 3; ++i) expect_near(camera.axes[i], expected[i]);
+        expect_near(camera.position, {0.0, 0.0, 10.0});
+        EXPECT_EQ(camera.shutter, glm::dvec2(-0.25, 0.25));
+    }
+    scene.nodes[0].scale = glm::dvec3(1.0, 3.0, 1.0);  // with the rotation below it: a shear
+    const CameraValues sheared = pose(scene, 0.0).cameras.at(0);
+    const glm::dmat3 product = glm::transpose(sheared.axes) * sheared.axes;
+    for (int i = 0; i < 3; ++i) expect_near(product[i], glm::dmat3(1.0)[i]);
+    EXPECT_GT(glm::determinant(sheared.axes), 0.99);
+    scene.nodes[1].scale = glm::dvec3(0.0);
+    EXPECT_EQ(pose(scene, 0.0).cameras[0].axes, glm::dmat3(1.0));
+}
+
+TEST(Pose, MaterialsStayInRangeWhereCubicKeysOvershoot) {
+    Scene scene;
+    Material material;
+    material.roughness = keyed<double>({0.0, 1.0}, {0.0, 1.0, 9.0, -9.0, 1.0, 0.0}, Interpolation::cubic);
+    material.emission = glm::dvec3(1.0, 2.0, 3.0);
+    material.emission_strength = 4.0;
+    scene.materials = {material};
+    scene.environment = Track<glm::dvec3>(keyed<glm::dvec3>({0.0, 1.0}, {glm::dvec3(0.0), glm::dvec3(2.0)}));
+    const SceneFrame frame = pose(scene, 0.5);
+    EXPECT_EQ(frame.materials[0].roughness, 1.0f);  // the curve is at 3.25
+    EXPECT_EQ(frame.materials[0].emission, Rgb(4.0f, 8.0f, 12.0f));
+    EXPECT_EQ(frame.materials[0].ior, 1.5f);
+    EXPECT_EQ(frame.environment, Rgb(1.0f));
+    EXPECT_EQ(frame.seconds, 0.5);
+}
+
+TEST(FrameRange, SpansTheKeysRoundedInwards) {
+    Scene scene;
+    EXPECT_EQ(frame_range(scene), (FrameRange{0, 0}));
+    scene.nodes = {child_of(no_index)};
+    scene.nodes[0].translation = keyed<glm::dvec3>({3.0}, {glm::dvec3(0.0)});  // one key is no animation
+    EXPECT_EQ(frame_range(scene), (FrameRange{0, 0}));
+    scene.nodes[0].translation = keyed<glm::dvec3>({0.05, 1.05}, {glm::dvec3(0.0), glm::dvec3(1.0)});
+    EXPECT_EQ(frame_range(scene), (FrameRange{2, 31}));  // 1.5 to 31.5
+    scene.cameras.resize(1);
+    scene.cameras[0].fov = keyed<double>({-1.0, 0.0}, {1.0, 1.0});
+    EXPECT_EQ(frame_range(scene), (FrameRange{-30, 31}));
+    scene.materials.resize(1);
+    scene.materials[0].ior = keyed<double>({0.0, 4.0}, {1.0, 1.0});
+    EXPECT_EQ(frame_range(scene), (FrameRange{-30, 120}));
+    scene.range = FrameRange{5, 6};
+    EXPECT_EQ(frame_range(scene), (FrameRange{5, 6}));
+}
+
+TEST(FrameRange, TakesTheNoiseOfSinglePrecisionTimes) {
+    Scene scene;
+    scene.nodes = {child_of(no_index)};
+    for (int first = 1; first < 2000; first += 7) {
+        const double begin = static_cast<float>(first) / 30.0f, end = static_cast<float>(first + 50) / 30.0f;
+        scene.nodes[0].visible = keyed<double>({begin, end}, {1.0, 0.0});
+        ASSERT_EQ(frame_range(scene), (FrameRange{first, first + 50}));
+    }
+    scene.nodes[0].visible = keyed<double>({0.01, 0.02}, {1.0, 0.0});  // between two frames
+    EXPECT_EQ(frame_range(scene), (FrameRange{1, 1}));
+    scene.nodes[0].visible = keyed<double>({-1e300, 1e300}, {1.0, 0.0});
+    EXPECT_LT(frame_range(scene).first, -1'000'000'000'000);
+}
+
+TEST(FindCamera, ByNodeThenByCameraThenTheScenesChoice) {
+    Scene scene;
+    scene.file = "room.json";
+    EXPECT_THROW(find_camera(scene, ""), InputError);
+    scene.cameras.resize(2);
+    scene.cameras[0].name = "wide";
+    scene.cameras[1].name = "near";
+    scene.nodes = {child_of(no_index), child_of(no_index), child_of(no_index)};
+    scene.nodes[0].name = "wall";
+    scene.nodes[1].name = "left";
+    scene.nodes[1].camera = 0;
+    scene.nodes[2].name = "wide";  // a node's name goes first
+    scene.nodes[2].camera = 1;
+    EXPECT_EQ(find_camera(scene, ""), 0);
+    EXPECT_EQ(find_camera(scene, "left"), 0);
+    EXPECT_EQ(find_camera(scene, "wide"), 1);
+    EXPECT_EQ(find_camera(scene, "near"), 1);
+    scene.camera = "near";
+    EXPECT_EQ(find_camera(scene, ""), 1);
+    try {
+        find_camera(scene, "wall");
+        FAIL();
+    } catch (const InputError& error) {
+        EXPECT_STREQ(error.what(), "room.json: camera: there is no camera 'wall'; there is 'left', 'wide'");
+    }
+}
+
+TEST(IsWorldAnimated, CamerasDoNotCount) {
+    const auto moving = keyed<glm::dvec3>({0.0, 1.0}, {glm::dvec3(0.0), glm::dvec3(1.0)});
+    Scene scene;
+    scene.meshes.resize(1);
+    scene.cameras.resize(1);
+    scene.lights.resize(1);
+    scene.nodes = {child_of(no_index), child_of(0), child_of(no_index), child_of(2)};
+    scene.nodes[1].meshes = {0};
+    scene.nodes[3].camera = 0;
+    EXPECT_FALSE(is_world_animated(scene));
+    scene.nodes[2].translation = moving;  // the camera's rig
+    scene.cameras[0].fov = keyed<double>({0.0, 1.0}, {1.0, 2.0});
+    EXPECT_FALSE(is_world_animated(scene));
+
+    Scene other = scene;
+    other.nodes[3].light = 0;  // a lamp on the rig
+    EXPECT_TRUE(is_world_animated(other));
+    other = scene;
+    other.nodes[0].translation = moving;
+    EXPECT_TRUE(is_world_animated(other));
+    other.nodes[0].matrix = glm::dmat4(1.0);  // which replaces the translation
+    EXPECT_FALSE(is_world_animated(other));
+    other = scene;
+    other.nodes[1].visible = keyed<double>({0.0, 1.0}, {1.0, 0.0});
+    EXPECT_TRUE(is_world_animated(other));
+    other = scene;
+    other.materials.resize(1);
+    other.materials[0].emission_strength = keyed<double>({0.0, 1.0}, {1.0, 0.0});
+    EXPECT_TRUE(is_world_animated(other));
+    other = scene;
+    other.environment = moving;
+    EXPECT_TRUE(is_world_animated(other));
+}
+
+}  // namespace
+}  // namespace aleph

@@ -1,0 +1,143 @@
+// Alpha masks: rays pass through the holes, first hits and shadows alike.
+
+#include "engine/rays/alpha_cutout.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <numbers>
+
+#include "engine/rays/ray_scene.h"
+#include "tests/support/deforming_scenes.h"
+
+namespace aleph {
+namespace {
+
+/// Two by two texels: only the left column is there.
+Scene make_masked_scene(Material::AlphaMode mode) {
+    Scene scene = make_sheet_scene(1);
+    SceneImage image;
+    image.bytes = Image<glm::u8vec4>(2, 2, glm::u8vec4(255));
+    image.bytes(1, 0).w = image.bytes(1, 1).w = 0;
+    scene.images = {image};
+    scene.materials.resize(1);
+    scene.materials[0].alpha_mode = mode;
+    scene.materials[0].base_color_texture.image = 0;
+    scene.materials[0].base_color_texture.nearest = true;
+    Mesh& mesh = scene.meshes[0];
+    mesh.material = 0;
+    for (const glm::vec3& p : mesh.positions) mesh.uv[0].emplace_back(0.5f * (p.x + 1.0f), 0.5f * (1.0f - p.y));
+    return scene;
+}
+
+Ray ray_at(float x, float y) {
+    Ray ray;
+    ray.origin = {x, y, 5.0f};
+    ray.direction = {0.0f, 0.0f, -1.0f};
+    return ray;
+}
+
+/// Whether a ray meets something: by itself, in a packet and as a shadow, which must agree.
+bool is_met(const RayScene& scene, float x, float y) {
+    Tracer tracer(scene);
+    const Ray ray = ray_at(x, y);
+    const bool met = tracer.intersect(ray).instance != no_index;
+    EXPECT_EQ(tracer.occluded(ray), met);
+    const std::vector<Ray> rays(21, ray);
+    for (const bool coherent : {false, true}) {
+        std::vector<Hit> hits(rays.size());
+        tracer.intersect(rays, hits, coherent);
+        for (const Hit& hit : hits) EXPECT_EQ(hit.instance != no_index, met);
+    }
+    std::vector<std::uint8_t> blocked(rays.size());
+    tracer.occluded(rays, blocked);
+    for (const std::uint8_t b : blocked) EXPECT_EQ(b != 0, met);
+    return met;
+}
+
+TEST(AlphaCutout, RaysPassThroughHoles) {
+    for (const Material::AlphaMode mode :
+         {Material::AlphaMode::mask, Material::AlphaMode::blend, Material::AlphaMode::opaque}) {
+        const Scene scene = make_masked_scene(mode);
+        RayScene rays(scene);
+        rays.update(pose(scene, 0.0), glm::dvec3(0.0));
+        EXPECT_TRUE(is_met(rays, -0.5f, 0.3f));
+        EXPECT_EQ(is_met(rays, 0.5f, 0.3f), mode == Material::AlphaMode::opaque);
+        EXPECT_EQ(is_met(rays, 0.3f, -0.9f), mode == Material::AlphaMode::opaque);
+    }
+}
+
+TEST(AlphaCutout, WhatLiesBehindAHoleIsMet) {
+    Scene scene = make_masked_scene(Material::AlphaMode::mask);
+    scene.meshes.push_back(make_sheet(1));
+    scene.nodes.resize(2);
+    scene.nodes[1].meshes = {1};
+    scene.nodes[1].translation = glm::dvec3(0.0, 0.0, -1.0);
+    RayScene rays(scene);
+    rays.update(pose(scene, 0.0), glm::dvec3(0.0));
+    EXPECT_EQ(Tracer(rays).intersect(ray_at(-0.5f, 0.25f)).instance, 0);
+    const Hit behind = Tracer(rays).intersect(ray_at(0.5f, 0.25f));
+    EXPECT_EQ(behind.instance, 1);
+    EXPECT_FLOAT_EQ(behind.distance, 6.0f);
+}
+
+TEST(AlphaCutout, FactorVertexColourAndCutoffCount) {
+    Scene scene = make_masked_scene(Material::AlphaMode::mask);
+    scene.materials[0].alpha = keyed<double>({0.0, 1.0}, {1.0, 0.0});
+    scene.materials[0].alpha_cutoff = 0.25;
+    RayScene rays(scene), moving(scene);
+    for (const auto& [seconds, met] : {std::pair(0.0, true), {0.7, true}, {0.8, false}, {0.1, true}}) {
+        rays.update(pose(scene, seconds), glm::dvec3(0.0));
+        moving.update_moving(pose(scene, seconds), glm::dvec3(0.0));
+        EXPECT_EQ(is_met(rays, -0.5f, 0.3f), met) << seconds;
+        EXPECT_EQ(is_met(moving, -0.5f, 0.3f), met) << seconds;
+    }
+    scene.materials[0].alpha = 1.0;
+    scene.meshes[0].colors.assign(4, glm::vec4(1.0f, 1.0f, 1.0f, 0.2f));
+    RayScene tinted(scene);
+    tinted.update(pose(scene, 0.0), glm::dvec3(0.0));
+    EXPECT_FALSE(is_met(tinted, -0.5f, 0.3f));
+}
+
+TEST(AlphaCutout, HolesMoveWithADeformingMesh) {
+    Scene scene = make_masked_scene(Material::AlphaMode::mask);
+    add_cache(scene, 0, {0.0, 1.0}, [](const glm::vec3& p, std::size_t sample) {
+        return p + glm::vec3(sample == 1 ? 1.0f : 0.0f, 0.0f, 0.0f);
+    });
+    RayScene rays(scene);
+    rays.update(pose(scene, 0.0), glm::dvec3(0.0));
+    EXPECT_FALSE(is_met(rays, 0.5f, 0.3f));
+    rays.update(pose(scene, 1.0), glm::dvec3(0.0));
+    EXPECT_TRUE(is_met(rays, 0.5f, 0.3f));
+    EXPECT_FALSE(is_met(rays, 1.5f, 0.3f));
+}
+
+TEST(AlphaCutout, TexturesAreReadAsTheirReferenceSays) {
+    Scene scene = make_masked_scene(Material::AlphaMode::mask);
+    TextureRef reference = scene.materials[0].base_color_texture;
+    const auto at = [&](float u, float v) { return make_alpha_texture(scene, reference).sample({u, v}); };
+    EXPECT_EQ(at(0.25f, 0.5f), 1.0f);
+    EXPECT_EQ(at(0.75f, 0.5f), 0.0f);
+    EXPECT_EQ(at(1.25f, 0.5f), 1.0f);  // repeated
+    EXPECT_EQ(at(-0.25f, 0.5f), 0.0f);
+    reference.wrap_u = Wrap::clamp;
+    EXPECT_EQ(at(1.25f, 0.5f), 0.0f);
+    EXPECT_EQ(at(-0.25f, 0.5f), 1.0f);
+    reference.wrap_u = Wrap::mirror;
+    EXPECT_EQ(at(1.25f, 0.5f), 0.0f);
+    EXPECT_EQ(at(1.75f, 0.5f), 1.0f);
+    reference.nearest = false;
+    reference.wrap_u = Wrap::clamp;
+    EXPECT_FLOAT_EQ(at(0.5f, 0.5f), 0.5f);
+    EXPECT_FLOAT_EQ(at(0.375f, 0.1f), 0.75f);
+    reference.uv_rotation = 0.5 * std::numbers::pi;  // u of the texture is v of the mesh
+    EXPECT_FLOAT_EQ(at(0.9f, 0.25f), 1.0f);
+    EXPECT_FLOAT_EQ(at(0.9f, 0.75f), 0.0f);
+    reference.uv_offset = {0.5, 0.0};
+    EXPECT_FLOAT_EQ(at(0.9f, 0.25f), 0.0f);
+    reference = scene.materials[0].base_color_texture;
+    EXPECT_EQ(at(std::numeric_limits<float>::quiet_NaN(), 0.0f), at(0.0f, 0.0f));
+}
+
+}  // namespace
+}  // namespace aleph

@@ -1,0 +1,334 @@
+// The scene file: what every key means, and that writing and reading give back every bit.
+
+#include "engine/scene_file/scene_text.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "engine/base/errors.h"
+#include "engine/pose/pose.h"
+#include "engine/scene_file/tracks.h"
+#include "engine/surface/shapes.h"
+
+namespace aleph {
+namespace {
+
+Scene read(const std::string& body) {
+    return read_scene_text("{\"aleph\": 1" + body + "}", "test.json").scene;
+}
+
+Scene read_node(const std::string& node) {
+    return read(", \"nodes\": [{" + node + "}]");
+}
+
+Scene again(const Scene& scene) {
+    return read_scene_text(write_scene_text(scene, "test.json"), "test.json").scene;
+}
+
+TEST(SceneJson, SmallestFileIsAnEmptyScene) {
+    EXPECT_EQ(read(""), Scene{});
+}
+
+TEST(SceneJson, Header) {
+    const Scene scene = read(R"(, // comments of both kinds
+        "$schema": "scene.schema.json", "name": "töst", "fps": "30000/1001", "frames": [-3, 59], "cuts": [10, 30], /* here */
+        "viewing": {"pixels_per_degree": 62.5, "display_white": 80}, "exposure": 0.25, "environment": [0.5, 1, 2])");
+    EXPECT_EQ(scene.name, "töst");
+    EXPECT_EQ(scene.frame_rate, (FrameRate{30000, 1001}));
+    EXPECT_EQ(scene.range, (FrameRange{-3, 59}));
+    EXPECT_EQ(scene.cuts, (std::vector<std::int64_t>{10, 30}));
+    EXPECT_EQ(scene.viewing, (ViewingConditions{62.5, 80.0, 30000.0 / 1001.0}));
+    EXPECT_EQ(scene.exposure, 0.25);
+    EXPECT_EQ(scene.environment, Track<glm::dvec3>(glm::dvec3(0.5, 1.0, 2.0)));
+    EXPECT_EQ(read(", \"fps\": 24").frame_rate, (FrameRate{24, 1}));
+}
+
+TEST(SceneJson, SettingsKeepTheirTypes) {
+    const SettingMap settings =
+        read(
+            R"(, "settings": {"accuracy": 0.1, "gather": 512, "guide": "full", "neutral_opponent": true, "size": "320x240"})")
+            .settings;
+    EXPECT_EQ(settings, (SettingMap{{"accuracy", 0.1},
+                                    {"gather", 512.0},
+                                    {"guide", std::string("full")},
+                                    {"neutral_opponent", true},
+                                    {"size", std::string("320x240")}}));
+}
+
+TEST(SceneJson, MaterialsStandInTheOrderOfTheFileAndMetalIsNotTheDefault) {
+    const Scene scene =
+        read(R"(, "materials": {"z": {}, "a": {"base_color": [0.1, 0.2, 0.3], "alpha": 0.5, "metallic": 1,
+        "roughness": 0.25, "specular": 0, "specular_color": [2, 1, 0], "ior": 1.33, "emission": [3, 4, 5],
+        "emission_strength": 10, "double_sided": true}})");
+    ASSERT_EQ(scene.materials.size(), 2u);
+    EXPECT_EQ(scene.materials[0].name, "z");
+    Material plain;
+    plain.name = "z";
+    plain.metallic = 0.0;
+    EXPECT_EQ(scene.materials[0], plain);
+    Material a;
+    a.name = "a";
+    a.base_color = glm::dvec3(0.1, 0.2, 0.3);
+    a.alpha = 0.5;
+    a.metallic = 1.0;
+    a.roughness = 0.25;
+    a.specular = 0.0;
+    a.specular_color = glm::dvec3(2, 1, 0);
+    a.ior = 1.33;
+    a.emission = glm::dvec3(3, 4, 5);
+    a.emission_strength = 10.0;
+    a.double_sided = true;
+    EXPECT_EQ(scene.materials[1], a);
+}
+
+TEST(SceneJson, TexturesShareImages) {
+    const SceneText text = read_scene_text(R"({"aleph": 1, "images": {"felt": "a/felt.png"}, "materials": {"m": {
+        "base_color_texture": "felt", "emission_texture": "a/felt.png", "specular_texture": "b.exr",
+        "metallic_roughness_texture": {"image": "felt", "uv_set": 1, "wrap": ["clamp", "mirror"], "filter": "nearest"},
+        "specular_color_texture": {"image": "../b.exr", "wrap": "mirror"}}}})",
+                                           "test.json");
+    const Scene& scene = text.scene;
+    ASSERT_EQ(scene.images.size(), 3u);
+    EXPECT_EQ(scene.images[0].name, "felt");
+    EXPECT_EQ(scene.images[0].path, "a/felt.png");
+    EXPECT_EQ(scene.images[1].path, "b.exr");
+    EXPECT_EQ(scene.images[2].path, "../b.exr");
+    EXPECT_EQ(text.image_places, (std::vector<std::string>{"/images/felt", "/materials/m/specular_texture",
+                                                           "/materials/m/specular_color_texture/image"}));
+    const Material& m = scene.materials[0];
+    EXPECT_EQ(m.base_color_texture, (TextureRef{.image = 0}));
+    EXPECT_EQ(m.emission_texture, (TextureRef{.image = 0}));
+    EXPECT_EQ(m.specular_texture, (TextureRef{.image = 1}));
+    EXPECT_EQ(m.metallic_roughness_texture, (TextureRef{0, 1, Wrap::clamp, Wrap::mirror, true}));
+    EXPECT_EQ(m.specular_color_texture, (TextureRef{2, 0, Wrap::mirror, Wrap::mirror, false}));
+    EXPECT_EQ(again(scene), scene);
+}
+
+TEST(SceneJson, CamerasAndLights) {
+    const Scene scene =
+        read(R"(, "cameras": {"main": {"fov": 90, "near": 0.5, "shutter": [-0.25, 0.25], "aperture": 0.01, "focus": 3},
+          "flat": {"orthographic": true, "half_height": 2}},
+        "lights": {"key": {"type": "point", "color": [1, 0.5, 0], "intensity": 40, "range": 9}, "sun": {"type": "directional"}})");
+    ASSERT_EQ(scene.cameras.size(), 2u);
+    Camera main;
+    main.name = "main";
+    main.fov = to_radians(90.0);
+    main.near_plane = 0.5;
+    main.shutter = {-0.25, 0.25};
+    main.aperture = 0.01;
+    main.focus_distance = 3.0;
+    EXPECT_EQ(scene.cameras[0], main);
+    EXPECT_NEAR(scene.cameras[0].fov.values[0], std::numbers::pi / 2.0, 1e-15);
+    EXPECT_TRUE(scene.cameras[1].orthographic);
+    EXPECT_EQ(scene.cameras[1].half_height, Track<double>(2.0));
+    EXPECT_EQ(scene.lights[0].intensity, Track<double>(40.0));
+    EXPECT_EQ(scene.lights[0].range, 9.0);
+    EXPECT_EQ(scene.lights[1].kind, Light::Kind::directional);
+}
+
+TEST(SceneJson, SpotLightsShiftedLensesAndWhatMaterialsDo) {
+    const Scene scene =
+        read(R"(, "lights": {"s": {"type": "spot", "inner_cone": 20, "outer_cone": {"keys": [[0, 30], [30, 60]]},
+          "range": {"keys": [[0, 5], [30, 0]]}}},
+        "cameras": {"c": {"shift_x": 0.25, "shift_y": {"keys": [[0, 0], [10, -1]]}}},
+        "materials": {"m": {"transmission": 0.75, "transmission_texture": "t.png", "alpha_mode": "mask", "alpha_cutoff": 0.25,
+          "unlit": true, "base_color_texture": {"image": "t.png", "offset": [0.5, 0.25], "scale": [2, -3], "rotation": 90}}})");
+    EXPECT_EQ(scene.lights[0].kind, Light::Kind::spot);
+    EXPECT_EQ(scene.lights[0].inner_cone, Track<double>(to_radians(20.0)));
+    EXPECT_EQ(scene.lights[0].outer_cone.values, (std::vector<double>{to_radians(30.0), to_radians(60.0)}));
+    EXPECT_EQ(scene.lights[0].range.values, (std::vector<double>{5.0, 0.0}));
+    EXPECT_EQ(scene.cameras[0].shift_x, Track<double>(0.25));
+    EXPECT_EQ(scene.cameras[0].shift_y.values, (std::vector<double>{0.0, -1.0}));
+    const Material& m = scene.materials[0];
+    EXPECT_EQ(m.transmission, Track<double>(0.75));
+    EXPECT_EQ(m.transmission_texture, (TextureRef{.image = 0}));
+    EXPECT_EQ(m.alpha_mode, Material::AlphaMode::mask);
+    EXPECT_EQ(m.alpha_cutoff, 0.25);
+    EXPECT_TRUE(m.unlit);
+    EXPECT_EQ(m.base_color_texture.uv_offset, glm::dvec2(0.5, 0.25));
+    EXPECT_EQ(m.base_color_texture.uv_scale, glm::dvec2(2.0, -3.0));
+    EXPECT_EQ(m.base_color_texture.uv_rotation, to_radians(90.0));
+    EXPECT_EQ(again(scene), scene);
+}
+
+TEST(SceneJson, NodesThatDoNotInheritAndAlwaysShow) {
+    const Scene scene =
+        read(R"(, "fps": 10, "nodes": [{"name": "a", "translation": [1, 0, 0], "visible": false, "children": [
+        {"name": "b", "inherits": {"keys": [[0, true], [10, false]]}, "visible": {"keys": [[0, true], [10, "always"]]}}]}])");
+    const SceneFrame before = pose(scene, 0.5), after = pose(scene, 1.0);
+    EXPECT_EQ(before.world[1][3].x, 1.0);
+    EXPECT_EQ(after.world[1][3].x, 0.0);
+    EXPECT_EQ(before.visible[1], 0);
+    EXPECT_EQ(after.visible[1], 1);
+    EXPECT_EQ(again(scene), scene);
+}
+
+TEST(SceneJson, OperationsMultiplyFromLeftToRightAndInterpolateOneByOne) {
+    const Scene scene = read(R"(, "fps": 10, "nodes": [{"operations": [{"translate": [1, 0, 0]},
+        {"rotate_y": {"keys": [[0, 0], [10, 360]]}}, {"rotate_x": 90}, {"scale": 2},
+        {"rotate": {"axis": [0, 0, 1], "degrees": {"keys": [[0, 0], [10, 90]]}}}]}])");
+    ASSERT_TRUE(scene.nodes[0].operations);
+    const OperationStack& stack = *scene.nodes[0].operations;
+    EXPECT_EQ(stack.operations.size(), 5u);
+    EXPECT_EQ(stack.channels.size(), 2u * (3 + 1 + 1 + 3 + 4));
+    // At half time: about z by 45, doubled, about x by 90, about y by 180, then moved.
+    const glm::dvec4 moved = pose(scene, 0.5).world[0] * glm::dvec4(1.0, 0.0, 0.0, 1.0);
+    const double half = std::sqrt(2.0);
+    EXPECT_NEAR(moved.x, 1.0 - half, 1e-12);
+    EXPECT_NEAR(moved.y, 0.0, 1e-12);
+    EXPECT_NEAR(moved.z, -half, 1e-12);
+    EXPECT_EQ(again(scene), scene);
+}
+
+TEST(SceneJson, AnInstanceShowsAWholeSubTree) {
+    const Scene scene = read(R"(, "nodes": [{"name": "tree", "shape": {"type": "cylinder"}, "children": [
+          {"name": "crown", "translation": [0, 2, 0], "shape": {"type": "sphere"}, "camera": {},
+           "children": [{"name": "apple", "light": {"type": "point"}}]},
+          {"name": "root"}]},
+        {"name": "tree 2", "instance": "tree", "translation": [5, 0, 0]},
+        {"name": "tree 3", "instance": "tree 2", "translation": [9, 0, 0]}])");
+    ASSERT_EQ(scene.nodes.size(), 12u);
+    EXPECT_EQ(scene.meshes.size(), 2u) << "meshes are shared";
+    EXPECT_EQ(scene.nodes[4].name, "tree 2");
+    EXPECT_EQ(scene.nodes[4].meshes, scene.nodes[0].meshes);
+    EXPECT_EQ(scene.nodes[5].name, "tree 2/crown");
+    EXPECT_EQ(scene.nodes[5].parent, 4);
+    EXPECT_EQ(scene.nodes[5].camera, no_index) << "cameras are not shared";
+    EXPECT_EQ(scene.nodes[6].light, 0);
+    EXPECT_EQ(scene.nodes[6].parent, 5);
+    EXPECT_EQ(scene.nodes[9].meshes, scene.nodes[1].meshes);
+    EXPECT_EQ(pose(scene, 0.0).world[9][3], glm::dvec4(9.0, 2.0, 0.0, 1.0));
+    EXPECT_EQ(again(scene), scene);
+}
+
+TEST(SceneJson, ShapesOfNodesTakeTheirNames) {
+    const Scene scene = read(R"(, "materials": {"felt": {}}, "nodes": [
+        {"name": "a", "shape": {"type": "quad", "size": [2, 3], "uv_scale": [4, 5]}, "material": "felt"},
+        {"name": "b", "shape": {"type": "sphere", "radius": 2, "segments": 8}, "material": {"roughness": 0.5}},
+        {"name": "c", "shape": {"type": "cylinder", "height": 7}, "camera": {}, "light": {"type": "point"}},
+        {"name": "d", "shape": {"type": "box", "size": [1, 2, 3]}}])");
+    Shape quad, sphere, cylinder, box;
+    quad.size = {2, 3, 1};
+    quad.uv_scale = {4, 5};
+    sphere.kind = Shape::Kind::sphere;
+    sphere.radius = 2;
+    sphere.segments = 8;
+    cylinder.kind = Shape::Kind::cylinder;
+    cylinder.height = 7;
+    box.kind = Shape::Kind::box;
+    box.size = {1, 2, 3};
+    ASSERT_EQ(scene.meshes.size(), 4u);
+    EXPECT_EQ(scene.meshes[0], make_shape_mesh(quad, 0, "a"));
+    EXPECT_EQ(scene.meshes[1], make_shape_mesh(sphere, 1, "b"));
+    EXPECT_EQ(scene.meshes[2], make_shape_mesh(cylinder, no_index, "c"));
+    EXPECT_EQ(scene.meshes[3], make_shape_mesh(box, no_index, "d"));
+    EXPECT_EQ(scene.materials[1].name, "b");
+    EXPECT_EQ(scene.cameras.at(0).name, "c");
+    EXPECT_EQ(scene.lights.at(0).name, "c");
+    EXPECT_EQ(scene.nodes[2].camera, 0);
+    EXPECT_EQ(scene.nodes[2].light, 0);
+}
+
+TEST(SceneJson, NodesShareMeshesByNameAndByInstance) {
+    const Scene scene =
+        read(R"(, "meshes": {"ball": {"shape": {"type": "sphere"}}, "plate": {"shape": {"type": "quad"}}}, "nodes": [
+        {"name": "a", "mesh": "ball"}, {"name": "b", "meshes": ["plate", "ball"]}, {"name": "c", "instance": "b"}])");
+    EXPECT_EQ(scene.meshes.size(), 2u);
+    EXPECT_EQ(scene.nodes[0].meshes, (std::vector<int>{0}));
+    EXPECT_EQ(scene.nodes[1].meshes, (std::vector<int>{1, 0}));
+    EXPECT_EQ(scene.nodes[2].meshes, (std::vector<int>{1, 0}));
+    EXPECT_EQ(again(scene), scene);
+}
+
+TEST(SceneJson, ParentsStandBeforeTheirChildren) {
+    const Scene scene = read(R"(, "nodes": [{"name": "a", "children": [{"name": "b", "children": [{}]}, {"name": ""}]},
+        {"name": "c", "parent": "b"}, {"name": "node 2"}])");
+    ASSERT_EQ(scene.nodes.size(), 6u);
+    const int parents[] = {no_index, 0, 1, 0, 1, no_index};
+    const char* names[] = {"a", "b", "node 2 2", "", "c", "node 2"};  // made-up names avoid given ones
+    for (int i = 0; i < 6; ++i) {
+        EXPECT_EQ(scene.nodes[i].parent, parents[i]) << i;
+        EXPECT_EQ(scene.nodes[i].name, names[i]) << i;
+    }
+    EXPECT_EQ(again(scene), scene);
+}
+
+TEST(SceneJson, KF14_KeysAtFramesLieAtExactlyTheFramesTime) {
+    const Scene scene = read(R"(, "fps": "30000/1001", "nodes": [{"translation":
+        {"keys": [[-7, [0, 0, 0]], [12, [1, 2, 3]], [12.5, [4, 5, 6]], [107892, [7, 8, 9]]]}}])");
+    const Track<glm::dvec3>& track = scene.nodes[0].translation;
+    EXPECT_EQ(track.interpolation, Interpolation::linear);
+    EXPECT_EQ(track.sampling.kind, TimeSampling::Kind::acyclic);
+    const FrameRate rate{30000, 1001};
+    EXPECT_EQ(track.sampling.times, (std::vector<double>{rate.seconds_of(-7), rate.seconds_of(12),
+                                                         12.5 * 1001.0 / 30000.0, rate.seconds_of(107892)}));
+    EXPECT_EQ(track.values[1], glm::dvec3(1, 2, 3));
+    EXPECT_EQ(again(scene), scene);
+}
+
+TEST(SceneJson, ValuesOncePerFrameAreUniform) {
+    const Track<double> intensity = read(R"(, "fps": 25, "lights": {"l": {"type": "point", "intensity":
+        {"values": [1, 2, 4], "start": 5, "period": 2, "interpolation": "step"}}})")
+                                        .lights[0]
+                                        .intensity;
+    EXPECT_EQ(intensity.sampling.kind, TimeSampling::Kind::uniform);
+    EXPECT_EQ(intensity.sampling.start, 0.2);
+    EXPECT_EQ(intensity.sampling.period, 0.08);
+    EXPECT_EQ(intensity.interpolation, Interpolation::step);
+    EXPECT_EQ(intensity.values, (std::vector<double>{1, 2, 4}));
+    EXPECT_EQ(read_node(R"("scale": {"values": [1, [1, 2, 3]]})").nodes[0].scale.sampling.period, 1.0 / 30.0);
+    EXPECT_EQ(read_node(R"("scale": {"values": [1, 2], "unit": "seconds"})").nodes[0].scale.sampling.period, 1.0);
+}
+
+TEST(SceneJson, CyclesAndCubicKeys) {
+    const Node node =
+        read_node(
+            R"("translation": {"cycle": [0, 0.25], "period": 1, "unit": "seconds", "values": [[0, 0, 0], [1, 1, 1], [2, 2, 2]]},
+        "rotation": {"interpolation": "cubic", "unit": "seconds", "keys": [[0, [0, 0, 0, 0], [0, 0, 0, 1], [1, 0, 0, 0]], [2, [0, 1, 0, 0], [0, 1, 0, 0], [0, 0, 0, 0]]]},
+        "scale": {"interpolation": "cubic", "values": [[[1, 2, 3], [4, 5, 6], 7]]})")
+            .nodes[0];
+    EXPECT_EQ(node.translation.sampling.kind, TimeSampling::Kind::cyclic);
+    EXPECT_EQ(node.translation.sampling.times, (std::vector<double>{0.0, 0.25}));
+    EXPECT_EQ(node.translation.sampling.period, 1.0);
+    EXPECT_EQ(node.rotation.interpolation, Interpolation::cubic);
+    ASSERT_EQ(node.rotation.values.size(), 6u);
+    EXPECT_EQ(node.rotation.values[1], glm::dquat(1, 0, 0, 0));  // w first in GLM's constructor
+    EXPECT_EQ(node.rotation.values[2], glm::dquat(0, 1, 0, 0));
+    EXPECT_EQ(node.rotation.values[4], glm::dquat(0, 0, 1, 0));
+    EXPECT_EQ(node.scale.values, (std::vector<glm::dvec3>{{1, 2, 3}, {4, 5, 6}, {7, 7, 7}}));
+}
+
+TEST(SceneJson, MatricesAreRowByRow) {
+    const Node node = read_node(R"("matrix": [1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 0, 0, 0, 1])").nodes[0];
+    const glm::dvec4 moved = node.matrix.value().values.at(0) * glm::dvec4(1, 10, 100, 1);
+    EXPECT_EQ(moved, glm::dvec4(1 + 20 + 300 + 4, 5 + 60 + 700 + 8, 9 + 100 + 1100 + 12, 1));
+}
+
+TEST(SceneJson, AxisAndDegreesGoBeyondAHalfTurn) {
+    const Node node =
+        read_node(R"("rotation": {"axis": [0, 0, -5], "degrees": {"keys": [[0, 0], [30, 1080]]}})").nodes[0];
+    EXPECT_EQ(node.axis_rotation.value().axis, glm::dvec3(0, 0, -1));
+    EXPECT_NEAR(node.axis_rotation->angle.values[1], 6.0 * std::numbers::pi, 1e-14);
+    EXPECT_EQ(node.rotation, Node{}.rotation);
+}
+
+TEST(SceneJson, VisibilityStepsBetweenTrueAndFalse) {
+    const Track<double> visible = read_node(R"("visible": {"keys": [[0, true], [10, false]]})").nodes[0].visible;
+    EXPECT_EQ(visible.interpolation, Interpolation::step);
+    EXPECT_EQ(visible.values, (std::vector<double>{1.0, 0.0}));
+    EXPECT_EQ(read_node(R"("visible": false)").nodes[0].visible, Track<double>(0.0));
+}
+
+TEST(SceneJson, IncludesAreNamedInOrder) {
+    const SceneText text = read_scene_text(
+        R"({"aleph": 1, "include": "z.glb", "nodes": [{}, {"name": "t", "include": ["a.gltf", "../lib/b.glb"]}]})",
+        "t.json");
+    EXPECT_EQ(text.scene.includes, (std::vector<Include>{{"a.gltf", 1}, {"../lib/b.glb", 1}, {"z.glb", no_index}}));
+    EXPECT_EQ(text.include_places, (std::vector<std::string>{"/nodes/1/include/0", "/nodes/1/include/1", "/include"}));
+    EXPECT_EQ(again(text.scene), text.scene);
+}
+
+}  // namespace
+}  // namespace aleph

@@ -1,0 +1,164 @@
+// Motion of deforming cages against the closed form of their limit surface (a bicubic B-spline over regular faces).
+#include <gtest/gtest.h>
+
+#include <array>
+#include <glm/geometric.hpp>
+
+#include "engine/rays/first_hits.h"
+#include "motion/model_motion.h"
+#include "tests/support/cage_scenes.h"
+
+namespace aleph {
+namespace {
+
+constexpr int width = 160, height = 120;
+
+struct Moved {
+    Image<Hit> hits;
+    MotionField motion;
+    CameraView now, other;
+};
+
+Moved compute_motion(const Scene& scene, std::int64_t from, std::int64_t to) {
+    const SceneFrame now = pose(scene, scene.frame_rate.seconds_of(from)),
+                     other = pose(scene, scene.frame_rate.seconds_of(to));
+    Moved moved;
+    moved.now = make_camera_view(now.cameras[0], width, height);
+    moved.other = make_camera_view(other.cameras[0], width, height);
+    RayScene rays(scene);
+    rays.update(now, compute_anchor(moved.now));
+    moved.hits = cast_first_hits(rays, moved.now);
+    moved.motion = compute_model_motion(scene, {&now, &moved.now}, {&other, &moved.other}, moved.hits, {});
+    return moved;
+}
+
+glm::dvec3 bspline_patch(const std::vector<glm::dvec3>& points, double s, double t) {
+    const auto weights = [](double x) {
+        const double r = 1.0 - x;
+        return std::array{r * r * r / 6.0, (3.0 * x * x * x - 6.0 * x * x + 4.0) / 6.0,
+                          (-3.0 * x * x * x + 3.0 * x * x + 3.0 * x + 1.0) / 6.0, x * x * x / 6.0};
+    };
+    const auto ws = weights(s), wt = weights(t);
+    glm::dvec3 sum(0.0);
+    for (std::size_t y = 0; y < 4; ++y) {
+        for (std::size_t x = 0; x < 4; ++x) sum += ws[x] * wt[y] * points[y * 4 + x];
+    }
+    return sum;
+}
+
+/// (s, t) of a hit on the one face that is drawn: two triangles per cell, cells row by row.
+glm::dvec2 place_of(const Hit& hit, int level) {
+    const int n = 1 << level, cell = hit.primitive / 2;
+    const glm::dvec2 corner(cell % n, cell / n);
+    const double u = hit.u, v = hit.v;
+    const glm::dvec2 inside = hit.primitive % 2 == 0 ? glm::dvec2(u + v, v) : glm::dvec2(u, u + v);
+    return (corner + inside) / static_cast<double>(n);
+}
+
+TEST(CageMotion, IsTheLimitSurfacesAtEveryLevel) {
+    TestCage test = make_grid_cage(4, 4);
+    test.cage.boundary = Cage::Boundary::none;
+    // Every point moves its own way, by far: a bend, a twist and a stretch.
+    std::vector<glm::dvec3> later;
+    for (const glm::dvec3& p : test.points) {
+        later.emplace_back(p.x + 0.3 * p.y * p.y, 0.8 * p.y + 0.2 * p.z, p.z + 0.25 * p.x * p.y - 0.4);
+    }
+    for (int level = 0; level <= 6; ++level) {
+        Scene scene = make_cage_scene(test, {test.points, later}, level);
+        scene.nodes[1].translation = glm::dvec3(1.5, 1.6, 1.9);
+        const Moved moved = compute_motion(scene, 0, 1);
+        const auto from = round_to_float(test.points), to = round_to_float(later);
+        int hits = 0;
+        double worst = 0.0, longest = 0.0;
+        for (std::size_t i = 0; i < moved.hits.size(); ++i) {
+            const Hit& hit = moved.hits.pixels[i];
+            if (hit.instance == no_index) continue;
+            ++hits;
+            const glm::dvec2 st = place_of(hit, level);
+            const glm::dvec2 expected =
+                project_camera_point(moved.other, to_camera(moved.other, bspline_patch(to, st.x, st.y))) -
+                project_camera_point(moved.now, to_camera(moved.now, bspline_patch(from, st.x, st.y)));
+            worst = std::max(worst, glm::length(moved.motion.displacement.pixels[i] - expected));
+            longest = std::max(longest, glm::length(expected));
+        }
+        EXPECT_GT(hits, 2000);
+        EXPECT_GT(longest, 20.0);
+        EXPECT_LT(worst, 1e-9) << "level " << level;
+    }
+}
+
+TEST(CageMotion, FollowsAnAffineMapOfAnIrregularCage) {
+    const TestCage test = make_prism_cage();
+    const glm::dmat3 map(1.1, 0.2, -0.1, -0.3, 0.9, 0.15, 0.0, 0.2, 1.05);
+    const glm::dvec3 shift(0.2, -0.1, 0.3);
+    std::vector<glm::dvec3> later;
+    for (const glm::dvec3& p : test.points) later.push_back(map * p + shift);
+    Scene scene = make_cage_scene(test, {test.points, later}, 4);
+    scene.nodes[1].translation = glm::dvec3(0.1, 0.2, 5.0);
+    const Moved moved = compute_motion(scene, 0, 1);
+    const LimitSurface& surface = *scene.meshes[0].limit.surface;
+    const auto control = surface.make_control_points(round_to_float(test.points));
+    double worst = 0.0;
+    int hits = 0;
+    for (std::size_t i = 0; i < moved.hits.size(); ++i) {
+        const Hit& hit = moved.hits.pixels[i];
+        if (hit.instance == no_index) continue;
+        ++hits;
+        const glm::dvec3 p = surface.evaluate(0, control, hit.primitive, hit.u, hit.v);
+        const glm::dvec2 expected = project_camera_point(moved.other, to_camera(moved.other, map * p + shift)) -
+                                    project_camera_point(moved.now, to_camera(moved.now, p));
+        worst = std::max(worst, glm::length(moved.motion.displacement.pixels[i] - expected));
+    }
+    EXPECT_GT(hits, 1000);
+    EXPECT_LT(worst, 1e-4);  // the second moment's points are floats too
+    EXPECT_GT(worst, 0.0);
+}
+
+TEST(CageMotion, RP16_StaticSurfacesDoNotMoveAtAnyLevel) {
+    for (int level = 0; level <= 5; ++level) {
+        TestCage test = make_cube_cage();
+        add_crease(test.cage, {4, 5, 7}, 2.5f);
+        // Two equal samples, and a third: the cage is one that deforms, but not between frames 0 and 1.
+        std::vector<glm::dvec3> later = test.points;
+        later[0] *= 1.5;
+        Scene scene = make_cage_scene(test, {test.points, test.points, later}, level);
+        scene.nodes[1].translation = glm::dvec3(0.3, 0.2, 4.0);
+        const Moved moved = compute_motion(scene, 0, 1);
+        int hits = 0;
+        for (std::size_t i = 0; i < moved.hits.size(); ++i) {
+            hits += moved.hits.pixels[i].instance != no_index ? 1 : 0;
+            EXPECT_EQ(moved.motion.displacement.pixels[i], glm::dvec2(0.0));
+        }
+        EXPECT_GT(hits, 1000);
+    }
+}
+
+TEST(CageMotion, RP16_PartsThatDoNotMoveDoNotMove) {
+    // A long sheet of which the right end bends: the left stays where it is bit for bit.
+    TestCage test = make_grid_cage(12, 4);
+    std::vector<glm::dvec3> later = test.points;
+    for (std::size_t i = 0; i < later.size(); ++i) {
+        if (i % 12 >= 9) later[i].z += 1.0;
+    }
+    Scene scene = make_cage_scene(test, {test.points, later}, 3);
+    scene.nodes[1].translation = glm::dvec3(5.5, 1.5, 12.0);
+    const Moved moved = compute_motion(scene, 0, 1);
+    int still = 0, moving = 0;
+    for (std::size_t i = 0; i < moved.hits.size(); ++i) {
+        const Hit& hit = moved.hits.pixels[i];
+        if (hit.instance == no_index) continue;
+        const int column = hit.primitive / 128 % 11;  // 2 x 8 x 8 triangles per face
+        if (column <= 6) {
+            EXPECT_EQ(moved.motion.displacement.pixels[i], glm::dvec2(0.0));
+            ++still;
+        } else if (column >= 9) {
+            EXPECT_GT(glm::length(moved.motion.displacement.pixels[i]), 0.1);
+            ++moving;
+        }
+    }
+    EXPECT_GT(still, 500);
+    EXPECT_GT(moving, 100);
+}
+
+}  // namespace
+}  // namespace aleph

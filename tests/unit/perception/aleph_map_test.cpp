@@ -1,0 +1,164 @@
+// The float rows of the last pass against the double scalars, and the stage as a whole.
+
+#include "perception/aleph_map.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "engine/base/errors.h"
+#include "engine/base/parallel.h"
+#include "perception/fast_math.h"
+#include "perception/perception.h"
+#include "tests/support/perception_scene.h"
+
+namespace aleph {
+namespace {
+
+double mean(const Image<float>& image) {
+    double sum = 0.0;
+    for (const float v : image.pixels) sum += v;
+    return sum / static_cast<double>(image.size());
+}
+
+TEST(FastMath, ExpAndLogAreGoodToAMillionth) {
+    for (double x = -125.9; x < 125.9; x += 0.0137) {
+        ASSERT_NEAR(fast_exp2(static_cast<float>(x)) / std::exp2(static_cast<float>(x)), 1.0, 5e-7) << x;
+    }
+    for (double x = -120; x < 120; x += 0.0137) {
+        const float v = std::exp2(static_cast<float>(x));
+        ASSERT_NEAR(fast_log2(v), std::log2(static_cast<double>(v)), 2e-7 + 1e-7 * std::abs(x)) << x;
+    }
+    EXPECT_EQ(fast_exp2(0.0f), 1.0f);
+    EXPECT_EQ(fast_log2(1.0f), 0.0f);
+    EXPECT_EQ(fast_exp2(1e9f), 0x1p126f);
+    EXPECT_EQ(fast_exp2(-1e9f), 0x1p-126f);
+}
+
+TEST(ElevationRow, AgreesWithTheDoubleFormula) {
+    std::vector<float> velocity;
+    for (double v = 0.15; v < 1e8; v *= 1.003) velocity.push_back(static_cast<float>(v));
+    velocity.front() = 0.15f;
+    std::vector<float> f(velocity.size());
+    for (const Bands bands : {Bands::printed, Bands::measured}) {
+        for (const double ppd : {15.0, 31.0, 60.0, 300.0}) {
+            const auto rho = band_frequencies(bands, ppd);
+            ElevationRow row(rho, static_cast<int>(velocity.size()));
+            row.load(velocity.data());
+            for (int band = 0; band < band_count; ++band) {
+                row.elevations(band, f.data());
+                for (std::size_t i = 0; i < f.size(); ++i) {
+                    const double exact = elevation(rho[static_cast<std::size_t>(band)], velocity[i]);
+                    ASSERT_NEAR(f[i] / exact, 1.0, 2e-5) << "band " << band << ", " << velocity[i] << " deg/s";
+                }
+            }
+        }
+    }
+}
+
+TEST(ElevationRow, KnowsWhenABandIsOneInTheWholeRow) {
+    const auto rho = band_frequencies(Bands::printed, 31.0);
+    const std::vector<float> velocity = {0.15f, 2.0f, 0.15f};
+    ElevationRow row(rho, 3);
+    row.load(velocity.data());
+    for (int band = 0; band < band_count; ++band) {
+        std::vector<float> f(3);
+        row.elevations(band, f.data());
+        EXPECT_EQ(row.is_one(band), f[1] == 1.0f) << band;
+    }
+}
+
+TEST(RetinalVelocityRow, AgreesWithTheDoubleFormula) {
+    std::vector<float> velocity, saliency;
+    for (double v = 0.001; v < 1e5; v *= 1.1) {
+        for (double s = 0.0; s <= 1.0; s += 0.01) {
+            velocity.push_back(static_cast<float>(v));
+            saliency.push_back(static_cast<float>(s));
+        }
+    }
+    std::vector<float> out(velocity.size());
+    retinal_velocity_row(velocity.data(), saliency.data(), static_cast<int>(out.size()), out.data());
+    for (std::size_t i = 0; i < out.size(); ++i) {
+        const double exact = retinal_velocity(velocity[i], saliency[i]);
+        ASSERT_NEAR(out[i], exact, 1e-6 * (exact + 1)) << velocity[i] << " " << saliency[i];
+        ASSERT_GE(out[i], 0.15f);
+    }
+}
+
+TEST(Perception, SaliencyIsMoreLenientThanFullTrackingAndThatThanNoMotion) {
+    const SyntheticFrame frame = make_synthetic_frame(320, 240);
+    const auto aleph_with = [&](Guide guide) {
+        return mean(compute_perception(frame.estimate, frame.velocity, {}, {.guide = guide}).aleph);
+    };
+    EXPECT_GT(aleph_with(Guide::saliency), 1.1 * aleph_with(Guide::full));
+    EXPECT_GT(aleph_with(Guide::full), 1.1 * aleph_with(Guide::spatial));
+    EXPECT_GT(aleph_with(Guide::spatial), 1.1);
+    EXPECT_EQ(aleph_with(Guide::none), 1.0);
+}
+
+TEST(Perception, MeasuredBandsAreStricter) {
+    const SyntheticFrame frame = make_synthetic_frame(320, 240);
+    const auto aleph_with = [&](Bands bands) {
+        return mean(compute_perception(frame.estimate, frame.velocity, {}, {.bands = bands}).aleph);
+    };
+    EXPECT_LT(aleph_with(Bands::measured), aleph_with(Bands::printed));
+}
+
+TEST(Perception, SameBitsForAnyNumberOfThreadsAndAfterOtherSizes) {
+    const SyntheticFrame frame = make_synthetic_frame(203, 151);
+    for (const SaliencyGrid grid : {SaliencyGrid::full, SaliencyGrid::center}) {
+        const auto maps_with = [&](int threads) {
+            const ThreadLimit limit(threads);
+            return compute_perception(frame.estimate, frame.velocity, {}, {.grid = grid}, {true, true});
+        };
+        const PerceptionMaps one = maps_with(1);
+        for (const int threads : {2, 3, 8}) {
+            const PerceptionMaps many = maps_with(threads);
+            EXPECT_EQ(many.aleph, one.aleph);
+            EXPECT_EQ(many.saliency, one.saliency);
+            EXPECT_EQ(many.retinal_velocity, one.retinal_velocity);
+            EXPECT_EQ(many.conspicuity_orientation, one.conspicuity_orientation);
+        }
+    }
+}
+
+TEST(Perception, OutputsAreThoseAskedFor) {
+    const SyntheticFrame frame = make_synthetic_frame(64, 48);
+    const PerceptionMaps bare = compute_perception(frame.estimate, frame.velocity, {}, {});
+    EXPECT_TRUE(bare.retinal_velocity.empty());
+    EXPECT_TRUE(bare.conspicuity_motion.empty());
+    EXPECT_TRUE(same_size(bare.saliency, frame.velocity));
+    for (const SaliencyGrid grid : {SaliencyGrid::full, SaliencyGrid::center}) {
+        const PerceptionMaps all = compute_perception(frame.estimate, frame.velocity, {}, {.grid = grid}, {true, true});
+        for (const Image<float>* map : {&all.retinal_velocity, &all.conspicuity_intensity, &all.conspicuity_color,
+                                        &all.conspicuity_orientation, &all.conspicuity_motion}) {
+            ASSERT_TRUE(same_size(*map, frame.velocity));
+            EXPECT_GT(mean(*map), 0.0);
+        }
+        for (std::size_t i = 0; i < all.aleph.size(); ++i) {
+            const double v = retinal_velocity(frame.velocity.pixels[i], all.saliency.pixels[i]);
+            ASSERT_NEAR(all.retinal_velocity.pixels[i], v, 1e-5 * v);
+        }
+    }
+    const PerceptionMaps none =
+        compute_perception(frame.estimate, frame.velocity, {}, {.guide = Guide::none}, {true, true});
+    EXPECT_EQ(none.aleph, Image<float>(64, 48, 1.0f));
+    EXPECT_EQ(none.retinal_velocity, Image<float>(64, 48, 0.15f));
+}
+
+TEST(Perception, RefusesWhatDoesNotFit) {
+    const Image<Rgb> estimate(8, 8);
+    const Image<float> velocity(8, 8);
+    EXPECT_THROW(compute_perception(estimate, Image<float>(8, 7), {}, {}), InputError);
+    EXPECT_THROW(compute_perception({}, {}, {}, {}), InputError);
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    for (const double bad : {0.0, -1.0, infinity, std::nan("")}) {
+        EXPECT_THROW(compute_perception(estimate, velocity, {.pixels_per_degree = bad}, {}), InputError) << bad;
+        EXPECT_THROW(compute_perception(estimate, velocity, {.frames_per_second = bad}, {}), InputError) << bad;
+        EXPECT_THROW(compute_perception(estimate, velocity, {.display_white = bad}, {}), InputError) << bad;
+    }
+}
+
+}  // namespace
+}  // namespace aleph

@@ -1,0 +1,107 @@
+// Scenes that other programs wrote, through the whole path: they load, move and render. Read from the asset folder
+// beside the project; skipped where that is absent.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+
+#include "engine/load/load_scene.h"
+#include "render/sequence.h"
+#include "tests/support/quick_settings.h"
+
+namespace aleph {
+namespace {
+
+const std::filesystem::path assets = std::filesystem::path(ALEPH_ASSETS_DIR) / "gltf";
+
+RenderSettings small_settings() {
+    RenderSettings settings = quick_settings(96, 72);
+    settings.accuracy = 0.3;
+    return settings;
+}
+
+TEST(AssetRender, TruckRollsItsWheelsAndNothingElse) {
+    const std::filesystem::path file = assets / "CesiumMilkTruck.glb";
+    if (!std::filesystem::exists(file)) GTEST_SKIP() << "third-party file not here: " << file;
+    const Scene scene = load_scene(file);
+    Sequence sequence(scene, small_settings());
+    const FrameOutput output = sequence.render(3, {.frame = true, .maps = true, .progress = {}});
+    const SceneFrame frame = pose(scene, scene.frame_rate.seconds_of(3));
+    int wheel_pixels = 0, body_pixels = 0;
+    double fastest = 0.0;
+    for (int y = 0; y < output.view.height; ++y) {
+        for (int x = 0; x < output.view.width; ++x) {
+            const Hit& hit = output.hits(x, y);
+            if (hit.instance == no_index) continue;
+            const int node = frame.instances[static_cast<std::size_t>(hit.instance)].node;
+            const double moved = glm::length(output.motion.displacement(x, y));
+            if (is_animated(scene.nodes[static_cast<std::size_t>(node)].rotation)) {
+                ++wheel_pixels;
+                fastest = std::max(fastest, moved);
+            } else {
+                ++body_pixels;
+                EXPECT_EQ(moved, 0.0) << x << ", " << y;
+            }
+        }
+    }
+    EXPECT_GT(wheel_pixels, 20);
+    EXPECT_GT(body_pixels, 200);
+    // A rim of .428 m turns by the animation's step in a frame; its chord cannot look longer than it is up close.
+    const double turn = glm::angle(glm::inverse(evaluate(scene.nodes.back().rotation, scene.frame_rate.seconds_of(3))) *
+                                   evaluate(scene.nodes.back().rotation, scene.frame_rate.seconds_of(4)));
+    const double step = std::min(turn, 2.0 * 3.14159265358979 - turn);
+    float nearest = 1e30f;
+    for (const float z : output.depth.pixels) nearest = std::min(nearest, z);
+    EXPECT_GT(fastest, 0.2);
+    EXPECT_LE(fastest, 2.0 * 0.4278 * std::sin(step / 2.0) * output.view.pixels_per_unit / nearest);
+
+    const FrameStatistics& statistics = output.statistics;
+    EXPECT_EQ(statistics.nan_count, 0u);
+    EXPECT_EQ(statistics.rays.total(), statistics.traced_rays);
+    EXPECT_GT(statistics.records, 0u);
+    // Lit by the white environment that stands in for missing lights: paint has its texture's colour.
+    double blueness = 0.0;
+    for (std::size_t i = 0; i < output.shaded.color.size(); ++i) {
+        const Rgb& c = output.shaded.color.pixels[i];
+        if (output.hits.pixels[i].instance != no_index) blueness = std::max<double>(blueness, c.z - c.x);
+        EXPECT_GE(luminance(c), 0.0f);
+    }
+    EXPECT_GT(blueness, 0.05);  // the sign on its side
+}
+
+TEST(AssetRender, CornellBoxBleedsColour) {
+    const std::filesystem::path file = assets / "CornellBox.glb";
+    if (!std::filesystem::exists(file)) GTEST_SKIP() << "third-party file not here: " << file;
+    const Scene scene = load_scene(file);
+    RenderSettings settings = small_settings();
+    settings.gather = 256;
+    const auto render = [&](int bounces) {
+        RenderSettings s = settings;
+        s.bounces = bounces;
+        return Sequence(scene, s).render(0);
+    };
+    const FrameOutput direct = render(0), full = render(1);
+    EXPECT_EQ(direct.statistics.rays.gather, 0u);
+    // What the bounce adds, by the side of the picture: reddish on one, greenish on the other, as the walls are.
+    Rgb left(0.0f), right(0.0f);
+    for (int y = 0; y < 72; ++y) {
+        for (int x = 0; x < 96; ++x) {
+            const Rgb added = full.shaded.color(x, y) - direct.shaded.color(x, y);
+            EXPECT_GE(luminance(added), -1e-4f);
+            const auto& hit = full.hits(x, y);
+            if (hit.instance == no_index) continue;
+            (x < 48 ? left : right) += added;
+        }
+    }
+    const float left_tint = (left.x - left.y) / luminance(left), right_tint = (right.x - right.y) / luminance(right);
+    EXPECT_GT(std::abs(left_tint - right_tint), 0.1f);
+    EXPECT_LT(left_tint * right_tint, 0.0f) << left_tint << " " << right_tint;
+    // Nothing in it moves, nor does the camera that frames it.
+    const FrameOutput maps = Sequence(scene, settings).render(0, {.frame = false, .maps = true, .progress = {}});
+    for (const glm::dvec2& d : maps.motion.displacement.pixels) EXPECT_EQ(d, glm::dvec2(0.0));
+}
+
+}  // namespace
+}  // namespace aleph

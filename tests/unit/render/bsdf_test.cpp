@@ -1,0 +1,327 @@
+// The surface model: reciprocity, densities, weights, energy, and what glTF's numbers turn into.
+
+#include "render/bsdf.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "tests/support/render_scenes.h"
+
+namespace aleph {
+namespace {
+
+constexpr double pi = std::numbers::pi;
+const std::vector<float> widths{1e-3f, 0.02f, 0.1f, 0.3f, 0.7f, 1.0f};
+const std::vector<float> cosines{1.0f, 0.9f, 0.5f, 0.2f, 0.05f};
+
+glm::vec3 direction_of(float cosine, float azimuth = 0.7f) {
+    const float sine = std::sqrt(std::max(0.0f, 1.0f - cosine * cosine));
+    return {sine * std::cos(azimuth), sine * std::sin(azimuth), cosine};
+}
+
+/// Integrates f(light) over the upper hemisphere along half vectors spread like the lobe of this width, so that narrow
+/// lobes are resolved: tan = width sqrt(u / (1 - u)).
+template <class F>
+double integrate_around_lobe(float width, const glm::vec3& view, const F& f, int steps = 512) {
+    double sum = 0.0;
+    for (int i = 0; i < steps; ++i) {
+        const double u = (i + 0.5) / steps, ratio = std::sqrt(u / (1.0 - u)), tangent = width * ratio;
+        const double cosine = 1.0 / std::sqrt(1.0 + tangent * tangent), sine = tangent * cosine;
+        // d tan / du = width / (2 ratio (1 - u)^2); d theta = cos^2 d tan
+        const double ring = sine * cosine * cosine * width / (2.0 * ratio * (1.0 - u) * (1.0 - u)) / steps;
+        for (int k = 0; k < steps; ++k) {
+            const double azimuth = 2.0 * pi * (k + 0.5) / steps;
+            const glm::dvec3 h(sine * std::cos(azimuth), sine * std::sin(azimuth), cosine), v(view);
+            const double vh = glm::dot(v, h);
+            if (vh <= 0.0) continue;
+            const glm::dvec3 light = 2.0 * vh * h - v;
+            if (light.z <= 0.0) continue;
+            sum += f(glm::vec3(light)) * 4.0 * vh * ring * 2.0 * pi / steps;
+        }
+    }
+    return sum;
+}
+
+SurfaceMaterial make_plastic(float alpha) {
+    SurfaceMaterial material;
+    material.diffuse = Rgb(1.0f);
+    material.f0 = Rgb(0.04f);
+    material.f0_max = 0.04f;
+    material.f90 = 1.0f;
+    material.alpha = alpha;
+    return material;
+}
+
+TEST(Bsdf, Reciprocity) {
+    std::mt19937 engine(1);
+    std::uniform_real_distribution<float> unit(0.01f, 1.0f), angle(0.0f, 6.28f);
+    for (const float alpha : widths) {
+        const SurfaceMaterial material = make_plastic(alpha);
+        for (int i = 0; i < 1000; ++i) {
+            const glm::vec3 a = direction_of(unit(engine), angle(engine)),
+                            b = direction_of(unit(engine), angle(engine));
+            const float there = evaluate_glossy(material, a, b).x, back = evaluate_glossy(material, b, a).x;
+            ASSERT_NEAR(there, back, 1e-4f * std::max(there, back));
+            ASSERT_GE(there, 0.0f);
+            ASSERT_NEAR(evaluate_diffuse(material, a.z, b.z).x, evaluate_diffuse(material, b.z, a.z).x, 1e-6f);
+        }
+    }
+}
+
+TEST(Bsdf, NothingBelowTheSurface) {
+    const SurfaceMaterial material = make_plastic(0.3f);
+    const glm::vec3 above = direction_of(0.5f), below(above.x, above.y, -above.z);
+    for (const auto& [view, light] : {std::pair(above, below), std::pair(below, above), std::pair(below, below)}) {
+        EXPECT_EQ(evaluate_glossy(material, view, light), Rgb(0.0f));
+        EXPECT_EQ(pdf_glossy(material, view, light), 0.0f);
+    }
+}
+
+/// Expected visible-normal density against the share of samples that stay above the surface, and their mean direction.
+TEST(Bsdf, DensityIntegratesToWhatSamplesDo) {
+    std::mt19937 engine(2);
+    std::uniform_real_distribution<float> unit(0.0f, 0x1.fffffep-1f);
+    constexpr int n = 100'000;
+    for (const float alpha : widths) {
+        const SurfaceMaterial material = make_metal(alpha);
+        for (const float cosine : cosines) {
+            if (cosine < 0.1f) continue;  // the grid of half vectors is too coarse there: the chi-square test's is not
+            const glm::vec3 view = direction_of(cosine);
+            Mean above, x, z;
+            for (int i = 0; i < n; ++i) {
+                const glm::vec3 light = sample_glossy(material, view, {unit(engine), unit(engine)});
+                ASSERT_NEAR(glm::dot(light, light), 1.0f, 1e-4f);
+                const bool up = light.z > 0.0f;
+                above.add(up ? 1.0 : 0.0);
+                x.add(up ? glm::dot(light, view) : 0.0);
+                z.add(up ? light.z : 0.0);
+            }
+            const auto pdf = [&](const glm::vec3& l) { return static_cast<double>(pdf_glossy(material, view, l)); };
+            const auto expect = [&](const Mean& mean, double expected, const char* what) {
+                EXPECT_NEAR(mean.mean(), expected, 4.0 * mean.error() + 3e-3) << what << ' ' << alpha << ' ' << cosine;
+            };
+            expect(above, integrate_around_lobe(alpha, view, pdf), "total");
+            expect(x, integrate_around_lobe(alpha, view, [&](const auto& l) { return pdf(l) * glm::dot(l, view); }),
+                   "along view");
+            expect(z, integrate_around_lobe(alpha, view, [&](const auto& l) { return pdf(l) * l.z; }), "height");
+        }
+    }
+}
+
+TEST(Bsdf, SamplesFollowTheDensityChiSquare) {
+    constexpr int rows = 8, columns = 16, n = 200'000, fine = 24;
+    std::mt19937 engine(3);
+    std::uniform_real_distribution<float> unit(0.0f, 0x1.fffffep-1f);
+    for (const float alpha : {0.3f, 0.7f, 1.0f}) {
+        const SurfaceMaterial material = make_metal(alpha);
+        for (const float cosine : {0.95f, 0.5f, 0.15f, 0.05f}) {
+            const glm::vec3 view = direction_of(cosine);
+            std::vector<double> seen(rows * columns + 1, 0.0), expected(rows * columns + 1, 0.0);
+            for (int i = 0; i < n; ++i) {
+                const glm::vec3 l = sample_glossy(material, view, {unit(engine), unit(engine)});
+                if (l.z <= 0.0f) {
+                    seen.back() += 1.0;
+                    continue;
+                }
+                const double azimuth = std::atan2(l.y, l.x) + pi;
+                const int row = std::min(rows - 1, static_cast<int>(l.z * rows));
+                const int column = std::min(columns - 1, static_cast<int>(azimuth / (2.0 * pi) * columns));
+                seen[static_cast<std::size_t>(row * columns + column)] += 1.0;
+            }
+            double total = 0.0;
+            for (int i = 0; i < rows * fine; ++i) {
+                for (int k = 0; k < columns * fine; ++k) {
+                    const double z = (i + 0.5) / (rows * fine), azimuth = 2.0 * pi * (k + 0.5) / (columns * fine) - pi;
+                    const double p =
+                        pdf_glossy(material, view, direction_of(static_cast<float>(z), static_cast<float>(azimuth))) *
+                        2.0 * pi / (rows * fine * columns * fine);
+                    expected[static_cast<std::size_t>(i / fine * columns + k / fine)] += n * p;
+                    total += p;
+                }
+            }
+            expected.back() = n * (1.0 - total);
+            double chi2 = 0.0;
+            int bins = 0;
+            for (std::size_t b = 0; b < seen.size(); ++b) {
+                if (expected[b] < 20.0) continue;
+                chi2 += (seen[b] - expected[b]) * (seen[b] - expected[b]) / expected[b];
+                ++bins;
+            }
+            EXPECT_GT(bins, 40);
+            EXPECT_LT(chi2, bins + 4.0 * std::sqrt(2.0 * bins)) << alpha << ' ' << cosine;
+        }
+    }
+}
+
+TEST(Bsdf, SampleWeightsDoNotExceedOne) {
+    std::mt19937 engine(4);
+    std::uniform_real_distribution<float> unit(0.0f, 0x1.fffffep-1f);
+    for (const float alpha : widths) {
+        const SurfaceMaterial material = make_metal(alpha);
+        for (const float cosine : cosines) {
+            const glm::vec3 view = direction_of(cosine);
+            for (int i = 0; i < 20'000; ++i) {
+                const glm::vec3 light = sample_glossy(material, view, {unit(engine), unit(engine)});
+                if (light.z <= 0.0f) continue;
+                const float pdf = pdf_glossy(material, view, light);
+                if (pdf == 0.0f) continue;
+                ASSERT_LE(evaluate_glossy(material, view, light).x * light.z / pdf, 1.0f + 1e-5f)
+                    << alpha << ' ' << cosine;
+            }
+        }
+    }
+}
+
+TEST(Bsdf, FresnelStaysBetweenZeroAndOne) {
+    for (const float f0 : {0.0f, 0.04f, 1.0f}) {
+        SurfaceMaterial material = make_plastic(0.5f);
+        material.f0_max = f0;
+        for (int i = 0; i <= 100; ++i) {
+            const float transmission = diffuse_transmission(material, static_cast<float>(i) / 100.0f);
+            ASSERT_GE(transmission, 0.0f);
+            ASSERT_LE(transmission, 1.0f - f0 + 1e-6f);
+        }
+        EXPECT_NEAR(diffuse_transmission(material, 1.0f), 1.0f - f0, 1e-6f);
+        EXPECT_NEAR(diffuse_transmission(material, 0.0f), 0.0f, 1e-6f);
+        // The mean in closed form against its integral, 2 cos d cos.
+        double mean = 0.0;
+        for (int i = 0; i < 10'000; ++i) {
+            const float c = (static_cast<float>(i) + 0.5f) / 10'000.0f;
+            mean += 2.0 * c * diffuse_transmission(material, c) / 10'000.0;
+        }
+        EXPECT_NEAR(mean_diffuse_transmission(material), mean, 1e-5);
+    }
+}
+
+TEST(Bsdf, EnergyIsNotCreated) {
+    for (const float alpha : widths) {
+        for (const float cosine : cosines) {
+            const glm::vec3 view = direction_of(cosine);
+            const auto albedo = [&](const SurfaceMaterial& m) {
+                return integrate_around_lobe(
+                    alpha, view,
+                    [&](const auto& l) { return static_cast<double>(evaluate_glossy(m, view, l).x) * l.z; }, 256);
+            };
+            EXPECT_LE(albedo(make_metal(alpha)), 1.002) << alpha << ' ' << cosine;
+            const SurfaceMaterial plastic = make_plastic(alpha);
+            // Under uniform light of radiance 1 irradiance is pi: the Lambert layer's share in closed form.
+            const double diffuse = diffuse_radiance(plastic, cosine, Rgb(static_cast<float>(pi))).x;
+            EXPECT_LE(albedo(plastic) + diffuse, 1.002) << alpha << ' ' << cosine;
+        }
+    }
+    EXPECT_GT(integrate_around_lobe(
+                  0.1f, direction_of(0.9f),
+                  [&](const auto& l) {
+                      return static_cast<double>(evaluate_glossy(make_metal(0.1f), direction_of(0.9f), l).x) * l.z;
+                  }),
+              0.98);
+}
+
+/// evaluate_material of the only material of a scene, seen from in front.
+SurfaceMaterial evaluate(Material material, bool front = true, const glm::vec4& color = glm::vec4(1.0f)) {
+    Scene scene;
+    scene.materials.push_back(std::move(material));
+    add_mesh(scene, make_quad(1.0, 1.0, 0));
+    const Stage stage(std::move(scene));
+    SurfacePoint point = make_point(glm::vec3(0.0f), {0.0f, 0.0f, 1.0f});
+    point.material = 0;
+    point.front = front;
+    point.color = color;
+    return evaluate_material(stage.shading, point, {});
+}
+
+/// KHR_materials_unlit: the base colour, constant, whatever the material says besides.
+TEST(Bsdf, UnlitShowsItsBaseColourAndReflectsNothing) {
+    Material material;
+    material.unlit = true;
+    material.base_color = glm::dvec3(0.5, 0.25, 0.75);
+    material.emission = glm::dvec3(9.0);
+    material.metallic = 0.5;
+    for (const bool front : {true, false}) {
+        const SurfaceMaterial surface = evaluate(material, front, {0.5f, 1.0f, 1.0f, 1.0f});
+        EXPECT_EQ(surface.emission, Rgb(0.25f, 0.25f, 0.75f));
+        EXPECT_FALSE(surface.has_diffuse());
+        EXPECT_FALSE(surface.has_glossy());
+    }
+}
+
+TEST(Bsdf, SpecularZeroIsPureLambert) {
+    Material material;
+    material.base_color = glm::dvec3(0.2, 0.5, 0.8);
+    material.metallic = 0.0;
+    material.specular = 0.0;
+    const SurfaceMaterial surface = evaluate(material);
+    EXPECT_FALSE(surface.has_glossy());
+    EXPECT_EQ(surface.diffuse, Rgb(0.2f, 0.5f, 0.8f));
+    for (const float cosine : cosines) {
+        EXPECT_EQ(evaluate_diffuse(surface, cosine, 0.3f).y, 0.5f / std::numbers::pi_v<float>);
+        EXPECT_NEAR(diffuse_radiance(surface, cosine, Rgb(std::numbers::pi_v<float>)).z, 0.8f, 1e-6f);
+    }
+}
+
+TEST(Bsdf, GltfNumbersBecomeTheTwoLayers) {
+    Material plastic;
+    plastic.base_color = glm::dvec3(0.5);
+    plastic.metallic = 0.0;
+    plastic.roughness = 0.5;
+    SurfaceMaterial surface = evaluate(plastic);
+    EXPECT_NEAR(surface.f0.x, 0.04f, 1e-6f);  // index 1.5
+    EXPECT_EQ(surface.f90, 1.0f);
+    EXPECT_EQ(surface.alpha, 0.25f);
+    EXPECT_EQ(surface.diffuse.x, 0.5f);
+
+    Material metal;
+    metal.base_color = glm::dvec3(0.9, 0.6, 0.2);
+    metal.roughness = 0.0;
+    surface = evaluate(metal);
+    EXPECT_EQ(surface.f0, Rgb(0.9f, 0.6f, 0.2f));
+    EXPECT_FALSE(surface.has_diffuse());
+    EXPECT_EQ(surface.alpha, 1e-3f);  // a mirror to single precision
+
+    plastic.specular_color = glm::dvec3(2.0, 1.0, 0.5);  // above 1 is allowed, F0 stays at most 1
+    plastic.ior = 2.0;
+    surface = evaluate(plastic);
+    EXPECT_NEAR(surface.f0.x, 2.0f / 9.0f, 1e-6f);
+    EXPECT_NEAR(surface.f0.z, 0.5f / 9.0f, 1e-6f);
+    EXPECT_NEAR(surface.f0_max, 2.0f / 9.0f, 1e-6f);
+
+    surface = evaluate(metal, true, {0.5f, 1.0f, 1.0f, 1.0f});
+    EXPECT_NEAR(surface.f0.x, 0.45f, 1e-6f);  // vertex colours multiply
+}
+
+TEST(Bsdf, EmissionLeavesTheFrontAndBothSidesIfDoubleSided) {
+    Material lamp;
+    lamp.emission = glm::dvec3(1.0, 2.0, 3.0);
+    lamp.emission_strength = 2.0;
+    EXPECT_EQ(evaluate(lamp, true).emission, Rgb(2.0f, 4.0f, 6.0f));
+    EXPECT_EQ(evaluate(lamp, false).emission, Rgb(0.0f));
+    lamp.double_sided = true;
+    EXPECT_EQ(evaluate(lamp, false).emission, Rgb(2.0f, 4.0f, 6.0f));
+}
+
+TEST(Bsdf, TexturesMultiplyTheFactors) {
+    Scene scene;
+    SceneImage image;
+    image.bytes = Image<glm::u8vec4>(1, 1, glm::u8vec4(255, 128, 51, 0));
+    scene.images.push_back(image);
+    Material material;
+    material.base_color_texture.image = material.metallic_roughness_texture.image = 0;
+    material.emission_texture.image = material.specular_texture.image = 0;
+    material.emission = glm::dvec3(10.0);
+    scene.materials.push_back(material);
+    add_mesh(scene, make_quad(1.0, 1.0, 0));
+    const Stage stage(std::move(scene));
+    SurfacePoint point = make_point(glm::vec3(0.0f), {0.0f, 0.0f, 1.0f});
+    point.material = 0;
+    const SurfaceMaterial surface = evaluate_material(stage.shading, point, {});
+    const float rough = 128.0f / 255.0f, metal = 51.0f / 255.0f, green = srgb_to_linear(128.0f / 255.0f);
+    EXPECT_NEAR(surface.alpha, rough * rough, 1e-6f);
+    EXPECT_NEAR(surface.diffuse.y, green * (1.0f - metal), 1e-6f);
+    EXPECT_NEAR(surface.f0.x, metal, 1e-6f);  // specular 0 by the texture's A: only the metal's share is left
+    EXPECT_NEAR(surface.f90, metal, 1e-6f);
+    EXPECT_NEAR(surface.emission.y, 10.0f * green, 1e-5f);
+}
+
+}  // namespace
+}  // namespace aleph

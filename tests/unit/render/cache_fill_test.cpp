@@ -1,0 +1,164 @@
+// What filling in rounds costs against a sequential coarse-to-fine fill: at most 3 % more records. What the cache's
+// error does as accuracy tightens: it falls.
+
+#include "render/cache_fill.h"
+
+#include <gtest/gtest.h>
+
+#include <cstdio>
+
+#include "engine/load/load_scene.h"
+#include "tests/support/render_scenes.h"
+
+namespace aleph {
+namespace {
+
+Scene load(const std::string& name) {
+    return load_scene(std::string(ALEPH_SOURCE_DIR) + "/scenes/" + name + "/scene.json");
+}
+
+struct Fill {
+    explicit Fill(Scene scene, int width, int height, double accuracy)
+        : stage(std::move(scene), width, height),
+          lighting(stage.lighting()),
+          settings(plain_settings(accuracy, 64)),
+          alpha(width, height, static_cast<float>(accuracy)),
+          centers(cast_sample(stage.rays, stage.view, 0, 1, nullptr)),
+          context{lighting, stage.view, settings, alpha, 0, scene_radius(stage.shading), {}} {}
+
+    Stage stage;
+    LightingContext lighting;
+    RenderSettings settings;
+    Image<float> alpha;
+    SampleHits centers;
+    IndirectContext context;
+};
+
+std::size_t count_in_rounds(const Fill& fill) {
+    IrradianceCache cache = make_cache(fill.stage.shading);
+    Image<float> records(fill.stage.view.width, fill.stage.view.height);
+    RayCounts counts;
+    FillStatistics statistics;
+    fill_cache(cache, fill.context, fill.centers, 0, records, counts, statistics);
+    return cache.records().size();
+}
+
+/// One after another, each record there for the next pixel; the same pixels in the same order, and everything once more
+/// until nothing lies bare.
+std::size_t count_sequentially(const Fill& fill) {
+    IrradianceCache cache = make_cache(fill.stage.shading);
+    GatherScratch scratch;
+    RayCounts counts;
+    Tracer tracer(fill.stage.rays);
+    const auto visit = [&](int stride, bool all) {
+        for (int y = 0; y < fill.stage.view.height; y += stride) {
+            for (int x = 0; x < fill.stage.view.width; x += stride) {
+                if (!all && stride < 64 && x % (2 * stride) == 0 && y % (2 * stride) == 0) continue;
+                if (fill.centers.hits(x, y).instance == no_index) continue;
+                const PixelSurface s = make_pixel_surface(fill.stage.shading, fill.stage.view, fill.centers, x, y);
+                const float accuracy = fill.alpha(x, y);
+                if (!needs_irradiance(fill.centers, s, x, y)) continue;
+                if (cache.covers({s.point.position, s.point.normal, accuracy})) continue;
+                const IrradianceSample value = gather_at(fill.context, tracer, s, x, y, 0, scratch, counts);
+                cache.insert(
+                    make_record(s.point.position, s.point.normal, value, radius_bounds(fill.context, s, accuracy)));
+            }
+        }
+    };
+    for (int stride = 64; stride >= 1; stride /= 2) visit(stride, false);
+    for (std::size_t before = 0; before != cache.records().size();) {
+        before = cache.records().size();
+        visit(1, true);
+    }
+    return cache.records().size();
+}
+
+void expect_rounds_cost_little(const std::string& name, double accuracy) {
+    const Fill fill(load(name), 320, 240, accuracy);
+    const double rounds = static_cast<double>(count_in_rounds(fill));
+    const double sequential = static_cast<double>(count_sequentially(fill));
+    std::printf("%s, accuracy %g: %.0f records in rounds, %.0f one after another (%+.2f %%)\n", name.c_str(), accuracy,
+                rounds, sequential, 100.0 * (rounds / sequential - 1.0));
+    EXPECT_GT(sequential, 100.0);
+    EXPECT_LE(rounds, 1.03 * sequential);
+}
+
+TEST(CacheFill, RoundsCostLittlePool) {
+    expect_rounds_cost_little("pool", 0.15);
+}
+TEST(CacheFill, RoundsCostLittleRoom) {
+    expect_rounds_cost_little("room", 0.15);
+}
+TEST(CacheFill, RoundsCostLittleRoomCoarse) {
+    expect_rounds_cost_little("room", 0.4);
+}
+TEST(CacheFill, RoundsCostLittleCornell) {
+    expect_rounds_cost_little("cornell", 0.1);
+}
+
+TEST(CacheFill, GuidedAccuracyToo) {
+    Fill fill(load("cornell"), 320, 240, 0.15);
+    for (int y = 0; y < 240; ++y) {
+        for (int x = 0; x < 320; ++x) fill.alpha(x, y) = 0.1f + 0.8f * static_cast<float>((x / 40 + y / 40) % 2);
+    }
+    const double rounds = static_cast<double>(count_in_rounds(fill));
+    const double sequential = static_cast<double>(count_sequentially(fill));
+    EXPECT_LE(rounds, 1.03 * sequential) << rounds << " against " << sequential;
+}
+
+/// Neighbour clamping may shrink a record after it covered a place: filling looks again, or shading would gather at
+/// every pixel that lies bare.
+TEST(CacheFill, EverySampleIsCoveredAfterwards) {
+    for (const auto& [name, accuracy] : {std::pair("cornell", 0.3), std::pair("pool", 0.5)}) {
+        const Fill fill(load(name), 160, 120, accuracy);
+        IrradianceCache cache = make_cache(fill.stage.shading);
+        Image<float> records(160, 120);
+        RayCounts counts;
+        FillStatistics statistics;
+        fill_cache(cache, fill.context, fill.centers, 0, records, counts, statistics);
+        std::size_t uncovered = 0, asked = 0;
+        for (int y = 0; y < 120; ++y) {
+            for (int x = 0; x < 160; ++x) {
+                if (fill.centers.hits(x, y).instance == no_index) continue;
+                const PixelSurface s = make_pixel_surface(fill.stage.shading, fill.stage.view, fill.centers, x, y);
+                if (!needs_irradiance(fill.centers, s, x, y)) continue;
+                ++asked;
+                if (!cache.covers({s.point.position, s.point.normal, fill.alpha(x, y)})) ++uncovered;
+            }
+        }
+        EXPECT_GT(asked, 5000u);
+        EXPECT_LE(uncovered, asked / 1000) << name;
+        EXPECT_EQ(counts.gather, 64 * cache.records().size());
+        EXPECT_GE(statistics.lookups, statistics.hits + cache.records().size());
+    }
+}
+
+TEST(CacheFill, ErrorFallsAsAccuracyTightens) {
+    const Stage stage(load("cornell"), 64, 48);
+    RenderSettings settings = plain_settings(0.0, 16384);
+    settings.light_samples = 4;  // direct light is the same in all, and cancels
+    const Image<Rgb> dense = shade(stage, settings).color;
+    settings.gather = 1024;
+    settings.min_radius_pixels =
+        0.25;  // else 4 pixels, not accuracy, say how far a record reaches in so small a picture
+    double before = 1e30;
+    for (const double accuracy : {0.5, 0.3, 0.2, 0.1, 0.05}) {
+        settings.accuracy = accuracy;
+        const ShadedFrame out = shade(stage, settings);
+        double error = 0.0, energy = 0.0;
+        for (std::size_t i = 0; i < dense.size(); ++i) {
+            const double difference = luminance(out.color.pixels[i]) - luminance(dense.pixels[i]);
+            error += difference * difference;
+            energy += luminance(dense.pixels[i]) * luminance(dense.pixels[i]);
+        }
+        const double relative = error / energy;
+        std::printf("accuracy %g: relative MSE %.3g, %llu records\n", accuracy, relative,
+                    static_cast<unsigned long long>(out.record_count));
+        EXPECT_LT(relative, before) << accuracy;
+        before = relative;
+    }
+    EXPECT_LT(before, 1e-4);
+}
+
+}  // namespace
+}  // namespace aleph

@@ -1,0 +1,212 @@
+// What `aleph explain` tells, against scenes whose answers are known.
+
+#include "render/cli/explain.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <numbers>
+
+#include "engine/base/errors.h"
+#include "engine/load/load_scene.h"
+#include "engine/surface/shapes.h"
+#include "render/cli/commands.h"
+#include "tests/support/scratch_folder.h"
+
+namespace aleph {
+namespace {
+
+using nlohmann::ordered_json;
+
+/// A carrier that turns and moves, a box on it, a second box of the same name, a hidden one, a camera, a light that
+/// dims.
+Scene make_scene() {
+    Scene scene;
+    scene.file = "made.json";
+    scene.frame_rate = {24, 1};
+    scene.exposure = 2.0;
+    Material paint;
+    paint.name = "paint";
+    scene.materials = {paint, paint};
+    scene.materials[1].name = "spare";
+    Shape box;
+    box.kind = Shape::Kind::box;
+    box.size = {2.0, 4.0, 6.0};
+    scene.meshes.push_back(make_shape_mesh(box, 0, "box"));
+
+    Node carrier;
+    carrier.name = "carrier";
+    carrier.translation.sampling = {.kind = TimeSampling::Kind::acyclic, .times = {0.0, 0.5, 2.0}};
+    carrier.translation.values = {{0, 0, 0}, {10, 0, 0}, {10, 20, 0}};
+    carrier.axis_rotation = AxisRotation{{0, 0, 1}, {}};
+    carrier.axis_rotation->angle.sampling = {
+        .kind = TimeSampling::Kind::uniform, .start = 0.0, .period = 0.5, .times = {}};
+    carrier.axis_rotation->angle.values = {0.0, std::numbers::pi / 2.0};
+    Node on;
+    on.name = "box";
+    on.parent = 0;
+    on.meshes = {0};
+    Node twin = on;
+    Node hidden = on;
+    hidden.name = "hidden";
+    hidden.visible = 0.0;
+    Node eye;
+    eye.name = "eye";
+    eye.camera = 0;
+    eye.translation = glm::dvec3(0, 0, 50);
+    Node lamp;
+    lamp.name = "lamp";
+    lamp.light = 0;
+    scene.nodes = {carrier, on, twin, hidden, eye, lamp};
+    scene.cameras.emplace_back();
+    scene.lights.emplace_back();
+    scene.lights[0].intensity.sampling = {
+        .kind = TimeSampling::Kind::uniform, .start = 0.0, .period = 0.5, .times = {}};
+    scene.lights[0].intensity.values = {5.0, 5.0};
+    return scene;
+}
+
+ordered_json explain(const Scene& scene) {
+    RenderSettings settings;
+    settings.width = 16;
+    settings.height = 12;
+    return explain_scene(scene, settings, "");
+}
+
+TEST(Explain, PathsTellObjectsApart) {
+    const std::vector<std::string> paths = node_paths(make_scene());
+    const std::vector<std::string> expected = {"/carrier",        "/carrier/box", "/carrier/box#2",
+                                               "/carrier/hidden", "/eye",         "/lamp"};
+    EXPECT_EQ(paths, expected);
+}
+
+TEST(Explain, CountsFramesAndExposure) {
+    const ordered_json explained = explain(make_scene());
+    const ordered_json& counts = explained["counts"];
+    EXPECT_EQ(counts["objects"], 6);
+    EXPECT_EQ(counts["animated_objects"], 1);
+    EXPECT_EQ(counts["hidden_objects"], 1);
+    EXPECT_EQ(counts["triangles"], 12);
+    EXPECT_EQ(counts["instanced_triangles"], 36);
+    EXPECT_EQ(counts["deforming_meshes"], 0);
+    EXPECT_EQ(explained["frames"]["first"], 0);
+    EXPECT_EQ(explained["frames"]["last"], 48);
+    EXPECT_EQ(explained["frames"]["from"], "keys");
+    EXPECT_EQ(explained["exposure"]["factor"], 2.0);
+    EXPECT_EQ(explained["camera"], "eye");
+    EXPECT_EQ(explained["unused"], ordered_json::array({"material \"spare\""}));
+}
+
+TEST(Explain, BoundsAreThoseOfWhatIsShown) {
+    const ordered_json bounds = explain(make_scene())["bounds"];
+    EXPECT_EQ(bounds["first_frame"]["max"], ordered_json::array({1.0, 2.0, 3.0}));
+    EXPECT_NEAR(bounds["range"]["max"][1].get<double>(), 21.0, 1e-9);  // turned: the longer side lies along x
+    EXPECT_NEAR(bounds["range"]["max"][0].get<double>(), 12.0, 1e-9);
+}
+
+TEST(Explain, KeyedPropertiesWithTheirSamplings) {
+    const ordered_json explained = explain(make_scene());
+    const ordered_json& tracks = explained["objects"][0]["animated"];
+    ASSERT_EQ(tracks.size(), 2u);
+    EXPECT_EQ(tracks[0]["property"], "translation");
+    EXPECT_EQ(tracks[0]["sampling"], "acyclic");
+    EXPECT_EQ(tracks[0]["keys"], 3);
+    EXPECT_EQ(tracks[0]["last"], 2.0);
+    EXPECT_EQ(tracks[1]["property"], "rotation.degrees");
+    EXPECT_EQ(tracks[1]["sampling"], "uniform");
+    EXPECT_FALSE(tracks[1].contains("constant"));
+    const ordered_json& dimming = explained["objects"][5]["light"]["animated"];
+    ASSERT_EQ(dimming.size(), 1u);
+    EXPECT_TRUE(dimming[0]["constant"].get<bool>());  // two keys, both alike
+    ASSERT_EQ(explained["time_samplings"].size(), 2u);
+    EXPECT_EQ(explained["time_samplings"][0]["properties"].get<int>() +
+                  explained["time_samplings"][1]["properties"].get<int>(),
+              3);
+}
+
+TEST(Explain, AMomentRowByRow) {
+    // At .25 s the carrier stands at x = 5, turned by 45 degrees about z.
+    const ordered_json moment = explain_moment(make_scene(), 0.25);
+    const ordered_json& box = moment["objects"][1];
+    EXPECT_EQ(box["path"], "/carrier/box");
+    const double h = std::sqrt(0.5);
+    const double expected[16] = {h, -h, 0, 5, h, h, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
+    for (std::size_t i = 0; i < 16; ++i) EXPECT_NEAR(box["world"][i].get<double>(), expected[i], 1e-15) << i;
+    EXPECT_TRUE(box["visible"].get<bool>());
+    EXPECT_NEAR(box["bounds"]["max"][1].get<double>(), 3.0 * h, 1e-12);
+    EXPECT_EQ(box["points"]["count"], 24);
+    EXPECT_EQ(box["points"]["first"].size(), 6u);
+    EXPECT_FALSE(moment["objects"][3]["visible"].get<bool>());
+    EXPECT_TRUE(moment["objects"][4]["bounds"].is_null());
+    EXPECT_FALSE(moment["objects"][4].contains("points"));
+}
+
+TEST(Explain, PointsOfACacheAsTheFileHasThem) {
+    Scene scene = make_scene();
+    scene.point_caches.push_back(
+        {.name = "points",
+         .sampling = {.kind = TimeSampling::Kind::uniform, .start = 0.0, .period = 1.0, .times = {}},
+         .positions = {{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 0, 2}, {1, 0, 2}, {0, 1, 2}}},
+         .velocities = {}});
+    Mesh mesh;
+    mesh.points = 0;
+    mesh.vertex_points = {2, 1, 0};
+    mesh.positions = {{0, 1, 0}, {1, 0, 0}, {0, 0, 0}};
+    mesh.triangles = {{2, 1, 0}};
+    scene.meshes.push_back(mesh);
+    scene.nodes[5].meshes = {1};
+    const ordered_json lamp = explain_moment(scene, 0.5)["objects"][5];
+    EXPECT_EQ(lamp["points"]["count"], 3);
+    EXPECT_EQ(lamp["points"]["first"][1], ordered_json::array({1.0, 0.0, 1.0}));
+    EXPECT_EQ(lamp["bounds"]["min"][2], 1.0);
+    const ordered_json explained = explain(scene);
+    EXPECT_EQ(explained["counts"]["deforming_meshes"], 1);
+    EXPECT_EQ(explained["objects"][5]["deforms"], "points");
+    EXPECT_EQ(explained["objects"][5]["animated"][0]["property"], "points");
+}
+
+TEST(Explain, TextNamesWhatMovesEvenWhereTheTreeIsCut) {
+    Scene scene = make_scene();
+    const std::string whole = explain_text(explain(scene), 0);
+    for (const char* expected :
+         {"frames    0 to 48 at 24 a second", "exposure  2, as the scene says",
+          "carrier: animated translation (3 acyclic", "12 triangles of paint", "point light", "material \"spare\"",
+          "camera, 45 degrees high", "12 triangles in 1 mesh; 36 triangles in 3 instances", "1 light, 1 camera\n"}) {
+        EXPECT_NE(whole.find(expected), std::string::npos) << expected << "\n" << whole;
+    }
+    std::rotate(scene.nodes.begin(), scene.nodes.begin() + 5, scene.nodes.end());  // the lamp first
+    for (Node& node : scene.nodes)
+        if (node.parent != no_index) ++node.parent;
+    const std::string cut = explain_text(explain(scene), 1);
+    EXPECT_NE(cut.find("... and 5 more"), std::string::npos) << cut;
+    EXPECT_NE(cut.find("/carrier: translation (3 acyclic"), std::string::npos) << cut;
+}
+
+TEST(Explain, ASceneWithoutACamera) {
+    Scene scene = make_scene();
+    scene.nodes[4].camera = no_index;
+    const ordered_json explained = explain(scene);
+    EXPECT_TRUE(explained["camera"].is_null());
+    EXPECT_EQ(explained["warnings"].size(), 1u);
+    EXPECT_NE(explain_text(explained, 0).find("objects"), std::string::npos);
+}
+
+TEST(Explain, ListsEveryMissingFile) {
+    const ScratchFolder folder;
+    const auto write = [&](const char* name, const char* text) { std::ofstream(folder.path() / name) << text; };
+    write("inner.gltf", R"({"asset": {"version": "2.0"}, "buffers": [{"byteLength": 4, "uri": "gone.bin"}]})");
+    write("scene.json", R"({"images": {"a": "gone.png", "b": "too.png"},
+        "aleph": 1, "nodes": [{"name": "n", "include": "inner.gltf"}, {"name": "m", "include": "gone.glb"}]})");
+    const std::vector<MissingFile> missing = list_missing_files(folder.path() / "scene.json");
+    std::vector<std::string> paths;
+    for (const MissingFile& item : missing) paths.push_back(item.path);
+    const std::vector<std::string> expected = {"gone.png", "too.png", "gone.bin", "gone.glb"};
+    EXPECT_EQ(paths, expected);
+    EXPECT_THROW(load_scene(folder.path() / "scene.json"), InputError);
+    EXPECT_TRUE(list_missing_files(folder.path() / "nothing.json").empty());
+}
+
+}  // namespace
+}  // namespace aleph

@@ -1,0 +1,159 @@
+// Frame lists and output names.
+
+#include "render/cli/frame_list.h"
+
+#include <gtest/gtest.h>
+
+#include <climits>
+#include <fstream>
+
+#include "engine/base/errors.h"
+#include "render/cli/output_path.h"
+#include "tests/support/scratch_folder.h"
+
+namespace aleph {
+namespace {
+
+using Frames = std::vector<int>;
+
+std::string refusal(std::string_view text) {
+    try {
+        parse_frame_list(text);
+    } catch (const InputError& e) {
+        EXPECT_EQ(e.place(), "--frames");
+        return e.reason();
+    }
+    return "(accepted)";
+}
+
+TEST(FrameList, ReadsNumbersRangesAndSteps) {
+    EXPECT_EQ(parse_frame_list("7"), (Frames{7}));
+    EXPECT_EQ(parse_frame_list("1-4"), (Frames{1, 2, 3, 4}));
+    EXPECT_EQ(parse_frame_list("1-3,20-26x2"), (Frames{1, 2, 3, 20, 22, 24, 26}));
+    EXPECT_EQ(parse_frame_list("1-10x4"), (Frames{1, 5, 9}));
+    EXPECT_EQ(parse_frame_list("5-5"), (Frames{5}));
+    EXPECT_EQ(parse_frame_list(" 1 , 2-3 "), (Frames{1, 2, 3}));
+}
+
+TEST(FrameList, NegativeFrames) {
+    EXPECT_EQ(parse_frame_list("-3"), (Frames{-3}));
+    EXPECT_EQ(parse_frame_list("-2-1"), (Frames{-2, -1, 0, 1}));
+    EXPECT_EQ(parse_frame_list("-5--1x2"), (Frames{-5, -3, -1}));
+}
+
+TEST(FrameList, KeepsTheOrderWithoutRepeats) {
+    EXPECT_EQ(parse_frame_list("9,1-3,2,9,0"), (Frames{9, 1, 2, 3, 0}));
+}
+
+TEST(FrameList, EdgesOf32Bits) {
+    EXPECT_EQ(parse_frame_list("2147483646-2147483647"), (Frames{INT_MAX - 1, INT_MAX}));
+    EXPECT_EQ(parse_frame_list("-2147483648-2147483647x2147483647"), (Frames{INT_MIN, -1, INT_MAX - 1}));
+}
+
+TEST(FrameList, RefusesWithAReason) {
+    for (const char* text : {"", ",", "1,", ",1", "1,,2", " "}) {
+        EXPECT_NE(refusal(text).find("a frame is missing"), std::string::npos) << text;
+    }
+    for (const char* text : {"a", "1-", "1x2", "1-5x", "1-5y2", "1 2", "1.5", "1-5x2x2", "--5", "+1", "0x10", "1-b"}) {
+        EXPECT_NE(refusal(text).find("expected N, A-B or A-BxS"), std::string::npos) << text;
+    }
+    EXPECT_NE(refusal("10-1").find("before the first"), std::string::npos);
+    EXPECT_NE(refusal("-1--5").find("before the first"), std::string::npos);
+    EXPECT_NE(refusal("1-5x0").find("step"), std::string::npos);
+    EXPECT_NE(refusal("1-5x-1").find("step"), std::string::npos);
+    EXPECT_NE(refusal("2147483648").find("too large"), std::string::npos);
+    EXPECT_NE(refusal("1-99999999999999999999").find("too large"), std::string::npos);
+}
+
+TEST(FrameList, ColonNamesBothMeanings) {
+    const std::string reason = refusal("1-20:2");
+    EXPECT_NE(reason.find("step to Slurm"), std::string::npos);
+    EXPECT_NE(reason.find("stagger to Fileseq"), std::string::npos);
+}
+
+TEST(FrameList, TenMillionFramesAndNoMore) {
+    EXPECT_EQ(parse_frame_list("1-10000000").size(), 10'000'000u);
+    EXPECT_NE(refusal("0-10000000").find("more than"), std::string::npos);
+    EXPECT_NE(refusal("1-6000000,1-6000000").find("more than"), std::string::npos);
+    EXPECT_NE(refusal("-2147483648-2147483647").find("more than"), std::string::npos);
+}
+
+TEST(FrameList, WritesCompactRanges) {
+    EXPECT_EQ(format_frame_list({}), "");
+    EXPECT_EQ(format_frame_list({3}), "3");
+    EXPECT_EQ(format_frame_list({3, 4}), "3,4");
+    EXPECT_EQ(format_frame_list({1, 2, 3, 7, 9, 11, 20}), "1-3,7-11x2,20");
+    EXPECT_EQ(format_frame_list({-3, -2, -1, 0}), "-3-0");
+    EXPECT_EQ(format_frame_list({-5, -3, -1}), "-5--1x2");
+    EXPECT_EQ(format_frame_list({5, 4, 3}), "5,4,3");
+    EXPECT_EQ(format_frame_list({INT_MIN, 0, INT_MAX}), "-2147483648,0,2147483647");
+}
+
+TEST(FrameList, RoundTrip) {
+    for (const Frames& frames : {Frames{1, 2, 4, 6, 8, 9, 10}, Frames{0, 10, 20, 5, 6, 7}, Frames{-4, -2, 0, 1, 2, 3},
+                                 Frames{INT_MIN, INT_MIN + 1, INT_MIN + 2, INT_MAX}}) {
+        EXPECT_EQ(parse_frame_list(format_frame_list(frames)), frames);
+    }
+}
+
+TEST(OutputPath, PutsTheNumberIn) {
+    EXPECT_EQ(output_path("a.####.exr", "pool", 7), "a.0007.exr");
+    EXPECT_EQ(output_path("a.%04d.exr", "pool", 7), "a.0007.exr");
+    EXPECT_EQ(output_path("a.%d.exr", "pool", 7), "a.7.exr");
+    EXPECT_EQ(output_path("a.#.exr", "pool", 12), "a.12.exr");
+    EXPECT_EQ(output_path("x/y/a_######.png", "pool", 12), "x/y/a_000012.png");
+    EXPECT_EQ(output_path("a.####.exr", "pool", 123456), "a.123456.exr");
+    EXPECT_EQ(output_path("still.exr", "pool", 5), "still.exr");
+}
+
+TEST(OutputPath, NegativeFramesCountTheirSign) {
+    EXPECT_EQ(output_path("a.####.exr", "pool", -3), "a.-003.exr");
+    EXPECT_EQ(output_path("a.%04d.exr", "pool", -3), "a.-003.exr");
+    EXPECT_EQ(output_path("a.#.exr", "pool", INT_MIN), "a.-2147483648.exr");
+}
+
+TEST(OutputPath, Folders) {
+    const ScratchFolder folder;
+    EXPECT_EQ(output_path("", "pool", 3), "pool.0003.exr");
+    EXPECT_EQ(output_path("out/", "pool", 3), "out/pool.0003.exr");
+    EXPECT_EQ(output_path("new", "pool", 3), "new/pool.0003.exr");
+    EXPECT_EQ(output_path(".", "pool", 3), "./pool.0003.exr");
+    std::filesystem::create_directory(folder / "v1.2");
+    EXPECT_EQ(output_path((folder / "v1.2").string(), "pool", 3), folder / "v1.2" / "pool.0003.exr");
+    EXPECT_EQ(output_path("take#1/a.##.exr", "pool", 3), "take#1/a.03.exr");
+}
+
+TEST(OutputPath, RefusesPatternsWithTwoMeanings) {
+    for (const char* pattern : {"a.##.##.exr", "a.%d.%d.exr", "a.#.%04d.exr", "a.%s.exr", "a.%.exr", "a%", "a.%0d.exr",
+                                "a.%012d.exr", "100%.exr"}) {
+        EXPECT_THROW(output_path(pattern, "pool", 1), InputError) << pattern;
+    }
+}
+
+TEST(OutputPath, PrepareMakesTheLastFolderOnly) {
+    const ScratchFolder folder;
+    prepare_output((folder / "out").string(), "pool", 10);
+    EXPECT_TRUE(std::filesystem::is_directory(folder / "out"));
+    prepare_output((folder / "shots/a.####.exr").string(), "pool", 10);
+    EXPECT_TRUE(std::filesystem::is_directory(folder / "shots"));
+    EXPECT_FALSE(std::filesystem::exists(folder / "shots/a.0001.exr"));
+    try {
+        prepare_output((folder / "no/such/a.####.exr").string(), "pool", 10);
+        FAIL();
+    } catch (const OutputError& e) {
+        EXPECT_NE(std::string(e.what()).find("'" + (folder / "no").string() + "' does not exist"), std::string::npos)
+            << e.what();
+    }
+    EXPECT_FALSE(std::filesystem::exists(folder / "no"));
+    std::ofstream(folder / "file") << "x";
+    EXPECT_THROW(prepare_output((folder / "file/a.####.exr").string(), "pool", 1), OutputError);
+}
+
+TEST(OutputPath, SeveralFramesNeedANumber) {
+    const ScratchFolder folder;
+    EXPECT_NO_THROW(prepare_output((folder / "a.exr").string(), "pool", 1));
+    EXPECT_THROW(prepare_output((folder / "a.exr").string(), "pool", 2), InputError);
+}
+
+}  // namespace
+}  // namespace aleph

@@ -1,0 +1,258 @@
+// Direct light against closed forms: point, directional, area and environment light; multiple importance sampling.
+
+#include "render/direct_light.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "tests/support/render_scenes.h"
+
+namespace aleph {
+namespace {
+
+constexpr double pi = std::numbers::pi;
+const glm::vec3 up(0.0f, 1.0f, 0.0f);
+
+struct Lighting {
+    explicit Lighting(Scene scene) : stage(std::move(scene)), tracer(stage.rays) {}
+    Rgb at(const glm::vec3& position, const SurfaceMaterial& material, const glm::vec3& view, int samples = 1,
+           std::uint32_t seed = 0) {
+        RandomStream random({seed, 1, 2, 3});
+        return compute_direct_light(stage.lighting(), tracer, make_point(position, up), material, view, {samples},
+                                    random, counts);
+    }
+    Mean mean_at(const glm::vec3& position, const SurfaceMaterial& material, const glm::vec3& view, int samples,
+                 int runs) {
+        Mean mean;
+        for (int i = 0; i < runs; ++i) mean.add(at(position, material, view, samples, static_cast<std::uint32_t>(i)).x);
+        return mean;
+    }
+    Stage stage;
+    Tracer tracer;
+    RayCounts counts;
+};
+
+TEST(DirectLight, PointLightIsCandelaOverSquaredDistance) {
+    Scene scene;
+    add_light(scene, Light::Kind::point, {30.0, 20.0, 10.0}, {3.0, 4.0, 0.0});
+    Lighting lighting(scene);
+    const Rgb found = lighting.at(glm::vec3(0.0f), make_lambert(0.5f), up);
+    const double expected = 0.5 / pi * 0.8 / 25.0;  // cos = 4/5, d = 5
+    for (int c = 0; c < 3; ++c) EXPECT_NEAR(found[c], expected * (30.0 - 10.0 * c), 1e-5 * expected * 30.0);
+    EXPECT_EQ(lighting.counts.shadow, 1u);
+    // The quick estimate gives the same where no area is sampled.
+    const Rgb quick = estimate_direct_light(lighting.stage.lighting(), lighting.tracer, make_point(glm::vec3(0.0f), up),
+                                            make_lambert(0.5f), up, {4}, lighting.counts);
+    EXPECT_NEAR(quick.x, found.x, 1e-6f);
+}
+
+TEST(DirectLight, RangeFadesAPointLightOut) {
+    // KHR_lights_punctual: max(min(1 - (d / range)^4, 1), 0) / d^2.
+    for (const double range : {2.0, 1.0, 0.9}) {
+        Scene scene;
+        add_light(scene, Light::Kind::point, glm::dvec3(pi), {0.0, 1.0, 0.0});
+        scene.lights[0].range = range;
+        Lighting lighting(scene);
+        const double window = std::max(0.0, 1.0 - 1.0 / std::pow(range, 4.0));
+        EXPECT_NEAR(lighting.at(glm::vec3(0.0f), make_lambert(1.0f), up).x, window, 1e-5) << range;
+    }
+}
+
+TEST(DirectLight, DirectionalLightIsLux) {
+    Scene scene;
+    add_light(scene, Light::Kind::directional, glm::dvec3(7.0), glm::dvec3(0.0),
+              glm::angleAxis(-pi / 3, glm::dvec3(1.0, 0.0, 0.0)));  // 60 degrees below the horizon
+    Lighting lighting(scene);
+    EXPECT_NEAR(lighting.at(glm::vec3(0.0f), make_lambert(0.5f), up).x, 0.5 / pi * 7.0 * std::sin(pi / 3), 1e-5);
+}
+
+TEST(DirectLight, BehindAWallOrTheHorizonItIsDark) {
+    Scene scene;
+    add_light(scene, Light::Kind::point, glm::dvec3(30.0), {0.0, 2.0, 0.0});
+    add_light(scene, Light::Kind::directional, glm::dvec3(30.0), glm::dvec3(0.0), z_to_up);
+    add_light(scene, Light::Kind::point, glm::dvec3(30.0), {0.0, -2.0, 0.0});
+    add_mesh(scene, make_quad(1.0, 1.0, add_lambert(scene, glm::dvec3(1.0))), {0.0, 1.0, 0.0}, z_to_up);
+    Lighting lighting(scene);
+    EXPECT_EQ(lighting.at(glm::vec3(0.0f), make_lambert(0.5f), up), Rgb(0.0f));
+    EXPECT_GT(lighting.at({1.5f, 0.0f, 0.0f}, make_lambert(0.5f), up).x, 0.0f);  // past the blind, lit from above
+}
+
+Scene make_square_lamp(const glm::dquat& turn, bool double_sided, double size = 2.0, double height = 1.5) {
+    Scene scene;
+    const int lamp = add_lambert(scene, glm::dvec3(0.0), glm::dvec3(5.0), double_sided);
+    add_mesh(scene, make_quad(size, size, lamp), {0.0, height, 0.0}, turn);
+    return scene;
+}
+
+/// Form factor of a square overhead, four corners (Howell's catalogue, B-4).
+double square_factor(double size, double height) {
+    const double x = 0.5 * size / height, a = std::sqrt(1.0 + x * x);
+    return 4.0 * 2.0 * x / a * std::atan(x / a) / (2.0 * pi);
+}
+
+TEST(DirectLight, SquareLampOverhead) {
+    for (const double height : {0.5, 1.5, 4.0}) {
+        Lighting lighting(make_square_lamp(z_to_down, false, 2.0, height));
+        const Mean mean = lighting.mean_at(glm::vec3(0.0f), make_lambert(0.6f), up, {16}, 300);
+        const double expected = 0.6 * 5.0 * square_factor(2.0, height);
+        EXPECT_NEAR(mean.mean(), expected, 3.0 * mean.error());
+        EXPECT_NEAR(mean.mean(), expected, 0.01 * expected);
+        // The fixed pattern of the quick estimate: biased, but near.
+        const Rgb quick =
+            estimate_direct_light(lighting.stage.lighting(), lighting.tracer, make_point(glm::vec3(0.0f), up),
+                                  make_lambert(0.6f), up, {16}, lighting.counts);
+        EXPECT_NEAR(quick.x, expected, 0.1 * expected);
+    }
+}
+
+TEST(DirectLight, OffsetRaysEndBeforeTheLamp) {
+    // Far from the anchor rays start half a millimetre off the surface; they must not run into the lamp for that.
+    Lighting lighting(make_square_lamp(z_to_down, false, 2.0, 0.5));
+    SurfacePoint point = make_point(glm::vec3(0.0f), up, 5e-4f);
+    Mean mean;
+    for (std::uint32_t seed = 0; seed < 100; ++seed) {
+        RandomStream random({seed, 1, 2, 3});
+        mean.add(compute_direct_light(lighting.stage.lighting(), lighting.tracer, point, make_lambert(0.6f), up, {16},
+                                      random, lighting.counts)
+                     .x);
+    }
+    const double expected = 0.6 * 5.0 * square_factor(2.0, 0.5);
+    EXPECT_NEAR(mean.mean(), expected, 3.0 * mean.error() + 1e-3 * expected);
+    const Rgb quick = estimate_direct_light(lighting.stage.lighting(), lighting.tracer, point, make_lambert(0.6f), up,
+                                            16, lighting.counts);
+    EXPECT_NEAR(quick.x, expected, 0.1 * expected);
+}
+
+TEST(DirectLight, EmittersShineFromTheirFrontOrFromBoth) {
+    const auto light_below = [](const glm::dquat& turn, bool double_sided) {
+        Lighting lighting(make_square_lamp(turn, double_sided));
+        return lighting.mean_at(glm::vec3(0.0f), make_lambert(0.6f), up, {16}, 100);
+    };
+    EXPECT_EQ(light_below(z_to_up, false).mean(), 0.0);
+    const Mean front = light_below(z_to_down, false);
+    for (const Mean& mean : {light_below(z_to_up, true), light_below(z_to_down, true)}) {
+        EXPECT_NEAR(mean.mean(), front.mean(), 3.0 * std::hypot(mean.error(), front.error()));
+    }
+}
+
+TEST(DirectLight, EnvironmentOnAnOpenLambertPlaneIsAlbedoTimesRadiance) {
+    Scene scene;
+    scene.environment = Track<glm::dvec3>(glm::dvec3(2.0, 1.0, 0.5));
+    Lighting lighting(scene);
+    const Rgb found = lighting.at(glm::vec3(0.0f), make_lambert(0.6f), up, 16);
+    EXPECT_NEAR(found.x, 1.2f, 1e-5f);
+    EXPECT_NEAR(found.y, 0.6f, 1e-5f);
+    EXPECT_NEAR(found.z, 0.3f, 1e-5f);
+}
+
+/// Directional albedo of a white metal by summing its lobe over a grid of half vectors.
+double albedo_of(const SurfaceMaterial& material, const glm::vec3& view) {
+    constexpr int steps = 400;
+    double sum = 0.0;
+    for (int i = 0; i < steps; ++i) {
+        const double u = (i + 0.5) / steps, ratio = std::sqrt(u / (1.0 - u)), tangent = material.alpha * ratio;
+        const double cosine = 1.0 / std::sqrt(1.0 + tangent * tangent), sine = tangent * cosine;
+        const double ring = sine * cosine * cosine * material.alpha / (2.0 * ratio * (1.0 - u) * (1.0 - u)) / steps;
+        for (int k = 0; k < steps; ++k) {
+            const double azimuth = 2.0 * pi * (k + 0.5) / steps;
+            const glm::dvec3 h(sine * std::cos(azimuth), sine * std::sin(azimuth), cosine), v(view);
+            const double vh = glm::dot(v, h);
+            const glm::dvec3 light = 2.0 * vh * h - v;
+            if (vh <= 0.0 || light.z <= 0.0) continue;
+            sum += evaluate_glossy(material, view, glm::vec3(light)).x * light.z * 4.0 * vh * ring * 2.0 * pi / steps;
+        }
+    }
+    return sum;
+}
+
+TEST(DirectLight, WhiteMetalInAWhiteFurnace) {
+    Scene scene;
+    scene.environment = Track<glm::dvec3>(glm::dvec3(1.0));
+    Lighting lighting(scene);
+    for (const float alpha : {0.01f, 0.1f, 0.4f, 1.0f}) {
+        for (const float cosine : {1.0f, 0.6f, 0.15f}) {
+            const SurfaceMaterial metal = make_metal(alpha);
+            const glm::vec3 view(std::sqrt(1.0f - cosine * cosine), cosine, 0.0f);
+            const Mean mean = lighting.mean_at(glm::vec3(0.0f), metal, view, 64, 200);
+            const double expected = albedo_of(metal, make_basis(up).to_local(view));
+            EXPECT_NEAR(mean.mean(), expected, 3.0 * mean.error() + 1e-3) << alpha << ' ' << cosine;
+            EXPECT_LE(mean.mean(), 1.0 + 3.0 * mean.error() + 1e-4) << alpha << ' ' << cosine;
+        }
+    }
+}
+
+TEST(DirectLight, LightAndLobeSamplingAgreeWithTheirCombination) {
+    // A lamp in the mirror direction: for broad lobes lamp samples are the better ones, for narrow ones the lobe's.
+    for (const float alpha : {0.05f, 0.3f, 1.0f}) {
+        Lighting lighting(make_square_lamp(z_to_down, false));
+        const SurfaceMaterial metal = make_metal(alpha);
+        const glm::vec3 view = glm::normalize(glm::vec3(-0.4f, 1.0f, 0.1f));
+        const Basis basis = make_basis(up);
+        const glm::vec3 local_view = basis.to_local(view);
+        const SurfacePoint point = make_point(glm::vec3(0.0f), up);
+        std::mt19937 engine(5);
+        std::uniform_real_distribution<float> unit(0.0f, 0x1.fffffep-1f);
+        Mean lamp_only, lobe_only;
+        for (int i = 0; i < 100'000; ++i) {
+            const LightSample sample = sample_light(lighting.stage.shading, lighting.stage.lights, 0, point.position,
+                                                    up, {unit(engine), unit(engine)});
+            const float cosine = glm::dot(up, sample.direction);
+            lamp_only.add(cosine > 0.0f ? (evaluate_glossy(metal, local_view, basis.to_local(sample.direction)) *
+                                           sample.incoming * cosine)
+                                              .x
+                                        : 0.0);
+            const glm::vec3 local = sample_glossy(metal, local_view, {unit(engine), unit(engine)});
+            double found = 0.0;
+            if (local.z > 0.0f &&
+                lighting.tracer.intersect({point.ray_origin(), basis.to_world(local)}).instance == 0) {
+                found =
+                    evaluate_glossy(metal, local_view, local).x * 5.0 * local.z / pdf_glossy(metal, local_view, local);
+            }
+            lobe_only.add(found);
+        }
+        const Mean both = lighting.mean_at(glm::vec3(0.0f), metal, view, 16, 2000);
+        EXPECT_GT(both.mean(), 0.1);
+        EXPECT_NEAR(both.mean(), lamp_only.mean(), 3.0 * std::hypot(both.error(), lamp_only.error())) << alpha;
+        EXPECT_NEAR(both.mean(), lobe_only.mean(), 3.0 * std::hypot(both.error(), lobe_only.error())) << alpha;
+        // The point of combining: never much worse than the better of the two, per ray (16 + 16 per run).
+        const double rays_both = 2000.0 * 32.0, rays_one = 100'000.0;
+        const double better = std::min(lamp_only.error(), lobe_only.error()) * std::sqrt(rays_one);
+        EXPECT_LT(both.error() * std::sqrt(rays_both), 2.0 * better) << alpha;
+    }
+}
+
+TEST(DirectLight, UsesAFixedNumberOfRandomDimensions) {
+    Lighting lighting(make_square_lamp(z_to_down, false));
+    const auto next_after = [&](const SurfaceMaterial& material, const glm::vec3& position) {
+        RandomStream random({1, 2, 3, 4});
+        compute_direct_light(lighting.stage.lighting(), lighting.tracer, make_point(position, up), material, up, {4},
+                             random, lighting.counts);
+        return random.next();
+    };
+    const float expected = next_after(make_lambert(0.5f), glm::vec3(0.0f));
+    EXPECT_EQ(next_after(make_metal(0.2f), glm::vec3(0.0f)), expected);
+    EXPECT_EQ(next_after(make_lambert(0.0f), {0.0f, 5.0f, 0.0f}), expected);
+}
+
+TEST(DirectLight, LatticePointsAreEven) {
+    for (const int n : {1, 2, 5, 16, 64}) {
+        // Each of the n strata of x holds one point; y, a golden-ratio sequence, leaves no large gap.
+        std::vector<int> strata(static_cast<std::size_t>(n), 0);
+        std::vector<float> ys;
+        for (int i = 0; i < n; ++i) {
+            const glm::vec2 p = lattice_point(i, n, {0.0f, 0.3f});
+            ASSERT_GE(std::min(p.x, p.y), 0.0f);
+            ASSERT_LT(std::max(p.x, p.y), 1.0f);
+            ++strata[static_cast<std::size_t>(p.x * static_cast<float>(n))];
+            ys.push_back(p.y);
+        }
+        for (const int count : strata) EXPECT_EQ(count, 1);
+        std::sort(ys.begin(), ys.end());
+        for (std::size_t i = 1; i < ys.size(); ++i) EXPECT_LT(ys[i] - ys[i - 1], 3.0f / static_cast<float>(n));
+    }
+    EXPECT_LT(lattice_point(0, 1, {0.49999997f, 0.99999997f}).x, 1.0f);
+}
+
+}  // namespace
+}  // namespace aleph

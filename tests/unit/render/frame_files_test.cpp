@@ -1,0 +1,157 @@
+// Frames as files: the channels that DESIGN names, motion to the last bit, statistics that add up.
+
+#include "render/frame_files.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "engine/load/load_scene.h"
+#include "tests/support/scratch_folder.h"
+
+namespace aleph {
+namespace {
+
+struct Rendered {
+    Scene scene = load_scene(ALEPH_SOURCE_DIR "/scenes/cornell/scene.json");
+    RenderSettings settings;
+    FrameOutput output;
+    double exposure = 0.0;
+
+    explicit Rendered(std::int64_t frame) {
+        settings.width = 48;
+        settings.height = 36;
+        settings.spp = 1;
+        settings.gather = 16;
+        settings.light_samples = 2;
+        Sequence sequence(scene, settings);
+        output = sequence.render(frame, {.frame = true, .maps = true, .progress = {}});
+        exposure = sequence.exposure();
+    }
+    ChannelImage image() const { return make_frame_image(output, true, scene, settings, exposure); }
+};
+
+TEST(FrameFiles, HoldEveryChannelOfTheDesign) {
+    const ChannelImage file = Rendered(10).image();
+    for (const char* name : {"R",
+                             "G",
+                             "B",
+                             "A",
+                             "forward.u",
+                             "forward.v",
+                             "motion.valid",
+                             "velocity.image",
+                             "velocity.retinal",
+                             "saliency.Y",
+                             "conspicuity.intensity",
+                             "conspicuity.color",
+                             "conspicuity.orientation",
+                             "conspicuity.motion",
+                             "aleph.Y",
+                             "alpha.acc",
+                             "threshold.Y",
+                             "estimate.R",
+                             "estimate.G",
+                             "estimate.B",
+                             "Z",
+                             "N.X",
+                             "N.Y",
+                             "N.Z",
+                             "objectId.X",
+                             "samples.Y",
+                             "records.Y",
+                             "invalid.Y"}) {
+        EXPECT_NE(file.find(name), nullptr) << name;
+    }
+    EXPECT_EQ(file.channels.size(), 28u);
+    EXPECT_EQ(std::get<double>(file.metadata.at("whiteLuminance")), 100.0);
+    EXPECT_EQ((std::get<std::array<int, 2>>(file.metadata.at("framesPerSecond"))), (std::array<int, 2>{30, 1}));
+}
+
+TEST(FrameFiles, MotionInTheFileIsTheFieldToOneUlpWithYUp) {
+    const Rendered rendered(10);
+    const ScratchFolder folder;
+    write_exr(folder / "frame.exr", rendered.image());
+    const ChannelImage read = read_image(folder / "frame.exr");
+    const Image<float>&u = *read.find("forward.u"), &v = *read.find("forward.v");
+    int moving = 0;
+    for (std::size_t i = 0; i < u.size(); ++i) {
+        const glm::dvec2 d = rendered.output.motion.displacement.pixels[i];
+        EXPECT_LE(std::abs(u.pixels[i] - d.x), std::abs(d.x) * 0x1p-24);
+        EXPECT_LE(std::abs(v.pixels[i] + d.y), std::abs(d.y) * 0x1p-24);
+        EXPECT_FALSE(std::signbit(v.pixels[i]) && v.pixels[i] == 0.0f);
+        moving += d != glm::dvec2(0.0);
+    }
+    EXPECT_GT(moving, 20);
+    EXPECT_LT(moving, static_cast<int>(u.size()));
+}
+
+TEST(FrameFiles, GeometryChannelsAgreeWithTheCamera) {
+    const Rendered rendered(10);
+    const ChannelImage file = rendered.image();
+    const CameraView& view = rendered.output.view;
+    for (int y = 0; y < view.height; y += 5) {
+        for (int x = 0; x < view.width; x += 5) {
+            const float z = (*file.find("Z"))(x, y);
+            const glm::vec3 n((*file.find("N.X"))(x, y), (*file.find("N.Y"))(x, y), (*file.find("N.Z"))(x, y));
+            if ((*file.find("objectId.X"))(x, y) < 0.0f) {
+                EXPECT_EQ(z, 1e30f);
+                EXPECT_EQ(n, glm::vec3(0.0f));
+                EXPECT_EQ((*file.find("motion.valid"))(x, y), 0.0f);
+                continue;
+            }
+            const CameraRay ray = make_camera_ray(view, x + 0.5, y + 0.5);
+            const double planar = rendered.output.hits(x, y).distance * glm::dot(ray.direction, -view.axes[2]);
+            EXPECT_NEAR(z, planar, 1e-4 * planar);
+            EXPECT_NEAR(glm::length(n), 1.0f, 1e-5f);
+            EXPECT_LT(glm::dot(glm::dvec3(n), ray.direction), 0.0);
+        }
+    }
+}
+
+TEST(FrameFiles, StatisticsAddUp) {
+    const Rendered rendered(10);
+    const auto json = nlohmann::json::parse(
+        format_statistics({rendered.output.statistics}, rendered.scene, rendered.settings, rendered.exposure));
+    const auto& frame = json.at("frames").at(0);
+    EXPECT_EQ(frame.at("frame"), 10);
+    const auto& rays = frame.at("rays");
+    std::uint64_t sum = 0;
+    for (const char* kind : {"primary", "shadow", "gather", "glossy", "specular", "path"}) {
+        sum += rays.at(kind).get<std::uint64_t>();
+    }
+    EXPECT_EQ(sum, rays.at("traced").get<std::uint64_t>());
+    EXPECT_GT(sum, 48u * 36u);
+    EXPECT_EQ(rays.at("gather").get<std::uint64_t>(), 16 * frame.at("cache").at("records").get<std::uint64_t>());
+    double stages = 0.0;
+    for (const auto& [name, seconds] : frame.at("seconds").items()) {
+        if (name != "total") stages += seconds.get<double>();
+    }
+    EXPECT_LE(stages, 1.01 * frame.at("seconds").at("total").get<double>());
+    double records = 0.0;
+    for (const float r : rendered.output.shaded.records.pixels) records += r;
+    EXPECT_EQ(records, static_cast<double>(rendered.output.statistics.records));
+    RenderSettings back;
+    SettingMap map;
+    for (const auto& [key, value] : json.at("settings").items()) {
+        if (value.is_boolean()) map[key] = value.get<bool>();
+        if (value.is_number()) map[key] = value.get<double>();
+        if (value.is_string()) map[key] = value.get<std::string>();
+    }
+    apply_settings(back, map, "stats");
+    EXPECT_EQ(back, rendered.settings);
+}
+
+TEST(FrameFiles, NothingIsPerceivedWithoutAGuideOrMaps) {
+    Rendered rendered(10);
+    rendered.settings.perception.guide = Guide::none;
+    const FrameOutput out = Sequence(rendered.scene, rendered.settings).render(10);
+    EXPECT_TRUE(out.estimate.empty());
+    EXPECT_TRUE(out.velocity.empty());
+    EXPECT_EQ(out.statistics.seconds.perception, 0.0);
+    for (const float alpha : out.alpha.pixels) EXPECT_EQ(alpha, static_cast<float>(rendered.settings.accuracy));
+}
+
+}  // namespace
+}  // namespace aleph

@@ -1,0 +1,263 @@
+// A frame end to end: coverage, exposure, counts of rays and records, samples thrown away, mirrored and flattened
+// scenes.
+
+#include "render/frame.h"
+
+#include <gtest/gtest.h>
+
+#include "render/sequence.h"
+#include "tests/support/render_scenes.h"
+
+namespace aleph {
+namespace {
+
+/// A ball and a box on a floor, with everything that can cast a ray: lamp, point light, sky, glossy surfaces.
+Scene make_everything(bool mirrored = false) {
+    Scene scene;
+    scene.exposure = 1.0;
+    scene.environment = Track<glm::dvec3>(glm::dvec3(0.2, 0.25, 0.3));
+    const int white = add_lambert(scene, glm::dvec3(0.7), glm::dvec3(0.0), true);
+    const int lamp = add_lambert(scene, glm::dvec3(0.0), glm::dvec3(8.0, 7.0, 5.0));
+    Material glossy;
+    glossy.base_color = glm::dvec3(0.8, 0.3, 0.2);
+    glossy.metallic = 0.2;
+    glossy.roughness = 0.3;
+    scene.materials.push_back(glossy);
+    const int root = add_node(scene, glm::dvec3(0.0), no_turn);
+    if (mirrored) scene.nodes[0].scale = glm::dvec3(-1.0, 1.0, 1.0);
+    Shape ball;
+    ball.kind = Shape::Kind::sphere;
+    ball.radius = 0.6;
+    ball.segments = 32;
+    add_mesh(scene, make_quad(6.0, 6.0, white), glm::dvec3(0.0), z_to_up, root);
+    add_mesh(scene, make_shape_mesh(ball, 2), {0.7, 0.6, 0.2}, no_turn, root);
+    add_mesh(scene, make_box({0.8, 1.4, 0.8}, white), {-0.8, 0.7, -0.6}, glm::angleAxis(0.5, glm::dvec3(0.0, 1.0, 0.0)),
+             root);
+    add_mesh(scene, make_quad(1.0, 0.7, lamp), {-0.4, 2.5, 0.5}, z_to_down, root);
+    add_light(scene, Light::Kind::point, glm::dvec3(2.0), {1.5, 1.5, 1.0}, no_turn, root);
+    add_camera(scene, {0.0, 1.6, 4.0}, {0.0, 0.5, 0.0}, 0.9);
+    return scene;
+}
+
+TEST(Frame, RaysByPurposeSumToWhatTheWrapperTraced) {
+    const Scene scene = make_everything();
+    for (const int spp : {1, 3}) {
+        for (const double accuracy : {0.0, 0.3}) {
+            for (const Guide guide : {Guide::none, Guide::saliency}) {
+                RenderSettings settings = plain_settings(accuracy, 16);
+                settings.width = 40;
+                settings.height = 30;
+                settings.spp = spp;
+                settings.light_samples = 4;
+                settings.perception.guide = guide;
+                Sequence sequence(scene, settings);
+                FrameRequest request;
+                request.maps = guide == Guide::saliency;
+                const FrameStatistics s = sequence.render(0, request).statistics;
+                EXPECT_EQ(s.rays.total(), s.traced_rays + s.invalid_rays);
+                EXPECT_EQ(s.invalid_rays, 0u);
+                EXPECT_GT(s.rays.shadow, 0u);
+                EXPECT_GT(s.rays.glossy, 0u);
+                EXPECT_EQ(s.rays.gather % 16, 0u);
+                EXPECT_EQ(s.rays.gather, 16 * s.records);
+                EXPECT_EQ(s.rays.specular + s.rays.path, 0u);
+                EXPECT_EQ(s.samples, 40u * 30u * static_cast<unsigned>(spp));
+                EXPECT_EQ(s.nan_count, 0u);
+            }
+        }
+    }
+}
+
+TEST(Frame, WithoutBouncesThereIsNoGathering) {
+    const Stage stage(make_everything(), 40, 30);
+    RenderSettings settings = plain_settings(0.15, 16);
+    settings.bounces = 0;
+    const ShadedFrame out = shade(stage, settings);
+    EXPECT_EQ(out.rays.gather, 0u);
+    EXPECT_EQ(out.record_count, 0u);
+    EXPECT_EQ(out.cache.lookups, 0u);
+}
+
+TEST(Frame, RecordsPerPixelAddUp) {
+    const Stage stage(make_everything(), 40, 30);
+    for (const double accuracy : {0.0, 0.2}) {
+        const ShadedFrame out = shade(stage, plain_settings(accuracy, 16));
+        double records = 0.0;
+        for (const float r : out.records.pixels) records += r;
+        EXPECT_EQ(records, static_cast<double>(out.record_count));
+        EXPECT_GT(records, 10.0);
+        EXPECT_LE(out.cache.hits, out.cache.lookups);
+    }
+}
+
+TEST(Frame, EmissionCoverageAndBackground) {
+    Scene scene;
+    scene.environment = Track<glm::dvec3>(glm::dvec3(0.5, 0.25, 0.125));
+    add_mesh(scene, make_quad(1.0, 20.0, add_lambert(scene, glm::dvec3(0.0), {2.0, 4.0, 8.0})), {0.5, 0.0, -2.0});
+    add_camera(scene, glm::dvec3(0.0), {0.0, 0.0, -1.0}, 0.9);
+    const Stage stage(std::move(scene), 16, 12);
+    RenderSettings settings = plain_settings(0.15, 16);
+    for (const int spp : {1, 16}) {
+        settings.spp = spp;
+        settings.bounces = 0;
+        const Image<float> accuracy(16, 12, 0.15f);
+        const LightingContext lighting = stage.lighting();
+        const IndirectContext context{lighting, stage.view, settings, accuracy, 0, 1.0f, {}};
+        const ShadedFrame out = shade_frame(context, cast_sample(stage.rays, stage.view, 0, 1, nullptr), 3.0);
+        // The lamp covers columns 8 (its edge lies on the pixels' border) to 8 + half the frame's height in m.
+        EXPECT_EQ(out.color(9, 6), Rgb(6.0f, 12.0f, 24.0f));
+        EXPECT_EQ(out.coverage(9, 6), 1.0f);
+        EXPECT_EQ(out.color(5, 6), Rgb(1.5f, 0.75f, 0.375f));
+        EXPECT_EQ(out.coverage(5, 6), 0.0f);
+        EXPECT_EQ(out.samples(5, 6), static_cast<float>(spp));
+    }
+}
+
+TEST(Frame, SamplesOfAPixelFollowItsArea) {
+    // An edge at .3 of a pixel: with 64 samples the share on one side is right within the lattice's discrepancy.
+    Scene scene;
+    const double pixel = 2.0 * std::tan(0.45) * 2.0 / 12.0;  // m per pixel at the lamp
+    add_mesh(scene, make_quad(2.0, 20.0, add_lambert(scene, glm::dvec3(0.0), glm::dvec3(1.0))),
+             {1.0 + 0.3 * pixel, 0.0, -2.0});
+    add_camera(scene, glm::dvec3(0.0), {0.0, 0.0, -1.0}, 0.9);
+    const Stage stage(std::move(scene), 16, 12);
+    RenderSettings settings = plain_settings(0.15, 16);
+    settings.spp = 64;
+    settings.bounces = 0;
+    const ShadedFrame out = shade(stage, settings);
+    EXPECT_NEAR(out.coverage(8, 6), 0.7f, 0.03f);
+    EXPECT_NEAR(out.color(8, 6).x, 0.7f, 0.03f);
+    EXPECT_EQ(out.coverage(9, 6), 1.0f);
+    EXPECT_EQ(out.coverage(7, 6), 0.0f);
+}
+
+TEST(Frame, SamplesThatAreNotFiniteAreThrownAwayAndCounted) {
+    Scene scene;
+    add_mesh(scene, make_quad(1.0, 20.0, add_lambert(scene, glm::dvec3(0.0), glm::dvec3(3e38))), {0.5, 0.0, -2.0});
+    scene.materials[0].emission_strength = 10.0;  // over what a float holds
+    add_camera(scene, glm::dvec3(0.0), {0.0, 0.0, -1.0}, 0.9);
+    const Stage stage(std::move(scene), 16, 12);
+    const ShadedFrame out = shade(stage, plain_settings(0.15, 16));
+    double invalid = 0.0;
+    for (std::size_t i = 0; i < out.color.size(); ++i) {
+        EXPECT_EQ(out.color.pixels[i], Rgb(0.0f));
+        invalid += out.invalid.pixels[i];
+    }
+    EXPECT_EQ(static_cast<double>(out.invalid_count), invalid);
+    EXPECT_GT(invalid, 10.0);
+}
+
+TEST(Frame, TheSeedChangesNoiseOnly) {
+    const Stage stage(make_everything(), 40, 30);
+    RenderSettings settings = plain_settings(0.2, 64);
+    const Image<Rgb> first = shade(stage, settings).color, again = shade(stage, settings).color;
+    settings.seed = 1;
+    const Image<Rgb> other = shade(stage, settings).color;
+    EXPECT_EQ(first, again);
+    double difference = 0.0, sum = 0.0;
+    for (std::size_t i = 0; i < first.size(); ++i) {
+        difference += first.pixels[i].x - other.pixels[i].x;
+        sum += first.pixels[i].x;
+    }
+    EXPECT_NE(first, other);
+    EXPECT_LT(std::abs(difference), 0.01 * sum);
+}
+
+/// Without randomness: point light, no bounces, flat facets.
+Scene make_plain_scene(bool mirrored) {
+    Scene scene = make_everything(mirrored);
+    scene.environment.reset();
+    scene.materials[1].emission = glm::dvec3(0.0);
+    return scene;
+}
+
+TEST(Frame, KF17_MirroredSceneIsTheMirroredPicture) {
+    constexpr int width = 64, height = 48;
+    const Stage plain(make_plain_scene(false), width, height), mirrored(make_plain_scene(true), width, height);
+    RenderSettings settings = plain_settings(0.15, 16);
+    settings.bounces = 0;
+    const Image<Rgb> one = shade(plain, settings).color, other = shade(mirrored, settings).color;
+    const SampleHits hits = cast_sample(mirrored.rays, mirrored.view, 0, 1, nullptr);
+    int differing = 0, lit = 0;
+    for (int y = 0; y < height; ++y) {
+        for (int x = 0; x < width; ++x) {
+            const float a = one(x, y).x, b = other(width - 1 - x, y).x;
+            if (std::abs(a - b) > 1e-4f + 1e-3f * a) ++differing;
+            if (a > 0.01f) ++lit;
+            if (hits.hits(x, y).instance == no_index) continue;
+            const PixelSurface s = make_pixel_surface(mirrored.shading, mirrored.view, hits, x, y);
+            EXPECT_GT(glm::dot(s.point.normal, s.view), -0.2f);  // shading normals may lean away at silhouettes
+            EXPECT_GT(glm::dot(s.point.geometric, s.view), 0.0f);
+            EXPECT_TRUE(s.point.front) << "a mirrored outside is still an outside";
+        }
+    }
+    EXPECT_GT(lit, width * height / 3);
+    EXPECT_LE(differing, width * height / 100);  // rays along edges and shadow borders
+}
+
+TEST(Frame, KF17_MirroredWithLampAndBounce) {
+    const Stage plain(make_everything(false), 32, 24), mirrored(make_everything(true), 32, 24);
+    Mean one, other;
+    for (std::uint32_t seed = 0; seed < 8; ++seed) {
+        RenderSettings settings = plain_settings(0.2, 128);
+        settings.seed = seed;
+        const Image<Rgb> a = shade(plain, settings).color, b = shade(mirrored, settings).color;
+        double sum_a = 0.0, sum_b = 0.0;  // of the left half and of its mirror image
+        for (int y = 0; y < 24; ++y) {
+            for (int x = 0; x < 16; ++x) {
+                sum_a += a(x, y).x;
+                sum_b += b(31 - x, y).x;
+            }
+        }
+        one.add(sum_a);
+        other.add(sum_b);
+    }
+    EXPECT_NEAR(one.mean(), other.mean(), 3.0 * std::hypot(one.error(), other.error()) + 0.002 * one.mean());
+}
+
+TEST(Frame, KF18_FlattenedObjectsLeaveAPictureWithoutHoles) {
+    const auto render = [](const glm::dvec3& scale, bool keep) {
+        Scene scene = make_everything();
+        scene.nodes[3].scale = scale;  // the box
+        if (!keep) scene.nodes[3].visible = 0.0;
+        const Stage stage(std::move(scene), 40, 30);
+        const ShadedFrame out = shade(stage, plain_settings(0.2, 32));
+        EXPECT_EQ(out.invalid_count, 0u);
+        EXPECT_EQ(stage.rays.skipped_instances(), keep ? 1u : 0u);
+        return out.color;
+    };
+    const Image<Rgb> without = render(glm::dvec3(1.0), false);
+    for (const glm::dvec3 scale : {glm::dvec3(1.0, 0.0, 1.0), glm::dvec3(0.0)}) EXPECT_EQ(render(scale, true), without);
+}
+
+TEST(Frame, KF20_ScaleThroughZero) {
+    Scene scene = make_everything();
+    Track<glm::dvec3> scale;
+    scale.sampling.kind = TimeSampling::Kind::acyclic;
+    scale.sampling.times = {0.0, 2.0 / 30.0};
+    scale.values = {glm::dvec3(1.0), glm::dvec3(1.0, -1.0, 1.0)};
+    scene.nodes[3].scale = scale;
+    RenderSettings settings = plain_settings(0.3, 16);
+    settings.width = 40;
+    settings.height = 30;
+    settings.perception.guide = Guide::saliency;
+    Sequence sequence(scene, settings);
+    for (const int frame : {0, 1, 2}) {
+        FrameRequest request;
+        request.maps = true;
+        const FrameOutput out = sequence.render(frame, request);
+        EXPECT_EQ(out.statistics.nan_count, 0u);
+        bool box_seen = false;
+        for (std::size_t i = 0; i < out.hits.size(); ++i) {
+            box_seen = box_seen || out.hits.pixels[i].instance == 2;
+            ASSERT_TRUE(std::isfinite(out.velocity.pixels[i]) && std::isfinite(out.alpha.pixels[i]));
+            ASSERT_GE(out.alpha.pixels[i], 0.3f * 0.9999f);
+            ASSERT_TRUE(std::isfinite(out.shaded.color.pixels[i].x));
+        }
+        // Upright, without volume, upside down.
+        EXPECT_EQ(box_seen, frame != 1) << frame;
+    }
+}
+
+}  // namespace
+}  // namespace aleph

@@ -1,0 +1,267 @@
+// Irradiance gathered over the hemisphere against closed forms: discs, rectangles, plates, spheres; its gradients
+// against differences of the closed form.
+
+#include "render/gather.h"
+
+#include <gtest/gtest.h>
+
+#include <functional>
+
+#include "tests/support/render_scenes.h"
+
+namespace aleph {
+namespace {
+
+constexpr double pi = std::numbers::pi;
+const glm::vec3 up(0.0f, 1.0f, 0.0f);
+
+/// A ceiling lit from below by directional light, so that all of it reflects the same known radiance without noise.
+/// No floor: points ask from where one would be.
+Scene make_lit_ceiling(Mesh (*make_ceiling)(int material), const glm::dvec3& position, double albedo, double lux) {
+    Scene scene;
+    const int white = add_lambert(scene, glm::dvec3(albedo));
+    add_mesh(scene, make_ceiling(white), position);
+    add_light(scene, Light::Kind::directional, glm::dvec3(lux), glm::dvec3(0.0),
+              glm::angleAxis(pi / 2, glm::dvec3(1.0, 0.0, 0.0)));
+    return scene;
+}
+
+struct Gathering {
+    explicit Gathering(Scene scene) : stage(std::move(scene)), tracer(stage.rays) {}
+    IrradianceSample at(const glm::vec3& position, const glm::vec3& normal, int samples, std::uint32_t seed = 0) {
+        return gather_irradiance(stage.lighting(), tracer, make_point(position, normal), choose_strata(samples),
+                                 {seed, 0, 0, 0}, scratch, counts);
+    }
+    Stage stage;
+    Tracer tracer;
+    GatherScratch scratch;
+    RayCounts counts;
+};
+
+/// Mean over independent gathers within 3 standard errors of the truth, and within this share of it.
+void expect_irradiance(Gathering& gathering, const glm::vec3& position, const glm::vec3& normal, double expected,
+                       double share = 0.01) {
+    Mean mean;
+    for (std::uint32_t seed = 0; seed < 256; ++seed) mean.add(gathering.at(position, normal, 512, seed).irradiance.x);
+    EXPECT_NEAR(mean.mean(), expected, 3.0 * mean.error() + 1e-4 * expected);
+    EXPECT_NEAR(mean.mean(), expected, share * expected);
+}
+
+TEST(Gather, StrataUseTheSamplesAskedFor) {
+    for (const int n : {1, 2, 3, 4, 5, 16, 64, 256, 512, 1000, 1024, 4096, 10007}) {
+        const HemisphereStrata strata = choose_strata(n);
+        EXPECT_LE(strata.count(), n);
+        EXPECT_GE(strata.count(), n - n / 8) << n;
+        if (n >= 64) {
+            const double ratio = static_cast<double>(strata.columns) / strata.rows;
+            EXPECT_GT(ratio, pi / 3.0) << n;
+            EXPECT_LT(ratio, pi * 3.0) << n;
+        }
+    }
+    for (const int n : {16, 64, 256, 512, 1000, 1024, 2048, 4096, 8192}) EXPECT_EQ(choose_strata(n).count(), n);
+    EXPECT_EQ(choose_strata(1024).columns, 64);
+}
+
+TEST(Gather, DiscOverheadIsSineSquared) {
+    for (const float height : {0.3f, 1.0f, 3.0f}) {
+        Gathering gathering(
+            make_lit_ceiling([](int m) { return make_disc_facing_down(1.0f, 720, m); }, {0.0, height, 0.0}, 0.6, 5.0));
+        const double sine2 = 1.0 / (1.0 + height * height);
+        expect_irradiance(gathering, glm::vec3(0.0f), up, 0.6 * 5.0 * sine2);
+    }
+}
+
+TEST(Gather, EndlessCeilingGivesItsRadiosity) {
+    Gathering gathering(
+        make_lit_ceiling([](int m) { return make_disc_facing_down(5000.0f, 64, m); }, {0.0, 1.0, 0.0}, 0.6, 5.0));
+    const IrradianceSample sample = gathering.at(glm::vec3(0.0f), up, 1024);
+    EXPECT_NEAR(sample.irradiance.x, 3.0, 1e-3);
+    // A uniform field does not change with place; it does with rotation about the horizon, which is dark below.
+    EXPECT_LT(glm::length(sample.translation_gradient[0]), 0.02 * 3.0);
+    EXPECT_LT(glm::length(sample.rotation_gradient[0]), 0.02 * 3.0);
+}
+
+TEST(Gather, BackOfTheCeilingIsLitByWhatMeetsIt) {
+    // The light comes from below: over the ceiling, facing down, only its unlit back is seen.
+    Gathering gathering(
+        make_lit_ceiling([](int m) { return make_disc_facing_down(5.0f, 64, m); }, {0.0, 1.0, 0.0}, 0.6, 5.0));
+    EXPECT_EQ(gathering.at({0.0f, 2.0f, 0.0f}, -up, 256).irradiance, Rgb(0.0f));
+    EXPECT_EQ(gathering.at({0.0f, 2.0f, 0.0f}, up, 256).irradiance, Rgb(0.0f));
+}
+
+/// Share of a point's hemisphere that a parallel rectangle takes, one corner straight above it (Howell's catalogue,
+/// B-4).
+double corner_factor(double width, double depth, double height) {
+    const double x = width / height, y = depth / height, a = std::sqrt(1.0 + x * x), b = std::sqrt(1.0 + y * y);
+    return (x / a * std::atan(y / a) + y / b * std::atan(x / b)) / (2.0 * pi);
+}
+
+Mesh make_ceiling_two_by_one(int material) {
+    Mesh mesh = make_quad(2.0, 1.0, material);
+    for (glm::vec3& p : mesh.positions) p = {p.x, 0.0f, p.y};  // faces down
+    mesh.normals.clear();
+    return mesh;
+}
+
+TEST(Gather, ParallelRectangle) {
+    Gathering gathering(make_lit_ceiling(make_ceiling_two_by_one, {0.0, 0.8, 0.0}, 0.5, 2.0));
+    expect_irradiance(gathering, glm::vec3(0.0f), up, 4.0 * corner_factor(1.0, 0.5, 0.8));
+    expect_irradiance(gathering, {1.0f, 0.0f, 0.5f}, up, corner_factor(2.0, 1.0, 0.8));  // under a corner
+    expect_irradiance(gathering, {1.0f, 0.0f, 0.0f}, up, 2.0 * corner_factor(2.0, 0.5, 0.8));
+}
+
+TEST(Gather, ShadowsOfTheLightAreSeen) {
+    // A blind below half of the ceiling, beside the hemisphere's point: one half is not lit, and the blind itself
+    // reflects its lit underside nowhere near the point's view, being below it.
+    Scene scene = make_lit_ceiling(make_ceiling_two_by_one, {0.0, 0.8, 0.0}, 0.5, 2.0);
+    add_mesh(scene, flip_winding(make_ceiling_two_by_one(0)), {1.0, -0.5, 0.0});
+    Gathering gathering(std::move(scene));
+    expect_irradiance(gathering, glm::vec3(0.0f), up, 2.0 * corner_factor(1.0, 0.5, 0.8));
+}
+
+TEST(Gather, ManyLightsAddUp) {
+    // More lights than are compared at a hit: the choice among them must not lose any.
+    Scene scene = make_lit_ceiling(make_ceiling_two_by_one, {0.0, 0.8, 0.0}, 0.5, 0.1);
+    for (int i = 1; i < 40; ++i) {
+        add_light(scene, Light::Kind::directional, glm::dvec3(i % 3 == 0 ? 0.0 : 0.1), glm::dvec3(0.0),
+                  glm::angleAxis(pi / 2, glm::dvec3(1.0, 0.0, 0.0)));
+    }
+    Gathering gathering(std::move(scene));
+    expect_irradiance(gathering, glm::vec3(0.0f), up, 27 * 0.05 * 4.0 * corner_factor(1.0, 0.5, 0.8), 0.02);
+}
+
+TEST(Gather, MeanDistanceInASphereIsItsRadius) {
+    for (const double radius : {0.01, 2.0, 1000.0}) {
+        Scene scene;
+        add_mesh(scene, make_faceted_sphere(radius, 128, add_lambert(scene, glm::dvec3(0.5))));
+        Gathering gathering(std::move(scene));
+        const IrradianceSample sample = gathering.at(glm::vec3(0.0f), up, 256);
+        EXPECT_NEAR(sample.harmonic_mean_distance, radius, 0.01 * radius);
+        EXPECT_EQ(sample.ignored_distances, 0);
+    }
+}
+
+TEST(Gather, MeanDistanceUnderACeilingCountsMissesAsFar) {
+    // Under an endless ceiling at h the cosine-weighted mean of 1 / r = cos / h is 2 / (3 h); half of it, half that.
+    Gathering whole(
+        make_lit_ceiling([](int m) { return make_disc_facing_down(3000.0f, 64, m); }, {0.0, 2.0, 0.0}, 0.6, 5.0));
+    EXPECT_NEAR(whole.at(glm::vec3(0.0f), up, 4096).harmonic_mean_distance, 3.0, 0.01);
+    Gathering half(
+        make_lit_ceiling([](int m) { return make_disc_facing_down(3000.0f, 4, m); }, {1500.0, 2.0, 1500.0}, 0.6, 5.0));
+    EXPECT_NEAR(half.at(glm::vec3(0.0f), up, 4096).harmonic_mean_distance, 6.0, 0.05);
+}
+
+TEST(Gather, InTheOpenTheDistanceIsInfinite) {
+    Gathering gathering(
+        make_lit_ceiling([](int m) { return make_disc_facing_down(1.0f, 16, m); }, {0.0, 1.0, 0.0}, 0.6, 5.0));
+    const IrradianceSample sample = gathering.at({0.0f, 2.0f, 0.0f}, up, 64);
+    EXPECT_EQ(sample.harmonic_mean_distance, std::numeric_limits<float>::infinity());
+    EXPECT_EQ(sample.irradiance, Rgb(0.0f));
+    EXPECT_EQ(sample.translation_gradient[0], glm::vec3(0.0f));
+    EXPECT_EQ(gathering.counts.gather, 64u);
+    EXPECT_EQ(gathering.counts.shadow, 0u);
+}
+
+TEST(Gather, DependsOnTheKeyAlone) {
+    Scene scene;
+    add_mesh(scene, make_faceted_sphere(2.0, 32, add_lambert(scene, glm::dvec3(0.5), glm::dvec3(0.0), true)));
+    add_light(scene, Light::Kind::point, glm::dvec3(1.0), {0.5, 1.0, 0.2});
+    Gathering one(scene), other(scene);
+    other.at({0.1f, 0.1f, 0.1f}, up, 1024, 9);  // leaves other buffers behind
+    const IrradianceSample a = one.at(glm::vec3(0.0f), up, 256, 5), b = other.at(glm::vec3(0.0f), up, 256, 5);
+    EXPECT_EQ(a.irradiance, b.irradiance);
+    EXPECT_EQ(a.translation_gradient, b.translation_gradient);
+    EXPECT_NE(one.at(glm::vec3(0.0f), up, 256, 6).irradiance, b.irradiance);
+}
+
+/// A dark ceiling at height 1 with a small bright patch off the axis: what the gradients' derivation assumes.
+/// Irradiance of a small patch: radiance area cos cos' / d^2.
+struct Patch {
+    static constexpr double x = 0.7, size = 0.2, height = 1.0, radiosity = 6.0;
+
+    static Scene make_scene() {
+        Scene scene;
+        const int black = add_lambert(scene, glm::dvec3(0.0)), white = add_lambert(scene, glm::dvec3(1.0));
+        add_mesh(scene, make_disc_facing_down(100.0f, 64, black), {0.0, height + 1e-4, 0.0});
+        Mesh patch = make_quad(size, size, white);
+        for (glm::vec3& p : patch.positions) p = {p.x, 0.0f, p.y};
+        patch.normals.clear();
+        add_mesh(scene, patch, {x, height, 0.0});
+        add_light(scene, Light::Kind::directional, glm::dvec3(radiosity), glm::dvec3(0.0),
+                  glm::angleAxis(pi / 2, glm::dvec3(1.0, 0.0, 0.0)));
+        return scene;
+    }
+
+    /// Irradiance at a place on the floor for a unit normal, integrated over the patch.
+    static double irradiance(const glm::dvec3& place, const glm::dvec3& normal) {
+        constexpr int n = 40;
+        double sum = 0.0;
+        for (int i = 0; i < n; ++i) {
+            for (int j = 0; j < n; ++j) {
+                const glm::dvec3 q(x + size * ((i + 0.5) / n - 0.5), height, size * ((j + 0.5) / n - 0.5));
+                const glm::dvec3 d = q - place;
+                const double r2 = glm::dot(d, d);
+                sum += std::max(0.0, glm::dot(d, normal)) * d.y / (r2 * r2);
+            }
+        }
+        return sum * radiosity / pi * (size * size / (n * n));
+    }
+};
+
+/// Mean of a component over gathers, beside the central difference of the closed form along the same move.
+void expect_gradient(const std::function<double(const IrradianceSample&)>& predicted,
+                     const std::function<double(double)>& truth, double share) {
+    Gathering gathering(Patch::make_scene());
+    Mean mean;
+    for (std::uint32_t seed = 0; seed < 24; ++seed) mean.add(predicted(gathering.at(glm::vec3(0.0f), up, 16384, seed)));
+    const double step = 1e-4, expected = (truth(step) - truth(-step)) / (2.0 * step);
+    EXPECT_NEAR(mean.mean(), expected, share * std::abs(expected) + 3.0 * mean.error());
+    EXPECT_LT(mean.error(), 0.05 * std::abs(expected));
+}
+
+TEST(Gather, PatchIrradiance) {
+    Gathering gathering(Patch::make_scene());
+    expect_irradiance(gathering, glm::vec3(0.0f), up, Patch::irradiance(glm::dvec3(0.0), {0.0, 1.0, 0.0}), 0.03);
+}
+
+TEST(Gather, TranslationGradientAgainstDifferences) {
+    expect_gradient([](const IrradianceSample& s) { return s.translation_gradient[0].x; },
+                    [](double d) {
+                        return Patch::irradiance({d, 0.0, 0.0}, {0.0, 1.0, 0.0});
+                    },
+                    0.1);
+    // Across, the patch lies symmetrically: no change.
+    Gathering gathering(Patch::make_scene());
+    const IrradianceSample sample = gathering.at(glm::vec3(0.0f), up, 16384);
+    EXPECT_LT(std::abs(sample.translation_gradient[0].z), 0.2f * std::abs(sample.translation_gradient[0].x));
+    EXPECT_GT(sample.translation_gradient[0].x, 0.0f);  // brighter towards the patch
+}
+
+TEST(Gather, RotationGradientAgainstDifferences) {
+    // As records use it: dE = dot(cross(N_i, N), gradient).
+    const auto turned = [](double angle) { return glm::dvec3(std::sin(angle), std::cos(angle), 0.0); };
+    expect_gradient(
+        [&](const IrradianceSample& s) {
+            const glm::vec3 axis = glm::cross(up, glm::vec3(1.0f, 0.0f, 0.0f));
+            return static_cast<double>(glm::dot(axis, s.rotation_gradient[0]));
+        },
+        [&](double angle) { return Patch::irradiance(glm::dvec3(0.0), turned(angle)); }, 0.02);
+}
+
+TEST(Gather, RecordsExtrapolateTowardsTheTruth) {
+    Gathering gathering(Patch::make_scene());
+    Mean moved, kept;
+    const glm::vec3 place(0.12f, 0.0f, 0.05f), normal = glm::normalize(glm::vec3(0.1f, 1.0f, 0.0f));
+    const double truth = Patch::irradiance(glm::dvec3(place), glm::dvec3(normal));
+    for (std::uint32_t seed = 0; seed < 16; ++seed) {
+        const IrradianceSample sample = gathering.at(glm::vec3(0.0f), up, 4096, seed);
+        // A radius at which the limit on gradients (|gradient| R <= E) leaves this steep one alone.
+        const IrradianceRecord record = make_record(glm::vec3(0.0f), up, sample, {1e-3f, 0.5f});
+        moved.add(std::abs(extrapolate(record, place, normal).x - truth));
+        kept.add(std::abs(record.irradiance.x - truth));
+    }
+    EXPECT_LT(moved.mean(), 0.35 * kept.mean());
+}
+
+}  // namespace
+}  // namespace aleph

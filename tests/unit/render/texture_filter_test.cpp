@@ -1,0 +1,328 @@
+// Texture look-up over a footprint: pyramids, anisotropy, wrapping at every level; a checker seen at a grazing angle.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <random>
+
+#include "render/texture.h"
+#include "tests/support/render_scenes.h"
+
+namespace aleph {
+namespace {
+
+SceneImage make_noise(int width, int height, unsigned seed) {
+    SceneImage image;
+    image.bytes = Image<glm::u8vec4>(width, height);
+    std::mt19937 random(seed);
+    for (glm::u8vec4& texel : image.bytes.pixels) {
+        for (int c = 0; c < 4; ++c) texel[c] = static_cast<std::uint8_t>(random() % 256u);
+    }
+    return image;
+}
+
+SceneImage make_constant(int width, int height, const glm::u8vec4& value) {
+    SceneImage image;
+    image.bytes = Image<glm::u8vec4>(width, height, value);
+    return image;
+}
+
+TextureSet make_set(const SceneImage& image, TextureSpace space = TextureSpace::srgb) {
+    TextureSet set;
+    set.textures.push_back(make_texture(image, space));
+    return set;
+}
+
+TextureUse make_use(Wrap wrap, bool nearest = false) {
+    return make_texture_use({.image = 0, .wrap_u = wrap, .wrap_v = wrap, .nearest = nearest}, 0);
+}
+
+glm::dvec4 mean_of(const Image<glm::vec4>& image) {
+    glm::dvec4 sum(0.0);
+    for (const glm::vec4& texel : image.pixels) sum += glm::dvec4(texel);
+    return sum / static_cast<double>(image.size());
+}
+
+glm::dvec4 mean_of(const TextureSet& set) {
+    const Texture& texture = set.textures[0];
+    Image<glm::vec4> all(texture.width, texture.height);
+    for (int y = 0; y < all.height; ++y) {
+        for (int x = 0; x < all.width; ++x) {
+            const glm::vec2 uv((static_cast<float>(x) + 0.5f) / static_cast<float>(all.width),
+                               (static_cast<float>(y) + 0.5f) / static_cast<float>(all.height));
+            all(x, y) = sample_texture(set, make_use(Wrap::clamp, true), uv, {});
+        }
+    }
+    return mean_of(all);
+}
+
+void expect_near(const glm::vec4& a, const glm::dvec4& b, double tolerance) {
+    for (int c = 0; c < 4; ++c) EXPECT_NEAR(a[c], b[c], tolerance) << c;
+}
+
+TEST(TextureFilter, EveryLevelHasTheSameMean) {
+    for (const glm::ivec2 size :
+         {glm::ivec2(64, 64), glm::ivec2(7, 5), glm::ivec2(1, 13), glm::ivec2(33, 2), glm::ivec2(127, 100)}) {
+        for (const TextureSpace space : {TextureSpace::linear, TextureSpace::srgb}) {
+            const SceneImage image = make_noise(size.x, size.y, 5);
+            const TextureSet set = make_set(image, space);
+            const glm::dvec4 mean = mean_of(set);
+            const Texture& texture = set.textures[0];
+            ASSERT_FALSE(texture.coarse.empty());
+            EXPECT_EQ(texture.coarse.back().size(), 1u);
+            for (const Image<glm::vec4>& level : texture.coarse) {
+                for (int c = 0; c < 4; ++c) EXPECT_NEAR(mean_of(level)[c], mean[c], 1e-6) << level.width;
+            }
+        }
+    }
+}
+
+TEST(TextureFilter, OddSizesKeepEveryTexelsPlace) {
+    // A ramp stays a ramp: the coarse texel at a place has the mean of the ramp over its own extent.
+    SceneImage image;
+    image.floats = Image<glm::vec4>(7, 1);
+    for (int x = 0; x < 7; ++x) image.floats(x, 0) = glm::vec4(static_cast<float>(x) + 0.5f);
+    const Texture texture = make_texture(image, TextureSpace::linear);
+    ASSERT_EQ(texture.coarse.size(), 2u);
+    EXPECT_EQ(texture.coarse[0].width, 3);
+    // [0, 7/3]: texels 0 and 1 whole and a third of texel 2.
+    EXPECT_NEAR(texture.coarse[0](0, 0).x, (0.5 + 1.5 + 2.5 / 3.0) / (7.0 / 3.0), 1e-6);
+    EXPECT_NEAR(texture.coarse[0](1, 0).x, 3.5, 1e-6);
+    EXPECT_NEAR(texture.coarse[1](0, 0).x, 3.5, 1e-6);
+}
+
+TEST(TextureFilter, ConstantPicturesStayExactly) {
+    for (const glm::ivec2 size : {glm::ivec2(1, 1), glm::ivec2(16, 16), glm::ivec2(11, 3), glm::ivec2(1, 9)}) {
+        const SceneImage image = make_constant(size.x, size.y, {200, 3, 77, 128});
+        const TextureSet set = make_set(image);
+        const glm::vec4 value = sample_texture(set, make_use(Wrap::repeat, true), {0.5f, 0.5f}, {});
+        for (const Image<glm::vec4>& level : set.textures[0].coarse) {
+            for (const glm::vec4& texel : level.pixels) EXPECT_EQ(texel, value);
+        }
+        std::mt19937 engine(3);
+        std::uniform_real_distribution<float> any(-2.0f, 2.0f);
+        for (int i = 0; i < 2000; ++i) {
+            const Wrap wrap = static_cast<Wrap>(i % 3);
+            const float size_of_print = std::pow(10.0f, any(engine));
+            const UvFootprint print{{any(engine) * size_of_print, any(engine)}, {any(engine), any(engine)}, i % 2 == 0};
+            const glm::vec4 found = sample_texture(set, make_use(wrap, i % 5 == 0), {any(engine), any(engine)}, print);
+            for (int c = 0; c < 4; ++c) ASSERT_NEAR(found[c], value[c], 4e-7f * value[c]);
+        }
+    }
+}
+
+TEST(TextureFilter, MagnificationIsBilinearWhateverTheFootprint) {
+    const SceneImage image = make_noise(16, 8, 1);
+    const TextureSet set = make_set(image);
+    const TextureUse use = make_use(Wrap::repeat), nearest = make_use(Wrap::repeat, true);
+    // Just under a texel, in any direction.
+    for (int i = 0; i < 64; ++i) {
+        const float angle = 0.1f * static_cast<float>(i);
+        const glm::vec2 along(0.99f * std::cos(angle) / 16.0f, 0.99f * std::sin(angle) / 8.0f);
+        const glm::vec2 uv(0.173f * static_cast<float>(i), 0.031f * static_cast<float>(i));
+        EXPECT_EQ(sample_texture(set, use, uv, {along, {0.0f, 0.0f}}), sample_texture(set, use, uv, {}));
+        EXPECT_EQ(sample_texture(set, nearest, uv, {along, {0.0f, 0.0f}}), sample_texture(set, nearest, uv, {}));
+    }
+    // From there on, `nearest` filters as well.
+    const UvFootprint wide{{0.25f, 0.0f}, {0.0f, 0.25f}};
+    EXPECT_EQ(sample_texture(set, use, {0.3f, 0.6f}, wide), sample_texture(set, nearest, {0.3f, 0.6f}, wide));
+}
+
+TEST(TextureFilter, TheWholePictureIsItsMean) {
+    const SceneImage image = make_noise(32, 32, 2);
+    const TextureSet set = make_set(image);
+    const glm::dvec4 mean = mean_of(set);
+    for (const Wrap wrap : {Wrap::repeat, Wrap::mirror, Wrap::clamp}) {
+        for (const bool round : {false, true}) {
+            for (const float size : {1.5f, 3.7f, 1e3f, 1e20f, std::numeric_limits<float>::infinity(), std::nanf("")}) {
+                expect_near(sample_texture(set, make_use(wrap), {0.41f, 0.77f}, {{size, 0.0f}, {0.0f, size}, round}),
+                            mean, 1e-5);
+            }
+        }
+    }
+}
+
+/// What lies across a long footprint must stay sharp: stripes along it are kept, stripes across it average out.
+TEST(TextureFilter, LongFootprintsBlurOnlyAlongThemselves) {
+    SceneImage image;
+    image.bytes = Image<glm::u8vec4>(64, 64);
+    for (int y = 0; y < 64; ++y) {
+        for (int x = 0; x < 64; ++x) image.bytes(x, y) = glm::u8vec4((y / 4) % 2 == 0 ? 255 : 0);
+    }
+    const TextureSet set = make_set(image, TextureSpace::linear);
+    const TextureUse use = make_use(Wrap::repeat);
+    const float texel = 1.0f / 64.0f;
+    for (int row = 0; row < 16; ++row) {
+        const glm::vec2 uv(0.3f, (4.0f * static_cast<float>(row) + 2.0f) * texel);  // a stripe's middle
+        const float stripe = row % 2 == 0 ? 1.0f : 0.0f;
+        EXPECT_NEAR(sample_texture(set, use, uv, {{16.0f * texel, 0.0f}, {0.0f, texel}}).x, stripe, 1e-6f);
+        EXPECT_NEAR(sample_texture(set, use, uv, {{0.0f, texel}, {-16.0f * texel, 0.0f}}).x, stripe, 1e-6f);
+        EXPECT_NEAR(sample_texture(set, use, uv, {{texel, 0.0f}, {0.0f, 16.0f * texel}}).x, 0.5f, 0.04f);
+        // Rounded off to its area, 64 texels, it covers most of a stripe's period each way and keeps half of it.
+        EXPECT_NEAR(sample_texture(set, use, uv, {{64.0f * texel, 0.0f}, {0.0f, texel}, true}).x, 0.5f, 0.26f);
+    }
+}
+
+TEST(TextureFilter, DiagonalAxesAreFound) {
+    // Stripes along the diagonal u + v: a footprint along u - v keeps them.
+    SceneImage image;
+    image.bytes = Image<glm::u8vec4>(64, 64);
+    for (int y = 0; y < 64; ++y) {
+        for (int x = 0; x < 64; ++x) {
+            image.bytes(x, y) = glm::u8vec4(static_cast<int>(127.5 + 127.0 * std::sin((x + y) * std::numbers::pi / 8)));
+        }
+    }
+    const TextureSet set = make_set(image, TextureSpace::linear);
+    const TextureUse use = make_use(Wrap::repeat);
+    const glm::vec2 along = glm::vec2(1.0f, -1.0f) / 64.0f, across = glm::vec2(1.0f, 1.0f) / 64.0f;
+    double kept = 0.0, lost = 0.0, true_range = 0.0;
+    for (int i = 0; i < 16; ++i) {
+        const glm::vec2 uv = glm::vec2(static_cast<float>(i) + 0.5f, 7.5f) / 64.0f;
+        const float here = sample_texture(set, use, uv, {}).x - 0.5f;
+        true_range += std::abs(here);
+        kept += std::abs(sample_texture(set, use, uv, {along * 12.0f, across * 0.6f}).x - 0.5f);
+        lost += std::abs(sample_texture(set, use, uv, {along * 0.6f, across * 8.0f}).x - 0.5f);
+    }
+    EXPECT_GT(kept, 0.9 * true_range);
+    EXPECT_LT(lost, 0.15 * true_range);
+}
+
+TEST(TextureFilter, WrapModesAtEveryLevelsBorders) {
+    // Left half black, right half white: at u = 0 repeat sees both, clamp and mirror black alone.
+    SceneImage image;
+    image.bytes = Image<glm::u8vec4>(64, 64, glm::u8vec4(0));
+    for (int y = 0; y < 64; ++y) {
+        for (int x = 32; x < 64; ++x) image.bytes(x, y) = glm::u8vec4(255);
+    }
+    const TextureSet set = make_set(image, TextureSpace::linear);
+    for (const float texels : {1.0f, 2.0f, 4.0f, 8.0f, 16.0f}) {
+        for (const bool round : {false, true}) {
+            const UvFootprint print{{texels / 64.0f, 0.0f}, {0.0f, texels / 64.0f}, round};
+            for (const float turns : {0.0f, 1.0f, -3.0f}) {
+                EXPECT_NEAR(sample_texture(set, make_use(Wrap::repeat), {turns, 0.5f}, print).x, 0.5f, 1e-6f);
+            }
+            EXPECT_EQ(sample_texture(set, make_use(Wrap::clamp), {0.0f, 0.5f}, print).x, 0.0f);
+            EXPECT_EQ(sample_texture(set, make_use(Wrap::clamp), {-7.0f, 0.5f}, print).x, 0.0f);
+            EXPECT_EQ(sample_texture(set, make_use(Wrap::clamp), {1.0f, 0.5f}, print).x, 1.0f);
+            EXPECT_EQ(sample_texture(set, make_use(Wrap::mirror), {2.0f, 0.5f}, print).x, 0.0f);
+            EXPECT_EQ(sample_texture(set, make_use(Wrap::mirror), {-1.0f, 0.5f}, print).x, 1.0f);
+        }
+    }
+}
+
+TEST(TextureFilter, TheReferencesTransformMovesTheFootprint) {
+    const SceneImage image = make_noise(64, 64, 9);
+    const TextureSet set = make_set(image);
+    TextureRef reference{.image = 0};
+    reference.uv_offset = {0.3, -0.2};
+    reference.uv_scale = {4.0, 0.5};
+    reference.uv_rotation = 0.7;
+    const TextureUse use = make_texture_use(reference, 0), plain = make_use(Wrap::repeat);
+    for (const bool round : {false, true}) {
+        const UvFootprint print{{0.05f, 0.01f}, {-0.02f, 0.08f}, round};
+        const UvFootprint moved{use.matrix * print.dx, use.matrix * print.dy, round};
+        const glm::vec2 uv(0.21f, 0.63f);
+        EXPECT_EQ(sample_texture(set, use, uv, print), sample_texture(set, plain, use.offset + use.matrix * uv, moved));
+    }
+}
+
+TEST(TextureFilter, AlphaIsFilteredLikeColourAndNeverDecoded) {
+    SceneImage image;
+    image.bytes = Image<glm::u8vec4>(2, 2, glm::u8vec4(255, 255, 255, 0));
+    image.bytes(0, 0).w = image.bytes(1, 1).w = 255;
+    const TextureSet set = make_set(image);
+    EXPECT_EQ(sample_texture(set, make_use(Wrap::repeat), {0.2f, 0.4f}, {{1.5f, 0.0f}, {0.0f, 1.5f}}),
+              glm::vec4(1.0f, 1.0f, 1.0f, 0.5f));
+}
+
+TEST(TextureFilter, TexelsThatAreNoNumbersDoNotSpread) {
+    SceneImage image;
+    image.floats = Image<glm::vec4>(4, 4, glm::vec4(1.0f));
+    image.floats(1, 2) = glm::vec4(std::nanf(""), std::numeric_limits<float>::infinity(), 1.0f, 1.0f);
+    const Texture texture = make_texture(image, TextureSpace::linear);
+    EXPECT_EQ(texture.coarse.back()(0, 0), glm::vec4(15.0f / 16.0f, 15.0f / 16.0f, 1.0f, 1.0f));
+}
+
+/// A floor under a checker, seen from low above it: what the picture shows of its albedo (no light, `flat` estimate).
+struct Checker {
+    static Scene make() {
+        Scene scene;
+        const int material = add_lambert(scene, glm::dvec3(1.0));
+        SceneImage image;
+        image.bytes = Image<glm::u8vec4>(64, 64);
+        for (int y = 0; y < 64; ++y) {
+            for (int x = 0; x < 64; ++x) {
+                image.bytes(x, y) = ((x / 8 + y / 8) % 2 == 0) ? glm::u8vec4(255) : glm::u8vec4(40, 10, 90, 255);
+            }
+        }
+        scene.images.push_back(image);
+        scene.materials[0].base_color_texture = {.image = 0};
+        Mesh floor = make_quad(400.0, 400.0, material);
+        for (glm::vec2& uv : floor.uv[0]) uv *= 800.0f;
+        add_mesh(scene, floor, glm::dvec3(0.0), z_to_up);
+        add_camera(scene, {0.3, 0.6, 3.0}, {0.0, 0.2, 0.0}, 0.6);
+        return scene;
+    }
+
+    Checker() : stage(make(), 48, 36) {}
+
+    /// Mean of n by n samples in every pixel, each averaged over `footprints` of its own spacing.
+    Image<Rgb> render(int n, bool footprints) const {
+        Image<Rgb> sum(stage.view.width, stage.view.height);
+        for (int i = 0; i < n * n; ++i) {
+            SampleHits sample;
+            sample.offset_x = (i % n + 0.5) / n;
+            sample.offset_y = (i / n + 0.5) / n;
+            sample.spacing = footprints ? 1.0f / static_cast<float>(n) : 0.0f;
+            sample.hits = cast_first_hits(stage.rays, stage.view, sample.offset_x, sample.offset_y);
+            for (int y = 0; y < sum.height; ++y) {
+                for (int x = 0; x < sum.width; ++x) {
+                    if (sample.hits(x, y).instance == no_index) continue;
+                    sum(x, y) += make_pixel_surface(stage.shading, stage.view, sample, x, y).material.diffuse /
+                                 static_cast<float>(n * n);
+                }
+            }
+        }
+        return sum;
+    }
+
+    /// Over the pixels that the floor fills, from the horizon's row + 2 down.
+    double rms(const Image<Rgb>& a, const Image<Rgb>& b) const {
+        double sum = 0.0;
+        int count = 0;
+        for (int y = 0; y < a.height; ++y) {
+            for (int x = 0; x < a.width; ++x) {
+                const int above = std::max(0, y - 2);
+                if (!(reached(x, above) && reached(x, y))) continue;
+                const float d = a(x, y).x - b(x, y).x;
+                sum += d * d;
+                ++count;
+            }
+        }
+        EXPECT_GT(count, 500);
+        return std::sqrt(sum / count);
+    }
+    bool reached(int x, int y) const {
+        const CameraRay ray = make_camera_ray(stage.view, x, y);
+        return ray.direction.y < 0.0;
+    }
+
+    Stage stage;
+};
+
+TEST(TextureFilter, GrazingCheckerConvergesAtOnce) {
+    const Checker checker;
+    const Image<Rgb> truth = checker.render(32, false);  // 1024 per pixel
+    const double filtered = checker.rms(checker.render(1, true), truth);
+    const double pointwise = checker.rms(checker.render(1, false), truth);
+    EXPECT_LT(filtered, 0.04);
+    EXPECT_GT(pointwise, 10.0 * filtered);
+    // More samples, smaller footprints: nearer still.
+    EXPECT_LT(checker.rms(checker.render(4, true), truth), 0.6 * filtered);
+    RecordProperty("filtered", std::to_string(filtered));
+    RecordProperty("pointwise", std::to_string(pointwise));
+}
+
+}  // namespace
+}  // namespace aleph

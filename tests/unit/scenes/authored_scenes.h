@@ -1,0 +1,108 @@
+#pragma once
+// The scenes in scenes/: reading them, looking into them, and making them anew by their programs.
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <map>
+#include <set>
+#include <string>
+
+#include "engine/load/load_scene.h"
+#include "engine/pose/pose.h"
+#include "engine/rays/first_hits.h"
+#include "motion/model_motion.h"
+#include "tests/support/read_bytes.h"
+#include "tests/support/scratch_folder.h"
+
+namespace aleph {
+
+inline const std::filesystem::path scenes_folder = std::filesystem::path(ALEPH_SOURCE_DIR) / "scenes";
+
+/// A scene by the name of its folder, read once.
+inline const Scene& loaded(const std::string& name) {
+    static std::map<std::string, Scene> cache;
+    if (!cache.contains(name)) cache[name] = load_scene(scenes_folder / name / "scene.json");
+    return cache[name];
+}
+
+inline int find_node(const Scene& scene, const std::string& name) {
+    for (std::size_t i = 0; i < scene.nodes.size(); ++i)
+        if (scene.nodes[i].name == name) return static_cast<int>(i);
+    ADD_FAILURE() << "no node " << name;
+    return 0;
+}
+
+inline const glm::dmat4& world_of(const SceneFrame& frame, int node) {
+    return frame.world[static_cast<std::size_t>(node)];
+}
+
+inline Image<Hit> cast(const Scene& scene, const SceneFrame& now, const CameraView& view) {
+    RayScene rays(scene);
+    rays.update(now, compute_anchor(view));
+    return cast_first_hits(rays, view);
+}
+
+/// First hits of a frame and their motion to the next.
+struct FrameMotion {
+    Image<Hit> hits;
+    MotionField field;
+    std::vector<Instance> instances;
+};
+
+inline FrameMotion compute_motion(const Scene& scene, int frame, int width, int height) {
+    const SceneFrame now = pose(scene, scene.frame_rate.seconds_of(frame));
+    const SceneFrame next = pose(scene, scene.frame_rate.seconds_of(frame + 1));
+    const CameraView view = make_camera_view(now.cameras.front(), width, height);
+    const CameraView next_view = make_camera_view(next.cameras.front(), width, height);
+    FrameMotion result{cast(scene, now, view), {}, now.instances};
+    result.field = compute_model_motion(scene, {&now, &view}, {&next, &next_view}, result.hits, {});
+    return result;
+}
+
+inline std::uintmax_t folder_size(const std::filesystem::path& folder) {
+    std::uintmax_t bytes = 0;
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(folder))
+        if (entry.is_regular_file()) bytes += entry.file_size();
+    return bytes;
+}
+
+/// Every file that the program writes is the one in scenes/, and there are no other scene files and textures beside
+/// them.
+/// @param files  how many it writes
+inline void expect_generated(const std::string& program, std::size_t files) {
+    namespace fs = std::filesystem;
+    const ScratchFolder made;
+    ASSERT_EQ(std::system(("\"" + program + "\" \"" + made.path().string() + "\"").c_str()), 0);
+    std::set<fs::path> names, kept;
+    for (const auto& entry : fs::recursive_directory_iterator(made.path())) {
+        if (!entry.is_regular_file()) continue;
+        const fs::path name = fs::relative(entry.path(), made.path());
+        EXPECT_TRUE(read_bytes(entry.path()) == read_bytes(scenes_folder / name)) << name;
+        names.insert(name);
+    }
+    for (const auto& folder : fs::directory_iterator(made.path())) {
+        const fs::path name = folder.path().filename();
+        if (fs::exists(scenes_folder / name / "scene.json")) kept.insert(name / "scene.json");
+        if (!fs::exists(scenes_folder / name / "textures")) continue;
+        for (const auto& entry : fs::directory_iterator(scenes_folder / name / "textures"))
+            kept.insert(name / "textures" / entry.path().filename());
+    }
+    EXPECT_EQ(names, kept);
+    EXPECT_EQ(names.size(), files);
+}
+
+/// What was read is what the program made, but for where it was read from.
+inline void expect_same_scene(Scene read, const Scene& made) {
+    EXPECT_TRUE(read.warnings.empty());
+    read.file.clear();
+    EXPECT_TRUE(read.nodes == made.nodes);
+    EXPECT_TRUE(read.meshes == made.meshes);
+    EXPECT_TRUE(read.cages == made.cages);
+    EXPECT_TRUE(read.materials == made.materials);
+    EXPECT_TRUE(read.images == made.images);
+    EXPECT_TRUE(read == made);
+}
+
+}  // namespace aleph
