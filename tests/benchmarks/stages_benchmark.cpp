@@ -26,6 +26,7 @@
 #include "motion/velocity.h"
 #include "perception/perception.h"
 #include "tests/benchmarks/raw_embree.h"
+#include "tests/support/paths.h"
 
 namespace aleph {
 namespace {
@@ -122,7 +123,7 @@ struct Inputs {
 
 const Inputs& inputs() {
     static const Inputs made = [] {
-        const std::filesystem::path pool = std::filesystem::path(ALEPH_SOURCE_DIR) / "scenes/pool/scene.json";
+        const std::filesystem::path pool = source_folder() / "scenes/pool/scene.json";
         return std::filesystem::exists(pool) ? Inputs("pool", load_scene(pool)) : Inputs("balls", make_balls());
     }();
     return made;

@@ -1,6 +1,6 @@
 #pragma once
 // Archives and what the reference library reads from them. The project's own stand in tests/assets/abc; those of others
-// are read from ALEPH_ASSETS_DIR where that is present.
+// are read from assets_folder() where that is present.
 
 #include <gtest/gtest.h>
 
@@ -11,6 +11,8 @@
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
+
+#include "tests/support/paths.h"
 
 namespace aleph {
 
@@ -23,9 +25,9 @@ inline const std::vector<std::string> foreign_archives{"indexedTextureCoordinate
                                                        "testUsdAbcXformPrimCollapsing"};
 
 inline std::filesystem::path archive_path(const std::string& name) {
-    const std::filesystem::path own = std::filesystem::path(ALEPH_SOURCE_DIR) / "tests/assets/abc" / (name + ".abc");
+    const std::filesystem::path own = source_folder() / "tests/assets/abc" / (name + ".abc");
     if (std::filesystem::exists(own)) return own;
-    return std::filesystem::path(ALEPH_ASSETS_DIR) / "abc/third_party" / (name + ".abc");
+    return assets_folder() / "abc/third_party" / (name + ".abc");
 }
 
 inline json truth_of(const std::string& name) {

@@ -9,12 +9,13 @@
 #include "tests/support/quick_settings.h"
 #include "tests/support/read_bytes.h"
 #include "tests/support/scratch_folder.h"
+#include "tests/support/paths.h"
 
 namespace aleph {
 
 /// scenes/pool, loaded once.
 inline const Scene& pool_scene() {
-    static const Scene scene = load_scene(std::string(ALEPH_SOURCE_DIR) + "/scenes/pool/scene.json");
+    static const Scene scene = load_scene(source_folder() / "scenes/pool/scene.json");
     return scene;
 }
 

@@ -10,6 +10,8 @@
 #include <string>
 #include <vector>
 
+#include "tests/support/paths.h"
+
 namespace aleph {
 namespace {
 
@@ -103,7 +105,7 @@ std::string read_file(const fs::path& path) {
 }
 
 TEST(House, IncludesPointOneWay) {
-    const fs::path root = ALEPH_SOURCE_DIR;
+    const fs::path root = source_folder();
     int files = 0, own_includes = 0;
     for (const char* folder : {"engine", "motion", "perception", "render"}) {
         for (const fs::directory_entry& entry : fs::recursive_directory_iterator(root / folder)) {
@@ -122,7 +124,7 @@ TEST(House, IncludesPointOneWay) {
 }
 
 TEST(House, EveryFolderIsALayer) {
-    const fs::path root = ALEPH_SOURCE_DIR;
+    const fs::path root = source_folder();
     std::set<std::string> known;
     for (const Layer& layer : layers()) known.insert(layer.folder);
     for (const char* folder : {"engine", "motion", "perception", "render"}) {
@@ -187,11 +189,11 @@ std::vector<std::string> find_strays(const fs::path& root) {
 }
 
 TEST(House, TopHoldsNothingElse) {
-    for (const std::string& name : find_strays(ALEPH_SOURCE_DIR))
+    for (const std::string& name : find_strays(source_folder()))
         ADD_FAILURE() << name << " does not belong at the top";
     for (const char* name :
          {"CMakeLists.txt", "README.md", "engine", "motion", "perception", "render", "scenes", "tests"}) {
-        EXPECT_TRUE(fs::exists(fs::path(ALEPH_SOURCE_DIR) / name)) << name;
+        EXPECT_TRUE(fs::exists(source_folder() / name)) << name;
     }
 }
 

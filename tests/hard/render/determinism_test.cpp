@@ -21,6 +21,7 @@
 #include "render/estimate.h"
 #include "tests/support/frame_bytes.h"
 #include "tests/support/with_threads.h"
+#include "tests/support/paths.h"
 
 namespace aleph {
 namespace {
@@ -279,14 +280,14 @@ TEST(Determinism, DT06_DenormalPixelsAndSpeeds) {
 /// Starts the program; its standard output and error go into the folder, too.
 void run_program(const std::string& arguments, const std::filesystem::path& folder) {
     const std::string log = (folder / "log").string();
-    const std::string command = std::string("'") + ALEPH_PROGRAM + "' " + arguments + " -o '" +
+    const std::string command = std::string("'") + program_path("aleph") + "' " + arguments + " -o '" +
                                 (folder / "####.exr").string() + "' >'" + log + "' 2>&1";
     ASSERT_EQ(::system(command.c_str()), 0) << read_bytes(log);
 }
 
 TEST(Determinism, DT10_TwoRunsOfTheProgram) {
     const std::string scene =
-        std::string("'") + ALEPH_SOURCE_DIR + "/scenes/pool/scene.json' -q --frames 8,30 --size 160x120";
+        std::string("'") + source_folder().string() + "/scenes/pool/scene.json' -q --frames 8,30 --size 160x120";
     for (const std::string& arguments :
          {"maps " + scene, "render " + scene + " --aovs --spp 2 --gather 32 --accuracy .4"}) {
         const ScratchFolder first, second;

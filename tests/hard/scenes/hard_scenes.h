@@ -12,11 +12,12 @@
 #include "engine/load/load_scene.h"
 #include "render/sequence.h"
 #include "tests/support/quick_settings.h"
+#include "tests/support/paths.h"
 
 namespace aleph {
 
 inline std::filesystem::path hard_scenes_folder() {
-    return std::filesystem::path(ALEPH_SOURCE_DIR) / "scenes" / "hard";
+    return source_folder() / "scenes" / "hard";
 }
 
 inline RenderSettings small_settings() {

@@ -10,11 +10,12 @@
 #include "engine/load/load_scene.h"
 #include "render/sequence.h"
 #include "tests/support/quick_settings.h"
+#include "tests/support/paths.h"
 
 namespace aleph {
 namespace {
 
-const std::filesystem::path assets = std::filesystem::path(ALEPH_ASSETS_DIR) / "gltf";
+const std::filesystem::path assets = assets_folder() / "gltf";
 
 RenderSettings small_settings() {
     RenderSettings settings = quick_settings(96, 72);

@@ -9,12 +9,13 @@
 
 #include "engine/load/load_scene.h"
 #include "tests/support/render_scenes.h"
+#include "tests/support/paths.h"
 
 namespace aleph {
 namespace {
 
 Scene load(const std::string& name) {
-    return load_scene(std::string(ALEPH_SOURCE_DIR) + "/scenes/" + name + "/scene.json");
+    return load_scene(source_folder() / "scenes" / name / "scene.json");
 }
 
 struct Fill {

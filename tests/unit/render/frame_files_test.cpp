@@ -9,12 +9,13 @@
 
 #include "engine/load/load_scene.h"
 #include "tests/support/scratch_folder.h"
+#include "tests/support/paths.h"
 
 namespace aleph {
 namespace {
 
 struct Rendered {
-    Scene scene = load_scene(ALEPH_SOURCE_DIR "/scenes/cornell/scene.json");
+    Scene scene = load_scene(source_folder() / "scenes/cornell/scene.json");
     RenderSettings settings;
     FrameOutput output;
     double exposure = 0.0;

@@ -15,10 +15,11 @@
 #include "motion/model_motion.h"
 #include "tests/support/read_bytes.h"
 #include "tests/support/scratch_folder.h"
+#include "tests/support/paths.h"
 
 namespace aleph {
 
-inline const std::filesystem::path scenes_folder = std::filesystem::path(ALEPH_SOURCE_DIR) / "scenes";
+inline const std::filesystem::path scenes_folder = source_folder() / "scenes";
 
 /// A scene by the name of its folder, read once.
 inline const Scene& loaded(const std::string& name) {

@@ -18,6 +18,7 @@
 #include "engine/scene_file/scene_text.h"
 #include "engine/scene_file/schema.h"
 #include "tests/support/scratch_folder.h"
+#include "tests/support/paths.h"
 
 namespace aleph {
 namespace {
@@ -25,7 +26,7 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 
-const fs::path source = ALEPH_SOURCE_DIR;
+const fs::path source = source_folder();
 
 std::string read_text(const fs::path& path) {
     std::ifstream stream(path);

@@ -9,12 +9,13 @@
 
 #include "scenes/boomerang/boomerang_scene.h"
 #include "tests/unit/scenes/authored_scenes.h"
+#include "tests/support/paths.h"
 
 namespace aleph {
 namespace {
 
 TEST(BoomerangScene, ComesFromItsGeneratorByteForByte) {
-    expect_generated(ALEPH_MAKE_BOOMERANG, 1u + 4u);
+    expect_generated(program_path("make_boomerang"), 1u + 4u);
     EXPECT_TRUE(loaded("boomerang").warnings.empty());
 }
 

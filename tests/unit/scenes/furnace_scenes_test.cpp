@@ -8,6 +8,7 @@
 #include "engine/base/color.h"
 #include "engine/load/load_scene.h"
 #include "render/sequence.h"
+#include "tests/support/paths.h"
 
 namespace aleph {
 namespace {
@@ -18,7 +19,7 @@ struct Deviation {
 
 /// Mean luminance of a frame, and how far a single pixel is off the expected one.
 Deviation render_frame(const std::string& file, std::int64_t frame, double expected) {
-    const Scene scene = load_scene(std::filesystem::path(ALEPH_SOURCE_DIR) / "scenes" / "furnace" / file);
+    const Scene scene = load_scene(source_folder() / "scenes" / "furnace" / file);
     RenderSettings settings;
     apply_settings(settings, scene.settings, file);
     settings.width = 64;

@@ -12,6 +12,7 @@
 #include "scenes/antique-room/antique_room.h"
 #include "scenes/art-gallery/gallery.h"
 #include "tests/unit/scenes/authored_scenes.h"
+#include "tests/support/paths.h"
 
 namespace aleph {
 namespace {
@@ -42,7 +43,7 @@ std::set<std::string> find_lamps(const Scene& scene) {
 }
 
 TEST(ArtGallery, ProgramReproducesTheFiles) {
-    expect_generated(ALEPH_MAKE_ART_GALLERY, 1u + 26u);
+    expect_generated(program_path("make_art_gallery"), 1u + 26u);
     expect_same_scene(loaded("art-gallery"), make_art_gallery("textures/"));
 }
 
@@ -264,7 +265,7 @@ TEST(ArtGallery, KineticWorkBleedsColour) {
 }
 
 TEST(AntiqueRoom, ProgramReproducesTheFiles) {
-    expect_generated(ALEPH_MAKE_ANTIQUE_ROOM, 1u + 13u);
+    expect_generated(program_path("make_antique_room"), 1u + 13u);
     expect_same_scene(loaded("antique-room"), make_antique_room("textures/"));
 }
 

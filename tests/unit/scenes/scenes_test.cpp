@@ -11,6 +11,7 @@
 #include "scenes/pool/break.h"
 #include "scenes/pool/pool_scene.h"
 #include "tests/unit/scenes/authored_scenes.h"
+#include "tests/support/paths.h"
 
 namespace aleph {
 namespace {
@@ -41,7 +42,7 @@ std::array<double, 2> background_motion(const Scene& scene, int frame) {
 }
 
 TEST(PoolScene, GeneratorReproducesTheFiles) {
-    expect_generated(ALEPH_MAKE_POOL, 2u + 16u + 9u);
+    expect_generated(program_path("make_pool"), 2u + 16u + 9u);
 }
 
 TEST(PoolScene, FileHoldsWhatTheProgramMade) {

@@ -13,6 +13,7 @@
 #include "tests/support/alembic_draft.h"
 #include "tests/support/alembic_truth.h"
 #include "tests/support/scratch_folder.h"
+#include "tests/support/paths.h"
 
 namespace aleph {
 namespace {
@@ -70,7 +71,7 @@ void expect_refused(const std::string& message, const std::string& word) {
 const std::vector<float> triangle{0, 0, 0, 1, 0, 0, 0, 1, 0};
 
 TEST(AlembicBadFile, MalformedArchivesOfTheReferenceLibrary) {
-    const std::filesystem::path folder = std::filesystem::path(ALEPH_ASSETS_DIR) / "abc/malformed";
+    const std::filesystem::path folder = assets_folder() / "abc/malformed";
     if (!std::filesystem::exists(folder)) GTEST_SKIP() << "not here: " << folder;
     int files = 0, refused = 0;
     for (const auto& entry : std::filesystem::directory_iterator(folder)) {

@@ -16,6 +16,7 @@
 #include "render/cli/options.h"
 #include "tests/support/german_locale.h"
 #include "tests/support/scratch_folder.h"
+#include "tests/support/paths.h"
 
 namespace aleph {
 namespace {
@@ -34,7 +35,7 @@ std::string text_of(const std::filesystem::path& path) {
 Outcome run_aleph(std::vector<std::string> arguments, rlim_t file_limit = RLIM_INFINITY) {
     const ScratchFolder folder;
     const std::string out = folder / "out", err = folder / "err";
-    arguments.insert(arguments.begin(), ALEPH_PROGRAM);
+    arguments.insert(arguments.begin(), program_path("aleph"));
     std::vector<char*> argv;
     for (std::string& argument : arguments) argv.push_back(argument.data());
     argv.push_back(nullptr);
@@ -46,7 +47,7 @@ Outcome run_aleph(std::vector<std::string> arguments, rlim_t file_limit = RLIM_I
         ::getrlimit(RLIMIT_FSIZE, &limit);
         limit.rlim_cur = std::min(limit.rlim_max, file_limit);
         ::setrlimit(RLIMIT_FSIZE, &limit);
-        ::execv(ALEPH_PROGRAM, argv.data());
+        ::execv(argv.front(), argv.data());
         ::_exit(127);
     }
     int status = 0;
@@ -190,7 +191,7 @@ TEST(CommandLine, OU05_ResultsThatCannotBePrintedAreAnError) {
     if (!std::filesystem::exists("/dev/full")) GTEST_SKIP() << "there is no /dev/full here";
     const TwoPictures files(0.0f);
     const std::string command =
-        std::string("'") + ALEPH_PROGRAM + "' compare '" + files.a + "' '" + files.a + "' >/dev/full 2>/dev/null";
+        std::string("'") + program_path("aleph") + "' compare '" + files.a + "' '" + files.a + "' >/dev/full 2>/dev/null";
     EXPECT_EQ(WEXITSTATUS(::system(command.c_str())), 1);
 }
 

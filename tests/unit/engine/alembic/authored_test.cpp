@@ -10,6 +10,7 @@
 #include "engine/scene/transforms.h"
 #include "motion/model_motion.h"
 #include "tests/support/alembic_truth.h"
+#include "tests/support/paths.h"
 
 namespace aleph {
 namespace {
@@ -50,7 +51,7 @@ Seen look(const Scene& scene, double seconds, double other_seconds, const View& 
 }
 
 void expect_same(const std::string& name, const std::vector<View>& views, int frames, double least_share) {
-    const std::filesystem::path folder = std::filesystem::path(ALEPH_SOURCE_DIR) / "tests/assets/abc";
+    const std::filesystem::path folder = source_folder() / "tests/assets/abc";
     const Scene archive = load_scene(folder / (name + ".abc"));
     const Scene authored = load_scene(folder / (name + ".scene.json"));
     EXPECT_EQ(authored.frame_rate, archive.frame_rate);

@@ -8,13 +8,14 @@
 #include "engine/base/errors.h"
 #include "engine/gltf/gltf.h"
 #include "engine/pose/pose.h"
+#include "tests/support/paths.h"
 
 namespace aleph {
 namespace {
 
 namespace fs = std::filesystem;
 
-const fs::path assets = ALEPH_ASSETS_DIR;
+const fs::path assets = assets_folder();
 
 Scene load(const std::string& name) {
     Scene scene;

@@ -10,6 +10,7 @@
 
 #include "engine/gltf/gltf.h"
 #include "engine/pose/pose.h"
+#include "tests/support/paths.h"
 
 namespace aleph {
 namespace {
@@ -17,7 +18,7 @@ namespace {
 namespace fs = std::filesystem;
 namespace gltf = tinygltf;
 
-const fs::path assets = fs::path(ALEPH_ASSETS_DIR) / "gltf";
+const fs::path assets = assets_folder() / "gltf";
 
 Scene load(const fs::path& name) {
     Scene scene;

@@ -11,6 +11,7 @@
 #include "engine/rays/ray_scene.h"
 #include "motion/model_motion.h"
 #include "tests/unit/engine/gltf/glb_writer.h"
+#include "tests/support/paths.h"
 
 namespace aleph {
 namespace {
@@ -18,7 +19,7 @@ namespace {
 namespace fs = std::filesystem;
 
 /// Kept: tests/gltf_validator looks at what lies here.
-const fs::path folder = ALEPH_ROUND_TRIP_FOLDER;
+const fs::path folder = build_folder() / "round_trip";
 
 struct View {
     Image<Hit> hits;
@@ -59,7 +60,7 @@ constexpr double motion_tolerance = 1e-3;
 class PoolRoundTrip : public testing::TestWithParam<int> {
   protected:
     static void SetUpTestSuite() {
-        scene_ = std::make_unique<Scene>(load_scene(ALEPH_SOURCE_DIR "/scenes/pool/scene.json"));
+        scene_ = std::make_unique<Scene>(load_scene(source_folder() / "scenes/pool/scene.json"));
         fs::create_directories(folder);
         write_glb(*scene_, folder / "pool.glb");
         loaded_ = std::make_unique<Scene>(load_scene(folder / "pool.glb"));

@@ -14,6 +14,7 @@
 #include "engine/load/warnings.h"
 #include "engine/pose/camera_view.h"
 #include "engine/pose/pose.h"
+#include "tests/support/paths.h"
 
 namespace aleph {
 namespace {
@@ -309,7 +310,7 @@ TEST_F(Archive, ManyIncludesOfOneFileLoadAndSave) {
 }
 
 TEST_F(Archive, RealFilesLoadAsScenesAndAsIncludes) {
-    const fs::path assets = ALEPH_ASSETS_DIR;
+    const fs::path assets = assets_folder();
     if (!fs::exists(assets)) GTEST_SKIP() << "the shared asset files are not here";
     for (const char* name : {"gltf/CesiumMilkTruck.glb", "gltf/CornellBox.glb", "room/room.glb"}) {
         const Scene scene = load_scene(assets / name);

@@ -18,6 +18,7 @@
 #include "render/image_sequence.h"
 #include "tests/support/image_patterns.h"
 #include "tests/support/scratch_folder.h"
+#include "tests/support/paths.h"
 
 namespace aleph {
 namespace {
@@ -337,7 +338,7 @@ TEST(MapsImages, PartnersOfFrames) {
 }
 
 TEST(SceneMotionFromImages, IsTheSearchBetweenTheQuickEstimates) {
-    const Scene scene = load_scene(ALEPH_SOURCE_DIR "/scenes/pool/scene.json");
+    const Scene scene = load_scene(source_folder() / "scenes/pool/scene.json");
     RenderSettings settings;
     settings.width = 80;
     settings.height = 60;
@@ -361,7 +362,7 @@ TEST(SceneMotionFromImages, IsTheSearchBetweenTheQuickEstimates) {
 }
 
 TEST(SceneMotionFromImages, NoneAcrossACut) {
-    Scene scene = load_scene(ALEPH_SOURCE_DIR "/scenes/cornell/scene.json");
+    Scene scene = load_scene(source_folder() / "scenes/cornell/scene.json");
     scene.cuts = {5};
     RenderSettings settings;
     settings.width = 40;

@@ -1,0 +1,21 @@
+#include "tests/support/paths.h"
+
+namespace aleph {
+
+std::filesystem::path source_folder() {
+    return ALEPH_SOURCE_DIR;
+}
+
+std::filesystem::path assets_folder() {
+    return source_folder().parent_path() / "shared" / "assets";
+}
+
+std::filesystem::path build_folder() {
+    return ALEPH_BUILD_DIR;
+}
+
+std::string program_path(const std::string& name) {
+    return (build_folder() / name).string();
+}
+
+}  // namespace aleph
