@@ -38,7 +38,7 @@ std::uint64_t mark_hidden(MotionField& field, const Scene& scene, const MotionMo
     const std::vector<Instance>& instances = other.frame->instances;
     std::vector<CameraFromObject> maps(instances.size());
     for (std::size_t i = 0; i < maps.size(); ++i) {
-        maps[i] = make_camera_from_object(*other.view, other.frame->world[static_cast<std::size_t>(instances[i].node)]);
+        maps[i] = make_camera_from_object(*other.view, other.frame->world[instances[i].node]);
     }
 
     // Blocks of neighbouring pixels: their points lie close together, so do the rays.
@@ -68,7 +68,7 @@ std::uint64_t mark_hidden(MotionField& field, const Scene& scene, const MotionMo
         }
         return count;
     };
-    parallel_for(static_cast<std::size_t>(rows), 1, [&](std::size_t begin, std::size_t end) {
+    parallel_rows(rows, 1, [&](int begin, int end) {
         Tracer tracer(other_rays);
         for (std::size_t row = begin; row < end; ++row) {
             for (int column = 0; column < columns; ++column) {

@@ -21,7 +21,7 @@ constexpr int level_count = 3;                   // A(0..2)
 constexpr int exhaustive_radius = 8;             // pixels of the coarsest level
 constexpr std::array<int, 3> steps = {4, 2, 1};  // of the three-step search
 constexpr int shortest_side = 8;                 // of a level that is searched
-constexpr std::size_t rows_per_chunk = 8;
+constexpr int rows_per_chunk = 8;
 constexpr std::size_t spare_bytes = 4;  // a window's row is read as four bytes
 
 /// In pixels of a level.
@@ -100,15 +100,15 @@ void try_offset(const CensusLevel& now, const CensusLevel& other, const Offset& 
 Image<Offset> search_exhaustively(const CensusLevel& now, const CensusLevel& other) {
     static const std::vector<Offset> offsets = list_offsets(exhaustive_radius);
     Image<Offset> best(now.width, now.height);
-    parallel_for(static_cast<std::size_t>(now.height), rows_per_chunk, [&](std::size_t begin, std::size_t end) {
+    parallel_rows(now.height, rows_per_chunk, [&](int begin, int end) {
         const std::size_t count = (end - begin) * static_cast<std::size_t>(now.width);
         ExhaustiveBuffers buffers{std::vector<std::uint8_t>(count, 255),
                                   std::vector<std::uint8_t>(3 * static_cast<std::size_t>(now.width + 2)),
                                   std::vector<std::int8_t>(count), std::vector<std::int8_t>(count)};
         for (const Offset& offset : offsets) {
-            try_offset(now, other, offset, static_cast<int>(begin), static_cast<int>(end), buffers);
+            try_offset(now, other, offset, begin, end, buffers);
         }
-        Offset* const out = best.row(static_cast<int>(begin));
+        Offset* const out = best.row(begin);
         for (std::size_t i = 0; i < count; ++i) out[i] = {buffers.x[i], buffers.y[i]};
     });
     return best;
@@ -163,8 +163,8 @@ Offset search_in_steps(const CensusLevel& now, const CensusLevel& other, int x, 
 
 Image<Offset> refine(const CensusLevel& now, const CensusLevel& other, const Image<Offset>& coarse) {
     Image<Offset> fine(now.width, now.height);
-    parallel_for(static_cast<std::size_t>(now.height), rows_per_chunk, [&](std::size_t begin, std::size_t end) {
-        for (int y = static_cast<int>(begin); y < static_cast<int>(end); ++y) {
+    parallel_rows(now.height, rows_per_chunk, [&](int begin, int end) {
+        for (int y = begin; y < end; ++y) {
             const Offset* const from = coarse.row(y / 2);
             for (int x = 0; x < now.width; ++x) {
                 const Offset& half = from[x / 2];
@@ -183,9 +183,9 @@ CensusLevel make_census_level(const Image<float>& level) {
     const auto stride = static_cast<std::size_t>(w + 2);
     census.bits.resize(stride * static_cast<std::size_t>(h + 2) + spare_bytes);
     const auto row_at = [&](int y) { return census.bits.data() + static_cast<std::size_t>(y + 1) * stride; };
-    parallel_for(static_cast<std::size_t>(h), rows_per_chunk, [&](std::size_t begin, std::size_t end) {
+    parallel_rows(h, rows_per_chunk, [&](int begin, int end) {
         std::vector<float> padded(3 * stride);  // rows y - 1 to y + 1, with a border
-        for (int y = static_cast<int>(begin); y < static_cast<int>(end); ++y) {
+        for (int y = begin; y < end; ++y) {
             for (int k = 0; k < 3; ++k) {
                 float* const row = padded.data() + static_cast<std::size_t>(k) * stride;
                 std::copy_n(level.row(std::clamp(y + k - 1, 0, h - 1)), w, row + 1);

@@ -85,7 +85,7 @@ CameraFromObject make_background_map(const CameraView& now, const CameraView& vi
 void add_moments_between(FrameMotion& motion, const Scene& scene, const MotionMoment& now, const MotionMoment& other,
                          double chord_degrees) {
     const int camera = find_viewing_camera(now, other);
-    const int camera_node = camera == no_index ? no_index : now.frame->cameras[static_cast<std::size_t>(camera)].node;
+    const int camera_node = camera == no_index ? no_index : now.frame->cameras[camera].node;
     const double limit = chord_degrees * std::numbers::pi / 180.0;
     const double begin = now.frame->seconds, end = other.frame->seconds;
     const double view_turn = camera == no_index ? turn_between(*now.view, *other.view) : 0.0;
@@ -96,10 +96,9 @@ void add_moments_between(FrameMotion& motion, const Scene& scene, const MotionMo
     const bool background_turns = !now.view->orthographic && turns.background + view_turn > limit;
     for (const double seconds : times) {
         const SceneFrame frame = pose(scene, seconds);
-        const CameraView view =
-            camera == no_index
-                ? interpolate_view(*now.view, *other.view, (seconds - begin) / (end - begin))
-                : make_camera_view(frame.cameras[static_cast<std::size_t>(camera)], now.view->width, now.view->height);
+        const CameraView view = camera == no_index
+                                    ? interpolate_view(*now.view, *other.view, (seconds - begin) / (end - begin))
+                                    : make_camera_view(frame.cameras[camera], now.view->width, now.view->height);
         motion.between.push_back(view);
         if (background_turns) motion.background.between.push_back({make_background_map(*now.view, view), {}});
         for (std::size_t i = 0; i < motion.objects.size(); ++i) {
@@ -132,14 +131,14 @@ FrameMotion prepare(const Scene& scene, const MotionMoment& now, const MotionMom
         const Instance& instance = now.frame->instances[i];
         const auto node = static_cast<std::size_t>(instance.node);
         ObjectMotion& object = motion.objects[i];
-        object.mesh = &scene.meshes[static_cast<std::size_t>(instance.mesh)];
+        object.mesh = &scene.meshes[instance.mesh];
         object.now = make_camera_from_object(motion.now, now.frame->world[node]);
         // The list of instances is the same at every time; two frames of different scenes have no counterparts.
         if (i >= other.frame->instances.size() || !(other.frame->instances[i] == instance)) continue;
         object.counterpart = other.frame->shown[i] != 0;
         object.other = make_camera_from_object(motion.other, other.frame->world[node]);
-        object.shape_now = &now.frame->meshes[static_cast<std::size_t>(instance.mesh)];
-        object.shape_other = &other.frame->meshes[static_cast<std::size_t>(instance.mesh)];
+        object.shape_now = &now.frame->meshes[instance.mesh];
+        object.shape_other = &other.frame->meshes[instance.mesh];
         object.deforms = !object.shape_now->positions.empty();
         object.still = same && object.now == object.other && *object.shape_now == *object.shape_other;
     }
@@ -237,7 +236,7 @@ PixelMotion compute_background_motion(const FrameMotion& frame, double x, double
 }
 
 PixelMotion compute_hit_motion(const FrameMotion& frame, const Hit& hit) {
-    const ObjectMotion& object = frame.objects[static_cast<std::size_t>(hit.instance)];
+    const ObjectMotion& object = frame.objects[hit.instance];
     if (!object.counterpart) return {.validity = MotionValidity::no_counterpart};
     if (object.deforms) return compute_deforming_motion(frame, object, hit);
     const glm::dvec3 point = surface_point(*object.mesh, hit);
@@ -264,9 +263,9 @@ MotionField compute_model_motion(const Scene& scene, const MotionMoment& now, co
         return field;
     }
     const FrameMotion frame = prepare(scene, now, other, settings);
-    constexpr std::size_t rows_per_chunk = 8;
-    parallel_for(static_cast<std::size_t>(hits.height), rows_per_chunk, [&](std::size_t begin, std::size_t end) {
-        for (int y = static_cast<int>(begin); y < static_cast<int>(end); ++y) {
+    constexpr int rows_per_chunk = 8;
+    parallel_rows(hits.height, rows_per_chunk, [&](int begin, int end) {
+        for (int y = begin; y < end; ++y) {
             for (int x = 0; x < hits.width; ++x) {
                 const Hit& hit = hits(x, y);
                 const PixelMotion motion = hit.instance == no_index ? compute_background_motion(frame, x + 0.5, y + 0.5)

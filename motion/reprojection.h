@@ -53,16 +53,14 @@ template <class Points>
 /// Where on its mesh a ray met an object: object space, m. Always from the barycentrics, never from the distance, which
 /// is off by metres at grazing angles (HARD_CASES RP-19).
 [[gnu::always_inline]] inline glm::dvec3 surface_point(const Mesh& mesh, const Hit& hit) {
-    return point_between(mesh.positions, mesh.triangles[static_cast<std::size_t>(hit.primitive)],
-                         clamp_barycentrics(hit));
+    return point_between(mesh.positions, mesh.triangles[hit.primitive], clamp_barycentrics(hit));
 }
 
 /// The same on a mesh that may deform, at the moment of `posed` (SceneFrame::meshes): on its triangles, as rays meet
 /// it.
 inline glm::dvec3 triangle_point(const Mesh& mesh, const PosedMesh& posed, const Hit& hit) {
     if (posed.positions.empty()) return surface_point(mesh, hit);
-    return point_between(posed.positions, mesh.triangles[static_cast<std::size_t>(hit.primitive)],
-                         clamp_barycentrics(hit));
+    return point_between(posed.positions, mesh.triangles[hit.primitive], clamp_barycentrics(hit));
 }
 
 /// Q(u,v,t) at the moment of `posed`: the limit surface's point where the mesh is a moving cage's, else the triangle's.

@@ -137,8 +137,8 @@ Turns compute_turns(const Scene& scene, int camera_node, double begin, double en
     if (begin > end) std::swap(begin, end);
     std::vector<bool> carries_camera(scene.nodes.size(), false);
     for (int node = camera_node; node != no_index;) {
-        carries_camera[static_cast<std::size_t>(node)] = true;
-        const Node& carrier = scene.nodes[static_cast<std::size_t>(node)];
+        carries_camera[node] = true;
+        const Node& carrier = scene.nodes[node];
         node = is_detached(carrier, begin, end) ? no_index : carrier.parent;
     }
     // Along the way from the root: everything's turn, and the part of it that the camera shares.
@@ -152,7 +152,7 @@ Turns compute_turns(const Scene& scene, int camera_node, double begin, double en
         shared[i] = carries_camera[i] ? total[i] : (detached ? 0.0 : shared[parent]);
     }
     Turns turns;
-    turns.background = camera_node == no_index ? 0.0 : total[static_cast<std::size_t>(camera_node)];
+    turns.background = camera_node == no_index ? 0.0 : total[camera_node];
     turns.nodes.resize(scene.nodes.size());
     for (std::size_t i = 0; i < turns.nodes.size(); ++i) {
         turns.nodes[i] = (total[i] - shared[i]) + (turns.background - shared[i]);
@@ -161,10 +161,9 @@ Turns compute_turns(const Scene& scene, int camera_node, double begin, double en
     const std::vector<double> of_nodes = turns.nodes;
     for (std::size_t i = 0; i < of_nodes.size(); ++i) {
         for (const int mesh : scene.nodes[i].meshes) {
-            const int skin = scene.meshes[static_cast<std::size_t>(mesh)].skin;
+            const int skin = scene.meshes[mesh].skin;
             if (skin == no_index) continue;
-            for (const int joint : scene.skins[static_cast<std::size_t>(skin)].joints)
-                turns.nodes[i] = std::max(turns.nodes[i], of_nodes[static_cast<std::size_t>(joint)]);
+            for (const int joint : scene.skins[skin].joints) turns.nodes[i] = std::max(turns.nodes[i], of_nodes[joint]);
         }
     }
     return turns;

@@ -12,7 +12,7 @@ namespace aleph {
 
 namespace {
 
-constexpr std::size_t rows_per_band = 32;
+constexpr int rows_per_band = 32;
 constexpr float largest_aleph = 250.76f;        // the supremum of CSF_max is 250.751
 constexpr float largest_velocity = 1e30f;       // deg/s
 constexpr float largest_model_velocity = 1e6f;  // deg/s; beyond 1.8e5 no contrast is seen and every f is 1
@@ -97,12 +97,12 @@ void ElevationRow::load(const float* velocity) {
 }
 
 bool ElevationRow::is_one(int band) const {
-    return !(slope_[static_cast<std::size_t>(band)] * largest_spread_ > 1.0f);
+    return !(slope_[band] * largest_spread_ > 1.0f);
 }
 
 void ElevationRow::elevations(int band, float* out) const {
     // k, c0 and c2 v cancel: CSF_max / CSF = e^(2x-2) / x^2 with x = rho / rho_peak, and CSF < 1 means CSF_max.
-    const float slope = slope_[static_cast<std::size_t>(band)];
+    const float slope = slope_[band];
     const std::size_t width = spread_.size();
     const float* const spread = spread_.data();
     const float* const peak = peak_.data();

@@ -9,7 +9,7 @@
 namespace aleph {
 
 namespace {
-constexpr std::size_t rows_per_band = 32;
+constexpr int rows_per_band = 32;
 }
 
 BandLevels make_band_levels(LevelSize size, RowSource finest, const std::vector<Image<float>>& a, float grey) {
@@ -76,10 +76,10 @@ std::array<Image<float>, band_count> compute_band_response(const Image<float>& a
 
     std::array<Image<float>, band_count> out;
     for (Image<float>& image : out) image = Image<float>(achromatic.width, achromatic.height);
-    parallel_for(static_cast<std::size_t>(achromatic.height), rows_per_band, [&](std::size_t begin, std::size_t end) {
+    parallel_rows(achromatic.height, rows_per_band, [&](int begin, int end) {
         BandRows rows(levels);
-        rows.load(static_cast<int>(begin), static_cast<int>(end));
-        for (int y = static_cast<int>(begin); y < static_cast<int>(end); ++y) {
+        rows.load(begin, end);
+        for (int y = begin; y < end; ++y) {
             rows.expand_row(y);
             for (int x = 0; x < achromatic.width; ++x) {
                 double sum = 0.0;
@@ -87,8 +87,7 @@ std::array<Image<float>, band_count> compute_band_response(const Image<float>& a
                 const bool noise = !(sum > rows.noise()[x]);
                 for (int i = 0; i < band_count; ++i) {
                     const double flat = i == band_count - 1 ? 1.0 : 0.0;
-                    out[static_cast<std::size_t>(i)](x, y) =
-                        static_cast<float>(noise ? flat : std::abs(rows.band(i)[x]) / sum);
+                    out[i](x, y) = static_cast<float>(noise ? flat : std::abs(rows.band(i)[x]) / sum);
                 }
             }
         }

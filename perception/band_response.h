@@ -39,7 +39,7 @@ class BandRows {
     void expand_row(int y);
 
     /// L(band), signed: its absolute value is L.
-    const float* band(int i) const { return rows_[static_cast<std::size_t>(i)].data(); }
+    const float* band(int i) const { return rows_[i].data(); }
     /// What the sum of the bands must exceed: band_noise * max(|A0|, |A7|).
     const float* noise() const { return noise_.data(); }
 

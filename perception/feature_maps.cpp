@@ -19,9 +19,8 @@ struct Source {
 };
 
 FeatureMap make_feature_map(const Source& source, LevelPair pair, const std::vector<LevelSize>& sizes) {
-    const Image<float>& center = (*source.levels)[static_cast<std::size_t>(pair.center)];
-    Image<float> difference =
-        expand_to_level((*source.levels)[static_cast<std::size_t>(pair.surround)], sizes, pair.surround, pair.center);
+    const Image<float>& center = (*source.levels)[pair.center];
+    Image<float> difference = expand_to_level((*source.levels)[pair.surround], sizes, pair.surround, pair.center);
     for (std::size_t i = 0; i < difference.size(); ++i) {
         difference.pixels[i] = center.pixels[i] - difference.pixels[i];
     }

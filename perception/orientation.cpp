@@ -30,8 +30,8 @@ Image<float> compute_orientation(const Image<float>& high_pass, double degrees) 
     Image<float> real(high_pass.width, high_pass.height);
     Image<float> imaginary(high_pass.width, high_pass.height);
     for (int y = 0; y < high_pass.height; ++y) {
-        const float cos_y = wave_y.cosine[static_cast<std::size_t>(y)];
-        const float sin_y = wave_y.sine[static_cast<std::size_t>(y)];
+        const float cos_y = wave_y.cosine[y];
+        const float sin_y = wave_y.sine[y];
         const float* const h = high_pass.row(y);
         float* const re = real.row(y);
         float* const im = imaginary.row(y);

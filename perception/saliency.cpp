@@ -12,7 +12,7 @@ namespace aleph {
 
 namespace {
 
-constexpr std::size_t rows_per_band = 32;
+constexpr int rows_per_band = 32;
 constexpr double feature_floor = 1e-6;  // of max |A| (MODEL 5.3)
 constexpr double motion_floor = 1e-3;   // deg/s (MODEL 5.3)
 constexpr double summed_floor = 1e-6;   // of sums of maps in [0,1]
@@ -51,13 +51,13 @@ void add_normalized(const float* row, std::size_t count, const Normalization& n,
 void sum_full(const std::vector<WeightedMap>& maps, const std::vector<LevelSize>& sizes, Saliency& out) {
     const LevelSize size = sizes.front();
     for (Image<float>& c : out.conspicuity) c = Image<float>(size.width, size.height);
-    parallel_for(static_cast<std::size_t>(size.height), rows_per_band, [&](std::size_t begin, std::size_t end) {
+    parallel_rows(size.height, rows_per_band, [&](int begin, int end) {
         RowExpander expander(sizes);
         std::vector<float> row(static_cast<std::size_t>(size.width));
         for (const WeightedMap& w : maps) {
-            Image<float>& sum = out.conspicuity[static_cast<std::size_t>(w.map->channel)];
-            expander.load(w.map->difference, w.map->level, static_cast<int>(begin), static_cast<int>(end));
-            for (int y = static_cast<int>(begin); y < static_cast<int>(end); ++y) {
+            Image<float>& sum = out.conspicuity[w.map->channel];
+            expander.load(w.map->difference, w.map->level, begin, end);
+            for (int y = begin; y < end; ++y) {
                 expander.expand_row(y, row.data());
                 add_normalized(row.data(), row.size(), w.normalization, sum.row(y));
             }
@@ -71,7 +71,7 @@ void sum_center(const std::vector<WeightedMap>& maps, const std::vector<LevelSiz
         for (std::size_t channel = begin; channel < end; ++channel) {
             Image<float> sum;
             for (int level = coarsest_center; level >= finest_center; --level) {
-                const LevelSize size = sizes[static_cast<std::size_t>(level)];
+                const LevelSize size = sizes[level];
                 sum = sum.empty() ? Image<float>(size.width, size.height) : expand(sum, size);
                 for (const WeightedMap& w : maps) {
                     if (w.map->level != level || static_cast<std::size_t>(w.map->channel) != channel) continue;
@@ -148,8 +148,7 @@ void scale_saliency_row(Saliency& saliency, int y) {
 }
 
 Image<float> full_conspicuity(const Saliency& saliency, FeatureChannel channel) {
-    return expand_to_level(saliency.conspicuity[static_cast<std::size_t>(channel)], saliency.sizes,
-                           saliency.conspicuity_level, 0);
+    return expand_to_level(saliency.conspicuity[channel], saliency.sizes, saliency.conspicuity_level, 0);
 }
 
 Saliency compute_saliency(const ChannelPyramids& pyramids, double largest_a, SaliencyGrid grid) {

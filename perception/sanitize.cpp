@@ -79,7 +79,7 @@ float quantile(std::vector<float>& values, double q) {
     const double rank = std::ceil(q * static_cast<double>(values.size()));
     const auto index = static_cast<std::ptrdiff_t>(std::max(rank, 1.0)) - 1;
     std::nth_element(values.begin(), values.begin() + index, values.end());
-    return values[static_cast<std::size_t>(index)];
+    return values[index];
 }
 
 std::uint64_t clamp_fireflies(Image<Rgb>& estimate) {

@@ -11,7 +11,7 @@ namespace aleph {
 
 namespace {
 
-constexpr std::size_t rows_per_band = 32;
+constexpr int rows_per_band = 32;
 constexpr double lowest_luminance = 1e-6, highest_luminance = 1e12;  // cd/m2
 
 // Ward-Larson, Rushmeier and Piatko 1997: where one piece ends and the next begins, log10 of cd/m2.
@@ -60,7 +60,7 @@ class LuminanceSums {
         : reach_(reach),
           stride_(static_cast<std::size_t>(estimate.width + 2 * reach + 1)),
           sums_(stride_ * static_cast<std::size_t>(estimate.height)) {
-        parallel_for(static_cast<std::size_t>(estimate.height), rows_per_band, [&](std::size_t begin, std::size_t end) {
+        parallel_rows(estimate.height, rows_per_band, [&](int begin, int end) {
             for (std::size_t y = begin; y < end; ++y) {
                 double* out = sums_.data() + y * stride_ + reach + 1;
                 double sum = 0.0;
@@ -124,16 +124,16 @@ Image<float> compute_adaptation_luminance(const Image<Rgb>& estimate, const View
     const LuminanceSums sums(estimate, viewing.display_white, half.front());
     const int reach = static_cast<int>(half.size()) - 1;
     Image<float> out(estimate.width, estimate.height);
-    parallel_for(static_cast<std::size_t>(out.height), rows_per_band, [&](std::size_t begin, std::size_t end) {
+    parallel_rows(out.height, rows_per_band, [&](int begin, int end) {
         const auto width = static_cast<std::size_t>(out.width);
         std::vector<double> total(width), counts(width);
         int counted_first = 0, counted_last = 0;  // the rows (dy) that `counts` holds for
         bool counted = false;
-        for (int y = static_cast<int>(begin); y < static_cast<int>(end); ++y) {
+        for (int y = begin; y < end; ++y) {
             const int first = std::max(-reach, -y), last = std::min(reach, out.height - 1 - y);
             std::fill(total.begin(), total.end(), 0.0);
             for (int dy = first; dy <= last; ++dy) {
-                const int h = half[static_cast<std::size_t>(std::abs(dy))];
+                const int h = half[std::abs(dy)];
                 const double* const right = sums.at(y + dy, h + 1);
                 const double* const left = sums.at(y + dy, -h);
                 for (std::size_t x = 0; x < width; ++x) total[x] += right[x] - left[x];
@@ -142,9 +142,9 @@ Image<float> compute_adaptation_luminance(const Image<Rgb>& estimate, const View
                 counted = true, counted_first = first, counted_last = last;
                 std::fill(counts.begin(), counts.end(), 0.0);
                 for (int dy = first; dy <= last; ++dy) {
-                    const int h = half[static_cast<std::size_t>(std::abs(dy))];
+                    const int h = half[std::abs(dy)];
                     for (int x = 0; x < out.width; ++x) {
-                        counts[static_cast<std::size_t>(x)] += std::min(x + h, out.width - 1) - std::max(x - h, 0) + 1;
+                        counts[x] += std::min(x + h, out.width - 1) - std::max(x - h, 0) + 1;
                     }
                 }
             }

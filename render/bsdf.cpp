@@ -36,12 +36,12 @@ float smith_lambda(float alpha, const glm::vec3& v) {
 
 SurfaceMaterial evaluate_material(const ShadingScene& shading, const SurfacePoint& point,
                                   const RayFootprint& footprint) {
-    const ShadingMaterial& entry = shading.materials[static_cast<std::size_t>(point.material)];
+    const ShadingMaterial& entry = shading.materials[point.material];
     const MaterialValues& values = entry.values;
     Rgb base = values.base_color * Rgb(point.color);
     float metallic = values.metallic, roughness = values.roughness, specular = values.specular;
     Rgb emission = values.emission, specular_color = values.specular_color;
-    const MaterialTextures& textures = shading.textures->materials[static_cast<std::size_t>(point.material)];
+    const MaterialTextures& textures = shading.textures->materials[point.material];
     if (textures.any) {
         const UvFootprint uv_footprints[2] = {make_uv_footprint(point, footprint, 0),
                                               make_uv_footprint(point, footprint, 1)};

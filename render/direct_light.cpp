@@ -80,11 +80,11 @@ Rgb sample_glossy_light(const LightingContext& context, Tracer& tracer, const Su
         incoming = context.lights.environment;
         light_pdf = pdf_cosine_hemisphere(local.z);
     } else {
-        const int emitter = context.lights.emitter_of_instance[static_cast<std::size_t>(hit.instance)];
+        const int emitter = context.lights.emitter_of_instance[hit.instance];
         if (emitter == no_index) return Rgb(0.0f);
         const SurfacePoint lamp = make_surface_point(context.shading, hit, direction);
         incoming = evaluate_material(context.shading, lamp, {}).emission;
-        light_pdf = pdf_emitter(context.lights.emitters[static_cast<std::size_t>(emitter)], point.ray_origin(),
+        light_pdf = pdf_emitter(context.lights.emitters[emitter], point.ray_origin(),
                                 std::abs(glm::dot(lamp.geometric, direction)), hit.distance);
     }
     return evaluate_glossy(material, local_view, local) * incoming * (local.z / pdf * power_heuristic(pdf, light_pdf));

@@ -23,10 +23,10 @@ Image<Rgb> compute_estimate(const LightingContext& context, const CameraView& vi
     const float scale = static_cast<float>(exposure);
     const int points = points_per_light(context.lights);
     std::mutex counts_mutex;
-    parallel_for(static_cast<std::size_t>(view.height), 4, [&](std::size_t begin, std::size_t end) {
+    parallel_rows(view.height, 4, [&](int begin, int end) {
         Tracer tracer(context.rays);
         RayCounts local;
-        for (int y = static_cast<int>(begin); y < static_cast<int>(end); ++y) {
+        for (int y = begin; y < end; ++y) {
             for (int x = 0; x < view.width; ++x) {
                 Rgb radiance = kind == EstimateKind::flat ? Rgb(1.0f) : context.shading.environment;
                 if (centers.hits(x, y).instance != no_index) {

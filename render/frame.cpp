@@ -97,11 +97,11 @@ ShadedFrame shade_frame(const IndirectContext& context, const SampleHits& center
     std::size_t rows_done = 0;
     for (int i = 0; i < spp; ++i) {
         const SampleHits sample = sample_hits(i);
-        parallel_for(static_cast<std::size_t>(height), 1, [&](std::size_t begin, std::size_t end) {
+        parallel_rows(height, 1, [&](int begin, int end) {
             thread_local GatherScratch scratch;
             Tracer tracer(context.lighting.rays);
             RowCounts local;
-            for (int y = static_cast<int>(begin); y < static_cast<int>(end); ++y) {
+            for (int y = begin; y < end; ++y) {
                 for (int x = 0; x < width; ++x) {
                     const bool hit = sample.hits(x, y).instance != no_index;
                     const Rgb radiance = hit ? shading.shade(tracer, sample, x, y, i, scratch, local)

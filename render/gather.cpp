@@ -224,7 +224,7 @@ IrradianceSample gather_irradiance(const LightingContext& context, Tracer& trace
     tracer.occluded(scratch.shadow_rays, scratch.blocked);
     counts.shadow += scratch.shadow_rays.size();
     for (std::size_t s = 0; s < scratch.shadow_rays.size(); ++s) {
-        if (scratch.blocked[s]) scratch.radiance[static_cast<std::size_t>(scratch.shadow_owner[s])] = Rgb(0.0f);
+        if (scratch.blocked[s]) scratch.radiance[scratch.shadow_owner[s]] = Rgb(0.0f);
     }
     IrradianceSample out;
     glm::dvec3 sum(0.0);

@@ -85,7 +85,7 @@ int IrradianceCache::find_or_add_cell(const glm::vec3& position, float radius) {
     const glm::vec3 off = glm::abs(position - cells_[0].center);
     const bool inside = std::max({off.x, off.y, off.z}) <= cells_[0].half_size;  // else it stays in the root
     for (int level = 0; inside && level < deepest_level; ++level) {
-        Cell& here = cells_[static_cast<std::size_t>(cell)];
+        Cell& here = cells_[cell];
         here.largest_radius = std::max(here.largest_radius, radius);
         if (here.half_size * 0.5f < reach_for_index * radius) break;
         const std::size_t octant =
@@ -104,7 +104,7 @@ int IrradianceCache::find_or_add_cell(const glm::vec3& position, float radius) {
         }
         cell = child;
     }
-    Cell& found = cells_[static_cast<std::size_t>(cell)];
+    Cell& found = cells_[cell];
     found.largest_radius = std::max(found.largest_radius, radius);
     return cell;
 }
@@ -118,14 +118,14 @@ void IrradianceCache::visit(const glm::vec3& position, float reach_factor, float
     int top = 0;
     stack[top++] = 0;
     while (top > 0) {
-        const Cell& cell = cells_[static_cast<std::size_t>(stack[--top])];
+        const Cell& cell = cells_[stack[--top]];
         visit_cell();
-        for (int record = cell.first_record; record >= 0; record = next_[static_cast<std::size_t>(record)]) {
+        for (int record = cell.first_record; record >= 0; record = next_[record]) {
             if (!visit_record(record)) return;
         }
         for (const int child : cell.children) {
             if (child < 0) continue;
-            const Cell& below = cells_[static_cast<std::size_t>(child)];
+            const Cell& below = cells_[child];
             const float reach = below.half_size + reach_factor * below.largest_radius + extra_reach;
             if (std::abs(position.x - below.center.x) <= reach && std::abs(position.y - below.center.y) <= reach &&
                 std::abs(position.z - below.center.z) <= reach) {
@@ -152,7 +152,7 @@ std::size_t IrradianceCache::look_up_cost(const CacheQuery& query) const {
 float IrradianceCache::radius_bound(const glm::vec3& position, const glm::vec3& normal, float largest) const {
     float bound = largest;
     visit(position, 1.0f, largest, [&](int i) {
-        const IrradianceRecord& other = records_[static_cast<std::size_t>(i)];
+        const IrradianceRecord& other = records_[i];
         if (glm::dot(normal, other.normal) > 0.0f) {
             bound = std::min(bound, other.radius + glm::length(position - other.position));
         }
@@ -167,7 +167,7 @@ void IrradianceCache::clamp_to_neighbours(IrradianceRecord& record) {
     record.radius = radius_bound(record.position, record.normal, record.radius);
     record.radius = std::max(record.radius, record.smallest_radius);
     visit(record.position, 1.0f, 0.0f, [&](int i) {
-        IrradianceRecord& other = records_[static_cast<std::size_t>(i)];
+        IrradianceRecord& other = records_[i];
         const float distance = glm::length(record.position - other.position);
         if (glm::dot(record.normal, other.normal) > 0.0f && other.radius > record.radius + distance) {
             other.radius = std::max(record.radius + distance, other.smallest_radius);
@@ -179,8 +179,8 @@ void IrradianceCache::clamp_to_neighbours(IrradianceRecord& record) {
 void IrradianceCache::insert(IrradianceRecord record) {
     clamp_to_neighbours(record);
     const int cell = find_or_add_cell(record.position, record.radius);
-    next_.push_back(cells_[static_cast<std::size_t>(cell)].first_record);
-    cells_[static_cast<std::size_t>(cell)].first_record = static_cast<int>(records_.size());
+    next_.push_back(cells_[cell].first_record);
+    cells_[cell].first_record = static_cast<int>(records_.size());
     records_.push_back(record);
 }
 
@@ -188,7 +188,7 @@ bool IrradianceCache::covers(const CacheQuery& query) const {
     const float accuracy = std::min(query.accuracy, 1.0f);
     bool found = false;
     visit(query.position, accuracy, 0.0f, [&](int i) {
-        found = interpolation_error(records_[static_cast<std::size_t>(i)], query.position, query.normal) < accuracy;
+        found = interpolation_error(records_[i], query.position, query.normal) < accuracy;
         return !found;
     });
     return found;
@@ -199,7 +199,7 @@ std::optional<Rgb> IrradianceCache::interpolate(const CacheQuery& query) const {
     Rgb sum(0.0f);
     float total = 0.0f;
     visit(query.position, accuracy, 0.0f, [&](int i) {
-        const IrradianceRecord& record = records_[static_cast<std::size_t>(i)];
+        const IrradianceRecord& record = records_[i];
         const float error = interpolation_error(record, query.position, query.normal);
         if (error < accuracy) {
             const float weight = 1.0f / std::max(error, smallest_error);

@@ -209,7 +209,7 @@ LightSet make_light_set(const ShadingScene& shading) {
     for (const int index : shading.emitting) {
         const auto i = static_cast<std::size_t>(index);
         const PosedInstance& instance = shading.instances[i];
-        const ShadingMaterial& material = shading.materials[static_cast<std::size_t>(instance.material)];
+        const ShadingMaterial& material = shading.materials[instance.material];
         if (!instance.visible || !material.emits) continue;
         Emitter emitter = make_emitter(instance, material, index);
         if (emitter.triangles.empty()) continue;

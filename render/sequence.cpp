@@ -32,7 +32,7 @@ struct Moment {
 Moment make_moment(const Scene& scene, std::int64_t frame, int camera, int width, int height) {
     Moment moment;
     moment.frame = pose(scene, scene.frame_rate.seconds_of(frame));
-    moment.view = make_camera_view(moment.frame.cameras[static_cast<std::size_t>(camera)], width, height);
+    moment.view = make_camera_view(moment.frame.cameras[camera], width, height);
     return moment;
 }
 
@@ -44,11 +44,11 @@ void update_moment(std::optional<Moment>& moment, const Scene& scene, const Pose
         return;
     }
     update_pose(scene, plan, scene.frame_rate.seconds_of(frame), moment->frame);
-    moment->view = make_camera_view(moment->frame.cameras[static_cast<std::size_t>(camera)], width, height);
+    moment->view = make_camera_view(moment->frame.cameras[camera], width, height);
 }
 
 void refuse_later_effects(const Scene& scene, const CameraValues& camera) {
-    const std::string name = scene.nodes[static_cast<std::size_t>(camera.node)].name;
+    const std::string name = scene.nodes[camera.node].name;
     if (camera.shutter.x != camera.shutter.y) {
         throw InputError(scene.file, "camera of node " + printable(name),
                          "motion blur (an open shutter) is not in this version");
@@ -179,8 +179,8 @@ void fill_geometry_maps(const ShadingScene& shading, const SampleHits& centers, 
     out.normal = Image<glm::vec3>(view.width, view.height, glm::vec3(0.0f));
     const glm::vec3 origin(view.position - shading.anchor);
     const glm::vec3 forward(-view.axes[2]);
-    parallel_for(static_cast<std::size_t>(view.height), 16, [&](std::size_t begin, std::size_t end) {
-        for (int y = static_cast<int>(begin); y < static_cast<int>(end); ++y) {
+    parallel_rows(view.height, 16, [&](int begin, int end) {
+        for (int y = begin; y < end; ++y) {
             for (int x = 0; x < view.width; ++x) {
                 if (centers.hits(x, y).instance == no_index) continue;
                 const PixelSurface surface = make_pixel_surface(shading, view, centers, x, y);
@@ -207,7 +207,7 @@ FrameOutput Sequence::render(std::int64_t frame, const FrameRequest& request) {
 
     update_moment(s.now, s.scene, s.pose_plan, frame, s.camera, settings.width, settings.height);
     const Moment& now = *s.now;
-    if (request.frame) refuse_later_effects(s.scene, now.frame.cameras[static_cast<std::size_t>(s.camera)]);
+    if (request.frame) refuse_later_effects(s.scene, now.frame.cameras[s.camera]);
     if (plan.needed)
         update_moment(s.other, s.scene, s.pose_plan, plan.other, s.camera, settings.width, settings.height);
     const Moment& other = plan.needed ? *s.other : now;  // then nobody asks

@@ -50,7 +50,7 @@ PosedInstance make_instance(const ShadingScene& shading, std::size_t i) {
     const Instance& instance = frame.instances[i];
     const auto m = static_cast<std::size_t>(instance.mesh);
     const Mesh& mesh = shading.scene->meshes[m];
-    const glm::dmat4& world = frame.world[static_cast<std::size_t>(instance.node)];
+    const glm::dmat4& world = frame.world[instance.node];
     PosedInstance posed;
     posed.mesh = &mesh;
     posed.material = mesh.material == no_index ? static_cast<int>(shading.scene->materials.size()) : mesh.material;
@@ -82,8 +82,7 @@ ShadingScene make_shading_scene(const Scene& scene, const SceneFrame& frame, con
     for (std::size_t i = 0; i < frame.instances.size(); ++i) {
         shading.instances.push_back(make_instance(shading, i));
         const PosedInstance& instance = shading.instances.back();
-        if (can_shine[static_cast<std::size_t>(instance.material)] != 0)
-            shading.emitting.push_back(static_cast<int>(i));
+        if (can_shine[instance.material] != 0) shading.emitting.push_back(static_cast<int>(i));
         add(shading.bounds, instance);
     }
     return shading;
@@ -98,7 +97,7 @@ void update_shading_scene(ShadingScene& shading, const PosePlan& plan, const glm
     if (!shading.still_bounds) {
         SceneBounds still;
         std::vector<std::uint8_t> changes(shading.instances.size(), 0);
-        for (const int i : plan.instances) changes[static_cast<std::size_t>(i)] = 1;
+        for (const int i : plan.instances) changes[i] = 1;
         for (std::size_t i = 0; i < changes.size(); ++i)
             if (changes[i] == 0) add(still, shading.instances[i]);
         shading.still_bounds = still;
@@ -110,16 +109,16 @@ void update_shading_scene(ShadingScene& shading, const PosePlan& plan, const glm
     }
     shading.bounds = *shading.still_bounds;
     for (const int i : plan.instances) {
-        PosedInstance& instance = shading.instances[static_cast<std::size_t>(i)];
+        PosedInstance& instance = shading.instances[i];
         instance = make_instance(shading, static_cast<std::size_t>(i));
         add(shading.bounds, instance);
     }
 }
 
 SurfacePoint make_surface_point(const ShadingScene& shading, const Hit& hit, const glm::vec3& direction) {
-    const PosedInstance& instance = shading.instances[static_cast<std::size_t>(hit.instance)];
+    const PosedInstance& instance = shading.instances[hit.instance];
     const Mesh& mesh = *instance.mesh;
-    const glm::uvec3 t = mesh.triangles[static_cast<std::size_t>(hit.primitive)];
+    const glm::uvec3 t = mesh.triangles[hit.primitive];
     // Robust hits may lie a rounding outside their triangle (HARD_CASES RP-18).
     float u = std::max(hit.u, 0.0f), v = std::max(hit.v, 0.0f);
     if (const float sum = u + v; sum > 1.0f) {

@@ -50,8 +50,7 @@ glm::vec4 sample_level(const Texture& texture, const TextureUse& use, int level,
         return blend_texels(image.width, image.height, place, use.wrap_u, use.wrap_v,
                             [&](int x, int y) { return decode(image(x, y)); });
     };
-    if (level > 0)
-        return from(texture.coarse[static_cast<std::size_t>(level - 1)], [](const glm::vec4& t) { return t; });
+    if (level > 0) return from(texture.coarse[level - 1], [](const glm::vec4& t) { return t; });
     if (texture.image->bytes.empty()) return from(texture.image->floats, [](const glm::vec4& t) { return t; });
     if (texture.space == TextureSpace::srgb) {
         return from(texture.image->bytes, [](const glm::u8vec4& t) { return decode_texel(t, TextureSpace::srgb); });
@@ -126,7 +125,7 @@ bool is_place(float u) {
 glm::vec4 sample_texture(const TextureSet& set, const TextureUse& use, const glm::vec2& uv,
                          const UvFootprint& footprint) {
     if (use.texture == no_index) return glm::vec4(1.0f);
-    const Texture& texture = set.textures[static_cast<std::size_t>(use.texture)];
+    const Texture& texture = set.textures[use.texture];
     glm::vec2 center = uv;
     Probes probes;
     if (use.transformed) {

@@ -55,9 +55,9 @@ Image<glm::vec4> reduce(int width, int height, const Read& read) {
     Image<glm::vec4> out(std::max(1, width / 2), std::max(1, height / 2));
     const std::vector<Span> columns = find_spans(width, out.width), rows = find_spans(height, out.height);
     for (int y = 0; y < out.height; ++y) {
-        const Span& row = rows[static_cast<std::size_t>(y)];
+        const Span& row = rows[y];
         for (int x = 0; x < out.width; ++x) {
-            const Span& column = columns[static_cast<std::size_t>(x)];
+            const Span& column = columns[x];
             glm::dvec4 sum(0.0);
             for (int j = 0; j < row.count; ++j) {
                 for (int i = 0; i < column.count; ++i) {
@@ -115,11 +115,11 @@ TextureSet make_texture_set(const Scene& scene) {
     std::vector<std::array<int, 2>> known(scene.images.size(), {no_index, no_index});
     const auto use = [&](const TextureRef& reference, TextureSpace space) {
         if (reference.image == no_index) return TextureUse{};
-        const SceneImage& image = scene.images[static_cast<std::size_t>(reference.image)];
+        const SceneImage& image = scene.images[reference.image];
         if (image.bytes.empty() && image.floats.empty()) return TextureUse{};
         // A float image reads the same in both spaces.
         const std::size_t slot = space == TextureSpace::srgb && !image.bytes.empty() ? 1 : 0;
-        int& index = known[static_cast<std::size_t>(reference.image)][slot];
+        int& index = known[reference.image][slot];
         if (index == no_index) {
             index = static_cast<int>(set.textures.size());
             set.textures.push_back({&image, space, 0, 0, {}});

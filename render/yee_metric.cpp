@@ -51,14 +51,13 @@ Image<float> blur(const Image<float>& image) {
     constexpr std::array<float, 5> taps{0.05f, 0.25f, 0.4f, 0.25f, 0.05f};
     const auto pass = [&](const Image<float>& from, int step_x, int step_y) {
         Image<float> to(from.width, from.height);
-        parallel_for(static_cast<std::size_t>(from.height), 16, [&](std::size_t begin, std::size_t end) {
-            for (int y = static_cast<int>(begin); y < static_cast<int>(end); ++y) {
+        parallel_rows(from.height, 16, [&](int begin, int end) {
+            for (int y = begin; y < end; ++y) {
                 for (int x = 0; x < from.width; ++x) {
                     float sum = 0.0f;
                     for (int k = -2; k <= 2; ++k) {
-                        sum += taps[static_cast<std::size_t>(k + 2)] *
-                               from(std::clamp(x + k * step_x, 0, from.width - 1),
-                                    std::clamp(y + k * step_y, 0, from.height - 1));
+                        sum += taps[k + 2] * from(std::clamp(x + k * step_x, 0, from.width - 1),
+                                                  std::clamp(y + k * step_y, 0, from.height - 1));
                     }
                     to(x, y) = sum;
                 }

@@ -133,9 +133,9 @@ const AlembicMetadata& AlembicArchive::metadata_number(std::uint64_t number, con
 
 std::string AlembicArchive::path(int object) const {
     std::vector<int> way;
-    for (int i = object; i > 0; i = objects_[static_cast<std::size_t>(i)].parent) way.push_back(i);
+    for (int i = object; i > 0; i = objects_[i].parent) way.push_back(i);
     std::string text;
-    for (auto i = way.rbegin(); i != way.rend(); ++i) text += "/" + objects_[static_cast<std::size_t>(*i)].name;
+    for (auto i = way.rbegin(); i != way.rend(); ++i) text += "/" + objects_[*i].name;
     return text.empty() ? "/" : text;
 }
 
@@ -153,7 +153,7 @@ void AlembicArchive::read_objects() {
     while (!pending.empty()) {
         const auto [parent, depth] = pending.back();
         pending.pop_back();
-        const OgawaGroup group = objects_[static_cast<std::size_t>(parent)].group;
+        const OgawaGroup group = objects_[parent].group;
         if (group.size == 0 || !ogawa_.is_data(group, group.size - 1)) continue;
         const OgawaData headers = ogawa_.data(group, group.size - 1);
         if (headers.bytes.size() <= hash_bytes) continue;
@@ -175,8 +175,8 @@ void AlembicArchive::read_objects() {
                                   ? parse_alembic_metadata(cursor.take_text(cursor.take_unsigned(4)))
                                   : metadata_number(number, cursor);
             object.group = ogawa_.group(group, children.size() + 1);
-            for (int i = parent; i >= 0; i = objects_[static_cast<std::size_t>(i)].parent) {
-                if (object.group.offset != 0 && objects_[static_cast<std::size_t>(i)].group == object.group)
+            for (int i = parent; i >= 0; i = objects_[i].parent) {
+                if (object.group.offset != 0 && objects_[i].group == object.group)
                     fail(parent, "an object contains itself");
             }
             if (objects_.size() >= max_alembic_objects)
@@ -186,12 +186,12 @@ void AlembicArchive::read_objects() {
             objects_.push_back(std::move(object));
         }
         for (auto child = children.rbegin(); child != children.rend(); ++child) pending.push_back({*child, depth + 1});
-        objects_[static_cast<std::size_t>(parent)].children = std::move(children);
+        objects_[parent].children = std::move(children);
     }
 }
 
 AlembicCompound AlembicArchive::properties(int object) const {
-    const OgawaGroup group = objects_[static_cast<std::size_t>(object)].group;
+    const OgawaGroup group = objects_[object].group;
     if (group.size == 0) return {};
     try {
         return read_properties(ogawa_.group(group, 0));

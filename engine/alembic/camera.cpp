@@ -128,7 +128,7 @@ glm::dmat3 film_back_matrix(const std::vector<std::string>& operations, std::spa
         if (kind == 't') m[2] = {channels[0], channels[1], 1.0};
         if (kind == 's') m[0][0] = channels[0], m[1][1] = channels[1];
         if (kind == 'm') {
-            for (int i = 0; i < 9; ++i) m[i / 3][i % 3] = channels[static_cast<std::size_t>(i)];
+            for (int i = 0; i < 9; ++i) m[i / 3][i % 3] = channels[i];
         }
         channels = channels.subspan(count);
         result = result * m;  // as with transforms: the last acts first
@@ -166,7 +166,7 @@ int read_camera(AlembicReader& reader, int object, const AlembicCompound& top) {
     reader.widen(*property);
 
     Camera camera;
-    camera.name = archive.objects()[static_cast<std::size_t>(object)].name;
+    camera.name = archive.objects()[object].name;
     camera.fov = make_fov_track(samples, cores, views, film_back);
     camera.shift_x = make_track(samples, views, &View::shift_x);
     camera.shift_y = make_track(samples, views, &View::shift_y);

@@ -143,7 +143,7 @@ int read_material(AlembicReader& reader, int object, const std::string& path) {
     Material material = make_neutral(name);
     const int source = find_object(reader, path);
     const auto is_material = [&](int index) {
-        return index >= 0 && reader.archive.objects()[static_cast<std::size_t>(index)].schema() == material_schema;
+        return index >= 0 && reader.archive.objects()[index].schema() == material_schema;
     };
     if (!is_material(source)) {
         reader.warn(object,
@@ -151,8 +151,7 @@ int read_material(AlembicReader& reader, int object, const std::string& path) {
         return add_material(reader, path, std::move(material));
     }
     Found found;  // a material under another has what it does not set itself from there
-    for (int i = source; is_material(i); i = reader.archive.objects()[static_cast<std::size_t>(i)].parent)
-        collect_material(reader, i, found);
+    for (int i = source; is_material(i); i = reader.archive.objects()[i].parent) collect_material(reader, i, found);
     set_parameters(found, material);
     if (!found.contains(Meaning::base_color))
         reader.warn(source, "the material names no colour that is known here; it is a neutral gray");

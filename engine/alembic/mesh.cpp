@@ -73,7 +73,7 @@ std::optional<RunNormals> read_normals(AlembicReader& reader, int object, const 
 
 std::vector<glm::vec3> face_positions(const RunSurface& surface, std::size_t face) {
     std::vector<glm::vec3> positions;
-    for (const int point : surface.face(face)) positions.push_back(surface.points[static_cast<std::size_t>(point)]);
+    for (const int point : surface.face(face)) positions.push_back(surface.points[point]);
     return positions;
 }
 
@@ -158,7 +158,7 @@ Mesh make_mesh(AlembicReader& reader, int object, const RunSurface& surface, con
     std::ranges::sort(keys);
 
     Mesh mesh;
-    mesh.name = reader.archive.objects()[static_cast<std::size_t>(object)].name;
+    mesh.name = reader.archive.objects()[object].name;
     mesh.points = run.points;
     mesh.present = run.present;
     std::vector<CornerKey> vertices;
@@ -209,7 +209,7 @@ std::vector<int> read_polygon_mesh(AlembicReader& reader, int object, const Alem
     std::uint64_t effort = polygon_effort;
     for (const SurfaceRun& run : runs) {
         RunSurface surface{run,
-                           reader.part.point_caches[static_cast<std::size_t>(run.points)].positions.front(),
+                           reader.part.point_caches[run.points].positions.front(),
                            read_normals(reader, object, geom, run, runs.size() == 1),
                            {},
                            {}};
@@ -224,7 +224,7 @@ std::vector<int> read_polygon_mesh(AlembicReader& reader, int object, const Alem
         std::vector<std::vector<std::size_t>> faces(parts.materials.size());
         for (std::size_t f = 0; f < run.face_counts.size(); ++f) {
             if (run.face_counts[f] >= 3) {
-                faces[static_cast<std::size_t>(parts.face_parts[f])].push_back(f);
+                faces[parts.face_parts[f]].push_back(f);
             } else {
                 reader.warn(object, "faces of fewer than 3 points are left out");
             }

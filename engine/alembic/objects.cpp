@@ -13,7 +13,7 @@ namespace {
 constexpr int max_instance_hops = 64;  // instances of instances of ...
 
 const AlembicObject& object_at(const AlembicReader& reader, int index) {
-    return reader.archive.objects()[static_cast<std::size_t>(index)];
+    return reader.archive.objects()[index];
 }
 
 std::string read_source(const AlembicReader& reader, int instance) {

@@ -115,7 +115,7 @@ void add_faces(AlembicReader& reader, int object, const SurfaceRun& run, const S
     for (const int hole : holes) {
         if (hole < 0 || static_cast<std::size_t>(hole) >= new_number.size()) {
             reader.warn(object, "holes are named for faces that the surface does not have");
-        } else if (const int number = new_number[static_cast<std::size_t>(hole)]; number >= 0) {
+        } else if (const int number = new_number[hole]; number >= 0) {
             cage.holes.push_back(number);
         }
     }
@@ -136,7 +136,7 @@ void warn_of_changes(AlembicReader& reader, int object, const AlembicCompound& g
 /// Makes the triangles. Archives leave the boundary rule out, or have it at its default, where it does not matter to
 /// their writer: a surface of which nothing would be drawn then keeps its edges.
 void tessellate(AlembicReader& reader, int object, int number) {
-    Cage& cage = reader.part.cages[static_cast<std::size_t>(number)];
+    Cage& cage = reader.part.cages[number];
     try {
         try {
             tessellate_cage(reader.part, number);
@@ -159,7 +159,7 @@ std::vector<int> read_subdivision(AlembicReader& reader, int object, const Alemb
     if (compound == nullptr) return {};
     const AlembicCompound geom = archive.properties(*compound);
     const std::vector<SurfaceRun> runs = read_runs(reader, object, geom);
-    const std::string& name = archive.objects()[static_cast<std::size_t>(object)].name;
+    const std::string& name = archive.objects()[object].name;
     std::vector<int> meshes;
     for (const SurfaceRun& run : runs) {
         const SurfaceParts parts = read_parts(reader, object, top, run);

@@ -214,8 +214,8 @@ SurfaceParts read_parts(AlembicReader& reader, int object, const AlembicCompound
     const std::string own = read_text(reader, top, ".material.assign");
     std::vector<int> face_materials(run.face_counts.size(),
                                     own.empty() ? no_index : read_material(reader, object, own));
-    for (const int child : archive.objects()[static_cast<std::size_t>(object)].children) {
-        if (archive.objects()[static_cast<std::size_t>(child)].schema() != "AbcGeom_FaceSet_v1") continue;
+    for (const int child : archive.objects()[object].children) {
+        if (archive.objects()[child].schema() != "AbcGeom_FaceSet_v1") continue;
         const AlembicCompound child_top = archive.properties(child);
         const std::string assigned = read_text(reader, child_top, ".material.assign");
         const AlembicProperty* compound = child_top.find(".faceset");
@@ -231,7 +231,7 @@ SurfaceParts read_parts(AlembicReader& reader, int object, const AlembicCompound
                 reader.warn(child, "the face set names faces that the surface does not have");
                 continue;
             }
-            face_materials[static_cast<std::size_t>(face)] = material;
+            face_materials[face] = material;
         }
     }
     SurfaceParts parts;

@@ -9,7 +9,7 @@ namespace aleph {
 
 namespace {
 
-constexpr std::size_t rows_per_chunk = 32;
+constexpr int rows_per_chunk = 32;
 constexpr float largest_component = 1e15f;
 
 /// glm takes columns; the tables are printed by rows.
@@ -68,8 +68,8 @@ void opponent_row(const Rgb* rgb, int count, const ChannelWeights& weights, floa
 Image<float> compute_opponent(const Image<Rgb>& rgb, OpponentChannel channel, bool neutral) {
     const ChannelWeights weights = opponent_weights(channel, neutral);
     Image<float> out(rgb.width, rgb.height);
-    parallel_for(static_cast<std::size_t>(rgb.height), rows_per_chunk, [&](std::size_t begin, std::size_t end) {
-        for (int y = static_cast<int>(begin); y < static_cast<int>(end); ++y) {
+    parallel_rows(rgb.height, rows_per_chunk, [&](int begin, int end) {
+        for (int y = begin; y < end; ++y) {
             opponent_row(rgb.row(y), rgb.width, weights, out.row(y));
         }
     });

@@ -76,4 +76,12 @@ void parallel_for(std::size_t count, std::size_t grain, const Body& body) {
 #endif
 }
 
+/// parallel_for over the rows of an image: body(begin, end) takes rows as int.
+/// @param rows_per_chunk  at least 1
+template <class Body>
+void parallel_rows(int rows, int rows_per_chunk, const Body& body) {
+    parallel_for(static_cast<std::size_t>(std::max(0, rows)), static_cast<std::size_t>(rows_per_chunk),
+                 [&](std::size_t begin, std::size_t end) { body(static_cast<int>(begin), static_cast<int>(end)); });
+}
+
 }  // namespace aleph

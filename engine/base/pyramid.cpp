@@ -12,7 +12,7 @@ constexpr float kernel_center = 0.4f;
 constexpr float kernel_near = 0.25f;
 constexpr float kernel_far = 0.05f;
 constexpr int padding = 2;  // the kernel's reach
-constexpr std::size_t rows_per_chunk = 32;
+constexpr int rows_per_chunk = 32;
 
 int half_size(int n) {
     return (n + 1) / 2;
@@ -161,10 +161,10 @@ std::vector<LevelSize> pyramid_sizes(int width, int height, int count) {
 Image<float> low_pass(const Image<float>& image) {
     Image<float> out(image.width, image.height);
     const LevelSize size{image.width, image.height};
-    parallel_for(static_cast<std::size_t>(out.height), rows_per_chunk, [&](std::size_t begin, std::size_t end) {
+    parallel_rows(out.height, rows_per_chunk, [&](int begin, int end) {
         std::vector<float> columns(static_cast<std::size_t>(image.width + 2 * padding));
         float* const filtered = columns.data() + padding;
-        for (int y = static_cast<int>(begin); y < static_cast<int>(end); ++y) {
+        for (int y = begin; y < end; ++y) {
             filter_columns([&](int row) { return image.row(row); }, size, y, filtered);
             float* const row = out.row(y);
             if (image.width == 1) {
@@ -180,10 +180,10 @@ Image<float> low_pass(const Image<float>& image) {
 Image<float> reduce(const Image<float>& image) {
     Image<float> out(half_size(image.width), half_size(image.height));
     const LevelSize size{image.width, image.height};
-    parallel_for(static_cast<std::size_t>(out.height), rows_per_chunk, [&](std::size_t begin, std::size_t end) {
+    parallel_rows(out.height, rows_per_chunk, [&](int begin, int end) {
         std::vector<float> columns(static_cast<std::size_t>(image.width + 2 * padding));
         float* const filtered = columns.data() + padding;
-        for (int y = static_cast<int>(begin); y < static_cast<int>(end); ++y) {
+        for (int y = begin; y < end; ++y) {
             filter_columns([&](int row) { return image.row(row); }, size, 2 * y, filtered);
             take_even_samples(filtered, size.width, out.row(y));
         }
@@ -193,11 +193,11 @@ Image<float> reduce(const Image<float>& image) {
 
 Image<float> reduce(LevelSize size, const RowSource& source) {
     Image<float> out(half_size(size.width), half_size(size.height));
-    parallel_for(static_cast<std::size_t>(out.height), rows_per_chunk, [&](std::size_t begin, std::size_t end) {
+    parallel_rows(out.height, rows_per_chunk, [&](int begin, int end) {
         RowCache rows(size, source);
         std::vector<float> columns(static_cast<std::size_t>(size.width + 2 * padding));
         float* const filtered = columns.data() + padding;
-        for (int y = static_cast<int>(begin); y < static_cast<int>(end); ++y) {
+        for (int y = begin; y < end; ++y) {
             filter_columns(std::ref(rows), size, 2 * y, filtered);
             take_even_samples(filtered, size.width, out.row(y));
         }
@@ -208,11 +208,10 @@ Image<float> reduce(LevelSize size, const RowSource& source) {
 Image<float> expand(const Image<float>& image, LevelSize fine) {
     Image<float> out(fine.width, fine.height);
     const LevelSize coarse{image.width, image.height};
-    parallel_for(static_cast<std::size_t>(fine.height), rows_per_chunk, [&](std::size_t begin, std::size_t end) {
+    parallel_rows(fine.height, rows_per_chunk, [&](int begin, int end) {
         std::vector<float> sums(static_cast<std::size_t>(image.width) + 2);
-        const int first = static_cast<int>(begin);
-        expand_window({image.pixels.data(), 0}, coarse, fine, first, static_cast<int>(end), out.row(first),
-                      sums.data());
+        const int first = begin;
+        expand_window({image.pixels.data(), 0}, coarse, fine, first, end, out.row(first), sums.data());
     });
     return out;
 }
@@ -232,7 +231,7 @@ std::vector<Image<float>> make_gaussian_pyramid(LevelSize size, const RowSource&
 
 Image<float> expand_to_level(const Image<float>& image, const std::vector<LevelSize>& sizes, int from, int to) {
     Image<float> out = image;
-    for (int level = from - 1; level >= to; --level) out = expand(out, sizes[static_cast<std::size_t>(level)]);
+    for (int level = from - 1; level >= to; --level) out = expand(out, sizes[level]);
     return out;
 }
 
@@ -244,7 +243,7 @@ void RowExpander::load(const Image<float>& image, int level, int begin, int end)
     std::vector<Range> ranges = {{begin, end}};
     for (int l = 1; l < level; ++l) {
         const Range fine = ranges.back();
-        const int height = (*sizes_)[static_cast<std::size_t>(l)].height;
+        const int height = (*sizes_)[l].height;
         ranges.push_back({std::max(0, fine.begin / 2 - 1), std::min(height, (fine.end - 1) / 2 + 2)});
     }
     RowWindow window{image.pixels.data(), 0};

@@ -28,7 +28,7 @@ std::size_t component_bytes_of(int component_type) {
 Layout find_layout(const GltfSource& source, std::size_t view_index, std::size_t byte_offset, std::size_t count,
                    std::size_t components, int component_type) {
     const tinygltf::BufferView& view = source.model.bufferViews[view_index];
-    const Bytes& buffer = source.buffers[static_cast<std::size_t>(view.buffer)];
+    const Bytes& buffer = source.buffers[view.buffer];
     const std::size_t stride = view.byteStride > 0 ? view.byteStride : components * component_bytes_of(component_type);
     return {buffer.data() + view.byteOffset + byte_offset, stride, count, components};
 }
@@ -110,7 +110,7 @@ std::vector<std::uint32_t> GltfAccessors::read_sparse_indices(int accessor, cons
 
 template <class Store>
 void GltfAccessors::for_each_value(int index, const Store& store) {
-    const tinygltf::Accessor& accessor = source_.model.accessors[static_cast<std::size_t>(index)];
+    const tinygltf::Accessor& accessor = source_.model.accessors[index];
     const auto components = static_cast<std::size_t>(this->components(index));
     const auto read = [&](const Layout& layout, const auto& element_of) {
         with_component_type(accessor.componentType, [&]<class C>(C) {
@@ -123,7 +123,7 @@ void GltfAccessors::for_each_value(int index, const Store& store) {
                          components, accessor.componentType),
              [](std::size_t i) { return i; });
     }
-    const nlohmann::json& raw = source_.document["accessors"][static_cast<std::size_t>(index)];
+    const nlohmann::json& raw = source_.document["accessors"][index];
     const auto sparse = raw.find("sparse");
     if (sparse == raw.end()) return;
     const std::vector<std::uint32_t> elements = read_sparse_indices(index, *sparse, accessor.count);
@@ -135,7 +135,7 @@ void GltfAccessors::for_each_value(int index, const Store& store) {
 
 template <class T>
 std::vector<T> GltfAccessors::read(int index) {
-    const tinygltf::Accessor& accessor = source_.model.accessors[static_cast<std::size_t>(index)];
+    const tinygltf::Accessor& accessor = source_.model.accessors[index];
     const auto components = static_cast<std::size_t>(this->components(index));
     const std::string place = fmt::format("/accessors/{}", index);
     charge(accessor.count * components * sizeof(T), place);
@@ -159,7 +159,7 @@ template std::vector<float> GltfAccessors::read<float>(int);
 template std::vector<double> GltfAccessors::read<double>(int);
 
 std::vector<std::uint32_t> GltfAccessors::read_indices(int index, std::size_t limit, const char* kind) {
-    const tinygltf::Accessor& accessor = source_.model.accessors[static_cast<std::size_t>(index)];
+    const tinygltf::Accessor& accessor = source_.model.accessors[index];
     const auto components = static_cast<std::size_t>(this->components(index));
     const std::string place = fmt::format("/accessors/{}", index);
     charge(accessor.count * components * sizeof(std::uint32_t), place);
@@ -178,16 +178,16 @@ std::vector<std::uint32_t> GltfAccessors::read_indices(int index, std::size_t li
 }
 
 std::size_t GltfAccessors::count(int accessor) const {
-    return source_.model.accessors[static_cast<std::size_t>(accessor)].count;
+    return source_.model.accessors[accessor].count;
 }
 
 int GltfAccessors::components(int accessor) const {
-    const int type = source_.model.accessors[static_cast<std::size_t>(accessor)].type;
+    const int type = source_.model.accessors[accessor].type;
     return tinygltf::GetNumComponentsInType(static_cast<std::uint32_t>(type));
 }
 
 bool GltfAccessors::is_float(int accessor) const {
-    return source_.model.accessors[static_cast<std::size_t>(accessor)].componentType == TINYGLTF_COMPONENT_TYPE_FLOAT;
+    return source_.model.accessors[accessor].componentType == TINYGLTF_COMPONENT_TYPE_FLOAT;
 }
 
 void GltfAccessors::charge(std::uint64_t bytes, const std::string& place) {

@@ -30,10 +30,10 @@ void clamp_to_range(GltfReader& reader, GltfKeys& keys, const Channel& channel) 
 void read_weights(GltfReader& reader, const Channel& channel) {
     const std::vector<int>& meshes = reader.morphs_of[channel.target.index];
     if (meshes.empty()) return;
-    const std::size_t count = reader.part.meshes[static_cast<std::size_t>(meshes[0])].targets.size();
+    const std::size_t count = reader.part.meshes[meshes[0]].targets.size();
     const GltfKeys keys = read_keys(reader, channel.sampler, channel.place, count);
     for (const int index : meshes) {
-        Mesh& mesh = reader.part.meshes[static_cast<std::size_t>(index)];
+        Mesh& mesh = reader.part.meshes[index];
         for (std::size_t k = 0; k < count; ++k) {
             mesh.target_weights[k] = number_track(reader, keys, channel.place, k);
         }
@@ -48,7 +48,7 @@ void read_node_channel(GltfReader& reader, const Channel& channel) {
         return;
     }
     if (channel.target.info->property == GltfProperty::node_weights) return read_weights(reader, channel);
-    Node& node = reader.part.nodes[static_cast<std::size_t>(index)];
+    Node& node = reader.part.nodes[index];
     const GltfKeys keys = read_keys(reader, channel.sampler, channel.place);
     switch (channel.target.info->property) {
         case GltfProperty::node_rotation:

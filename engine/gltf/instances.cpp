@@ -28,7 +28,7 @@ std::size_t read_instances(GltfReader& reader, std::size_t node_index, int paren
     const std::vector<double> rotations = read_attribute(reader, attributes, "ROTATION");
     const std::vector<double> scales = read_attribute(reader, attributes, "SCALE");
     const bool is_float = rotations.empty() || reader.accessors.is_float(attributes["ROTATION"].get<int>());
-    const std::string name = reader.part.nodes[static_cast<std::size_t>(parent)].name;
+    const std::string name = reader.part.nodes[parent].name;
     std::size_t far_from_unit = 0, made = 0;
     for (std::size_t i = 0; i < count; ++i) {
         Node node;

@@ -73,7 +73,7 @@ class MaterialReader {
 TextureRef MaterialReader::texture(int index, int uv_set) {
     TextureRef reference;
     if (index < 0) return reference;
-    const tinygltf::Texture& texture = model_.textures[static_cast<std::size_t>(index)];
+    const tinygltf::Texture& texture = model_.textures[index];
     const auto source = static_cast<std::size_t>(texture.source);
     if (image_of_[source] == no_index) {
         SceneImage image = read_image(reader_, source);
@@ -88,7 +88,7 @@ TextureRef MaterialReader::texture(int index, int uv_set) {
     reference.image = image_of_[source];
     reference.uv_set = uv_set;
     if (texture.sampler >= 0) {
-        const tinygltf::Sampler& sampler = model_.samplers[static_cast<std::size_t>(texture.sampler)];
+        const tinygltf::Sampler& sampler = model_.samplers[texture.sampler];
         reference.wrap_u = wrap_of(sampler.wrapS);
         reference.wrap_v = wrap_of(sampler.wrapT);
         reference.nearest = sampler.magFilter == TINYGLTF_TEXTURE_FILTER_NEAREST;

@@ -109,7 +109,7 @@ std::uint64_t byte_count(const Mesh& mesh) {
 
 /// A second scene mesh of the same primitive, rigid unless it has morph targets.
 int add_copy(GltfReader& reader, int original) {
-    const Mesh& source = reader.part.meshes[static_cast<std::size_t>(original)];
+    const Mesh& source = reader.part.meshes[original];
     reader.accessors.charge(byte_count(source), fmt::format("mesh \"{}\"", printable(source.name)));
     Mesh copy = source;
     copy.target_weights.assign(copy.targets.size(), Track<double>(0.0));
@@ -121,7 +121,7 @@ int add_copy(GltfReader& reader, int original) {
 }
 
 int take_rigid(GltfReader& reader, int original) {
-    GltfMeshUse& use = reader.uses[static_cast<std::size_t>(original)];
+    GltfMeshUse& use = reader.uses[original];
     if (!use.owned) {
         use.shared = true;
         return original;
@@ -131,7 +131,7 @@ int take_rigid(GltfReader& reader, int original) {
 }
 
 int take_own(GltfReader& reader, int original) {
-    GltfMeshUse& use = reader.uses[static_cast<std::size_t>(original)];
+    GltfMeshUse& use = reader.uses[original];
     if (use.owned || use.shared) return add_copy(reader, original);
     use.owned = true;
     return original;
@@ -176,13 +176,13 @@ std::vector<int> take_meshes(GltfReader& reader, std::size_t node_index) {
     const std::vector<double>& weights = node.weights.empty() ? source.weights : node.weights;
     std::vector<int> taken;
     for (const int original : reader.meshes_of[mesh_index]) {
-        const GltfMeshUse use = reader.uses[static_cast<std::size_t>(original)];
-        const bool morphs = !reader.part.meshes[static_cast<std::size_t>(original)].targets.empty();
+        const GltfMeshUse use = reader.uses[original];
+        const bool morphs = !reader.part.meshes[original].targets.empty();
         const bool deforms = morphs || skin != raw.end();
         const int index = deforms ? take_own(reader, original) : take_rigid(reader, original);
         taken.push_back(index);
         if (!deforms) continue;
-        Mesh& mesh = reader.part.meshes[static_cast<std::size_t>(index)];
+        Mesh& mesh = reader.part.meshes[index];
         for (std::size_t k = 0; k < weights.size(); ++k) mesh.target_weights[k] = Track<double>(weights[k]);
         if (morphs) reader.morphs_of[node_index].push_back(index);
         if (skin != raw.end()) read_joint_weights(reader, use, skin->get<std::size_t>(), mesh);

@@ -15,10 +15,10 @@ constexpr std::size_t max_instances = 10'000'000;
 
 /// The default scene's roots; without scenes, every node that has no parent.
 std::vector<int> find_roots(const tinygltf::Model& model) {
-    if (!model.scenes.empty()) return model.scenes[static_cast<std::size_t>(std::max(model.defaultScene, 0))].nodes;
+    if (!model.scenes.empty()) return model.scenes[std::max(model.defaultScene, 0)].nodes;
     std::vector<bool> is_child(model.nodes.size(), false);
     for (const tinygltf::Node& node : model.nodes) {
-        for (const int child : node.children) is_child[static_cast<std::size_t>(child)] = true;
+        for (const int child : node.children) is_child[child] = true;
     }
     std::vector<int> roots;
     for (std::size_t i = 0; i < model.nodes.size(); ++i) {
@@ -30,7 +30,7 @@ std::vector<int> find_roots(const tinygltf::Model& model) {
 void read_transform(GltfReader& reader, const tinygltf::Node& source, const std::string& place, Node& node) {
     if (!source.matrix.empty()) {
         glm::dmat4 matrix;
-        for (int i = 0; i < 16; ++i) matrix[i / 4][i % 4] = source.matrix[static_cast<std::size_t>(i)];
+        for (int i = 0; i < 16; ++i) matrix[i / 4][i % 4] = source.matrix[i];
         node.matrix = Track<glm::dmat4>(matrix);
         return;
     }

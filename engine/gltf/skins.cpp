@@ -38,8 +38,7 @@ bool normalize_weights(JointWeight* weights, int count) {
 std::vector<int> find_tops(const std::vector<Node>& nodes) {
     std::vector<int> tops;
     for (const Node& node : nodes) {
-        tops.push_back(node.parent == no_index ? static_cast<int>(tops.size())
-                                               : tops[static_cast<std::size_t>(node.parent)]);
+        tops.push_back(node.parent == no_index ? static_cast<int>(tops.size()) : tops[node.parent]);
     }
     return tops;
 }
@@ -129,13 +128,13 @@ void read_skins(GltfReader& reader) {
             }
             skin.joints.push_back(node);
             // glTF 2.0, 3.7.3.2.
-            if (tops[static_cast<std::size_t>(node)] != tops[static_cast<std::size_t>(skin.joints[0])]) {
+            if (tops[node] != tops[skin.joints[0]]) {
                 throw InputError(reader.source.file, joint_place,
                                  "the joints of a skin must stand below one root node");
             }
         }
         skin.inverse_binds = read_inverse_binds(reader, raw, skin.joints.size(), place);
-        reader.part.skins[static_cast<std::size_t>(reader.skin_of[i])] = std::move(skin);
+        reader.part.skins[reader.skin_of[i]] = std::move(skin);
     }
 }
 

@@ -137,8 +137,7 @@ EncodedImage load_encoded_image(const GltfSource& source, std::size_t i) {
     EncodedImage encoded;
     if (image.contains("bufferView")) {
         const tinygltf::BufferView& view = source.model.bufferViews[image["bufferView"].get<std::size_t>()];
-        const auto begin = source.buffers[static_cast<std::size_t>(view.buffer)].begin() +
-                           static_cast<std::ptrdiff_t>(view.byteOffset);
+        const auto begin = source.buffers[view.buffer].begin() + static_cast<std::ptrdiff_t>(view.byteOffset);
         encoded.bytes.assign(begin, begin + static_cast<std::ptrdiff_t>(view.byteLength));
     } else if (const auto& uri = image["uri"].get_ref<const std::string&>(); is_data_uri(uri)) {
         encoded.bytes = decode_data_uri(uri, source.file, place + "/uri").bytes;

@@ -92,7 +92,7 @@ template <class T>
 Image<std::array<T, 4>> colours_of(const Interleaved<T>& pixels, T opaque) {
     Image<std::array<T, 4>> colours(pixels.width, pixels.height);
     for (std::size_t i = 0; i < colours.size(); ++i) {
-        for (int c = 0; c < 4; ++c) colours.pixels[i][static_cast<std::size_t>(c)] = pixels.value(i, c, opaque);
+        for (int c = 0; c < 4; ++c) colours.pixels[i][c] = pixels.value(i, c, opaque);
     }
     return colours;
 }

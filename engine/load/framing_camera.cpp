@@ -34,7 +34,7 @@ Bounds scene_bounds(const Scene& scene) {
         for (std::size_t i = 0; i < now.instances.size(); ++i) {
             if (now.shown[i] == 0) continue;
             const auto m = static_cast<std::size_t>(now.instances[i].mesh);
-            const glm::dmat4& world = now.world[static_cast<std::size_t>(now.instances[i].node)];
+            const glm::dmat4& world = now.world[now.instances[i].node];
             if (now.meshes[m].positions.empty()) {
                 if (!meshes[m].empty()) meshes[m].add_corners_to(bounds, world);
                 continue;

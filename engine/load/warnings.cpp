@@ -55,8 +55,8 @@ void add_surface_warnings(Scene& scene) {
     std::vector<bool> drawn(scene.materials.size());
     for (const Node& node : scene.nodes) {
         for (const int mesh : node.meshes) {
-            const int material = scene.meshes[static_cast<std::size_t>(mesh)].material;
-            if (material != no_index) drawn[static_cast<std::size_t>(material)] = true;
+            const int material = scene.meshes[mesh].material;
+            if (material != no_index) drawn[material] = true;
         }
     }
     for (std::size_t i = 0; i < scene.materials.size(); ++i) {
@@ -81,9 +81,9 @@ bool has_light(const Scene& scene) {
     return std::any_of(scene.nodes.begin(), scene.nodes.end(), [&](const Node& node) {
         if (node.light != no_index) return true;
         return std::any_of(node.meshes.begin(), node.meshes.end(), [&](int mesh) {
-            const int material = scene.meshes[static_cast<std::size_t>(mesh)].material;
+            const int material = scene.meshes[mesh].material;
             if (material == no_index) return false;
-            const Material& m = scene.materials[static_cast<std::size_t>(material)];
+            const Material& m = scene.materials[material];
             return !m.unlit && is_positive_somewhere(m.emission) && is_positive_somewhere(m.emission_strength);
         });
     });

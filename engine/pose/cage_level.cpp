@@ -83,7 +83,7 @@ double measure_bend(const LimitSurface& surface, int part, const std::vector<glm
 
 /// Fills what depends on the moment.
 void place_shape(SurfaceShape& shape, const Scene& scene, const Mesh& mesh, double seconds) {
-    const Cage& cage = scene.cages[static_cast<std::size_t>(mesh.cage)];
+    const Cage& cage = scene.cages[mesh.cage];
     const auto control = shape.surface->make_control_points(cage_points_at(scene, cage, seconds));
     std::vector<glm::vec3> normals;
     shape.surface->evaluate_vertices(mesh.cage_part, control, shape.positions, normals);
@@ -151,8 +151,8 @@ class Shapes {
     const SurfaceShape& at(int mesh_index, double seconds) {
         const auto m = static_cast<std::size_t>(mesh_index);
         const Mesh& mesh = scene_.meshes[m];
-        const Cage& cage = scene_.cages[static_cast<std::size_t>(mesh.cage)];
-        const PointCache& cache = scene_.point_caches[static_cast<std::size_t>(cage.points)];
+        const Cage& cage = scene_.cages[mesh.cage];
+        const PointCache& cache = scene_.point_caches[cage.points];
         SurfaceShape& shape = shapes_[m];
         const bool is_new = shape.surface == nullptr;
         if (is_new) choose_surface(shape, mesh, cage, cache.point_count());
@@ -168,7 +168,7 @@ class Shapes {
         shape.surface = mesh.limit.surface;
         shape.triangles = mesh.triangles;
         if (shape.surface->level() >= lowest_measured_level) return;
-        auto& probe = probes_[static_cast<std::size_t>(mesh.cage)];
+        auto& probe = probes_[mesh.cage];
         if (probe == nullptr) probe = std::make_shared<const LimitSurface>(cage, points, lowest_measured_level);
         shape.surface = probe;
         shape.triangles = probe->triangles(mesh.cage_part);
@@ -196,7 +196,7 @@ std::vector<double> find_levels_needed(const Scene& scene, int camera_node, int 
                                        const CageLevelSettings& settings) {
     std::vector<Instance> instances = list_instances(scene);
     std::erase_if(instances, [&](const Instance& instance) {
-        const Mesh& mesh = scene.meshes[static_cast<std::size_t>(instance.mesh)];
+        const Mesh& mesh = scene.meshes[instance.mesh];
         return mesh.cage == no_index || mesh.limit.surface == nullptr || mesh.triangles.empty();
     });
     std::vector<double> most(scene.cages.size(), -std::numeric_limits<double>::infinity());
@@ -204,16 +204,14 @@ std::vector<double> find_levels_needed(const Scene& scene, int camera_node, int 
     for (const std::int64_t number : sample_frames(frame_range(scene), settings.samples)) {
         const double seconds = scene.frame_rate.seconds_of(number);
         const SceneFrame frame = place_nodes(scene, seconds, instances);
-        const CameraView view = make_camera_view(
-            pose_camera(scene, camera_node, frame.world[static_cast<std::size_t>(camera_node)], seconds), width,
-            height);
+        const CameraView view =
+            make_camera_view(pose_camera(scene, camera_node, frame.world[camera_node], seconds), width, height);
         for (std::size_t i = 0; i < instances.size(); ++i) {
             if (!is_shown(scene, frame, i)) continue;
-            const Mesh& mesh = scene.meshes[static_cast<std::size_t>(instances[i].mesh)];
-            double& needed = most[static_cast<std::size_t>(mesh.cage)];
-            needed = std::max(
-                needed, find_level_needed(shapes.at(instances[i].mesh, seconds),
-                                          frame.world[static_cast<std::size_t>(instances[i].node)], view, settings));
+            const Mesh& mesh = scene.meshes[instances[i].mesh];
+            double& needed = most[mesh.cage];
+            needed = std::max(needed, find_level_needed(shapes.at(instances[i].mesh, seconds),
+                                                        frame.world[instances[i].node], view, settings));
         }
     }
     return most;

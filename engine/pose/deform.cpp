@@ -19,13 +19,13 @@ bool is_skinned(const Mesh& mesh) {
 }
 
 const PointCache& cache_of(const Scene& scene, const Mesh& mesh) {
-    return scene.point_caches[static_cast<std::size_t>(mesh.points)];
+    return scene.point_caches[mesh.points];
 }
 
 bool is_cage_animated(const Scene& scene, const Mesh& mesh) {
     if (mesh.cage == no_index || mesh.limit.surface == nullptr) return false;
-    const int points = scene.cages[static_cast<std::size_t>(mesh.cage)].points;
-    return points != no_index && is_animated(scene.point_caches[static_cast<std::size_t>(points)]);
+    const int points = scene.cages[mesh.cage].points;
+    return points != no_index && is_animated(scene.point_caches[points]);
 }
 
 bool are_weights_on(const Mesh& mesh) {
@@ -84,7 +84,7 @@ std::vector<glm::vec3> sample_normals(const Mesh& mesh, double seconds) {
 }
 
 void deform_points(const Scene& scene, const Deformer& deformer, double seconds, PosedMesh& posed) {
-    const Mesh& mesh = scene.meshes[static_cast<std::size_t>(deformer.mesh)];
+    const Mesh& mesh = scene.meshes[deformer.mesh];
     std::vector<glm::dvec3> points = sample_points(cache_of(scene, mesh), seconds);
     if (mesh.vertex_points.empty()) {
         posed.positions = std::move(points);
@@ -124,14 +124,14 @@ void morph(const Mesh& mesh, double seconds, PosedMesh& posed) {
 /// glTF 2.0, 3.7.3.3: the node's own transform does not matter, so it is taken out again. A node without volume cannot
 /// be undone; no ray meets its mesh anyway, which stays as it is.
 void apply_skin(const Scene& scene, const Mesh& mesh, int node, std::span<const glm::dmat4> world, PosedMesh& posed) {
-    const glm::dmat4& placed = world[static_cast<std::size_t>(node)];
+    const glm::dmat4& placed = world[node];
     if (!has_full_rank(placed)) return;
     const glm::dmat4 undo = glm::inverse(placed);
-    const Skin& skin = scene.skins[static_cast<std::size_t>(mesh.skin)];
+    const Skin& skin = scene.skins[mesh.skin];
     std::vector<glm::dmat4> joints;
     joints.reserve(skin.joints.size());
     for (std::size_t j = 0; j < skin.joints.size(); ++j)
-        joints.push_back(undo * world[static_cast<std::size_t>(skin.joints[j])] * skin.inverse_binds[j]);
+        joints.push_back(undo * world[skin.joints[j]] * skin.inverse_binds[j]);
 
     const auto per_vertex = static_cast<std::size_t>(mesh.joints_per_vertex);
     for (std::size_t v = 0; v < posed.positions.size(); ++v) {
@@ -163,8 +163,7 @@ void deform_cage(const Scene& scene, const Mesh& mesh, double seconds, LastCage&
     if (last.cage != mesh.cage || last.surface != &surface) {
         last.cage = mesh.cage;
         last.surface = &surface;
-        last.control = surface.make_control_points(
-            cage_points_at(scene, scene.cages[static_cast<std::size_t>(mesh.cage)], seconds));
+        last.control = surface.make_control_points(cage_points_at(scene, scene.cages[mesh.cage], seconds));
     }
     posed.control = last.control;
     surface.evaluate_vertices(mesh.cage_part, posed.control, posed.positions, posed.normals);
@@ -175,7 +174,7 @@ void deform_cage(const Scene& scene, const Mesh& mesh, double seconds, LastCage&
 std::vector<Deformer> find_deformers(const Scene& scene, std::span<const std::uint8_t> moving_nodes) {
     std::vector<int> node_of(scene.meshes.size(), no_index);
     for (std::size_t n = 0; n < scene.nodes.size(); ++n)
-        for (const int mesh : scene.nodes[n].meshes) node_of[static_cast<std::size_t>(mesh)] = static_cast<int>(n);
+        for (const int mesh : scene.nodes[n].meshes) node_of[mesh] = static_cast<int>(n);
 
     std::vector<Deformer> deformers;
     for (std::size_t m = 0; m < scene.meshes.size(); ++m) {
@@ -183,9 +182,8 @@ std::vector<Deformer> find_deformers(const Scene& scene, std::span<const std::ui
         if (node_of[m] == no_index) continue;
         Deformer deformer{static_cast<int>(m), node_of[m], false, {}};
         if (is_skinned(mesh)) {
-            const auto moves = [&](int node) { return moving_nodes[static_cast<std::size_t>(node)] != 0; };
-            deformer.changes = moves(deformer.node) ||
-                               std::ranges::any_of(scene.skins[static_cast<std::size_t>(mesh.skin)].joints, moves) ||
+            const auto moves = [&](int node) { return moving_nodes[node] != 0; };
+            deformer.changes = moves(deformer.node) || std::ranges::any_of(scene.skins[mesh.skin].joints, moves) ||
                                std::ranges::any_of(mesh.target_weights, [](const auto& w) { return is_animated(w); });
         } else if (mesh.points != no_index && (is_animated(cache_of(scene, mesh)) || has_normal_samples(mesh))) {
             deformer.changes = true;

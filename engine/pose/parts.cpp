@@ -53,7 +53,7 @@ double evaluate_whole(const Track<double>& track, double seconds) {
 }  // namespace
 
 void place_node(const Scene& scene, int index, double seconds, SceneFrame& frame) {
-    const Node& node = scene.nodes[static_cast<std::size_t>(index)];
+    const Node& node = scene.nodes[index];
     ALEPH_CHECK(node.parent < index, fmt::format("node {} has parent {}", index, node.parent));
     const glm::dmat4 local = local_transform(node, seconds);
     const double visible = evaluate_whole(node.visible, seconds);
@@ -66,8 +66,7 @@ void place_node(const Scene& scene, int index, double seconds, SceneFrame& frame
 
 bool is_shown(const Scene& scene, const SceneFrame& frame, std::size_t instance) {
     const Instance& of = frame.instances[instance];
-    return frame.visible[static_cast<std::size_t>(of.node)] != 0 &&
-           evaluate_whole(scene.meshes[static_cast<std::size_t>(of.mesh)].present, frame.seconds) != 0.0;
+    return frame.visible[of.node] != 0 && evaluate_whole(scene.meshes[of.mesh].present, frame.seconds) != 0.0;
 }
 
 MaterialValues pose_material(const Material& material, double seconds) {
@@ -85,7 +84,7 @@ MaterialValues pose_material(const Material& material, double seconds) {
 }
 
 LightValues pose_light(const Scene& scene, int node, const glm::dmat4& world, double seconds) {
-    const Light& light = scene.lights[static_cast<std::size_t>(scene.nodes[static_cast<std::size_t>(node)].light)];
+    const Light& light = scene.lights[scene.nodes[node].light];
     LightValues values;
     values.kind = light.kind;
     values.node = node;
@@ -100,7 +99,7 @@ LightValues pose_light(const Scene& scene, int node, const glm::dmat4& world, do
 }
 
 CameraValues pose_camera(const Scene& scene, int node, const glm::dmat4& world, double seconds) {
-    const Camera& camera = scene.cameras[static_cast<std::size_t>(scene.nodes[static_cast<std::size_t>(node)].camera)];
+    const Camera& camera = scene.cameras[scene.nodes[node].camera];
     CameraValues values;
     values.node = node;
     values.orthographic = camera.orthographic;

@@ -19,18 +19,16 @@ void plan_nodes(const Scene& scene, PosePlan& plan) {
     int camera = 0;
     for (std::size_t n = 0; n < scene.nodes.size(); ++n) {
         const Node& node = scene.nodes[n];
-        const bool carried = node.parent != no_index && plan.moving[static_cast<std::size_t>(node.parent)] != 0;
+        const bool carried = node.parent != no_index && plan.moving[node.parent] != 0;
         const bool moves = carried || has_animated_tracks(node);
         plan.moving[n] = moves;
         if (moves) plan.nodes.push_back(static_cast<int>(n));
         if (node.light != no_index) {
             plan.light_nodes.push_back(static_cast<int>(n));
-            plan.lights =
-                plan.lights || moves || has_animated_tracks(scene.lights[static_cast<std::size_t>(node.light)]);
+            plan.lights = plan.lights || moves || has_animated_tracks(scene.lights[node.light]);
         }
         if (node.camera == no_index) continue;
-        if (moves || has_animated_tracks(scene.cameras[static_cast<std::size_t>(node.camera)]))
-            plan.cameras.push_back(camera);
+        if (moves || has_animated_tracks(scene.cameras[node.camera])) plan.cameras.push_back(camera);
         ++camera;
     }
 }
@@ -38,8 +36,8 @@ void plan_nodes(const Scene& scene, PosePlan& plan) {
 void plan_instances(const Scene& scene, PosePlan& plan) {
     std::vector<std::uint8_t> deforms(scene.meshes.size(), 0), changes(scene.meshes.size(), 0);
     for (const Deformer& deformer : plan.deformers) {
-        deforms[static_cast<std::size_t>(deformer.mesh)] = 1;
-        if (deformer.changes) changes[static_cast<std::size_t>(deformer.mesh)] = 1;
+        deforms[deformer.mesh] = 1;
+        if (deformer.changes) changes[deformer.mesh] = 1;
     }
     for (std::size_t m = 0; m < scene.meshes.size(); ++m)
         if (is_animated(scene.meshes[m].present)) changes[m] = 1;
@@ -48,12 +46,11 @@ void plan_instances(const Scene& scene, PosePlan& plan) {
     std::vector<std::vector<int>> instances_of(scene.meshes.size());
     for (std::size_t i = 0; i < instances.size(); ++i) {
         const auto mesh = static_cast<std::size_t>(instances[i].mesh);
-        if (plan.moving[static_cast<std::size_t>(instances[i].node)] != 0 || changes[mesh] != 0)
-            plan.instances.push_back(static_cast<int>(i));
+        if (plan.moving[instances[i].node] != 0 || changes[mesh] != 0) plan.instances.push_back(static_cast<int>(i));
         if (deforms[mesh] != 0) instances_of[mesh].push_back(static_cast<int>(i));
     }
     for (const Deformer& deformer : plan.deformers)
-        plan.deformer_instances.push_back(std::move(instances_of[static_cast<std::size_t>(deformer.mesh)]));
+        plan.deformer_instances.push_back(std::move(instances_of[deformer.mesh]));
 }
 
 }  // namespace
@@ -79,7 +76,7 @@ void update_pose(const Scene& scene, const PosePlan& plan, double seconds, Scene
     if (!plan.deformers.empty()) {
         std::vector<std::uint8_t> shown(plan.deformers.size(), 0);
         for (std::size_t d = 0; d < shown.size(); ++d)
-            for (const int i : plan.deformer_instances[d]) shown[d] |= frame.shown[static_cast<std::size_t>(i)];
+            for (const int i : plan.deformer_instances[d]) shown[d] |= frame.shown[i];
         deform(scene, plan.deformers, shown, frame.world, seconds, false, frame.meshes);
     }
     for (const int material : plan.materials) {
@@ -94,8 +91,8 @@ void update_pose(const Scene& scene, const PosePlan& plan, double seconds, Scene
         }
     }
     for (const int camera : plan.cameras) {
-        CameraValues& values = frame.cameras[static_cast<std::size_t>(camera)];
-        values = pose_camera(scene, values.node, frame.world[static_cast<std::size_t>(values.node)], seconds);
+        CameraValues& values = frame.cameras[camera];
+        values = pose_camera(scene, values.node, frame.world[values.node], seconds);
     }
     if (plan.environment) frame.environment = pose_environment(scene, seconds);
 }

@@ -23,13 +23,13 @@ SceneFrame pose(const Scene& scene, double seconds) {
     std::vector<std::uint8_t> shown_meshes(scene.meshes.size(), 0);
     for (std::size_t i = 0; i < frame.instances.size(); ++i) {
         frame.shown[i] = is_shown(scene, frame, i);
-        if (frame.shown[i] != 0) shown_meshes[static_cast<std::size_t>(frame.instances[i].mesh)] = 1;
+        if (frame.shown[i] != 0) shown_meshes[frame.instances[i].mesh] = 1;
     }
     frame.meshes.resize(scene.meshes.size());
     // Which joints move does not matter here: everything is filled.
     const std::vector<Deformer> deformers = find_deformers(scene, std::vector<std::uint8_t>(nodes, 1));
     std::vector<std::uint8_t> shown;
-    for (const Deformer& deformer : deformers) shown.push_back(shown_meshes[static_cast<std::size_t>(deformer.mesh)]);
+    for (const Deformer& deformer : deformers) shown.push_back(shown_meshes[deformer.mesh]);
     deform(scene, deformers, shown, frame.world, seconds, true, frame.meshes);
     frame.materials.reserve(scene.materials.size());
     for (const Material& material : scene.materials) frame.materials.push_back(pose_material(material, seconds));

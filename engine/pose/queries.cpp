@@ -27,7 +27,7 @@ Overloaded(Functions...)->Overloaded<Functions...>;
 std::vector<bool> nodes_with_content(const Scene& scene) {
     std::vector<bool> content(scene.nodes.size(), false);
     for (const Skin& skin : scene.skins)
-        for (const int joint : skin.joints) content[static_cast<std::size_t>(joint)] = true;
+        for (const int joint : skin.joints) content[joint] = true;
     for (std::size_t i = scene.nodes.size(); i-- > 0;) {
         const Node& node = scene.nodes[i];
         if (!node.meshes.empty() || node.light != no_index) content[i] = true;

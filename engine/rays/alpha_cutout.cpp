@@ -60,7 +60,7 @@ AlphaTexture make_alpha_texture(const Scene& scene, const TextureRef& reference)
     AlphaTexture texture;
     texture.reference = reference;
     if (reference.image == no_index) return texture;
-    const SceneImage& image = scene.images[static_cast<std::size_t>(reference.image)];
+    const SceneImage& image = scene.images[reference.image];
     if (!image.bytes.empty()) {
         texture.alpha = Image<float>(image.bytes.width, image.bytes.height);
         std::ranges::transform(image.bytes.pixels, texture.alpha.pixels.begin(),
@@ -82,11 +82,11 @@ bool AlphaCutout::is_hole(float material_alpha, unsigned primitive, float u, flo
 
 bool has_cutout(const Scene& scene, const Mesh& mesh) {
     if (mesh.material == no_index) return false;
-    return scene.materials[static_cast<std::size_t>(mesh.material)].alpha_mode != Material::AlphaMode::opaque;
+    return scene.materials[mesh.material].alpha_mode != Material::AlphaMode::opaque;
 }
 
 AlphaCutout make_alpha_cutout(const Scene& scene, const Mesh& mesh) {
-    const Material& material = scene.materials[static_cast<std::size_t>(mesh.material)];
+    const Material& material = scene.materials[mesh.material];
     AlphaCutout cutout;
     cutout.material = mesh.material;
     if (material.alpha_mode == Material::AlphaMode::mask) cutout.cutoff = static_cast<float>(material.alpha_cutoff);

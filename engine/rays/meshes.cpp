@@ -51,10 +51,10 @@ RTCScene build_mesh_scene(RTCDevice device, const Scene& scene, const std::vecto
     rtcSetSceneFlags(built, RTC_SCENE_FLAG_ROBUST);
     rtcSetSceneBuildQuality(built, RTC_BUILD_QUALITY_HIGH);
     for (const unsigned place : places) {
-        const Mesh& mesh = scene.meshes[static_cast<std::size_t>(meshes[place])];
+        const Mesh& mesh = scene.meshes[meshes[place]];
         if (mesh.triangles.empty()) continue;
-        RTCGeometry geometry = make_triangle_geometry(device, mesh.positions.size(), mesh.triangles,
-                                                      cutouts[static_cast<std::size_t>(meshes[place])].get());
+        RTCGeometry geometry =
+            make_triangle_geometry(device, mesh.positions.size(), mesh.triangles, cutouts[meshes[place]].get());
         std::ranges::copy(mesh.positions,
                           static_cast<glm::vec3*>(rtcGetGeometryBufferData(geometry, RTC_BUFFER_TYPE_VERTEX, 0)));
         rtcCommitGeometry(geometry);
@@ -73,8 +73,8 @@ struct MeshKinds {
     explicit MeshKinds(const Scene& scene, const PosePlan& plan)
         : deforms(scene.meshes.size(), 0), changes(scene.meshes.size(), 0), comes_and_goes(scene.meshes.size(), 0) {
         for (const Deformer& deformer : plan.deformers) {
-            deforms[static_cast<std::size_t>(deformer.mesh)] = 1;
-            changes[static_cast<std::size_t>(deformer.mesh)] = deformer.changes;
+            deforms[deformer.mesh] = 1;
+            changes[deformer.mesh] = deformer.changes;
         }
         // A mesh that is never there must not share an object with others either.
         for (std::size_t m = 0; m < scene.meshes.size(); ++m)
@@ -90,7 +90,7 @@ class ObjectMaker {
         : structures_(structures), scene_(scene), plan_(make_pose_plan(scene)), kinds_(scene, plan_) {}
 
     void add_node(int node) {
-        const std::vector<int>& meshes = scene_.nodes[static_cast<std::size_t>(node)].meshes;
+        const std::vector<int>& meshes = scene_.nodes[node].meshes;
         std::vector<unsigned> rigid;
         for (unsigned place = 0; place < meshes.size(); ++place) {
             const auto mesh = static_cast<std::size_t>(meshes[place]);
@@ -116,7 +116,7 @@ class ObjectMaker {
 
   private:
     MeshStructures::Object& add(int node, unsigned place, bool changes) {
-        const bool moves = changes || plan_.moving[static_cast<std::size_t>(node)] != 0;
+        const bool moves = changes || plan_.moving[node] != 0;
         std::vector<MeshStructures::Object>& objects = moves ? structures_.objects : still_;
         objects.push_back({node, first_instance_, first_instance_ + static_cast<int>(place)});
         return objects.back();

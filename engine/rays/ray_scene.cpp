@@ -23,9 +23,8 @@ Layer make_layer(const MeshStructures& meshes, std::size_t first, std::size_t en
     for (std::size_t i = first; i < end; ++i) {
         const MeshStructures::Object& object = meshes.objects[i];
         RTCGeometry geometry = rtcNewGeometry(meshes.device, RTC_GEOMETRY_TYPE_INSTANCE);
-        rtcSetGeometryInstancedScene(geometry, object.deforming == no_index
-                                                   ? object.mesh_scene
-                                                   : refits[static_cast<std::size_t>(object.deforming)]->scene());
+        rtcSetGeometryInstancedScene(
+            geometry, object.deforming == no_index ? object.mesh_scene : refits[object.deforming]->scene());
         rtcSetGeometryTimeStepCount(geometry, 1);
         rtcCommitGeometry(geometry);
         rtcAttachGeometryByID(layer.top, geometry, static_cast<unsigned>(i));
@@ -47,7 +46,7 @@ std::array<float, 12> make_transform(const glm::dmat4& world, const glm::dvec3& 
     for (int column = 0; column < 4; ++column) {
         for (int row = 0; row < 3; ++row) {
             const double value = column < 3 ? world[column][row] : world[3][row] - anchor[row];
-            transform[static_cast<std::size_t>(column * 3 + row)] = static_cast<float>(value);
+            transform[column * 3 + row] = static_cast<float>(value);
         }
     }
     return transform;
@@ -59,7 +58,7 @@ std::vector<RefitMesh::Change> refit_meshes(RayScene::State& state, const SceneF
     for (std::size_t d = 0; d < changes.size(); ++d) {
         const DeformingMesh& mesh = state.meshes->deforming[d];
         if (!mesh.changes && state.refits[d]->is_filled()) continue;
-        changes[d] = state.refits[d]->update(frame.meshes[static_cast<std::size_t>(mesh.mesh)].positions);
+        changes[d] = state.refits[d]->update(frame.meshes[mesh.mesh].positions);
     }
     return changes;
 }
@@ -74,8 +73,8 @@ void note_alpha(RayScene::State& state, const SceneFrame& frame) {
 /// @return whether the object had to be touched
 bool place(Layer& layer, Placement& placement, const MeshStructures::Object& object, RefitMesh::Change change,
            const SceneFrame& frame, const glm::dvec3& anchor) {
-    const glm::dmat4& world = frame.world[static_cast<std::size_t>(object.node)];
-    const bool shown = frame.shown[static_cast<std::size_t>(object.instance)] != 0;
+    const glm::dmat4& world = frame.world[object.node];
+    const bool shown = frame.shown[object.instance] != 0;
     const bool enabled = shown && change != RefitMesh::Change::unusable && is_traceable(world, anchor);
     const bool skipped = shown && !enabled;
     layer.skipped = layer.skipped + (skipped ? 1 : 0) - (placement.skipped ? 1 : 0);
@@ -107,9 +106,8 @@ std::size_t place_objects(Layer& layer, std::size_t count, const MeshStructures&
     std::size_t touched = 0;
     for (std::size_t i = 0; i < count; ++i) {
         const MeshStructures::Object& object = meshes.objects[layer.first + i];
-        const RefitMesh::Change change = object.deforming == no_index
-                                             ? RefitMesh::Change::none
-                                             : changes[static_cast<std::size_t>(object.deforming)];
+        const RefitMesh::Change change =
+            object.deforming == no_index ? RefitMesh::Change::none : changes[object.deforming];
         if (place(layer, layer.placements[i], object, change, frame, anchor)) ++touched;
     }
     if (touched > 0) rtcCommitScene(layer.top);

@@ -217,7 +217,7 @@ void keep_lowest_of_nearest(const RTCFilterFunctionNArguments* arguments) {
 void pass_holes(const RTCFilterFunctionNArguments* arguments) {
     const RayContext& context = *reinterpret_cast<const RayContext*>(arguments->context);
     const AlphaCutout& cutout = *static_cast<const AlphaCutout*>(arguments->geometryUserPtr);
-    const float alpha = context.state->alpha[static_cast<std::size_t>(cutout.material)];
+    const float alpha = context.state->alpha[cutout.material];
     const unsigned count = arguments->N;
     for (unsigned i = 0; i < count; ++i) {
         if (arguments->valid[i] != 0 &&

@@ -113,7 +113,7 @@ void read_vertices(SceneReader& reader, const JsonRef& at, Mesh& mesh) {
         if (map) map->fail("\"vertex_points\" goes with \"points\" or keyed positions");
         return;
     }
-    const PointCache& cache = reader.scene.point_caches[static_cast<std::size_t>(mesh.points)];
+    const PointCache& cache = reader.scene.point_caches[mesh.points];
     if (map) {
         for (const int point : read_indices(*map, 1, cache.point_count(), "point")) {
             mesh.vertex_points.push_back(static_cast<std::uint32_t>(point));
@@ -182,7 +182,7 @@ PointsUse read_points_use(SceneReader& reader, const JsonRef& at, const std::str
     }
     const int index =
         points ? reader.points.require(*points) : add_point_cache(reader, *positions, reader.points.unused(name));
-    return {index, reader.scene.point_caches[static_cast<std::size_t>(index)].point_count()};
+    return {index, reader.scene.point_caches[index].point_count()};
 }
 
 void read_points(SceneReader& reader, const JsonRef& at, const std::string& name) {
@@ -201,12 +201,10 @@ int read_mesh(SceneReader& reader, const JsonRef& at, const std::optional<JsonRe
         check_shape_keys(at, "cage", {"cage", "part"});
         const JsonRef cage = at.require("cage");
         mesh.cage = read_cage_use(reader, cage, name);
-        const auto parts =
-            static_cast<std::int64_t>(count_parts(reader.scene.cages[static_cast<std::size_t>(mesh.cage)]));
+        const auto parts = static_cast<std::int64_t>(count_parts(reader.scene.cages[mesh.cage]));
         mesh.cage_part = static_cast<int>(at.find_integer("part", 0, parts - 1).value_or(0));
-        reader.charge(
-            cage_triangle_bytes * count_cage_triangles(reader.scene.cages[static_cast<std::size_t>(mesh.cage)]), at,
-            "lower the cage's \"level\"");
+        reader.charge(cage_triangle_bytes * count_cage_triangles(reader.scene.cages[mesh.cage]), at,
+                      "lower the cage's \"level\"");
     } else {
         mesh.shape = read_shape(at, static_cast<Shape::Kind>(read_word(type, shape_words)));
         reader.charge(shape_triangle_bytes * shape_triangle_count(*mesh.shape), at, "lower \"segments\"");

@@ -136,14 +136,14 @@ class NodeReader {
     /// copies of those nodes.
     void read_instance(const JsonRef& at, int index) {
         const int source = require_earlier(at, "what it shows");
-        if (!children_[static_cast<std::size_t>(source)].empty()) refuse_ancestor(at, source, index);
+        if (!children_[source].empty()) refuse_ancestor(at, source, index);
         bool shows = share(at, source, index);
         struct Copy {
             int source, parent;
         };
         std::vector<Copy> left;
         const auto add_children = [&](int node, int parent) {
-            const std::vector<int>& below = children_[static_cast<std::size_t>(node)];
+            const std::vector<int>& below = children_[node];
             for (auto child = below.rbegin(); child != below.rend(); ++child) left.push_back({*child, parent});
         };
         add_children(source, index);
@@ -151,12 +151,11 @@ class NodeReader {
             const Copy next = left.back();
             left.pop_back();
             reader_.charge(node_bytes, at, "too many nodes are copied");
-            Node copy = scene_.nodes[static_cast<std::size_t>(next.source)];
+            Node copy = scene_.nodes[next.source];
             copy.parent = next.parent;
             copy.meshes.clear();
             copy.light = copy.camera = no_index;
-            copy.name =
-                all_names_.unused(fmt::format("{}/{}", scene_.nodes[static_cast<std::size_t>(index)].name, copy.name));
+            copy.name = all_names_.unused(fmt::format("{}/{}", scene_.nodes[index].name, copy.name));
             reader_.charge(4 * copy.name.size(), at, "too many nodes are copied");
             const int made = add_node(std::move(copy));
             all_names_.add(scene_.nodes.back().name, made);
@@ -167,7 +166,7 @@ class NodeReader {
     }
 
     void refuse_ancestor(const JsonRef& at, int source, int index) {
-        for (int above = index; above != no_index; above = scene_.nodes[static_cast<std::size_t>(above)].parent) {
+        for (int above = index; above != no_index; above = scene_.nodes[above].parent) {
             if (above == source) at.fail("this node lies below the one it names: it would hold itself");
             if (++ancestors_seen_ > max_ancestors_seen) at.fail("too many instances of sub-trees stand too deep");
         }
@@ -178,8 +177,8 @@ class NodeReader {
         if (with_include_.contains(source)) {
             at.fail("what an include brings cannot be shown twice: include the file again");
         }
-        const Node& from = scene_.nodes[static_cast<std::size_t>(source)];
-        Node& to = scene_.nodes[static_cast<std::size_t>(index)];
+        const Node& from = scene_.nodes[source];
+        Node& to = scene_.nodes[index];
         reader_.charge(from.meshes.size() * sizeof(int), at, "too many meshes are shared");
         to.meshes.insert(to.meshes.end(), from.meshes.begin(), from.meshes.end());
         if (to.light == no_index) to.light = from.light;
@@ -188,7 +187,7 @@ class NodeReader {
 
     int add_node(Node node) {
         const int index = static_cast<int>(scene_.nodes.size());
-        if (node.parent != no_index) children_[static_cast<std::size_t>(node.parent)].push_back(index);
+        if (node.parent != no_index) children_[node.parent].push_back(index);
         if (!node.name.empty()) reader_.nodes.add(node.name, index);
         children_.emplace_back();
         scene_.nodes.push_back(std::move(node));

@@ -161,7 +161,7 @@ Track<T> read_track(const JsonRef& at, const FrameRate& rate, const ValueReader<
 template <class T>
 T read_components(const JsonRef& at, T value, int count, const ValueRange& range) {
     for (int i = 0; i < count; ++i) {
-        const JsonRef component = at[static_cast<std::size_t>(i)];
+        const JsonRef component = at[i];
         value[i] = component.number();
         check_range(component, value[i], range);
     }
@@ -191,7 +191,7 @@ glm::dquat read_four(const JsonRef& at, const ValueRange&) {
 glm::dmat4 read_sixteen(const JsonRef& at, const ValueRange&) {
     glm::dmat4 m(1.0);
     for (int i = 0; i < 16; ++i) {
-        const JsonRef number = at[static_cast<std::size_t>(i)];
+        const JsonRef number = at[i];
         m[i % 4][i / 4] = number.number();
         if (i >= 12 && m[i % 4][3] != (i == 15 ? 1.0 : 0.0))
             number.fail("the last row of a matrix has to be 0, 0, 0, 1");

@@ -140,7 +140,7 @@ class Writer {
     const PointCache* points_of(const Mesh& mesh) const {
         if (mesh.points == no_index) return nullptr;
         at_.name_in(scene_.point_caches, mesh.points);
-        const PointCache& cache = scene_.point_caches[static_cast<std::size_t>(mesh.points)];
+        const PointCache& cache = scene_.point_caches[mesh.points];
         for (const std::uint32_t point : mesh.vertex_points) {
             if (point >= cache.point_count())
                 at_.refuse(fmt::format("its points \"{}\" have no point {}", cache.name, point));
@@ -157,7 +157,7 @@ class Writer {
     ordered_json write_control_mesh(const Cage& cage) const {
         const std::string points = at_.name_in(scene_.point_caches, cage.points);
         try {
-            validate(cage, scene_.point_caches[static_cast<std::size_t>(cage.points)].point_count());
+            validate(cage, scene_.point_caches[cage.points].point_count());
         } catch (const InputError& error) {
             at_.refuse(error.reason());
         }

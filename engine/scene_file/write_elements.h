@@ -26,7 +26,7 @@ struct SceneWriting {
     const std::string& name_in(const List& list, int index) const {
         if (index < 0 || static_cast<std::size_t>(index) >= list.size())
             refuse(fmt::format("there is no element {}", index));
-        return list[static_cast<std::size_t>(index)].name;
+        return list[index].name;
     }
 
     /// Writes a track under a key unless it says what an absent key says.

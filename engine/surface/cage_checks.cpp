@@ -197,7 +197,7 @@ class Checker {
         }
         for_each_crease_edge(cage_, [&](int a, int b, float sharpness) {
             if (!(sharpness > 0.0f) || !edge_faces.contains(edge_key(a, b))) return;
-            sharp[static_cast<std::size_t>(a)] = sharp[static_cast<std::size_t>(b)] = 1;
+            sharp[a] = sharp[b] = 1;
         });
         for (std::size_t i = 0; i < points_; ++i) {
             if (edges[i] == 2 && inner[i] && sharp[i]) {
@@ -215,7 +215,7 @@ class Checker {
 
 std::size_t measure_crowding(const Cage& cage, std::size_t cage_points) {
     std::vector<std::size_t> faces(cage_points, 0);
-    for (const int point : cage.face_points) ++faces[static_cast<std::size_t>(point)];
+    for (const int point : cage.face_points) ++faces[point];
     std::size_t sum = 0;
     const auto add = [&](std::size_t neighbours) { sum += neighbours > 16 ? neighbours * neighbours : 0; };
     for (const std::size_t count : faces) add(count);

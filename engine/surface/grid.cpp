@@ -57,7 +57,7 @@ class GridBuilder : private SharedVertices {
         for (int f = 0; f < base_.GetNumFaces(); ++f) {
             const int pieces = is_regular(f) ? 1 : base_.GetFaceVertices(f).size();
             for (int i = 0; i < pieces; ++i) {
-                grid_.faces.cells[static_cast<std::size_t>(ptex_.GetFaceId(f) + i)] =
+                grid_.faces.cells[ptex_.GetFaceId(f) + i] =
                     static_cast<std::uint16_t>(is_regular(f) ? segments_ : segments_ / 2);
             }
         }
@@ -77,7 +77,7 @@ class GridBuilder : private SharedVertices {
         Rows rows(static_cast<std::size_t>((n + 1) * (n + 1)), no_index);
         for (int j = 0; j <= n; ++j) {
             for (int i = 0; i <= (grid_.faces.triangular ? n - j : n); ++i) {
-                int& vertex = rows[static_cast<std::size_t>(j * (n + 1) + i)];
+                int& vertex = rows[j * (n + 1) + i];
                 if (j == 0)
                     vertex = edge_vertex(f, 0, i);
                 else if (grid_.faces.triangular && i + j == n)
@@ -115,7 +115,7 @@ class GridBuilder : private SharedVertices {
             Rows rows(static_cast<std::size_t>((n + 1) * (n + 1)), no_index);
             for (int j = 0; j <= n; ++j) {
                 for (int i = 0; i <= n; ++i) {
-                    int& vertex = rows[static_cast<std::size_t>(j * (n + 1) + i)];
+                    int& vertex = rows[j * (n + 1) + i];
                     if (j == 0)
                         vertex = edge_vertex(f, k, i);
                     else if (i == 0)
@@ -139,8 +139,7 @@ class GridBuilder : private SharedVertices {
         grid_.parts.resize(static_cast<std::size_t>(parts));
         for (int f = 0; f < base_.GetNumFaces(); ++f) {
             if (!is_drawn(f)) continue;
-            const auto part =
-                static_cast<std::size_t>(cage_.face_parts.empty() ? 0 : cage_.face_parts[static_cast<std::size_t>(f)]);
+            const auto part = static_cast<std::size_t>(cage_.face_parts.empty() ? 0 : cage_.face_parts[f]);
             const int face = ptex_.GetFaceId(f);
             if (is_regular(f)) {
                 add_triangles(grid_.parts[part], face, make_regular_rows(f));
@@ -155,7 +154,7 @@ class GridBuilder : private SharedVertices {
     }
 
     void add_triangles(PartGrid& part, int face, const Rows& rows) {
-        const int n = grid_.faces.cells[static_cast<std::size_t>(face)];
+        const int n = grid_.faces.cells[face];
         for (int j = 0; j < n; ++j) {
             for (int i = 0; i < (grid_.faces.triangular ? n - j : n); ++i) {
                 const int halves = grid_.faces.triangular && i + j == n - 1 ? 1 : 2;
@@ -165,7 +164,7 @@ class GridBuilder : private SharedVertices {
                     glm::ivec2 at[3];
                     grid_.faces.find_corners(triangle, at);
                     const auto vertex = [&](const glm::ivec2& p) {
-                        return static_cast<std::uint32_t>(rows[static_cast<std::size_t>(p.y * (n + 1) + p.x)]);
+                        return static_cast<std::uint32_t>(rows[p.y * (n + 1) + p.x]);
                     };
                     part.triangles.push_back(triangle);
                     part.corners.emplace_back(vertex(at[0]), vertex(at[1]), vertex(at[2]));

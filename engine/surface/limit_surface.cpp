@@ -50,7 +50,7 @@ struct LimitSurface::State {
     const Part& part(int index) const {
         ALEPH_CHECK(index >= 0 && static_cast<std::size_t>(index) < parts.size(),
                     fmt::format("part {} of {}", index, parts.size()));
-        return parts[static_cast<std::size_t>(index)];
+        return parts[index];
     }
 
     glm::dvec3 compute_normal(std::span<const glm::dvec3> control, const SurfaceVertex& vertex) const {
@@ -146,12 +146,12 @@ glm::dvec3 LimitSurface::evaluate(int part, std::span<const glm::dvec3> control,
     ALEPH_CHECK(!std::isnan(u) && !std::isnan(v), fmt::format("({}, {})", u, v));
     u = std::clamp(u, 0.0, 1.0);
     v = std::clamp(v, 0.0, 1.0 - u);
-    const GridTriangle& triangle = triangles[static_cast<std::size_t>(primitive)];
+    const GridTriangle& triangle = triangles[primitive];
     glm::ivec2 corners[3];
     state_->faces.find_corners(triangle, corners);
     const glm::dvec2 place =
         (1.0 - u - v) * glm::dvec2(corners[0]) + u * glm::dvec2(corners[1]) + v * glm::dvec2(corners[2]);
-    const glm::dvec2 st = place / static_cast<double>(state_->faces.cells[static_cast<std::size_t>(triangle.face)]);
+    const glm::dvec2 st = place / static_cast<double>(state_->faces.cells[triangle.face]);
     return state_->patches->evaluate(control, triangle.face, st.x, st.y);
 }
 
@@ -167,7 +167,7 @@ Mesh LimitSurface::make_mesh(int part, std::span<const glm::dvec3> control) cons
 }
 
 std::vector<glm::dvec3> cage_points_at(const Scene& scene, const Cage& cage, double seconds) {
-    const PointCache& cache = scene.point_caches[static_cast<std::size_t>(cage.points)];
+    const PointCache& cache = scene.point_caches[cage.points];
     const SampleSpan span = find_samples(cache.sampling, cache.positions.size(), seconds);
     const std::vector<glm::vec3>& from = cache.positions[span.floor];
     const std::vector<glm::vec3>& to = cache.positions[span.ceil];
@@ -185,7 +185,7 @@ const PointCache& find_points(const Scene& scene, const Cage& cage) {
     if (cage.points < 0 || static_cast<std::size_t>(cage.points) >= scene.point_caches.size()) {
         throw InputError(scene.file, place, "it has no points");
     }
-    const PointCache& cache = scene.point_caches[static_cast<std::size_t>(cage.points)];
+    const PointCache& cache = scene.point_caches[cage.points];
     if (cache.positions.empty()) throw InputError(scene.file, place, "it has no points");
     for (const auto& sample : cache.positions) {
         if (sample.size() != cache.point_count()) throw InputError(scene.file, place, "its number of points changes");
@@ -201,7 +201,7 @@ const PointCache& find_points(const Scene& scene, const Cage& cage) {
 }  // namespace
 
 void tessellate_cage(Scene& scene, int cage_index) {
-    const Cage& cage = scene.cages[static_cast<std::size_t>(cage_index)];
+    const Cage& cage = scene.cages[cage_index];
     const PointCache& cache = find_points(scene, cage);
     std::shared_ptr<const LimitSurface> surface;
     try {

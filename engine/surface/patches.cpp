@@ -108,15 +108,15 @@ std::uint64_t hash_weights(std::span<const double> weights) {
 
 /// Weighted sum of points relative to the first. With weights that add up to 0, of the points themselves.
 glm::dvec3 sum_about_first(std::span<const glm::dvec3> control, const int* points, const double* weights, int count) {
-    const glm::dvec3 origin = control[static_cast<std::size_t>(points[0])];
+    const glm::dvec3 origin = control[points[0]];
     glm::dvec3 sum(0.0);
-    for (int i = 1; i < count; ++i) sum += weights[i] * (control[static_cast<std::size_t>(points[i])] - origin);
+    for (int i = 1; i < count; ++i) sum += weights[i] * (control[points[i]] - origin);
     return sum;
 }
 
 /// With weights that add up to 1: exact for equal points, accurate far from the origin.
 glm::dvec3 blend(std::span<const glm::dvec3> control, const int* points, const double* weights, int count) {
-    return control[static_cast<std::size_t>(points[0])] + sum_about_first(control, points, weights, count);
+    return control[points[0]] + sum_about_first(control, points, weights, count);
 }
 
 }  // namespace
@@ -165,8 +165,7 @@ std::vector<glm::dvec3> LimitPatches::make_control_points(std::span<const glm::d
     std::copy(cage_points.begin(), cage_points.end(), control.begin());
     for (std::size_t row = 0; row < targets_.size(); ++row) {
         const int begin = row_begins_[row], count = row_begins_[row + 1] - begin;
-        control[static_cast<std::size_t>(targets_[row])] = blend(control, &sources_[static_cast<std::size_t>(begin)],
-                                                                 &weights_[static_cast<std::size_t>(begin)], count);
+        control[targets_[row]] = blend(control, &sources_[begin], &weights_[begin], count);
     }
     return control;
 }
@@ -194,7 +193,7 @@ LimitSample LimitPatches::make_sample(const LimitLocation& location) {
     const std::uint64_t hash = hash_weights({basis.weights[0], 3 * max_patch_points});
     const auto [begin, end] = known_bases_.equal_range(hash);
     for (auto known = begin; known != end; ++known) {
-        const Basis& other = bases_[static_cast<std::size_t>(known->second)];
+        const Basis& other = bases_[known->second];
         if (other.count == basis.count && std::memcmp(other.weights, basis.weights, sizeof basis.weights) == 0) {
             sample.basis = known->second;
             return sample;
@@ -207,13 +206,13 @@ LimitSample LimitPatches::make_sample(const LimitLocation& location) {
 }
 
 glm::dvec3 LimitPatches::position(std::span<const glm::dvec3> control, const LimitSample& sample) const {
-    const Basis& basis = bases_[static_cast<std::size_t>(sample.basis)];
+    const Basis& basis = bases_[sample.basis];
     return blend(control, table_->GetPatchControlVerticesTable().data() + sample.first_point, basis.weights[0],
                  basis.count);
 }
 
 Tangents LimitPatches::tangents(std::span<const glm::dvec3> control, const LimitSample& sample) const {
-    const Basis& basis = bases_[static_cast<std::size_t>(sample.basis)];
+    const Basis& basis = bases_[sample.basis];
     const int* points = table_->GetPatchControlVerticesTable().data() + sample.first_point;
     return {sum_about_first(control, points, basis.weights[1], basis.count),
             sum_about_first(control, points, basis.weights[2], basis.count)};
@@ -259,10 +258,10 @@ std::vector<glm::vec2> LimitPatches::evaluate_uv(const std::vector<glm::vec2>& v
         table_->EvaluateBasisFaceVarying(patch, s, t, weights, static_cast<double*>(nullptr),
                                          static_cast<double*>(nullptr), static_cast<double*>(nullptr),
                                          static_cast<double*>(nullptr), static_cast<double*>(nullptr), 0);
-        const glm::dvec2 origin = control[static_cast<std::size_t>(points[0])].value;
+        const glm::dvec2 origin = control[points[0]].value;
         glm::dvec2 sum(0.0);
         for (int i = 1; i < points.size(); ++i) {
-            sum += weights[i] * (control[static_cast<std::size_t>(points[i])].value - origin);
+            sum += weights[i] * (control[points[i]].value - origin);
         }
         result.emplace_back(origin + sum);
     }

@@ -12,7 +12,7 @@ SharedVertices::Sets::Sets(std::size_t count) : parent_(count) {
 }
 
 int SharedVertices::Sets::find(int i) {
-    const auto parent = [&](int of) -> int& { return parent_[static_cast<std::size_t>(of)]; };
+    const auto parent = [&](int of) -> int& { return parent_[of]; };
     while (parent(i) != i) i = parent(i) = parent(parent(i));
     return i;
 }
@@ -20,7 +20,7 @@ int SharedVertices::Sets::find(int i) {
 void SharedVertices::Sets::join(int a, int b) {
     a = find(a);
     b = find(b);
-    parent_[static_cast<std::size_t>(std::max(a, b))] = std::min(a, b);
+    parent_[std::max(a, b)] = std::min(a, b);
 }
 
 SharedVertices::SharedVertices(const Cage& cage, const Far::TopologyRefiner& refiner, int level)
@@ -111,15 +111,14 @@ void SharedVertices::make_corners() {
         for (int k = 0; k < points.size(); ++k) {
             const auto c = static_cast<std::size_t>(corner(f, k));
             locations[c] = edge_location(f, k, 0);
-            int& first = first_corner[static_cast<std::size_t>(points[k])];
+            int& first = first_corner[points[k]];
             if (first == no_index) first = static_cast<int>(c);
             const int set = normal_sets_.find(static_cast<int>(c));
-            int& normal = normal_corner[static_cast<std::size_t>(set)];
+            int& normal = normal_corner[set];
             if (normal == no_index) normal = static_cast<int>(c);
             const auto [entry, is_new] = known.try_emplace({set, uv_of(static_cast<int>(c))}, 0);
             if (is_new) {
-                entry->second = add_vertex(locations[static_cast<std::size_t>(first)],
-                                           locations[static_cast<std::size_t>(normal)], locations[c]);
+                entry->second = add_vertex(locations[first], locations[normal], locations[c]);
             }
             corner_vertices_[c] = entry->second;
         }
@@ -140,12 +139,12 @@ void SharedVertices::make_edges() {
         for (const int f : base_.GetEdgeFaces(e)) {
             if (!is_drawn(f)) continue;
             const Side side = find_side(e, f);
-            int& begin = edge_vertices_[static_cast<std::size_t>(corner(f, side.k))];
+            int& begin = edge_vertices_[corner(f, side.k)];
             if (!position) {
                 first = side;
                 position = &first;
             } else if (!is_sharp(e) && is_uv_joined(first, side)) {
-                begin = edge_vertices_[static_cast<std::size_t>(corner(first.f, first.k))];
+                begin = edge_vertices_[corner(first.f, first.k)];
                 continue;
             }
             const Side& normal = is_sharp(e) ? side : first;
@@ -173,9 +172,9 @@ bool SharedVertices::is_uv_joined(const Side& a, const Side& b) const {
 /// Vertex m of edge k of a face, as the face sees it.
 int SharedVertices::edge_vertex(int f, int k, int m) const {
     const int size = base_.GetFaceVertices(f).size();
-    if (m == 0) return corner_vertices_[static_cast<std::size_t>(corner(f, k))];
-    if (m == segments_) return corner_vertices_[static_cast<std::size_t>(corner(f, (k + 1) % size))];
-    const int begin = edge_vertices_[static_cast<std::size_t>(corner(f, k))];
+    if (m == 0) return corner_vertices_[corner(f, k)];
+    if (m == segments_) return corner_vertices_[corner(f, (k + 1) % size)];
+    const int begin = edge_vertices_[corner(f, k)];
     const bool forward = base_.GetFaceVertices(f)[k] == base_.GetEdgeVertices(base_.GetFaceEdges(f)[k])[0];
     return begin + (forward ? m : segments_ - m) - 1;
 }

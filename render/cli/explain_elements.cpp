@@ -38,8 +38,8 @@ std::string name_or_number(const std::string& name, const char* kind, std::size_
 const char* how_it_deforms(const Scene& scene, const Mesh& mesh) {
     if (mesh.skin != no_index) return mesh.targets.empty() ? "skin" : "morph targets, skin";
     if (!mesh.targets.empty()) return "morph targets";
-    const int cache = mesh.cage == no_index ? mesh.points : scene.cages[static_cast<std::size_t>(mesh.cage)].points;
-    const bool moves = cache != no_index && is_animated(scene.point_caches[static_cast<std::size_t>(cache)]);
+    const int cache = mesh.cage == no_index ? mesh.points : scene.cages[mesh.cage].points;
+    const bool moves = cache != no_index && is_animated(scene.point_caches[cache]);
     if (moves) return mesh.cage == no_index ? "points" : "cage points";
     return nullptr;
 }
@@ -48,26 +48,23 @@ ordered_json describe_node(const Scene& scene, std::size_t index, const std::str
     const Node& node = scene.nodes[index];
     ordered_json out = {{"path", path}};
     int depth = 0;
-    for (int parent = node.parent; parent != no_index; parent = scene.nodes[static_cast<std::size_t>(parent)].parent)
-        ++depth;
+    for (int parent = node.parent; parent != no_index; parent = scene.nodes[parent].parent) ++depth;
     out["depth"] = depth;
-    if (node.include != no_index) out["from"] = scene.includes[static_cast<std::size_t>(node.include)].path;
+    if (node.include != no_index) out["from"] = scene.includes[node.include].path;
     if (!node.meshes.empty()) {
         std::size_t triangles = 0;
         ordered_json materials = ordered_json::array();
         std::string deforms;
         for (const int m : node.meshes) {
-            const Mesh& mesh = scene.meshes[static_cast<std::size_t>(m)];
+            const Mesh& mesh = scene.meshes[m];
             triangles += mesh.triangles.size();
             const int material = mesh.material;
-            const std::string name = material == no_index
-                                         ? "(default)"
-                                         : name_or_number(scene.materials[static_cast<std::size_t>(material)].name,
-                                                          "material", static_cast<std::size_t>(material));
+            const std::string name = material == no_index ? "(default)"
+                                                          : name_or_number(scene.materials[material].name, "material",
+                                                                           static_cast<std::size_t>(material));
             if (std::find(materials.begin(), materials.end(), name) == materials.end()) materials.push_back(name);
             if (const char* how = how_it_deforms(scene, mesh)) deforms = how;
-            if (mesh.cage != no_index)
-                out["subdivision_level"] = scene.cages[static_cast<std::size_t>(mesh.cage)].level;
+            if (mesh.cage != no_index) out["subdivision_level"] = scene.cages[mesh.cage].level;
         }
         out["triangles"] = triangles;
         out["materials"] = std::move(materials);
@@ -75,12 +72,12 @@ ordered_json describe_node(const Scene& scene, std::size_t index, const std::str
         if (node.meshes.size() > 1) out["meshes"] = node.meshes.size();
     }
     if (node.light != no_index) {
-        const Light& light = scene.lights[static_cast<std::size_t>(node.light)];
+        const Light& light = scene.lights[node.light];
         constexpr const char* kinds[] = {"point", "directional", "spot"};
         out["light"] = {{"kind", kinds[static_cast<int>(light.kind)]}, {"animated", list_tracks(light)}};
     }
     if (node.camera != no_index) {
-        const Camera& camera = scene.cameras[static_cast<std::size_t>(node.camera)];
+        const Camera& camera = scene.cameras[node.camera];
         ordered_json described = {{"kind", camera.orthographic ? "orthographic" : "perspective"}};
         if (camera.orthographic) {
             described["half_height"] = key_value(camera.half_height, 0);
@@ -105,7 +102,7 @@ ordered_json describe_materials(const Scene& scene) {
         for (const auto& field : material_textures) {
             const int index = (material.*field.member).image;
             if (index == no_index) continue;
-            const SceneImage& image = scene.images[static_cast<std::size_t>(index)];
+            const SceneImage& image = scene.images[index];
             item["textures"][texture_name(field.key)] =
                 image.path.empty() ? name_or_number(image.name, "image", static_cast<std::size_t>(index)) : image.path;
         }

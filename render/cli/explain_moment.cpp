@@ -25,10 +25,10 @@ ordered_json to_rows(const glm::dmat4& m) {
 
 /// The points as the file has them: of a cache or cage those that meshes are made of, else the vertices.
 std::vector<glm::dvec3> source_points(const Scene& scene, const SceneFrame& frame, int mesh_index) {
-    const Mesh& mesh = scene.meshes[static_cast<std::size_t>(mesh_index)];
-    const int cache = mesh.cage == no_index ? mesh.points : scene.cages[static_cast<std::size_t>(mesh.cage)].points;
-    if (cache != no_index) return sample_points(scene.point_caches[static_cast<std::size_t>(cache)], frame.seconds);
-    const PosedMesh& posed = frame.meshes[static_cast<std::size_t>(mesh_index)];
+    const Mesh& mesh = scene.meshes[mesh_index];
+    const int cache = mesh.cage == no_index ? mesh.points : scene.cages[mesh.cage].points;
+    if (cache != no_index) return sample_points(scene.point_caches[cache], frame.seconds);
+    const PosedMesh& posed = frame.meshes[mesh_index];
     if (!posed.positions.empty()) return posed.positions;
     return {mesh.positions.begin(), mesh.positions.end()};
 }
@@ -39,7 +39,7 @@ ordered_json describe_points(const Scene& scene, const SceneFrame& frame, const 
     ordered_json first = ordered_json::array();
     std::map<std::pair<int, int>, bool> told;
     for (const int index : node.meshes) {
-        const Mesh& mesh = scene.meshes[static_cast<std::size_t>(index)];
+        const Mesh& mesh = scene.meshes[index];
         if (mesh.present.key_count() > 1 && evaluate(mesh.present, frame.seconds) == 0.0) continue;
         const bool own = mesh.cage == no_index && mesh.points == no_index;
         if (!own && !told.emplace(std::pair(mesh.cage, mesh.points), true).second) continue;
@@ -57,8 +57,7 @@ ordered_json explain_moment(const Scene& scene, double seconds) {
     const SceneFrame frame = pose(scene, seconds);
     const std::vector<std::string> paths = node_paths(scene);
     std::vector<Bounds> bounds(scene.nodes.size());
-    for (const Instance& instance : frame.instances)
-        add_instance(bounds[static_cast<std::size_t>(instance.node)], scene, frame, instance);
+    for (const Instance& instance : frame.instances) add_instance(bounds[instance.node], scene, frame, instance);
     ordered_json objects = ordered_json::array();
     for (std::size_t i = 0; i < scene.nodes.size(); ++i) {
         ordered_json object = {

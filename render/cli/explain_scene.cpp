@@ -45,7 +45,7 @@ ordered_json count_elements(const Scene& scene) {
     }
     for (const Node& node : scene.nodes) {
         instances += node.meshes.size();
-        for (const int mesh : node.meshes) instanced += scene.meshes[static_cast<std::size_t>(mesh)].triangles.size();
+        for (const int mesh : node.meshes) instanced += scene.meshes[mesh].triangles.size();
         if (!list_tracks(scene, node).empty()) ++animated;
         if (node.visible.key_count() == 1 && key_value(node.visible, 0) == 0.0) ++hidden;
     }
@@ -123,11 +123,10 @@ Use find_use(const Scene& scene) {
         use.lights.insert(node.light);
         use.cameras.insert(node.camera);
     }
-    for (const int mesh : use.meshes) use.materials.insert(scene.meshes[static_cast<std::size_t>(mesh)].material);
+    for (const int mesh : use.meshes) use.materials.insert(scene.meshes[mesh].material);
     for (const int material : use.materials) {
         if (material == no_index) continue;
-        for (const auto& field : material_textures)
-            use.images.insert((scene.materials[static_cast<std::size_t>(material)].*field.member).image);
+        for (const auto& field : material_textures) use.images.insert((scene.materials[material].*field.member).image);
     }
     return use;
 }
@@ -153,7 +152,7 @@ void describe_view(ordered_json& out, const Scene& scene, const RenderSettings& 
         const Sequence sequence(scene, settings, camera);
         const SceneFrame frame = pose(scene, 0.0);
         const int index = find_camera(scene, camera);
-        out["camera"] = scene.nodes[static_cast<std::size_t>(frame.cameras[static_cast<std::size_t>(index)].node)].name;
+        out["camera"] = scene.nodes[frame.cameras[index].node].name;
         out["exposure"] = {{"factor", sequence.exposure()}, {"from", scene.exposure ? "given" : "first frame"}};
     } catch (const InputError& error) {
         if (!camera.empty()) throw;
@@ -170,7 +169,7 @@ std::vector<std::string> node_paths(const Scene& scene) {
     paths.reserve(scene.nodes.size());
     for (std::size_t i = 0; i < scene.nodes.size(); ++i) {
         const Node& node = scene.nodes[i];
-        std::string path = node.parent == no_index ? "" : paths[static_cast<std::size_t>(node.parent)];
+        std::string path = node.parent == no_index ? "" : paths[node.parent];
         path.append("/").append(name_or_number(node.name, "node", i));
         const int count = ++times[path];
         paths.push_back(count == 1 ? path : fmt::format("{}#{}", path, count));

@@ -31,7 +31,7 @@ std::string counted(const ordered_json& number, const char* one, const char* man
 
 std::string box_text(const ordered_json& bounds) {
     if (bounds.is_null()) return "nothing to see";
-    const auto at = [&](const char* end, int k) { return bounds[end][static_cast<std::size_t>(k)].get<double>(); };
+    const auto at = [&](const char* end, int k) { return bounds[end][k].get<double>(); };
     return fmt::format("{:.4g} x {:.4g} x {:.4g} m, from ({:.4g}, {:.4g}, {:.4g}) to ({:.4g}, {:.4g}, {:.4g})",
                        at("max", 0) - at("min", 0), at("max", 1) - at("min", 1), at("max", 2) - at("min", 2),
                        at("min", 0), at("min", 1), at("min", 2), at("max", 0), at("max", 1), at("max", 2));

@@ -49,7 +49,7 @@ class TrackList {
         if (samples <= 1) return;
         ordered_json item = {{"property", property}};
         item.update(describe_sampling(sampling, samples));
-        item["interpolation"] = interpolation_words[static_cast<std::size_t>(interpolation)];
+        item["interpolation"] = interpolation_words[interpolation];
         if (!animated) item["constant"] = true;
         tracks_.push_back(std::move(item));
     }
@@ -86,16 +86,15 @@ ordered_json list_tracks(const Scene& scene, const Node& node) {
     add_transform(list, node);
     int points_told = no_index;
     for (const int index : node.meshes) {
-        const Mesh& mesh = scene.meshes[static_cast<std::size_t>(index)];
+        const Mesh& mesh = scene.meshes[index];
         list.add("present", mesh.present);
         for (std::size_t i = 0; i < mesh.target_weights.size(); ++i)
             list.add(fmt::format("weights[{}]", i), mesh.target_weights[i]);
         list.add("normals", mesh.normal_sampling, mesh.normal_samples.size(), Interpolation::linear, true);
-        const int points =
-            mesh.cage == no_index ? mesh.points : scene.cages[static_cast<std::size_t>(mesh.cage)].points;
+        const int points = mesh.cage == no_index ? mesh.points : scene.cages[mesh.cage].points;
         if (points == no_index || points == points_told) continue;
         points_told = points;
-        const PointCache& cache = scene.point_caches[static_cast<std::size_t>(points)];
+        const PointCache& cache = scene.point_caches[points];
         list.add("points", cache.sampling, cache.positions.size(), Interpolation::linear, is_animated(cache));
     }
     return list.take();

@@ -98,7 +98,7 @@ void add_couch(Scene& scene, const GalleryMaterials& materials) {
     scene.materials.back().base_color = glm::dvec3(0.95, 0.5, 0.07);
     const double tile = 6.0;  // repeats of the weave per metre
     for (const int material : {cloth, pillow_cloth})
-        scene.materials[static_cast<std::size_t>(material)].base_color_texture.uv_scale = glm::dvec2(tile);
+        scene.materials[material].base_color_texture.uv_scale = glm::dvec2(tile);
 
     const int couch = add_node(scene, "couch", no_index, {1.2, 0.0, 3.05}, turn({0.0, 1.0, 0.0}, 180.0));
     const int base = add_cage(scene, "couch_base", make_cushion({2.0, 0.2, 0.84}, 0.03, {0.0, 0.0, 0.0}), cloth);
@@ -289,7 +289,7 @@ void add_sculptures(Scene& scene, const GalleryMaterials& materials) {
     const int node = add_mesh_node(scene, "knot", sculptures, mesh, place + glm::dvec3(0.0, height + 0.72, 0.0));
     AxisRotation spin;
     spin.angle = even_track(0.0, gallery_seconds, 0.0, 2.0 * pi * 1.25);
-    scene.nodes[static_cast<std::size_t>(node)].axis_rotation = spin;
+    scene.nodes[node].axis_rotation = spin;
 }
 
 }  // namespace aleph

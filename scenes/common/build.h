@@ -21,7 +21,7 @@ inline int add_node(Scene& scene, const std::string& name, int parent = no_index
 }
 
 inline Node& node_at(Scene& scene, int index) {
-    return scene.nodes[static_cast<std::size_t>(index)];
+    return scene.nodes[index];
 }
 
 /// Turns a node about an axis. @param angle  radians

@@ -102,19 +102,15 @@ CageShape make_moulding(const std::vector<glm::dvec2>& path, bool closed, const 
     std::vector<double> u = {0.0}, v = {0.0};
     for (int i = 0; i < corners; ++i) {
         const glm::dvec2 offset = mitre(path, static_cast<std::size_t>(i), closed);
-        for (const glm::dvec2& at : outline)
-            result.points.emplace_back(path[static_cast<std::size_t>(i)] + at.x * offset, at.y);
-        u.push_back(u.back() + glm::distance(path[static_cast<std::size_t>(i)],
-                                             path[static_cast<std::size_t>((i + 1) % corners)]));
+        for (const glm::dvec2& at : outline) result.points.emplace_back(path[i] + at.x * offset, at.y);
+        u.push_back(u.back() + glm::distance(path[i], path[(i + 1) % corners]));
     }
     for (std::size_t j = 1; j < outline.size(); ++j) v.push_back(v.back() + glm::distance(outline[j], outline[j - 1]));
 
     const auto index = [&](int i, int j) { return (i % corners) * across + j; };
     for (int i = 0; i < (closed ? corners : corners - 1); ++i) {
         for (int j = 0; j + 1 < across; ++j) {
-            const auto at = [&](int a, int b) {
-                return glm::dvec2(u[static_cast<std::size_t>(i + a)], v[static_cast<std::size_t>(j + b)]);
-            };
+            const auto at = [&](int a, int b) { return glm::dvec2(u[i + a], v[j + b]); };
             add_face(result.cage, {index(i, j), index(i + 1, j), index(i + 1, j + 1), index(i, j + 1)},
                      {at(0, 0), at(1, 0), at(1, 1), at(0, 1)});
         }
@@ -125,7 +121,7 @@ CageShape make_moulding(const std::vector<glm::dvec2>& path, bool closed, const 
         add_crease(result.cage, chain);
     }
     for (int j = 1; j + 1 < across; ++j) {
-        if (!sharp[static_cast<std::size_t>(j)]) continue;
+        if (!sharp[j]) continue;
         std::vector<int> chain;
         for (int i = 0; i < corners; ++i) chain.push_back(index(i, j));
         if (closed) chain.push_back(index(0, j));
@@ -140,7 +136,7 @@ CageShape make_cushion(const glm::dvec3& size, double rounding, const glm::dvec3
     std::array<std::vector<double>, 3> lines;
     for (int axis = 0; axis < 3; ++axis) {
         const double half = 0.5 * size[axis], inner = std::max(half - rounding, 0.25 * half);
-        lines[static_cast<std::size_t>(axis)] = {-half, -inner, 0.0, inner, half};
+        lines[axis] = {-half, -inner, 0.0, inner, half};
     }
     const int last = 4;
     std::map<std::array<int, 3>, int> index;
@@ -150,11 +146,11 @@ CageShape make_cushion(const glm::dvec3& size, double rounding, const glm::dvec3
             glm::dvec3 point, middle;
             for (int axis = 0; axis < 3; ++axis) {
                 const auto a = static_cast<std::size_t>(axis);
-                point[axis] = lines[a][static_cast<std::size_t>(at[a])];
+                point[axis] = lines[a][at[a]];
                 middle[axis] = 1.0 - std::pow(std::abs(2.0 * point[axis] / size[axis]), 2.0);
             }
             for (int axis = 0; axis < 3; ++axis) {
-                const int end = at[static_cast<std::size_t>(axis)];
+                const int end = at[axis];
                 if (end != 0 && end != last) continue;
                 const double out = swell[axis] * middle[(axis + 1) % 3] * middle[(axis + 2) % 3];
                 point[axis] += end == 0 ? -out : out;
@@ -172,14 +168,11 @@ CageShape make_cushion(const glm::dvec3& size, double rounding, const glm::dvec3
                     std::vector<glm::dvec2> uv;
                     for (int corner = 0; corner < 4; ++corner) {
                         std::array<int, 3> at{};
-                        at[static_cast<std::size_t>(axis)] = end;
-                        at[static_cast<std::size_t>(b)] = i + (corner == 1 || corner == 2 ? 1 : 0);
-                        at[static_cast<std::size_t>(c)] = j + (corner >= 2 ? 1 : 0);
+                        at[axis] = end;
+                        at[b] = i + (corner == 1 || corner == 2 ? 1 : 0);
+                        at[c] = j + (corner >= 2 ? 1 : 0);
                         face.push_back(find(at));
-                        uv.emplace_back(lines[static_cast<std::size_t>(b)]
-                                             [static_cast<std::size_t>(at[static_cast<std::size_t>(b)])],
-                                        lines[static_cast<std::size_t>(c)]
-                                             [static_cast<std::size_t>(at[static_cast<std::size_t>(c)])]);
+                        uv.emplace_back(lines[b][at[b]], lines[c][at[c]]);
                     }
                     if (end == 0) {
                         std::reverse(face.begin(), face.end());
@@ -215,7 +208,7 @@ CageShape make_closed_tube(const std::function<glm::dvec3(double)>& curve, int s
     double length = 0.0;
     std::vector<double> u = {0.0};
     for (int i = 0; i < steps; ++i) {
-        const glm::dvec3 along = tangent(i), n = normals[static_cast<std::size_t>(i)], b = glm::cross(along, n);
+        const glm::dvec3 along = tangent(i), n = normals[i], b = glm::cross(along, n);
         const glm::dvec3 middle = curve(static_cast<double>(i) / steps);
         const double turn = (missing + pi * half_turns) * i / steps;
         for (int j = 0; j < sides; ++j) {
@@ -236,9 +229,7 @@ CageShape make_closed_tube(const std::function<glm::dvec3(double)>& curve, int s
                 const int around = ring == steps ? j + b + shift : j + b;
                 return (ring % steps) * sides + around % sides;
             };
-            const auto at = [&](int a, int b) {
-                return glm::dvec2(u[static_cast<std::size_t>(i + a)], static_cast<double>(j + b) / sides);
-            };
+            const auto at = [&](int a, int b) { return glm::dvec2(u[i + a], static_cast<double>(j + b) / sides); };
             add_face(result.cage, {index(0, 0), index(0, 1), index(1, 1), index(1, 0)},
                      {at(0, 0), at(0, 1), at(1, 1), at(1, 0)});
         }
@@ -252,7 +243,7 @@ CageShape make_leaf(double length, double width, double droop) {
     const std::array<double, 6> widths = {0.1, 0.7, 1.0, 0.86, 0.48, 0.04};
     const int rows = static_cast<int>(widths.size());
     for (int i = 0; i < rows; ++i) {
-        const double t = i / (rows - 1.0), half = 0.5 * width * widths[static_cast<std::size_t>(i)];
+        const double t = i / (rows - 1.0), half = 0.5 * width * widths[i];
         const double y = length * t * (1.0 - 0.3 * droop * t), z = -length * droop * t * t;
         for (const int side : {-1, 0, 1}) result.points.emplace_back(side * half, y, z + std::abs(side) * 0.35 * half);
     }

@@ -88,9 +88,9 @@ bool is_number_ink(int number, const glm::dvec2& at) {
     static const std::array<Digit, 10> digits = make_digits();
     if ((number == 6 || number == 9) && distance_to_segment(at, {-0.2, 0.64}, {0.2, 0.64}) < 0.8 * half_stroke)
         return true;
-    const Digit& ones = digits[static_cast<std::size_t>(number % 10)];
+    const Digit& ones = digits[number % 10];
     if (number < 10) return distance_to_strokes(ones.strokes, at) < half_stroke;
-    const Digit& tens = digits[static_cast<std::size_t>(number / 10)];
+    const Digit& tens = digits[number / 10];
     return distance_to_strokes(tens.strokes, at + glm::dvec2(0.5 * ones.width, 0.0)) < half_stroke ||
            distance_to_strokes(ones.strokes, at - glm::dvec2(0.5 * tens.width, 0.0)) < half_stroke;
 }
@@ -115,7 +115,7 @@ glm::dvec3 color_cue_ball(const glm::dvec2& uv) {
 }
 
 glm::dvec3 color_numbered_ball(int number, const glm::dvec2& uv) {
-    const glm::dvec3& color = solid_colors[static_cast<std::size_t>((number - 1) % 8)];
+    const glm::dvec3& color = solid_colors[(number - 1) % 8];
     // The nearer number's circle as seen from straight above it, in radii of the ball.
     const double across = (uv.x < 0.5 ? uv.x - 0.25 : uv.x - 0.75) * 2.0 * pi, down = (uv.y - 0.5) * pi;
     const glm::dvec2 at(std::cos(down) * std::sin(across), std::sin(down));

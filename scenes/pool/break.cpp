@@ -47,7 +47,7 @@ std::vector<PoolBall> make_rack(const PoolSettings& settings) {
     std::size_t next = 0;
     for (int row = 0; row < 5; ++row) {
         for (int k = 0; k <= row; ++k) {
-            PoolBall& ball = balls[static_cast<std::size_t>(rack_order[next++])];
+            PoolBall& ball = balls[rack_order[next++]];
             // Each ball is off its place by less than half the gap, so that none overlaps.
             const double x = 0.25 * settings.length + row * pitch * std::sqrt(0.75) + 0.45 * widest_gap * random.next();
             const double z = (k - 0.5 * row) * pitch + 0.45 * widest_gap * random.next();

@@ -33,7 +33,7 @@ void add_balls(Scene& scene, const PoolSettings& settings, const PoolRun& run) {
         const int material = add_textured(scene, name, name);
         add_gloss(scene, 0.15);
         const int index = add_shape(scene, name, balls, sphere(settings.radius), material, glm::dvec3(0.0));
-        Node& node = scene.nodes[static_cast<std::size_t>(index)];
+        Node& node = scene.nodes[index];
         node.translation.sampling.period = node.rotation.sampling.period = 1.0 / run.samples_per_second;
         node.translation.values.clear();
         node.rotation.values.clear();
@@ -68,7 +68,7 @@ void add_cue(Scene& scene, const PoolSettings& settings, const PoolBall& struck)
     const glm::dquat aim = y_to(back), level = y_to(glm::normalize(glm::dvec3(back.x, 0.0, back.z)));
     const double through = 0.11, withdrawn = 1.04, butt_radius = 0.0125;  // m
 
-    Node& node = scene.nodes[static_cast<std::size_t>(cue)];
+    Node& node = scene.nodes[cue];
     const double rate = 60.0;
     node.translation.sampling.period = node.rotation.sampling.period = 1.0 / rate;
     node.translation.values.clear();

@@ -37,7 +37,7 @@ struct Contact {
 };
 
 void find_cushion_contact(const std::vector<PoolBall>& balls, int i, const PoolSettings& settings, Contact& best) {
-    const PoolBall& ball = balls[static_cast<std::size_t>(i)];
+    const PoolBall& ball = balls[i];
     const glm::dvec3 half(0.5 * settings.length, 0.0, 0.5 * settings.width);
     for (const glm::dvec3& normal : cushion_normals) {
         const double approach = -glm::dot(ball.velocity, normal);
@@ -49,8 +49,8 @@ void find_cushion_contact(const std::vector<PoolBall>& balls, int i, const PoolS
 }
 
 void find_ball_contact(const std::vector<PoolBall>& balls, int i, int j, const PoolSettings& settings, Contact& best) {
-    const PoolBall& a = balls[static_cast<std::size_t>(i)];
-    const PoolBall& b = balls[static_cast<std::size_t>(j)];
+    const PoolBall& a = balls[i];
+    const PoolBall& b = balls[j];
     const glm::dvec3 apart = b.position - a.position;
     const glm::dvec3 relative = b.velocity - a.velocity;
     const double towards = -glm::dot(apart, relative);
@@ -78,9 +78,9 @@ std::vector<int> find_touching(const std::vector<PoolBall>& balls, int start, co
     std::vector<int> members = {start};
     const double reach = 2.0 * settings.radius + settings.touching_gap;
     for (std::size_t next = 0; next < members.size(); ++next) {
-        const glm::dvec3& position = balls[static_cast<std::size_t>(members[next])].position;
+        const glm::dvec3& position = balls[members[next]].position;
         for (int i = 0; i < static_cast<int>(balls.size()); ++i) {
-            if (glm::distance(position, balls[static_cast<std::size_t>(i)].position) > reach) continue;
+            if (glm::distance(position, balls[i].position) > reach) continue;
             if (std::find(members.begin(), members.end(), i) == members.end()) members.push_back(i);
         }
     }
@@ -95,14 +95,14 @@ PoolEvent resolve(std::vector<PoolBall>& balls, const Contact& contact, double n
     event.balls = event.cushion ? std::vector<int>{contact.first} : find_touching(balls, contact.first, settings);
     const auto sum_up = [&](glm::dvec3& momentum, double& energy) {
         for (const int i : event.balls) {
-            const PoolBall& ball = balls[static_cast<std::size_t>(i)];
+            const PoolBall& ball = balls[i];
             momentum += settings.mass * ball.velocity;
             energy += kinetic_energy(ball, settings);
         }
     };
     sum_up(event.momentum_before, event.energy_before);
     if (event.cushion) {
-        collide_cushion(balls[static_cast<std::size_t>(contact.first)], contact.normal, settings);
+        collide_cushion(balls[contact.first], contact.normal, settings);
     } else {
         collide_balls(balls, event.balls, settings);
     }

@@ -47,7 +47,7 @@ struct Region {
 std::vector<Region> list_regions(const FrameOutput& model, const std::vector<bool>& movers) {
     const auto on_mover = [&](std::size_t i) {
         const int instance = model.hits.pixels[i].instance;
-        return instance != no_index && movers[static_cast<std::size_t>(instance)];
+        return instance != no_index && movers[instance];
     };
     const auto validity = [&](std::size_t i) { return model.motion.validity.pixels[i]; };
     // Where the other frame does not show the point there is nothing to find: such pixels have a row of their own.

@@ -56,15 +56,15 @@ RawEmbree::RawEmbree(const Scene& scene, const SceneFrame& frame, const CameraVi
     const glm::dvec3 anchor = compute_anchor(view);
     for (const Mesh& mesh : scene.meshes) meshes_.push_back(build_mesh(device_, mesh));
     for (const Instance& instance : frame.instances) {
-        if (!frame.visible[static_cast<std::size_t>(instance.node)]) continue;
-        const glm::dmat4& world = frame.world[static_cast<std::size_t>(instance.node)];
+        if (!frame.visible[instance.node]) continue;
+        const glm::dmat4& world = frame.world[instance.node];
         std::array<float, 12> transform;
         for (std::size_t i = 0; i < transform.size(); ++i) {
             const int column = static_cast<int>(i / 3), row = static_cast<int>(i % 3);
             transform[i] = static_cast<float>(world[column][row] - (column == 3 ? anchor[row] : 0.0));
         }
         RTCGeometry geometry = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_INSTANCE);
-        rtcSetGeometryInstancedScene(geometry, meshes_[static_cast<std::size_t>(instance.mesh)]);
+        rtcSetGeometryInstancedScene(geometry, meshes_[instance.mesh]);
         rtcSetGeometryTransform(geometry, 0, RTC_FORMAT_FLOAT3X4_COLUMN_MAJOR, transform.data());
         rtcCommitGeometry(geometry);
         rtcAttachGeometry(top_, geometry);

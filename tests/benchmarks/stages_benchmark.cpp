@@ -109,8 +109,8 @@ struct Inputs {
                     image(x, y) = Rgb(0.3f, 0.4f, 0.6f) * (1.0f - 0.5f * static_cast<float>(y) / height);
                     continue;
                 }
-                const Instance& instance = frame.instances[static_cast<std::size_t>(hit.instance)];
-                const glm::dvec3 p = surface_point(scene.meshes[static_cast<std::size_t>(instance.mesh)], hit);
+                const Instance& instance = frame.instances[hit.instance];
+                const glm::dvec3 p = surface_point(scene.meshes[instance.mesh], hit);
                 const glm::dvec3 cell = glm::floor(8.0 * p + 0.5);
                 const bool odd = std::fmod(std::abs(cell.x + cell.y + cell.z), 2.0) > 0.5;
                 const float hue = 0.37f * static_cast<float>(hit.instance);

@@ -137,7 +137,7 @@ class OgawaDraft {
         const std::uint64_t table = add_data(samplings);
         const std::uint64_t layout = add_data({0, 0, 0, 0}), library = add_data({0x3c, 0x2a, 0, 0});
         const std::uint64_t top = add_group({layout, library, root, data_bit, table, data_bit});
-        for (int i = 0; i < 8; ++i) bytes[static_cast<std::size_t>(8 + i)] = static_cast<std::uint8_t>(top >> 8 * i);
+        for (int i = 0; i < 8; ++i) bytes[8 + i] = static_cast<std::uint8_t>(top >> 8 * i);
         return bytes;
     }
     const DraftBytes& finish(const std::vector<DraftObject>& objects) {

@@ -103,16 +103,15 @@ inline Scene make_everything_scene() {
     add_cache(scene, static_cast<std::size_t>(cached), {0.0, 1.0, 2.0}, [](const glm::vec3& p, std::size_t sample) {
         return p + glm::vec3(0.0f, 0.0f, p.x * p.y * static_cast<float>(sample));
     });
-    Mesh& morph = scene.meshes[static_cast<std::size_t>(morphed)];
+    Mesh& morph = scene.meshes[morphed];
     morph.targets.resize(1);
     morph.targets[0].positions.assign(morph.positions.size(), glm::vec3(0.25f, 0.5f, 1.0f));
     morph.target_weights = {keyed<double>({0.0, 1.5}, {0.0, 1.0})};
-    Mesh& always = scene.meshes[static_cast<std::size_t>(held)];
+    Mesh& always = scene.meshes[held];
     always.targets.resize(1);
     always.targets[0].positions.assign(always.positions.size(), glm::vec3(1.0f));
     always.target_weights = {Track<double>(0.5)};
-    scene.meshes[static_cast<std::size_t>(passing)].present =
-        keyed<double>({0.5, 1.0}, {1.0, 0.0}, Interpolation::step);
+    scene.meshes[passing].present = keyed<double>({0.5, 1.0}, {1.0, 0.0}, Interpolation::step);
     add_node(no_index).meshes = {cached, still};
     add_node(3).meshes = {morphed, passing};
     add_node(no_index).meshes = {still, held};

@@ -110,8 +110,7 @@ inline Image<Hit> make_random_hits(const Scene& scene, const SceneFrame& frame, 
     for (std::size_t i = 0; i < hits.size(); ++i) {
         Hit& hit = hits.pixels[i];
         hit.instance = static_cast<int>(i % frame.instances.size());
-        const Mesh& mesh =
-            scene.meshes[static_cast<std::size_t>(frame.instances[static_cast<std::size_t>(hit.instance)].mesh)];
+        const Mesh& mesh = scene.meshes[frame.instances[hit.instance].mesh];
         hit.primitive = static_cast<int>(random() % mesh.triangles.size());
         hit.u = fraction(random);
         hit.v = fraction(random) * (1.0f - hit.u);

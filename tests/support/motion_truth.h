@@ -114,8 +114,8 @@ inline RealVector real_to_parent(const Node& node, const RealVector& p, Real sec
 }
 
 inline RealVector real_to_world(const Scene& scene, int node, RealVector p, Real seconds) {
-    for (; node != no_index; node = scene.nodes[static_cast<std::size_t>(node)].parent) {
-        p = real_to_parent(scene.nodes[static_cast<std::size_t>(node)], p, seconds);
+    for (; node != no_index; node = scene.nodes[node].parent) {
+        p = real_to_parent(scene.nodes[node], p, seconds);
     }
     return p;
 }
@@ -128,8 +128,7 @@ struct RealPixel {
 /// Through the camera of a node, into an image of width x height.
 inline RealPixel real_project(const Scene& scene, int camera_node, const RealVector& world, Real seconds, int width,
                               int height) {
-    const Camera& camera =
-        scene.cameras[static_cast<std::size_t>(scene.nodes[static_cast<std::size_t>(camera_node)].camera)];
+    const Camera& camera = scene.cameras[scene.nodes[camera_node].camera];
     const RealVector eye = real_to_world(scene, camera_node, {}, seconds);
     const RealVector forward = unit(real_to_world(scene, camera_node, {0, 0, -1}, seconds) - eye);
     const RealVector up_hint = real_to_world(scene, camera_node, {0, 1, 0}, seconds) - eye;
@@ -143,7 +142,7 @@ inline RealPixel real_project(const Scene& scene, int camera_node, const RealVec
 }
 
 inline RealVector real_surface_point(const Mesh& mesh, const Hit& hit) {
-    const glm::uvec3& triangle = mesh.triangles[static_cast<std::size_t>(hit.primitive)];
+    const glm::uvec3& triangle = mesh.triangles[hit.primitive];
     const Real u = hit.u, v = hit.v;
     return (1 - u - v) * real(mesh.positions[triangle.x]) + u * real(mesh.positions[triangle.y]) +
            v * real(mesh.positions[triangle.z]);

@@ -66,12 +66,12 @@ void add_normalized(DoubleImage& sum, const DoubleImage& map, double floor) {
 void add_features(DoubleImage& conspicuity, const std::vector<DoubleImage>& pyramid, double floor) {
     std::vector<DoubleImage> full(9);
     for (int level = 2; level <= 8; ++level) {
-        full[static_cast<std::size_t>(level)] = reference_full_size(pyramid, level);
+        full[level] = reference_full_size(pyramid, level);
     }
     constexpr std::pair<int, int> pairs[6] = {{2, 5}, {2, 6}, {3, 6}, {3, 7}, {4, 7}, {4, 8}};
     for (const auto& [c, s] : pairs) {
-        const DoubleImage& center = full[static_cast<std::size_t>(c)];
-        const DoubleImage& surround = full[static_cast<std::size_t>(s)];
+        const DoubleImage& center = full[c];
+        const DoubleImage& surround = full[s];
         add_normalized(conspicuity,
                        from_function(center.width, center.height,
                                      [&](int x, int y) { return std::abs(center(x, y) - surround(x, y)); }),
@@ -119,9 +119,9 @@ std::vector<DoubleImage> reference_pyramid(const DoubleImage& image, int count) 
 }
 
 DoubleImage reference_full_size(const std::vector<DoubleImage>& pyramid, int from) {
-    DoubleImage out = pyramid[static_cast<std::size_t>(from)];
+    DoubleImage out = pyramid[from];
     for (int level = from - 1; level >= 0; --level) {
-        const DoubleImage& finer = pyramid[static_cast<std::size_t>(level)];
+        const DoubleImage& finer = pyramid[level];
         out = reference_expand(out, finer.width, finer.height);
     }
     return out;
@@ -203,7 +203,7 @@ ReferenceMaps reference_perception(const Image<Rgb>& estimate, const Image<float
     for (double& s : out.saliency.pixels) s = out.fallback ? 0.82 : (s - minimum) / range;
 
     std::vector<DoubleImage> full(8);
-    for (int level = 0; level < 8; ++level) full[static_cast<std::size_t>(level)] = reference_full_size(a, level);
+    for (int level = 0; level < 8; ++level) full[level] = reference_full_size(a, level);
     out.bands.fill(DoubleImage(w, h));
     out.band_sum = DoubleImage(w, h);
     out.aleph = DoubleImage(w, h);

@@ -47,14 +47,14 @@ struct ReferencePoint {
 inline std::vector<ReferencePoint> reference_points(const ReferenceMesh& mesh) {
     std::vector<ReferencePoint> points(mesh.points.size());
     for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
-        for (const int p : mesh.faces[f]) points[static_cast<std::size_t>(p)].faces.push_back(static_cast<int>(f));
+        for (const int p : mesh.faces[f]) points[p].faces.push_back(static_cast<int>(f));
     }
     for (const auto& [edge, faces] : mesh.edge_faces()) {
         const auto crease = mesh.creases.find(edge);
         double sharpness = crease == mesh.creases.end() ? 0.0 : crease->second;
         if (faces.size() == 1) sharpness = reference_infinite;
         for (const auto& [a, b] : {edge, std::pair(edge.second, edge.first)}) {
-            ReferencePoint& point = points[static_cast<std::size_t>(a)];
+            ReferencePoint& point = points[a];
             point.neighbours.push_back(b);
             if (sharpness > 0.0) {
                 point.sharp_neighbours.push_back(b);
@@ -62,7 +62,7 @@ inline std::vector<ReferencePoint> reference_points(const ReferenceMesh& mesh) {
             }
         }
     }
-    for (const auto& [p, sharpness] : mesh.corners) points[static_cast<std::size_t>(p)].corner = sharpness;
+    for (const auto& [p, sharpness] : mesh.corners) points[p].corner = sharpness;
     return points;
 }
 
@@ -82,9 +82,8 @@ inline glm::dvec3 apply_sharp_rules(const ReferenceMesh& mesh, const ReferencePo
                                     const glm::dvec3& smooth) {
     glm::dvec3 result = smooth;
     if (point.sharp_neighbours.size() == 2) {
-        const glm::dvec3 crease = (6.0 * old + mesh.points[static_cast<std::size_t>(point.sharp_neighbours[0])] +
-                                   mesh.points[static_cast<std::size_t>(point.sharp_neighbours[1])]) /
-                                  8.0;
+        const glm::dvec3 crease =
+            (6.0 * old + mesh.points[point.sharp_neighbours[0]] + mesh.points[point.sharp_neighbours[1]]) / 8.0;
         result += crease_share(point) * (crease - result);
     } else if (point.sharp_neighbours.size() > 2) {
         result += crease_share(point) * (old - result);
@@ -123,24 +122,22 @@ inline ReferenceMesh subdivide_catmull_clark(const ReferenceMesh& mesh) {
     const auto first_centre = next.points.size();
     for (const auto& face : mesh.faces) {
         glm::dvec3 sum(0.0);
-        for (const int p : face) sum += mesh.points[static_cast<std::size_t>(p)];
+        for (const int p : face) sum += mesh.points[p];
         next.points.push_back(sum / static_cast<double>(face.size()));
     }
     for (const auto& [edge, faces] : mesh.edge_faces()) {
-        const glm::dvec3 ends =
-            mesh.points[static_cast<std::size_t>(edge.first)] + mesh.points[static_cast<std::size_t>(edge.second)];
+        const glm::dvec3 ends = mesh.points[edge.first] + mesh.points[edge.second];
         glm::dvec3 smooth = ends;
         for (const int f : faces) smooth += next.points[first_centre + static_cast<std::size_t>(f)];
         smooth /= static_cast<double>(2 + faces.size());
         const glm::dvec3 sharp = ends / 2.0;
-        next.points[static_cast<std::size_t>(middle.at(edge))] =
-            smooth + edge_share(mesh, edge, faces.size()) * (sharp - smooth);
+        next.points[middle.at(edge)] = smooth + edge_share(mesh, edge, faces.size()) * (sharp - smooth);
     }
     const auto points = reference_points(mesh);
     for (std::size_t p = 0; p < points.size(); ++p) {
         const auto n = static_cast<double>(points[p].neighbours.size());
         glm::dvec3 edges(0.0), faces(0.0);
-        for (const int e : points[p].neighbours) edges += mesh.points[static_cast<std::size_t>(e)];
+        for (const int e : points[p].neighbours) edges += mesh.points[e];
         for (const int f : points[p].faces) faces += next.points[first_centre + static_cast<std::size_t>(f)];
         const glm::dvec3 smooth = ((n - 2.0) * mesh.points[p] + edges / n + faces / n) / n;
         next.points[p] = apply_sharp_rules(mesh, points[p], mesh.points[p], smooth);
@@ -166,23 +163,21 @@ inline ReferenceMesh subdivide_loop(const ReferenceMesh& mesh) {
     std::map<ReferenceMesh::Edge, int> middle;
     ReferenceMesh next = start_next_level(mesh, middle);
     for (const auto& [edge, faces] : mesh.edge_faces()) {
-        const glm::dvec3 ends =
-            mesh.points[static_cast<std::size_t>(edge.first)] + mesh.points[static_cast<std::size_t>(edge.second)];
+        const glm::dvec3 ends = mesh.points[edge.first] + mesh.points[edge.second];
         glm::dvec3 smooth = 3.0 * ends;
         for (const int f : faces) {
-            for (const int p : mesh.faces[static_cast<std::size_t>(f)]) {
-                if (p != edge.first && p != edge.second) smooth += mesh.points[static_cast<std::size_t>(p)];
+            for (const int p : mesh.faces[f]) {
+                if (p != edge.first && p != edge.second) smooth += mesh.points[p];
             }
         }
         smooth /= 8.0;
-        next.points[static_cast<std::size_t>(middle.at(edge))] =
-            smooth + edge_share(mesh, edge, faces.size()) * (ends / 2.0 - smooth);
+        next.points[middle.at(edge)] = smooth + edge_share(mesh, edge, faces.size()) * (ends / 2.0 - smooth);
     }
     const auto points = reference_points(mesh);
     for (std::size_t p = 0; p < points.size(); ++p) {
         const auto n = static_cast<double>(points[p].neighbours.size());
         glm::dvec3 smooth = (1.0 - n * loop_beta(n)) * mesh.points[p];
-        for (const int e : points[p].neighbours) smooth += loop_beta(n) * mesh.points[static_cast<std::size_t>(e)];
+        for (const int e : points[p].neighbours) smooth += loop_beta(n) * mesh.points[e];
         next.points[p] = apply_sharp_rules(mesh, points[p], mesh.points[p], smooth);
     }
     for (const auto& face : mesh.faces) {
@@ -204,22 +199,21 @@ inline std::vector<glm::dvec3> reference_limits(const ReferenceMesh& mesh, bool 
         const glm::dvec3& own = mesh.points[p];
         const auto n = static_cast<double>(point.neighbours.size());
         glm::dvec3 edges(0.0);
-        for (const int e : point.neighbours) edges += mesh.points[static_cast<std::size_t>(e)];
+        for (const int e : point.neighbours) edges += mesh.points[e];
         if (point.corner > 0.0 || point.sharp_neighbours.size() > 2) {
             limits[p] = own;
         } else if (point.sharp_neighbours.size() == 2) {
-            limits[p] = (4.0 * own + mesh.points[static_cast<std::size_t>(point.sharp_neighbours[0])] +
-                         mesh.points[static_cast<std::size_t>(point.sharp_neighbours[1])]) /
-                        6.0;
+            limits[p] =
+                (4.0 * own + mesh.points[point.sharp_neighbours[0]] + mesh.points[point.sharp_neighbours[1]]) / 6.0;
         } else if (loop) {
             const double chi = 1.0 / (3.0 / (8.0 * loop_beta(n)) + n);
             limits[p] = (1.0 - n * chi) * own + chi * edges;
         } else {
             glm::dvec3 opposite(0.0);
             for (const int f : point.faces) {
-                const auto& face = mesh.faces[static_cast<std::size_t>(f)];
+                const auto& face = mesh.faces[f];
                 const auto at = std::find(face.begin(), face.end(), static_cast<int>(p)) - face.begin();
-                opposite += mesh.points[static_cast<std::size_t>(face[static_cast<std::size_t>(at + 2) % 4])];
+                opposite += mesh.points[face[static_cast<std::size_t>(at + 2) % 4]];
             }
             limits[p] = (n * n * own + 4.0 * edges + opposite) / (n * (n + 5.0));
         }

@@ -76,9 +76,9 @@ TEST(ReprojectionRays, RP18_BarycentricsOffTheTriangleArePutBack) {
 
 /// Where the hit's own barycentrics put it on the screen.
 glm::dvec2 hit_pixel(const Scene& scene, const SceneFrame& frame, const CameraView& view, const Hit& hit) {
-    const Instance& instance = frame.instances[static_cast<std::size_t>(hit.instance)];
-    const CameraFromObject map = make_camera_from_object(view, frame.world[static_cast<std::size_t>(instance.node)]);
-    return project_camera_point(view, map(surface_point(scene.meshes[static_cast<std::size_t>(instance.mesh)], hit)));
+    const Instance& instance = frame.instances[hit.instance];
+    const CameraFromObject map = make_camera_from_object(view, frame.world[instance.node]);
+    return project_camera_point(view, map(surface_point(scene.meshes[instance.mesh], hit)));
 }
 
 TEST(ReprojectionRays, RP18_HitsOnSubPixelTrianglesLieAtTheirPixel) {
@@ -133,7 +133,7 @@ TEST(ReprojectionRays, RP19_BarycentricPointsLieOnTheirTriangles) {
             const Hit& hit = hits(x, y);
             if (hit.instance == no_index) continue;
             ++count;
-            const glm::uvec3& triangle = slivers.triangles[static_cast<std::size_t>(hit.primitive)];
+            const glm::uvec3& triangle = slivers.triangles[hit.primitive];
             const RealVector p0 = real(slivers.positions[triangle.x]), p1 = real(slivers.positions[triangle.y]),
                              p2 = real(slivers.positions[triangle.z]);
             const RealVector normal = unit(cross(p1 - p0, p2 - p0));

@@ -70,7 +70,7 @@ TEST(SensitivityHard, CS04_SameBitsWithAndWithoutFlushToZero) {
     ElevationRow row(rho, static_cast<int>(velocity.size()));
     std::vector<float> plain(velocity.size()), flushed(velocity.size());
     for (int band = 0; band < band_count; ++band) {
-        const double r = rho[static_cast<std::size_t>(band)];
+        const double r = rho[band];
         std::vector<double> exact;
         for (const float v : velocity) exact.push_back(elevation(r, v));
         row.load(velocity.data());
@@ -100,7 +100,7 @@ TEST(SensitivityHard, CS06_FrequenciesScaleWithPixelDensity) {
     for (const double ppd : {15.0, 31.0, 60.0}) {
         const auto printed = band_frequencies(Bands::printed, ppd);
         for (int i = 0; i < band_count; ++i) {
-            EXPECT_DOUBLE_EQ(printed[static_cast<std::size_t>(i)], 16 * std::pow(2.0, -i) * ppd / 31);
+            EXPECT_DOUBLE_EQ(printed[i], 16 * std::pow(2.0, -i) * ppd / 31);
         }
     }
 }
@@ -109,7 +109,7 @@ TEST(SensitivityHard, CS06_GratingAtAMeasuredPeakIsStrongestInThatBand) {
     const int width = 1024;
     for (const double ppd : {15.0, 31.0, 60.0}) {
         for (int band = 0; band < band_count; ++band) {
-            const double cycles_per_degree = band_frequencies(Bands::measured, ppd)[static_cast<std::size_t>(band)];
+            const double cycles_per_degree = band_frequencies(Bands::measured, ppd)[band];
             Image<float> grating(width, 4);
             for (int y = 0; y < 4; ++y) {
                 for (int x = 0; x < width; ++x) {

@@ -11,8 +11,8 @@
 #include "engine/base/color.h"
 #include "engine/load/load_scene.h"
 #include "render/sequence.h"
-#include "tests/support/quick_settings.h"
 #include "tests/support/paths.h"
+#include "tests/support/quick_settings.h"
 
 namespace aleph {
 
@@ -38,17 +38,14 @@ struct HardScene {
         return 0;
     }
     SceneFrame posed(double frame) const { return pose(scene, frame / scene.frame_rate.per_second()); }
-    glm::dmat4 world(const std::string& name, double frame) const {
-        return posed(frame).world[static_cast<std::size_t>(node(name))];
-    }
+    glm::dmat4 world(const std::string& name, double frame) const { return posed(frame).world[node(name)]; }
     /// Pixels whose first hit is on a node.
     std::vector<std::size_t> pixels_on(const FrameOutput& output, const std::string& name) const {
         const std::vector<Instance> instances = list_instances(scene);
         std::vector<std::size_t> pixels;
         for (std::size_t i = 0; i < output.hits.size(); ++i) {
             const int instance = output.hits.pixels[i].instance;
-            if (instance != no_index && instances[static_cast<std::size_t>(instance)].node == node(name))
-                pixels.push_back(i);
+            if (instance != no_index && instances[instance].node == node(name)) pixels.push_back(i);
         }
         return pixels;
     }

@@ -46,7 +46,7 @@ TEST(HardScenes, KF14_KF16_TenHoursIn) {
 TEST(HardScenes, KF17_MirroredScaleKeepsItsLight) {
     HardScene hard("mirrored");
     Scene straight = hard.scene;
-    Node& thing = straight.nodes[static_cast<std::size_t>(hard.node("thing"))];
+    Node& thing = straight.nodes[hard.node("thing")];
     thing.scale = glm::dvec3(1.0);  // unmirrored and turned the other way: the whole picture's mirror image
     thing.axis_rotation->angle = Track<double>(-20.0 * std::numbers::pi / 180.0);
     RenderSettings settings = small_settings();

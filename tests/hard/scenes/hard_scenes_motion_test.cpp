@@ -82,11 +82,9 @@ TEST(HardScenes, RP13_LeavingKeepsItsDisplacement) {
 TEST(HardScenes, RP14_DeformingMovesAsRigid) {
     HardScene hard("deforming");
     Scene rigid = hard.scene;
-    Mesh& mesh =
-        rigid
-            .meshes[static_cast<std::size_t>(rigid.nodes[static_cast<std::size_t>(hard.node("thing"))].meshes.front())];
+    Mesh& mesh = rigid.meshes[rigid.nodes[hard.node("thing")].meshes.front()];
     mesh.points = no_index;
-    Node& node = rigid.nodes[static_cast<std::size_t>(hard.node("thing"))];
+    Node& node = rigid.nodes[hard.node("thing")];
     node.translation.sampling = {.kind = TimeSampling::Kind::acyclic, .times = {0.0, 2.0 / 30.0}};
     node.translation.values = {{0.0, 0.5, 0.0}, {0.5, 0.5, 0.0}};
     Sequence sequence(rigid, small_settings());

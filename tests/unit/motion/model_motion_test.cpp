@@ -146,8 +146,8 @@ TEST_P(MotionTruth, ErrorBelowMillionthOfAPixel) {
         Real worst = 0, longest = 0;
         for (std::size_t i = 0; i < hits.size(); ++i) {
             const Hit& hit = hits.pixels[i];
-            const Instance& instance = moments.frames[0].instances[static_cast<std::size_t>(hit.instance)];
-            const RealVector point = real_surface_point(scene_.meshes[static_cast<std::size_t>(instance.mesh)], hit);
+            const Instance& instance = moments.frames[0].instances[hit.instance];
+            const RealVector point = real_surface_point(scene_.meshes[instance.mesh], hit);
             const auto pixel_at = [&](double seconds) {
                 return real_project(scene_, camera_, real_to_world(scene_, instance.node, point, seconds), seconds,
                                     width, height);

@@ -34,7 +34,7 @@ TEST(BandResponse, UniformImageIsAllCoarsestBand) {
     for (const float grey : {0.0f, 0.3f, 1e6f}) {
         const auto response = compute_band_response(Image<float>(40, 30, grey));
         for (int i = 0; i < band_count; ++i) {
-            for (const float r : response[static_cast<std::size_t>(i)].pixels) ASSERT_EQ(r, i == 6 ? 1.0f : 0.0f);
+            for (const float r : response[i].pixels) ASSERT_EQ(r, i == 6 ? 1.0f : 0.0f);
         }
     }
 }

@@ -9,8 +9,8 @@
 
 #include "engine/load/load_scene.h"
 #include "render/sequence.h"
-#include "tests/support/quick_settings.h"
 #include "tests/support/paths.h"
+#include "tests/support/quick_settings.h"
 
 namespace aleph {
 namespace {
@@ -36,9 +36,9 @@ TEST(AssetRender, TruckRollsItsWheelsAndNothingElse) {
         for (int x = 0; x < output.view.width; ++x) {
             const Hit& hit = output.hits(x, y);
             if (hit.instance == no_index) continue;
-            const int node = frame.instances[static_cast<std::size_t>(hit.instance)].node;
+            const int node = frame.instances[hit.instance].node;
             const double moved = glm::length(output.motion.displacement(x, y));
-            if (is_animated(scene.nodes[static_cast<std::size_t>(node)].rotation)) {
+            if (is_animated(scene.nodes[node].rotation)) {
                 ++wheel_pixels;
                 fastest = std::max(fastest, moved);
             } else {

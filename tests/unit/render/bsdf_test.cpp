@@ -127,7 +127,7 @@ TEST(Bsdf, SamplesFollowTheDensityChiSquare) {
                 const double azimuth = std::atan2(l.y, l.x) + pi;
                 const int row = std::min(rows - 1, static_cast<int>(l.z * rows));
                 const int column = std::min(columns - 1, static_cast<int>(azimuth / (2.0 * pi) * columns));
-                seen[static_cast<std::size_t>(row * columns + column)] += 1.0;
+                seen[row * columns + column] += 1.0;
             }
             double total = 0.0;
             for (int i = 0; i < rows * fine; ++i) {
@@ -136,7 +136,7 @@ TEST(Bsdf, SamplesFollowTheDensityChiSquare) {
                     const double p =
                         pdf_glossy(material, view, direction_of(static_cast<float>(z), static_cast<float>(azimuth))) *
                         2.0 * pi / (rows * fine * columns * fine);
-                    expected[static_cast<std::size_t>(i / fine * columns + k / fine)] += n * p;
+                    expected[i / fine * columns + k / fine] += n * p;
                     total += p;
                 }
             }

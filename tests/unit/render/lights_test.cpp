@@ -49,7 +49,7 @@ TEST(Lights, AreaAndNormalsFollowTheInstance) {
     ball.segments = 64;
     const int lamp = add_lambert(scene, glm::dvec3(0.0), glm::dvec3(1.0));
     const int node = add_mesh(scene, make_shape_mesh(ball, lamp));
-    scene.nodes[static_cast<std::size_t>(node)].scale = glm::dvec3(-2.0, 2.0, 2.0);
+    scene.nodes[node].scale = glm::dvec3(-2.0, 2.0, 2.0);
     const Stage stage(std::move(scene));
     const Emitter& emitter = stage.lights.emitters.at(0);
     EXPECT_NEAR(emitter.area, 16.0 * pi, 0.01 * 16.0 * pi);
@@ -258,7 +258,7 @@ TEST(Lights, HiddenAndFlattenedEmittersAreNoLights) {
     // A box flattened to a sheet is left out of the scene that rays see (RC-02): then it must not shine either.
     Scene flat;
     const int node = add_mesh(flat, make_box({1.0, 1.0, 1.0}, add_lambert(flat, glm::dvec3(0.0), glm::dvec3(4.0))));
-    flat.nodes[static_cast<std::size_t>(node)].scale = glm::dvec3(1.0, 0.0, 1.0);
+    flat.nodes[node].scale = glm::dvec3(1.0, 0.0, 1.0);
     const Stage stage(std::move(flat));
     EXPECT_EQ(stage.rays.skipped_instances(), 1u);
     EXPECT_EQ(stage.lights.count(), 0);

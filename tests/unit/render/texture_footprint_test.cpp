@@ -28,7 +28,7 @@ Scene make_plane(const glm::dvec3& at = glm::dvec3(0.0)) {
     mesh.uv[1] = mesh.uv[0];
     for (glm::vec2& uv : mesh.uv[1]) uv = {7.0f * uv.y + 0.5f * uv.x, 3.0f * uv.x};
     const int node = add_mesh(scene, mesh, at, glm::angleAxis(0.4, glm::normalize(glm::dvec3(1.0, 2.0, 0.5))));
-    scene.nodes[static_cast<std::size_t>(node)].scale = glm::dvec3(1.5, 0.7, 1.0);
+    scene.nodes[node].scale = glm::dvec3(1.5, 0.7, 1.0);
     add_camera(scene, at + glm::dvec3(0.7, 0.4, 5.0), at);
     return scene;
 }
@@ -55,7 +55,7 @@ Scene make_ball() {
     ball.radius = 1.0;
     ball.segments = 12;  // large facets, so that neighbouring rays often meet the same
     const int node = add_mesh(scene, make_shape_mesh(ball, add_lambert(scene, glm::dvec3(0.5))));
-    scene.nodes[static_cast<std::size_t>(node)].scale = glm::dvec3(-1.0, 1.3, 1.0);  // mirrored
+    scene.nodes[node].scale = glm::dvec3(-1.0, 1.3, 1.0);  // mirrored
     add_camera(scene, {0.3, 1.0, 3.0}, glm::dvec3(0.0));
     return scene;
 }

@@ -29,7 +29,7 @@ Scene make_ramp(int width, int height = 1) {
 glm::vec4 sample(const Scene& scene, const TextureRef& reference, const glm::vec2& uv,
                  TextureSpace space = TextureSpace::linear) {
     TextureSet set;
-    set.textures.push_back(make_texture(scene.images[static_cast<std::size_t>(reference.image)], space));
+    set.textures.push_back(make_texture(scene.images[reference.image], space));
     return sample_texture(set, make_texture_use(reference, 0), uv, {});
 }
 
@@ -151,7 +151,7 @@ TEST(Texture, OnePyramidForEachPictureAndSpace) {
     EXPECT_EQ(set.materials[0].base_color.texture, set.materials[1].metallic_roughness.texture);
     EXPECT_EQ(set.materials[0].emission.texture, set.materials[0].specular_color.texture);
     EXPECT_NE(set.materials[0].emission.texture, set.materials[0].specular.texture);
-    const Texture& wide = set.textures[static_cast<std::size_t>(set.materials[0].specular.texture)];
+    const Texture& wide = set.textures[set.materials[0].specular.texture];
     ASSERT_EQ(wide.coarse.size(), 3u);  // 8x2, 4x1, 2x1, 1x1
     EXPECT_EQ(wide.coarse[1].width, 2);
     EXPECT_EQ(wide.coarse[1].height, 1);

@@ -13,9 +13,9 @@
 #include "engine/pose/pose.h"
 #include "engine/rays/first_hits.h"
 #include "motion/model_motion.h"
+#include "tests/support/paths.h"
 #include "tests/support/read_bytes.h"
 #include "tests/support/scratch_folder.h"
-#include "tests/support/paths.h"
 
 namespace aleph {
 
@@ -36,7 +36,7 @@ inline int find_node(const Scene& scene, const std::string& name) {
 }
 
 inline const glm::dmat4& world_of(const SceneFrame& frame, int node) {
-    return frame.world[static_cast<std::size_t>(node)];
+    return frame.world[node];
 }
 
 inline Image<Hit> cast(const Scene& scene, const SceneFrame& now, const CameraView& view) {

@@ -8,8 +8,8 @@
 #include <map>
 
 #include "scenes/boomerang/boomerang_scene.h"
-#include "tests/unit/scenes/authored_scenes.h"
 #include "tests/support/paths.h"
+#include "tests/unit/scenes/authored_scenes.h"
 
 namespace aleph {
 namespace {
@@ -62,9 +62,9 @@ Moving measure(int frame) {
     for (std::size_t i = 0; i < hits.size(); ++i) {
         EXPECT_NE(hits.pixels[i].instance, no_index);  // a closed room
         if (hits.pixels[i].instance == no_index) continue;
-        const auto& instance = instances[static_cast<std::size_t>(hits.pixels[i].instance)];
+        const auto& instance = instances[hits.pixels[i].instance];
         const double speed = 2.0 * glm::length(field.displacement.pixels[i]);
-        if (scene.nodes[static_cast<std::size_t>(instance.node)].name == "boomerang") {
+        if (scene.nodes[instance.node].name == "boomerang") {
             moving.boomerang_share += 1.0 / static_cast<double>(hits.size());
             moving.fastest = std::max(moving.fastest, speed);
         } else {

@@ -11,8 +11,8 @@
 #include "render/sequence.h"
 #include "scenes/antique-room/antique_room.h"
 #include "scenes/art-gallery/gallery.h"
-#include "tests/unit/scenes/authored_scenes.h"
 #include "tests/support/paths.h"
+#include "tests/unit/scenes/authored_scenes.h"
 
 namespace aleph {
 namespace {
@@ -20,9 +20,8 @@ namespace {
 constexpr double pi = std::numbers::pi;
 
 std::string top_of(const Scene& scene, int node) {
-    while (scene.nodes[static_cast<std::size_t>(node)].parent != no_index)
-        node = scene.nodes[static_cast<std::size_t>(node)].parent;
-    return scene.nodes[static_cast<std::size_t>(node)].name;
+    while (scene.nodes[node].parent != no_index) node = scene.nodes[node].parent;
+    return scene.nodes[node].name;
 }
 
 std::size_t count_triangles(const Scene& scene) {
@@ -35,9 +34,9 @@ std::size_t count_triangles(const Scene& scene) {
 std::set<std::string> find_lamps(const Scene& scene) {
     std::set<std::string> lamps;
     for (const Instance& instance : list_instances(scene)) {
-        const int material = scene.meshes[static_cast<std::size_t>(instance.mesh)].material;
-        if (evaluate(scene.materials[static_cast<std::size_t>(material)].emission, 0.0) != glm::dvec3(0.0))
-            lamps.insert(scene.nodes[static_cast<std::size_t>(instance.node)].name);
+        const int material = scene.meshes[instance.mesh].material;
+        if (evaluate(scene.materials[material].emission, 0.0) != glm::dvec3(0.0))
+            lamps.insert(scene.nodes[instance.node].name);
     }
     return lamps;
 }
@@ -67,10 +66,10 @@ TEST(ArtGallery, HoldsWhatTheThesisAsksFor) {
     const int pictures = find_node(scene, "pictures");
     std::set<int> shown;
     for (const Instance& instance : list_instances(scene)) {
-        const Node& node = scene.nodes[static_cast<std::size_t>(instance.node)];
-        if (node.parent == no_index || scene.nodes[static_cast<std::size_t>(node.parent)].parent != pictures) continue;
-        const int material = scene.meshes[static_cast<std::size_t>(instance.mesh)].material;
-        shown.insert(scene.materials[static_cast<std::size_t>(material)].base_color_texture.image);
+        const Node& node = scene.nodes[instance.node];
+        if (node.parent == no_index || scene.nodes[node.parent].parent != pictures) continue;
+        const int material = scene.meshes[instance.mesh].material;
+        shown.insert(scene.materials[material].base_color_texture.image);
     }
     shown.erase(no_index);
     EXPECT_EQ(shown.size(), 14u);
@@ -144,7 +143,7 @@ TEST(ArtGallery, BallsThatTravelFlyOnParabolasAndRollWithoutSliding) {
     for (std::size_t i = 0; i < drops.size(); ++i) {
         if (glm::length(drops[i].velocity) == 0.0) continue;
         ++travelling;
-        const Node& node = scene.nodes[static_cast<std::size_t>(find_node(scene, "ball_" + std::to_string(i)))];
+        const Node& node = scene.nodes[find_node(scene, "ball_" + std::to_string(i))];
         const Track<glm::dvec3>& path = node.translation;
         ASSERT_EQ(path.interpolation, Interpolation::cubic);
         const std::size_t keys = path.key_count();
@@ -195,8 +194,8 @@ TEST(ArtGallery, BallsNeverTouchOneAnother) {
 TEST(ArtGallery, TopSpinsAndPrecessesOnItsTip) {
     const Scene& scene = loaded("art-gallery");
     const int top = find_node(scene, "top"), precession = find_node(scene, "top_precession");
-    const auto& spin = scene.nodes[static_cast<std::size_t>(top)].axis_rotation->angle;
-    const auto& turn = scene.nodes[static_cast<std::size_t>(precession)].axis_rotation->angle;
+    const auto& spin = scene.nodes[top].axis_rotation->angle;
+    const auto& turn = scene.nodes[precession].axis_rotation->angle;
     const auto rate = [](const Track<double>& angle, double t) {
         return (evaluate(angle, t + 0.01) - evaluate(angle, t - 0.01)) / 0.02;
     };
@@ -223,7 +222,7 @@ TEST(ArtGallery, EveryViewIsClosedAndShowsMotion) {
         int moving = 0;
         for (const Hit& hit : hits.pixels) {
             ASSERT_NE(hit.instance, no_index) << frame;
-            const auto node = static_cast<std::size_t>(now.instances[static_cast<std::size_t>(hit.instance)].node);
+            const auto node = static_cast<std::size_t>(now.instances[hit.instance].node);
             moving += now.world[node] != next.world[node] ? 1 : 0;
             // The camera keeps away from what it passes.
             EXPECT_GT(hit.distance, 0.3) << frame << " " << scene.nodes[node].name;
@@ -250,9 +249,9 @@ TEST(ArtGallery, KineticWorkBleedsColour) {
     double reddest = 0.0, least_red = 9.0;
     for (std::size_t i = 0; i < with.hits.size(); ++i) {
         const Hit& hit = with.hits.pixels[i];
-        const Instance& instance = now.instances[static_cast<std::size_t>(hit.instance)];
-        const int material = scene.meshes[static_cast<std::size_t>(instance.mesh)].material;
-        if (scene.materials[static_cast<std::size_t>(material)].name != "kinetic_white") continue;
+        const Instance& instance = now.instances[hit.instance];
+        const int material = scene.meshes[instance.mesh].material;
+        if (scene.materials[material].name != "kinetic_white") continue;
         const Rgb bounced = with.shaded.color.pixels[i] - without.shaded.color.pixels[i];
         if (bounced.g < 0.02f) continue;
         reddest = std::max(reddest, static_cast<double>(bounced.r / bounced.g));
@@ -288,9 +287,9 @@ TEST(AntiqueRoom, IsClosedSmallAndGlossy) {
         for (const Hit& hit : cast(scene, now, make_camera_view(now.cameras.front(), 160, 120)).pixels) {
             ASSERT_NE(hit.instance, no_index) << frame;
             EXPECT_GT(hit.distance, 0.3) << frame;
-            const Instance& instance = now.instances[static_cast<std::size_t>(hit.instance)];
-            const int material = scene.meshes[static_cast<std::size_t>(instance.mesh)].material;
-            const MaterialValues& values = now.materials[static_cast<std::size_t>(material)];
+            const Instance& instance = now.instances[hit.instance];
+            const int material = scene.meshes[instance.mesh].material;
+            const MaterialValues& values = now.materials[material];
             ++pixels;
             glossy += values.specular > 0.0f && values.roughness >= 0.1f && values.roughness <= 0.3f ? 1 : 0;
         }

@@ -10,8 +10,8 @@
 
 #include "scenes/pool/break.h"
 #include "scenes/pool/pool_scene.h"
-#include "tests/unit/scenes/authored_scenes.h"
 #include "tests/support/paths.h"
+#include "tests/unit/scenes/authored_scenes.h"
 
 namespace aleph {
 namespace {
@@ -22,8 +22,8 @@ glm::dvec3 origin_of(const SceneFrame& frame, int node) {
 
 /// Is the node below (or is it) the one of this name?
 bool is_below(const Scene& scene, int node, const std::string& name) {
-    for (; node != no_index; node = scene.nodes[static_cast<std::size_t>(node)].parent)
-        if (scene.nodes[static_cast<std::size_t>(node)].name == name) return true;
+    for (; node != no_index; node = scene.nodes[node].parent)
+        if (scene.nodes[node].name == name) return true;
     return false;
 }
 
@@ -34,7 +34,7 @@ std::array<double, 2> background_motion(const Scene& scene, int frame) {
     for (std::size_t i = 0; i < motion.hits.size(); ++i) {
         const Hit& hit = motion.hits.pixels[i];
         if (hit.instance == no_index) continue;
-        if (!is_below(scene, motion.instances[static_cast<std::size_t>(hit.instance)].node, "room")) continue;
+        if (!is_below(scene, motion.instances[hit.instance].node, "room")) continue;
         sum += glm::length(motion.field.displacement.pixels[i]);
         count += 1.0;
     }
@@ -74,9 +74,9 @@ TEST(PoolScene, FramesShowTheSimulationsOwnStates) {
     const int node = find_node(scene, "ball_15");
     for (const int frame : {5, 12, 30, 89}) {
         const SceneFrame now = pose(scene, scene.frame_rate.seconds_of(frame));
-        const PoolBall& ball = run.samples[static_cast<std::size_t>((frame - 5) * 4)][15];
+        const PoolBall& ball = run.samples[(frame - 5) * 4][15];
         EXPECT_LT(glm::distance(origin_of(now, node), ball.position + glm::dvec3(0.0, cloth_height, 0.0)), 1e-6);
-        const glm::dvec3 mark = glm::dmat3(now.world[static_cast<std::size_t>(node)]) * glm::dvec3(1.0, 0.0, 0.0);
+        const glm::dvec3 mark = glm::dmat3(now.world[node]) * glm::dvec3(1.0, 0.0, 0.0);
         EXPECT_LT(glm::distance(mark, ball.orientation * glm::dvec3(1.0, 0.0, 0.0)), 5e-6);
     }
 }
@@ -117,7 +117,7 @@ TEST(PoolScene, BallsFillThePicture) {
         const FrameMotion motion = compute_motion(scene, frame, 320, 240);
         std::set<int> seen;
         for (const Hit& hit : motion.hits.pixels) {
-            const int node = motion.instances[static_cast<std::size_t>(hit.instance)].node;
+            const int node = motion.instances[hit.instance].node;
             if (is_below(scene, node, "balls")) seen.insert(node);
         }
         EXPECT_GE(seen.size(), 10u) << frame;
@@ -174,7 +174,7 @@ TEST(PoolScene, CueIsGoneOnceTheBallsSpread) {
             const FrameMotion motion = compute_motion(scene, frame, 320, 240);
             int pixels = 0;
             for (const Hit& hit : motion.hits.pixels)
-                if (is_below(scene, motion.instances[static_cast<std::size_t>(hit.instance)].node, "cue")) ++pixels;
+                if (is_below(scene, motion.instances[hit.instance].node, "cue")) ++pixels;
             if (frame < 30)
                 EXPECT_GT(pixels, 20) << name << " " << frame;
             else
@@ -200,7 +200,7 @@ TEST(PoolScene, CueTouchesOnlyTheCueBall) {
     double nearest_to_cue_ball = 1.0;
     for (int i = 0; i <= 89 * 4; ++i) {
         const SceneFrame now = pose(scene, i / 120.0);
-        const glm::dmat4& world = now.world[static_cast<std::size_t>(cue)];
+        const glm::dmat4& world = now.world[cue];
         const glm::dvec3 tip = world[3], along = world[1];
         for (int ball = 0; ball < 16; ++ball) {
             const int node = find_node(scene, "ball_" + std::string(ball < 10 ? "0" : "") + std::to_string(ball));
@@ -231,8 +231,8 @@ TEST(CornellScene, LoadsAndMoves) {
     for (int i = 0; i <= 59 * 8; ++i) EXPECT_GE(origin_of(pose(scene, i / 240.0), sphere).y, top + radius - 1e-12) << i;
     EXPECT_NEAR(origin_of(pose(scene, 39.0 / 30.0), sphere).y, top + radius, 1e-12);
     // 1.5 degrees a frame about y.
-    const glm::dvec3 before = pose(scene, 0.0).world[static_cast<std::size_t>(block)][0];
-    const glm::dvec3 after = pose(scene, 10.0 / 30.0).world[static_cast<std::size_t>(block)][0];
+    const glm::dvec3 before = pose(scene, 0.0).world[block][0];
+    const glm::dvec3 after = pose(scene, 10.0 / 30.0).world[block][0];
     EXPECT_NEAR(glm::dot(before, after), std::cos(15.0 * 3.14159265358979 / 180.0), 1e-12);
 }
 
@@ -246,13 +246,13 @@ TEST(CornellScene, BoxFacesInwardsAndFillsThePicture) {
     std::set<std::string> seen;
     for (const Hit& hit : hits.pixels) {
         if (hit.instance == no_index) continue;
-        const Instance& instance = now.instances[static_cast<std::size_t>(hit.instance)];
-        seen.insert(scene.nodes[static_cast<std::size_t>(instance.node)].name);
+        const Instance& instance = now.instances[hit.instance];
+        seen.insert(scene.nodes[instance.node].name);
     }
     EXPECT_EQ(seen.size(), 9u);  // all but the camera
     for (const char* name : {"floor", "ceiling", "back_wall", "left_wall", "right_wall", "lamp"}) {
         // The quad's +z, from its middle, points to the middle of the box.
-        const glm::dmat4& world = now.world[static_cast<std::size_t>(find_node(scene, name))];
+        const glm::dmat4& world = now.world[find_node(scene, name)];
         EXPECT_GT(glm::dot(glm::dvec3(world[2]), glm::dvec3(0.0, 2.75, 0.0) - glm::dvec3(world[3])), 2.7) << name;
     }
 }

@@ -76,7 +76,7 @@ TEST(PyramidHard, PY02_BorderGivesNoEdge) {
         const auto sizes = pyramid_sizes(131, 77, 9);
         Image<float> finer = levels[0];
         for (int level = 1; level < 9; ++level) {
-            const Image<float> full = expand_to_level(levels[static_cast<std::size_t>(level)], sizes, level, 0);
+            const Image<float> full = expand_to_level(levels[level], sizes, level, 0);
             for (std::size_t i = 0; i < full.size(); ++i) {
                 ASSERT_NEAR(full.pixels[i], finer.pixels[i], 5e-7 * value) << level;
             }
@@ -102,7 +102,7 @@ TEST(PyramidHard, PY03_EverySizeRuns) {
         }
     }
     const auto single = compute_band_response(Image<float>(1, 1, 0.7f));
-    for (int i = 0; i < band_count; ++i) EXPECT_EQ(single[static_cast<std::size_t>(i)](0, 0), i == 6 ? 1.0f : 0.0f);
+    for (int i = 0; i < band_count; ++i) EXPECT_EQ(single[i](0, 0), i == 6 ? 1.0f : 0.0f);
 }
 
 TEST(PyramidHard, PY04_LevelsDoNotDrift) {
@@ -117,7 +117,7 @@ TEST(PyramidHard, PY04_LevelsDoNotDrift) {
         const auto levels = make_gaussian_pyramid(blob, 6);
         const auto sizes = pyramid_sizes(size, size, 6);
         for (int level = 0; level < 6; ++level) {
-            const Image<float> full = expand_to_level(levels[static_cast<std::size_t>(level)], sizes, level, 0);
+            const Image<float> full = expand_to_level(levels[level], sizes, level, 0);
             double sum = 0, sx = 0, sy = 0;
             for (int y = 0; y < size; ++y) {
                 for (int x = 0; x < size; ++x) sum += full(x, y), sx += x * full(x, y), sy += y * full(x, y);
@@ -256,8 +256,8 @@ TEST(PyramidHard, PY18_SixMapsPerPyramidAtEverySize) {
         ASSERT_EQ(maps.size(), 48u);
         std::array<int, channel_count> count{};
         for (const FeatureMap& map : maps) {
-            ++count[static_cast<std::size_t>(map.channel)];
-            EXPECT_TRUE(same_size(map.difference, levels[static_cast<std::size_t>(map.level)]));
+            ++count[map.channel];
+            EXPECT_TRUE(same_size(map.difference, levels[map.level]));
         }
         EXPECT_EQ(count, (std::array{6, 12, 24, 6}));
     }

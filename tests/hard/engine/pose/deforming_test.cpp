@@ -67,7 +67,7 @@ double largest_error(const Observed& seen, const Mesh& rest, const AtNow& at_now
     for (std::size_t i = 0; i < seen.hits.size(); ++i) {
         const Hit& hit = seen.hits.pixels[i];
         if (hit.instance == no_index) continue;
-        const glm::uvec3 t = rest.triangles[static_cast<std::size_t>(hit.primitive)];
+        const glm::uvec3 t = rest.triangles[hit.primitive];
         const glm::dvec2 uv = clamp_barycentrics(hit);
         const auto between = [&](const auto& place) {
             return (1.0 - uv.x - uv.y) * place(rest.positions[t.x]) + uv.x * place(rest.positions[t.y]) +
@@ -241,7 +241,7 @@ TEST(Deforming, RP07_PathsOfTurningJointsAreArcs) {
     for (std::size_t i = 0; i < seen.hits.size(); ++i) {
         const Hit& hit = seen.hits.pixels[i];
         if (hit.instance == no_index) continue;
-        const glm::uvec3 t = scene.meshes[0].triangles[static_cast<std::size_t>(hit.primitive)];
+        const glm::uvec3 t = scene.meshes[0].triangles[hit.primitive];
         const glm::dvec2 uv = clamp_barycentrics(hit);
         const auto on_right = [&](std::uint32_t v) { return scene.meshes[0].positions[v].x > 0.0f; };
         if (!on_right(t.x) || !on_right(t.y) || !on_right(t.z)) continue;

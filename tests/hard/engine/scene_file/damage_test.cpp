@@ -63,13 +63,12 @@ class Damage {
                                 text.substr(static_cast<std::size_t>(below(static_cast<int>(text.size()))), length));
                     break;
                 case 3:
-                    text.insert(at, pieces_[static_cast<std::size_t>(below(static_cast<int>(pieces_.size())))]);
+                    text.insert(at, pieces_[below(static_cast<int>(pieces_.size()))]);
                     break;
                 default: {  // a number becomes another
                     const std::size_t digit = text.find_first_of("0123456789", at);
                     if (digit != std::string::npos) {
-                        text.replace(digit, 1,
-                                     pieces_[static_cast<std::size_t>(below(static_cast<int>(pieces_.size())))]);
+                        text.replace(digit, 1, pieces_[below(static_cast<int>(pieces_.size()))]);
                     }
                 }
             }

@@ -72,7 +72,7 @@ TEST(SubdivisionHard, SurfacesThatAreNoManifoldAreSharpThere) {
 
 TEST(SubdivisionHard, RepeatedFacesAreLetPassWithAWarning) {
     TestCage test = make_cube_cage();
-    for (int k = 0; k < 4; ++k) test.cage.face_points.push_back(test.cage.face_points[static_cast<std::size_t>(k)]);
+    for (int k = 0; k < 4; ++k) test.cage.face_points.push_back(test.cage.face_points[k]);
     test.cage.face_sizes.push_back(4);
     const auto warnings = list_warnings(test.cage);
     ASSERT_EQ(warnings.size(), 2u);

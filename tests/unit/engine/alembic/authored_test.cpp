@@ -19,11 +19,10 @@ constexpr int width = 96, height = 72;
 
 /// Where an object stands in an archive: the names above it. Authored nodes are called by that path.
 std::string path_of(const Scene& scene, int instance) {
-    int node = list_instances(scene)[static_cast<std::size_t>(instance)].node;
-    std::string path = scene.nodes[static_cast<std::size_t>(node)].name;
+    int node = list_instances(scene)[instance].node;
+    std::string path = scene.nodes[node].name;
     if (path.front() == '/') return path.substr(0, path.find('#'));
-    for (path.clear(); node != no_index; node = scene.nodes[static_cast<std::size_t>(node)].parent)
-        path = "/" + scene.nodes[static_cast<std::size_t>(node)].name + path;
+    for (path.clear(); node != no_index; node = scene.nodes[node].parent) path = "/" + scene.nodes[node].name + path;
     return path;
 }
 

@@ -36,7 +36,7 @@ const Node& node_named(const Scene& scene, const std::string& name) {
 }
 
 const Mesh& mesh_of(const Scene& scene, const std::string& node, std::size_t i = 0) {
-    return scene.meshes[static_cast<std::size_t>(node_named(scene, node).meshes.at(i))];
+    return scene.meshes[node_named(scene, node).meshes.at(i)];
 }
 
 bool has_warning(const Scene& scene, const std::string& word) {
@@ -76,7 +76,7 @@ TEST(AlembicMeshes, CornersBecomeVertices) {
     const json& uv = object["polymesh"]["uv"]["expanded_samples"][0][1];
     for (const std::size_t sample : {0u, 3u, 7u}) {
         const SceneFrame frame = pose(scene, static_cast<double>(sample) / 24.0);
-        const PosedMesh& posed = frame.meshes[static_cast<std::size_t>(node_named(scene, "wave").meshes[0])];
+        const PosedMesh& posed = frame.meshes[node_named(scene, "wave").meshes[0]];
         ASSERT_EQ(posed.normals.size(), mesh.positions.size());
         std::vector<bool> used(mesh.positions.size(), false);
         for (std::size_t corner = 0; corner < indices.size(); ++corner) {
@@ -93,7 +93,7 @@ TEST(AlembicMeshes, CornersBecomeVertices) {
         EXPECT_TRUE(std::ranges::all_of(used, [](bool u) { return u; }));
     }
     EXPECT_EQ(mesh.triangles.size(), 32u);
-    const PointCache& cache = scene.point_caches[static_cast<std::size_t>(mesh.points)];
+    const PointCache& cache = scene.point_caches[mesh.points];
     ASSERT_EQ(cache.velocities.size(), cache.positions.size());
     const json& velocities = property_of(object, ".velocities")["samples"];
     for (std::size_t i = 0; i < cache.velocities.size(); ++i)
@@ -185,7 +185,7 @@ TEST(AlembicMeshes, RP15_PointsMoveBetweenChanges) {
         load({draft_mesh("m", {a, b, c, c}, {{3}, {3}, {4}, {4}}, {{0, 1, 2}, {0, 1, 2}, {0, 1, 2, 3}, {0, 1, 2, 3}})},
              {0.0, 1.0, 2.0, 3.0});
     ASSERT_EQ(node_named(scene, "m").meshes.size(), 2u);
-    const PointCache& first = scene.point_caches[static_cast<std::size_t>(mesh_of(scene, "m", 0).points)];
+    const PointCache& first = scene.point_caches[mesh_of(scene, "m", 0).points];
     EXPECT_EQ(sample_points(first, 0.5)[0], glm::dvec3(0, 0, 1));
     EXPECT_EQ(sample_points(first, 1.9)[0], glm::dvec3(0, 0, 2));  // holds: not half way to another surface
     EXPECT_EQ(evaluate(mesh_of(scene, "m", 0).present, 1.9), 1.0);
@@ -234,8 +234,8 @@ TEST(AlembicMaterials, AssignmentsToTheMeshAndToFaceSets) {
     ASSERT_EQ(node_named(scene, "box").meshes.size(), 3u);
     const auto part = [&](const std::string& material) -> const Mesh& {
         for (const int mesh : node_named(scene, "box").meshes) {
-            const Mesh& m = scene.meshes[static_cast<std::size_t>(mesh)];
-            if (scene.materials[static_cast<std::size_t>(m.material)].name == material) return m;
+            const Mesh& m = scene.meshes[mesh];
+            if (scene.materials[m.material].name == material) return m;
         }
         throw std::out_of_range(material);
     };
@@ -243,13 +243,12 @@ TEST(AlembicMaterials, AssignmentsToTheMeshAndToFaceSets) {
     ASSERT_EQ(scene.materials.size(), 3u);
     for (const Material& material : scene.materials) EXPECT_EQ(material.metallic, Track<double>(0.0));
     const auto close = [](const glm::dvec3& a, const glm::dvec3& b) { return glm::distance(a, b) < 1e-6; };
-    const Material& red = scene.materials[static_cast<std::size_t>(part("red").material)];
+    const Material& red = scene.materials[part("red").material];
     EXPECT_TRUE(close(red.base_color.values[0], {0.8, 0.1, 0.05}));
     EXPECT_NEAR(red.roughness.values[0], 0.25, 1e-7);
     // Two are called blue: the sides' own, and one that the archive does not have.
     std::size_t triangles = 0;
-    for (const int mesh : node_named(scene, "box").meshes)
-        triangles += scene.meshes[static_cast<std::size_t>(mesh)].triangles.size();
+    for (const int mesh : node_named(scene, "box").meshes) triangles += scene.meshes[mesh].triangles.size();
     EXPECT_EQ(triangles, 12u);
     EXPECT_TRUE(has_warning(scene, "no material \"/materials/red/blue\""));
     EXPECT_TRUE(has_warning(scene, "face set changes over time"));
@@ -260,7 +259,7 @@ TEST(AlembicSubdivision, CreasesCornersHolesAndRules) {
     const json truth = truth_of("subd_creases");
     const json& object = object_of(truth, "/cage");
     const json& sample = object["subd"]["samples"][0];
-    const Cage& cage = scene.cages[static_cast<std::size_t>(mesh_of(scene, "cage").cage)];
+    const Cage& cage = scene.cages[mesh_of(scene, "cage").cage];
     EXPECT_EQ(cage.scheme, Cage::Scheme::catmull_clark);
     EXPECT_EQ(cage.boundary, Cage::Boundary::edge_only);          // 2
     EXPECT_EQ(cage.uv_rule, Cage::UvRule::linear_corners_plus1);  // 1, corners not propagated
@@ -279,11 +278,11 @@ TEST(AlembicSubdivision, CreasesCornersHolesAndRules) {
         for (std::size_t i = 0; i < 4; ++i) {
             const std::size_t ours = 4 * f + i, theirs = 4 * f + (4 - i) % 4;
             EXPECT_EQ(cage.face_points[ours], indices[theirs]);
-            const glm::vec2 found = cage.uv[static_cast<std::size_t>(cage.face_uv[ours])];
+            const glm::vec2 found = cage.uv[cage.face_uv[ours]];
             EXPECT_EQ(found, glm::vec2(uv[2 * theirs], 1.0f - uv[2 * theirs + 1]));
         }
     }
-    const Cage& plain = scene.cages[static_cast<std::size_t>(mesh_of(scene, "tetra").cage)];
+    const Cage& plain = scene.cages[mesh_of(scene, "tetra").cage];
     EXPECT_EQ(plain.boundary, Cage::Boundary::none);
     EXPECT_EQ(plain.uv_rule, Cage::UvRule::linear_all);
     EXPECT_TRUE(plain.holes.empty());
@@ -383,7 +382,7 @@ TEST(AlembicForeign, WhatThereIsToSee) {
     }
     const Scene camera = load("testAbcCamera");
     EXPECT_EQ(camera.cameras.size(), 1u);
-    EXPECT_TRUE(is_animated(camera.nodes[static_cast<std::size_t>(pose(camera, 0.0).cameras[0].node)].visible) ||
+    EXPECT_TRUE(is_animated(camera.nodes[pose(camera, 0.0).cameras[0].node].visible) ||
                 pose(camera, 0.1).cameras[0].position != pose(camera, 0.7).cameras[0].position);
     EXPECT_TRUE(has_warning(load("testUsdAbcXformPrimCollapsing"), "AbcGeom_Curve_v2 are not read"));
 }

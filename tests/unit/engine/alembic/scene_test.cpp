@@ -17,8 +17,7 @@ namespace {
 
 std::string path_of(const Scene& scene, int node) {
     std::string path;
-    for (int i = node; i != no_index; i = scene.nodes[static_cast<std::size_t>(i)].parent)
-        path = "/" + scene.nodes[static_cast<std::size_t>(i)].name + path;
+    for (int i = node; i != no_index; i = scene.nodes[i].parent) path = "/" + scene.nodes[i].name + path;
     return path;
 }
 
@@ -31,7 +30,7 @@ int find_node(const Scene& scene, const std::string& path) {
 const Node& node_at(const Scene& scene, const std::string& path) {
     const int node = find_node(scene, path);
     if (node == no_index) throw std::out_of_range("no node " + path);
-    return scene.nodes[static_cast<std::size_t>(node)];
+    return scene.nodes[node];
 }
 
 Scene load(const std::string& name) {
@@ -41,7 +40,7 @@ Scene load(const std::string& name) {
 /// 1e-9 relative, element by element; truth has sines of right angles where ours may have 0.
 void expect_matrix(const glm::dmat4& m, const json& truth, const std::string& where) {
     for (int i = 0; i < 16; ++i) {
-        const double expected = truth[static_cast<std::size_t>(i)];
+        const double expected = truth[i];
         EXPECT_NEAR(glm::value_ptr(m)[i], expected, 1e-9 * std::abs(expected) + 1e-14) << where << " element " << i;
     }
 }
@@ -62,7 +61,7 @@ TEST_P(AlembicScene, WorldTransformsAtEveryQueryTime) {
             const int node = find_node(scene, path);
             ASSERT_NE(node, no_index) << path;
             const json& world = xform ? object["xform"]["at"][t]["world_lerp_ops"] : object["world_lerp_ops_at"][t];
-            expect_matrix(frame.world[static_cast<std::size_t>(node)], world, path + " at " + std::to_string(seconds));
+            expect_matrix(frame.world[node], world, path + " at " + std::to_string(seconds));
             ++compared;
         }
     }
@@ -121,7 +120,7 @@ TEST_P(AlembicScene, VisibilityAtEveryQueryTime) {
             const int node = find_node(scene, object["path"]);
             if (node == no_index) continue;
             const bool hidden = object.contains("hidden_at") && object["hidden_at"][t].get<bool>();
-            EXPECT_EQ(frame.visible[static_cast<std::size_t>(node)], !hidden) << object["path"] << " " << t;
+            EXPECT_EQ(frame.visible[node], !hidden) << object["path"] << " " << t;
         }
     }
 }
@@ -144,10 +143,8 @@ TEST_P(AlembicScene, PointsAtEveryQueryTime) {
                 if (frame.instances[i].node != node || !frame.shown[i]) continue;
                 const auto number = static_cast<std::size_t>(frame.instances[i].mesh);
                 const Mesh& mesh = scene.meshes[number];
-                const int cache =
-                    mesh.cage == no_index ? mesh.points : scene.cages[static_cast<std::size_t>(mesh.cage)].points;
-                const std::vector<glm::dvec3> points =
-                    sample_points(scene.point_caches[static_cast<std::size_t>(cache)], seconds);
+                const int cache = mesh.cage == no_index ? mesh.points : scene.cages[mesh.cage].points;
+                const std::vector<glm::dvec3> points = sample_points(scene.point_caches[cache], seconds);
                 ASSERT_EQ(points.size(), at["count"]) << object["path"] << seconds;
                 const json& first6 = at["first6_positions_lerp"];
                 for (std::size_t k = 0; k < first6.size(); ++k)

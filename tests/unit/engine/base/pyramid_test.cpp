@@ -71,7 +71,7 @@ TEST_P(EverySize, RowsExpandedAloneHaveTheSameBits) {
     RowExpander expander(sizes);
     std::vector<float> row(static_cast<std::size_t>(width));
     for (int level = 0; level < 6; ++level) {
-        const Image<float>& image = levels[static_cast<std::size_t>(level)];
+        const Image<float>& image = levels[level];
         const Image<float> whole = expand_to_level(image, sizes, level, 0);
         ASSERT_EQ(whole.width, width);
         for (int begin = 0; begin < height; begin += 5) {

@@ -45,19 +45,19 @@ TEST(GltfAssets, MilkTruckHasItsWheelsTwiceAndTurning) {
         if (scene.nodes[i].meshes == std::vector<int>{3}) wheels.push_back(static_cast<int>(i));
     }
     ASSERT_EQ(wheels.size(), 2u);
-    const Track<glm::dquat>& turn = scene.nodes[static_cast<std::size_t>(wheels[0])].rotation;
+    const Track<glm::dquat>& turn = scene.nodes[wheels[0]].rotation;
     EXPECT_EQ(turn.key_count(), 31u);
     EXPECT_EQ(first_time(turn), 0.0);
     EXPECT_EQ(last_time(turn), 1.25);
     // The wheel's axle lies where the parent's matrix puts it, at every time.
     for (const double seconds : {0.0, 0.3, 1.25}) {
         const SceneFrame frame = pose(scene, seconds);
-        const glm::dvec4 axle = frame.world[static_cast<std::size_t>(wheels[0])][3];
+        const glm::dvec4 axle = frame.world[wheels[0]][3];
         EXPECT_DOUBLE_EQ(std::abs(axle.x), axle.x > 0 ? 1.432669997215271 : 1.352329969406128);
         EXPECT_DOUBLE_EQ(axle.y, 0.4277220070362091);
     }
     const SceneFrame start = pose(scene, 0.0), later = pose(scene, 0.3);
-    EXPECT_NE(start.world[static_cast<std::size_t>(wheels[0])], later.world[static_cast<std::size_t>(wheels[0])]);
+    EXPECT_NE(start.world[wheels[0]], later.world[wheels[0]]);
     EXPECT_EQ(start.world[0], later.world[0]);
 }
 
@@ -139,7 +139,7 @@ TEST(GltfAssets, OrientationTestArrowsPointAtTheirTargets) {
     const auto world_mean = [&](const std::string& name) {
         for (std::size_t i = 0; i < scene.nodes.size(); ++i) {
             if (scene.nodes[i].name != name) continue;
-            const Mesh& mesh = scene.meshes[static_cast<std::size_t>(scene.nodes[i].meshes.at(0))];
+            const Mesh& mesh = scene.meshes[scene.nodes[i].meshes.at(0)];
             glm::dvec3 sum(0.0);
             for (const glm::vec3& p : mesh.positions) sum += glm::dvec3(frame.world[i] * glm::dvec4(p, 1.0));
             return sum / static_cast<double>(mesh.positions.size());

@@ -134,7 +134,7 @@ TEST_F(GltfDeform, WeightsAreNormalizedAndNoneIsCarriedByTheFirstJoint) {
     EXPECT_EQ(mesh.joint_weights[4].weight, 1.0f);
     for (int v = 0; v < 3; ++v) {
         double sum = 0.0;
-        for (int k = 0; k < 4; ++k) sum += mesh.joint_weights[static_cast<std::size_t>(4 * v + k)].weight;
+        for (int k = 0; k < 4; ++k) sum += mesh.joint_weights[4 * v + k].weight;
         EXPECT_NEAR(sum, 1.0, 1e-7);
     }
     EXPECT_TRUE(warns(scene, "the joint weights of 2 vertices"));  // the third is off by rounding only

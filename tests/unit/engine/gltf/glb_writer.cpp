@@ -314,9 +314,9 @@ void GlbWriter::add_node(const Node& source) {
     }
     if (!source.meshes.empty()) {
         gltf::Mesh mesh;
-        mesh.name = scene_.meshes[static_cast<std::size_t>(source.meshes[0])].name;
+        mesh.name = scene_.meshes[source.meshes[0]].name;
         for (const int i : source.meshes) {
-            mesh.primitives.push_back(make_primitive(scene_.meshes[static_cast<std::size_t>(i)]));
+            mesh.primitives.push_back(make_primitive(scene_.meshes[i]));
         }
         node.mesh = static_cast<int>(model_.meshes.size());
         model_.meshes.push_back(std::move(mesh));
@@ -325,7 +325,7 @@ void GlbWriter::add_node(const Node& source) {
     if (source.parent == no_index) {
         model_.scenes[0].nodes.push_back(index);
     } else {
-        model_.nodes[static_cast<std::size_t>(source.parent)].children.push_back(index);
+        model_.nodes[source.parent].children.push_back(index);
     }
     animate(index, "translation", source.translation);
     animate(index, "rotation", rotation);

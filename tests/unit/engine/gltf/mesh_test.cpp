@@ -55,7 +55,7 @@ TEST_F(GltfMesh, PointsAndLinesAreLeftOutWithOneWarning) {
 void make_sparse(GltfDraft& draft, int index, const Bytes& at, const std::vector<float>& values, bool has_base) {
     Bytes bytes(values.size() * sizeof(float));
     std::memcpy(bytes.data(), values.data(), bytes.size());
-    Json& accessor = draft.json["accessors"][static_cast<std::size_t>(index)];
+    Json& accessor = draft.json["accessors"][index];
     const int index_view = draft.add_view(at), value_view = draft.add_view(bytes);
     accessor["sparse"] = {{"count", at.size()},
                           {"indices", {{"bufferView", index_view}, {"componentType", 5121}}},

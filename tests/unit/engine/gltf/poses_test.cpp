@@ -69,10 +69,10 @@ struct Keys {
     std::string interpolation;
 
     Keys(const Raw& raw, const gltf::Animation& animation, const gltf::AnimationChannel& channel, std::size_t width)
-        : times(raw.floats(animation.samplers[static_cast<std::size_t>(channel.sampler)].input)),
-          values(raw.floats(animation.samplers[static_cast<std::size_t>(channel.sampler)].output)),
+        : times(raw.floats(animation.samplers[channel.sampler].input)),
+          values(raw.floats(animation.samplers[channel.sampler].output)),
           row(width),
-          interpolation(animation.samplers[static_cast<std::size_t>(channel.sampler)].interpolation) {}
+          interpolation(animation.samplers[channel.sampler].interpolation) {}
 
     std::vector<double> value(std::size_t key, std::size_t part = 1) const {
         const std::size_t first = (interpolation == "CUBICSPLINE" ? 3 * key + part : key) * row;
@@ -137,7 +137,7 @@ std::vector<glm::dmat4> world_matrices(const Raw& raw, double seconds) {
     std::vector<int> parents(model.nodes.size(), -1);
     for (std::size_t i = 0; i < model.nodes.size(); ++i) {
         const gltf::Node& node = model.nodes[i];
-        for (const int child : node.children) parents[static_cast<std::size_t>(child)] = static_cast<int>(i);
+        for (const int child : node.children) parents[child] = static_cast<int>(i);
         std::vector<double> t{0, 0, 0}, r{0, 0, 0, 1}, s{1, 1, 1};
         if (!node.translation.empty()) t = node.translation;
         if (!node.rotation.empty()) r = Keys::unit(node.rotation);
@@ -158,8 +158,8 @@ std::vector<glm::dmat4> world_matrices(const Raw& raw, double seconds) {
     }
     for (std::size_t i = 0; i < local.size(); ++i) {
         world[i] = local[i];
-        for (int p = parents[i]; p >= 0; p = parents[static_cast<std::size_t>(p)]) {
-            world[i] = local[static_cast<std::size_t>(p)] * world[i];
+        for (int p = parents[i]; p >= 0; p = parents[p]) {
+            world[i] = local[p] * world[i];
         }
     }
     return world;
@@ -182,7 +182,7 @@ void expect_same_poses(const fs::path& name, const std::vector<double>& times) {
             const auto node = std::find_if(scene.nodes.begin(), scene.nodes.end(),
                                            [&](const Node& n) { return n.name == node_name; });
             ASSERT_NE(node, scene.nodes.end()) << node_name;
-            const glm::dmat4& found = frame.world[static_cast<std::size_t>(node - scene.nodes.begin())];
+            const glm::dmat4& found = frame.world[node - scene.nodes.begin()];
             for (int k = 0; k < 16; ++k) {
                 const double size = std::max(1.0, std::abs(expected[i][k / 4][k % 4]));
                 EXPECT_NEAR(found[k / 4][k % 4], expected[i][k / 4][k % 4], pose_tolerance * size)
@@ -231,7 +231,7 @@ std::vector<glm::dvec3> world_points(const SceneFrame& frame, std::size_t mesh) 
     for (const Instance& instance : frame.instances) {
         if (instance.mesh != static_cast<int>(mesh)) continue;
         for (const glm::dvec3& p : frame.meshes[mesh].positions) {
-            points.emplace_back(frame.world[static_cast<std::size_t>(instance.node)] * glm::dvec4(p, 1.0));
+            points.emplace_back(frame.world[instance.node] * glm::dvec4(p, 1.0));
         }
     }
     return points;
@@ -246,12 +246,12 @@ void expect_same_skin(const fs::path& name, const std::vector<double>& times) {
     const std::vector<double> points = raw.floats(primitive.attributes.at("POSITION"));
     const std::vector<double> weights = raw.floats(primitive.attributes.at("WEIGHTS_0"));
     const std::vector<double> binds = raw.floats(skin.inverseBindMatrices);
-    const gltf::Accessor& accessor = raw.model.accessors[static_cast<std::size_t>(primitive.attributes.at("JOINTS_0"))];
-    const gltf::BufferView& view = raw.model.bufferViews[static_cast<std::size_t>(accessor.bufferView)];
+    const gltf::Accessor& accessor = raw.model.accessors[primitive.attributes.at("JOINTS_0")];
+    const gltf::BufferView& view = raw.model.bufferViews[accessor.bufferView];
     ASSERT_EQ(accessor.componentType, TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT);
     std::vector<std::uint16_t> joints(accessor.count * 4);
     const auto stride = static_cast<std::size_t>(accessor.ByteStride(view));
-    const auto& buffer = raw.model.buffers[static_cast<std::size_t>(view.buffer)].data;
+    const auto& buffer = raw.model.buffers[view.buffer].data;
     for (std::size_t i = 0; i < accessor.count; ++i) {
         std::memcpy(&joints[4 * i], &buffer.at(view.byteOffset + accessor.byteOffset + i * stride), 8);
     }
@@ -261,7 +261,7 @@ void expect_same_skin(const fs::path& name, const std::vector<double>& times) {
         for (std::size_t j = 0; j < skin.joints.size(); ++j) {
             glm::dmat4 bind;
             for (int k = 0; k < 16; ++k) bind[k / 4][k % 4] = binds[16 * j + static_cast<std::size_t>(k)];
-            carriers.push_back(world[static_cast<std::size_t>(skin.joints[j])] * bind);
+            carriers.push_back(world[skin.joints[j]] * bind);
         }
         const std::vector<glm::dvec3> found = world_points(pose(scene, seconds), 0);
         ASSERT_EQ(found.size(), points.size() / 3);

@@ -10,8 +10,8 @@
 #include "engine/rays/first_hits.h"
 #include "engine/rays/ray_scene.h"
 #include "motion/model_motion.h"
-#include "tests/unit/engine/gltf/glb_writer.h"
 #include "tests/support/paths.h"
+#include "tests/unit/engine/gltf/glb_writer.h"
 
 namespace aleph {
 namespace {
@@ -45,7 +45,7 @@ View look(const Scene& scene, std::int64_t frame_number) {
 std::vector<std::pair<std::string, int>> object_names(const Scene& scene) {
     std::vector<std::pair<std::string, int>> names;
     for (const Instance& instance : list_instances(scene)) {
-        const Node& node = scene.nodes[static_cast<std::size_t>(instance.node)];
+        const Node& node = scene.nodes[instance.node];
         const auto place = std::find(node.meshes.begin(), node.meshes.end(), instance.mesh) - node.meshes.begin();
         names.emplace_back(node.name, static_cast<int>(place));
     }
@@ -83,10 +83,8 @@ TEST_P(PoolRoundTrip, FirstHitsAndMotionField) {
     for (std::size_t i = 0; i < before.hits.size(); ++i) {
         const Hit &a = before.hits.pixels[i], &b = after.hits.pixels[i];
         const bool hit = a.instance != no_index;
-        const bool same =
-            hit == (b.instance != no_index) && (!hit || (names[static_cast<std::size_t>(a.instance)] ==
-                                                             loaded_names[static_cast<std::size_t>(b.instance)] &&
-                                                         a.primitive == b.primitive));
+        const bool same = hit == (b.instance != no_index) &&
+                          (!hit || (names[a.instance] == loaded_names[b.instance] && a.primitive == b.primitive));
         if (!same) {
             ++other_object;
             continue;
@@ -132,8 +130,7 @@ TEST_F(PoolRoundTrip, ElementsAndFrameRange) {
         const TextureRef& loaded = b.materials[i].base_color_texture;
         ASSERT_EQ(texture.image == no_index, loaded.image == no_index);
         if (texture.image != no_index) {
-            EXPECT_EQ(a.images[static_cast<std::size_t>(texture.image)].bytes,
-                      b.images[static_cast<std::size_t>(loaded.image)].bytes);
+            EXPECT_EQ(a.images[texture.image].bytes, b.images[loaded.image].bytes);
         }
         texture.image = loaded.image;  // images stand in the order of their first use
         EXPECT_EQ(texture, loaded);

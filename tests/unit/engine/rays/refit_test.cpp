@@ -49,7 +49,7 @@ Scene freeze(const Scene& scene, double seconds) {
     }
     for (std::size_t i = 0; i < frame.instances.size(); ++i) {  // a node each, so that each is shown by itself
         Node node;
-        node.matrix = frame.world[static_cast<std::size_t>(frame.instances[i].node)];
+        node.matrix = frame.world[frame.instances[i].node];
         node.meshes = {frame.instances[i].mesh};
         node.visible = frame.shown[i];
         frozen.nodes.push_back(node);

@@ -165,7 +165,7 @@ Scene make_full_scene(Numbers& n) {
         Node node;
         node.name = i % 7 == 6 ? "" : fmt::format("node {}", 50 - i);
         if (i > 0 && i % 7 != 0) node.parent = i - 1;
-        if (node.parent >= 0 && scene.nodes[static_cast<std::size_t>(node.parent)].name.empty()) node.parent = no_index;
+        if (node.parent >= 0 && scene.nodes[node.parent].name.empty()) node.parent = no_index;
         if (i % 6 == 3) {
             OperationStack& stack = node.operations.emplace();
             for (int o = n.below(5); o > 0; --o)

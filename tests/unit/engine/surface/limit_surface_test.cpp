@@ -203,7 +203,7 @@ TEST(LimitSurface, InfinitelySharpCreaseIsABSplineCurve) {
             const auto w = bspline(i / 10.0);
             glm::dvec3 expected(0.0);
             for (int k = 0; k < 4; ++k) {
-                expected += w[static_cast<std::size_t>(k)] * test.points[static_cast<std::size_t>(12 + column - 1 + k)];
+                expected += w[k] * test.points[12 + column - 1 + k];
             }
             // From the face below and from the one above.
             EXPECT_LT(glm::length(limit_at(surface, control, 5 + column, i / 10.0, 1.0) - expected), 1e-14);

@@ -37,9 +37,7 @@ struct Islands {
             test.cage.face_uv.push_back(9 * islands[c / 4] + test.cage.face_points[c]);
         }
     }
-    glm::vec2 value(int face, int point) const {
-        return test.cage.uv[static_cast<std::size_t>(9 * of_face[static_cast<std::size_t>(face)] + point)];
-    }
+    glm::vec2 value(int face, int point) const { return test.cage.uv[9 * of_face[face] + point]; }
     Mesh mesh(Cage::UvRule rule) const {
         Cage cage = test.cage;
         cage.uv_rule = rule;
