@@ -77,17 +77,18 @@ ShadedFrame shade_frame(const IndirectContext& context, const SampleHits& center
     const int width = context.view.width, height = context.view.height, spp = context.settings.spp;
     ShadedFrame out;
     out.color = Image<Rgb>(width, height);
-    out.coverage = out.records = out.invalid = Image<float>(width, height);
+    out.coverage = out.records = out.invalid_samples = Image<float>(width, height);
     out.samples = Image<float>(width, height, static_cast<float>(spp));
+    out.counts.samples = out.color.size() * static_cast<std::uint64_t>(spp);
     const auto sample_hits = [&](int i) {
-        return spp == 1 ? centers : cast_sample(context.lighting.rays, context.view, i, spp, &out.rays.primary);
+        return spp == 1 ? centers : cast_sample(context.lighting.rays, context.view, i, spp, &out.counts.rays.primary);
     };
     const bool cached = context.settings.bounces > 0 && context.settings.accuracy > 0.0;
     IrradianceCache cache = make_cache(context.lighting.shading);
     const auto fill_start = std::chrono::steady_clock::now();
     for (int i = 0; cached && i < spp; ++i) {
         if (context.progress) context.progress(fill_share * i / spp, "fill");
-        fill_cache(cache, context, sample_hits(i), i, out.records, out.rays, out.cache);
+        fill_cache(cache, context, sample_hits(i), i, out.records, out.counts.rays, out.counts.cache);
     }
     out.fill_seconds = seconds_since(fill_start);
     const auto shade_start = std::chrono::steady_clock::now();
@@ -107,7 +108,7 @@ ShadedFrame shade_frame(const IndirectContext& context, const SampleHits& center
                     const Rgb radiance = hit ? shading.shade(tracer, sample, x, y, i, scratch, local)
                                              : context.lighting.shading.environment;
                     if (!is_finite(radiance)) {
-                        out.invalid(x, y) += 1.0f;
+                        out.invalid_samples(x, y) += 1.0f;
                         continue;
                     }
                     out.color(x, y) += radiance;
@@ -115,10 +116,10 @@ ShadedFrame shade_frame(const IndirectContext& context, const SampleHits& center
                 }
             }
             const std::lock_guard lock(counts_mutex);
-            out.rays += local.rays;
-            out.cache.lookups += local.lookups;
-            out.cache.hits += local.hits;
-            out.record_count += local.computed;
+            out.counts.rays += local.rays;
+            out.counts.cache.lookups += local.lookups;
+            out.counts.cache.hits += local.hits;
+            out.counts.records += local.computed;
             ++rows_done;
             if (context.progress && rows_done % 16 == 0) {
                 const double shaded = static_cast<double>(rows_done) / (static_cast<double>(height) * spp);
@@ -128,14 +129,14 @@ ShadedFrame shade_frame(const IndirectContext& context, const SampleHits& center
     }
     const float scale = static_cast<float>(exposure);
     for (std::size_t p = 0; p < out.color.size(); ++p) {
-        const float valid = static_cast<float>(spp) - out.invalid.pixels[p];
-        out.invalid_count += static_cast<std::uint64_t>(out.invalid.pixels[p]);
+        const float valid = static_cast<float>(spp) - out.invalid_samples.pixels[p];
+        out.counts.invalid_samples += static_cast<std::uint64_t>(out.invalid_samples.pixels[p]);
         if (valid > 0.0f) {
             out.color.pixels[p] *= scale / valid;
             out.coverage.pixels[p] /= valid;
         }
     }
-    out.record_count += cache.records().size();
+    out.counts.records += cache.records().size();
     out.shade_seconds = seconds_since(shade_start);
     return out;
 }

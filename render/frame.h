@@ -5,16 +5,22 @@
 
 namespace aleph {
 
-struct ShadedFrame {
-    Image<Rgb> color;       ///< linear, exposure applied
-    Image<float> coverage;  ///< share of samples that hit something
-    Image<float> samples;   ///< pixel samples taken
-    Image<float> records;   ///< irradiance values computed in this pixel (filling included)
-    Image<float> invalid;   ///< samples thrown away for a NaN or infinity
+/// What rendering one frame cost and what it threw away.
+struct FrameCounts {
     RayCounts rays;
     FillStatistics cache;
-    std::uint64_t record_count = 0;
-    std::uint64_t invalid_count = 0;
+    std::uint64_t samples = 0;          ///< pixel samples
+    std::uint64_t records = 0;          ///< irradiance values computed
+    std::uint64_t invalid_samples = 0;  ///< sum of ShadedFrame::invalid_samples
+};
+
+struct ShadedFrame {
+    Image<Rgb> color;              ///< linear, exposure applied
+    Image<float> coverage;         ///< share of samples that hit something
+    Image<float> samples;          ///< pixel samples taken
+    Image<float> records;          ///< irradiance values computed in this pixel (filling included)
+    Image<float> invalid_samples;  ///< samples thrown away because their radiance was not finite
+    FrameCounts counts;            ///< sums over the frame
     double fill_seconds = 0.0, shade_seconds = 0.0;
 };
 

@@ -50,7 +50,7 @@ void add_maps(ChannelImage& file, const FrameOutput& output) {
     add(file, "objectId.X", pick(output.hits, [](const Hit& hit) { return hit.instance; }));
     add(file, "samples.Y", output.shaded.samples);
     add(file, "records.Y", output.shaded.records);
-    add(file, "invalid.Y", output.shaded.invalid);
+    add(file, "invalid.Y", output.shaded.invalid_samples);
 }
 
 std::string define_motion(MotionSource source) {

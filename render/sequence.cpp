@@ -281,11 +281,11 @@ FrameOutput Sequence::render(std::int64_t frame, const FrameRequest& request) {
         out.shaded = shade_frame(indirect, centers, s.exposure);
         stats.seconds.fill = out.shaded.fill_seconds;
         stats.seconds.shade = out.shaded.shade_seconds;
-        stats.rays += out.shaded.rays;
-        stats.records = out.shaded.record_count;
-        stats.cache = out.shaded.cache;
-        stats.samples = centers.hits.size() * static_cast<std::uint64_t>(settings.spp);
-        stats.nan_count = out.shaded.invalid_count;
+        stats.rays += out.shaded.counts.rays;
+        stats.records = out.shaded.counts.records;
+        stats.cache = out.shaded.counts.cache;
+        stats.samples = out.shaded.counts.samples;
+        stats.nan_count = out.shaded.counts.invalid_samples;
     }
     if (request.maps) fill_geometry_maps(shading, centers, out);
     out.hits = centers.hits;

@@ -30,7 +30,7 @@ TEST(IrradianceCache, IC04_RecordsInACornerAreBounded) {
     EXPECT_GT(records, 3.0);
     EXPECT_LT(records, 64.0 * 48.0 / 4.0);
     for (const Rgb& c : out.color.pixels) EXPECT_TRUE(std::isfinite(c.x) && c.x >= 0.0f);
-    EXPECT_EQ(out.invalid_count, 0u);
+    EXPECT_EQ(out.counts.invalid_samples, 0u);
 }
 
 /// Two floor tiles 10 m apart in the open; beside the second stands a lit red wall.
@@ -257,9 +257,9 @@ TEST(IrradianceCache, IC12_TinyAccuracyConvergesToGatheringEverywhere) {
 TEST(IrradianceCache, IC12_AccuracyOneRendersWithFewRecords) {
     const Stage stage(make_room(), 64, 48);
     const ShadedFrame coarse = shade(stage, plain_settings(1.0, 64)), fine = shade(stage, plain_settings(0.1, 64));
-    EXPECT_GT(coarse.record_count, 5u);
-    EXPECT_LT(2 * coarse.record_count, fine.record_count);  // walls near by limit a record at any accuracy
-    EXPECT_EQ(coarse.invalid_count, 0u);
+    EXPECT_GT(coarse.counts.records, 5u);
+    EXPECT_LT(2 * coarse.counts.records, fine.counts.records);  // walls near by limit a record at any accuracy
+    EXPECT_EQ(coarse.counts.invalid_samples, 0u);
 }
 
 TEST(IrradianceCache, IC13_TheSameRecordsFromAnyNumberOfThreads) {

@@ -154,7 +154,7 @@ TEST(CacheFill, ErrorFallsAsAccuracyTightens) {
         }
         const double relative = error / energy;
         std::printf("accuracy %g: relative MSE %.3g, %llu records\n", accuracy, relative,
-                    static_cast<unsigned long long>(out.record_count));
+                    static_cast<unsigned long long>(out.counts.records));
         EXPECT_LT(relative, before) << accuracy;
         before = relative;
     }

@@ -73,9 +73,9 @@ TEST(Frame, WithoutBouncesThereIsNoGathering) {
     RenderSettings settings = plain_settings(0.15, 16);
     settings.bounces = 0;
     const ShadedFrame out = shade(stage, settings);
-    EXPECT_EQ(out.rays.gather, 0u);
-    EXPECT_EQ(out.record_count, 0u);
-    EXPECT_EQ(out.cache.lookups, 0u);
+    EXPECT_EQ(out.counts.rays.gather, 0u);
+    EXPECT_EQ(out.counts.records, 0u);
+    EXPECT_EQ(out.counts.cache.lookups, 0u);
 }
 
 TEST(Frame, RecordsPerPixelAddUp) {
@@ -84,9 +84,9 @@ TEST(Frame, RecordsPerPixelAddUp) {
         const ShadedFrame out = shade(stage, plain_settings(accuracy, 16));
         double records = 0.0;
         for (const float r : out.records.pixels) records += r;
-        EXPECT_EQ(records, static_cast<double>(out.record_count));
+        EXPECT_EQ(records, static_cast<double>(out.counts.records));
         EXPECT_GT(records, 10.0);
-        EXPECT_LE(out.cache.hits, out.cache.lookups);
+        EXPECT_LE(out.counts.cache.hits, out.counts.cache.lookups);
     }
 }
 
@@ -141,9 +141,9 @@ TEST(Frame, SamplesThatAreNotFiniteAreThrownAwayAndCounted) {
     double invalid = 0.0;
     for (std::size_t i = 0; i < out.color.size(); ++i) {
         EXPECT_EQ(out.color.pixels[i], Rgb(0.0f));
-        invalid += out.invalid.pixels[i];
+        invalid += out.invalid_samples.pixels[i];
     }
-    EXPECT_EQ(static_cast<double>(out.invalid_count), invalid);
+    EXPECT_EQ(static_cast<double>(out.counts.invalid_samples), invalid);
     EXPECT_GT(invalid, 10.0);
 }
 
@@ -222,7 +222,7 @@ TEST(Frame, KF18_FlattenedObjectsLeaveAPictureWithoutHoles) {
         if (!keep) scene.nodes[3].visible = 0.0;
         const Stage stage(std::move(scene), 40, 30);
         const ShadedFrame out = shade(stage, plain_settings(0.2, 32));
-        EXPECT_EQ(out.invalid_count, 0u);
+        EXPECT_EQ(out.counts.invalid_samples, 0u);
         EXPECT_EQ(stage.rays.skipped_instances(), keep ? 1u : 0u);
         return out.color;
     };

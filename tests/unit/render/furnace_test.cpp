@@ -36,7 +36,7 @@ void expect_everywhere(Scene scene, const RenderSettings& settings, double expec
         RenderSettings seeded = settings;
         seeded.seed = run;
         const ShadedFrame out = shade(stage, seeded);
-        ASSERT_EQ(out.invalid_count, 0u);
+        ASSERT_EQ(out.counts.invalid_samples, 0u);
         double sum = 0.0;
         for (std::size_t i = 0; i < pixels.size(); ++i) {
             ASSERT_EQ(out.coverage.pixels[i], 1.0f);
