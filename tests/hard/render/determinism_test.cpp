@@ -183,7 +183,7 @@ TEST(Determinism, DT03_FirstHitsAreEqualForAnyNumberOfBuildThreads) {
     for (const int threads : {2, 4}) EXPECT_TRUE(cast(threads) == one) << threads << " threads";
 }
 
-TEST(Determinism, DT04_AFrameAloneOrInASequence) {
+TEST(Determinism, DT04_IC14_AFrameAloneOrInASequence) {
     const Scene& scene = pool_scene();
     const RenderSettings settings = small_settings();
     std::vector<std::string> forward(10);

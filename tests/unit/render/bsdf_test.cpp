@@ -53,7 +53,7 @@ SurfaceMaterial make_plastic(float alpha) {
     return material;
 }
 
-TEST(Bsdf, Reciprocity) {
+TEST(Bsdf, MC15_Reciprocity) {
     std::mt19937 engine(1);
     std::uniform_real_distribution<float> unit(0.01f, 1.0f), angle(0.0f, 6.28f);
     for (const float alpha : widths) {
@@ -154,7 +154,7 @@ TEST(Bsdf, SamplesFollowTheDensityChiSquare) {
     }
 }
 
-TEST(Bsdf, SampleWeightsDoNotExceedOne) {
+TEST(Bsdf, MC08_SampleWeightsDoNotExceedOne) {
     std::mt19937 engine(4);
     std::uniform_real_distribution<float> unit(0.0f, 0x1.fffffep-1f);
     for (const float alpha : widths) {

@@ -131,7 +131,7 @@ TEST(Frame, SamplesOfAPixelFollowItsArea) {
     EXPECT_EQ(out.coverage(7, 6), 0.0f);
 }
 
-TEST(Frame, SamplesThatAreNotFiniteAreThrownAwayAndCounted) {
+TEST(Frame, MC03_SamplesThatAreNotFiniteAreThrownAwayAndCounted) {
     Scene scene;
     add_mesh(scene, make_quad(1.0, 20.0, add_lambert(scene, glm::dvec3(0.0), glm::dvec3(3e38))), {0.5, 0.0, -2.0});
     scene.materials[0].emission_strength = 10.0;  // over what a float holds

@@ -47,7 +47,7 @@ void expect_irradiance(Gathering& gathering, const glm::vec3& position, const gl
     EXPECT_NEAR(mean.mean(), expected, share * expected);
 }
 
-TEST(Gather, StrataUseTheSamplesAskedFor) {
+TEST(Gather, MC04_StrataUseTheSamplesAskedFor) {
     for (const int n : {1, 2, 3, 4, 5, 16, 64, 256, 512, 1000, 1024, 4096, 10007}) {
         const HemisphereStrata strata = choose_strata(n);
         EXPECT_LE(strata.count(), n);

@@ -117,7 +117,7 @@ TEST(Settings, LaterVersionsAreRefusedByName) {
     EXPECT_EQ(refusal("bounces", 2.0), "expected a whole number from 0 to 1");
 }
 
-TEST(Settings, NumbersOutOfRangeOfAnyKind) {
+TEST(Settings, MC20_NumbersOutOfRangeOfAnyKind) {
     const double nan_value = std::nan(""), infinite = std::numeric_limits<double>::infinity();
     const std::map<std::string, std::vector<double>> bad{{"accuracy", {-0.01, 1.01, nan_value, infinite, -infinite}},
                                                          {"adapter_k", {0.0, -1.0, nan_value, infinite}},

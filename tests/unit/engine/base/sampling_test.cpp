@@ -10,7 +10,7 @@
 namespace aleph {
 namespace {
 
-TEST(Sampling, UnitFloatIsNeverOne) {
+TEST(Sampling, MC05_UnitFloatIsNeverOne) {
     EXPECT_LT(unit_float(0xffffffffu), 1.0f);
     EXPECT_EQ(unit_float(0), 0.0f);
 }
@@ -37,7 +37,7 @@ TEST(Sampling, StreamsAreUniformAcrossNeighbouringPixels) {
     EXPECT_LT(chi2, 37.7);  // 15 degrees of freedom, p = .001
 }
 
-TEST(Sampling, CosineHemisphereHasMeanTwoThirds) {
+TEST(Sampling, MC06_CosineHemisphereHasMeanTwoThirds) {
     double sum = 0.0, squares = 0.0;
     constexpr int count = 100000;
     for (int i = 0; i < count; ++i) {
@@ -51,7 +51,7 @@ TEST(Sampling, CosineHemisphereHasMeanTwoThirds) {
     EXPECT_NEAR(mean, 2.0 / 3.0, 3.0 * sigma);
 }
 
-TEST(Sampling, BasisIsOrthonormalAlsoAtThePoles) {
+TEST(Sampling, RC13_BasisIsOrthonormalAlsoAtThePoles) {
     RandomStream random({3, 0, 0, 0});
     const auto check = [](const glm::vec3& n) {
         const Basis b = make_basis(n);
@@ -70,7 +70,7 @@ TEST(Sampling, BasisIsOrthonormalAlsoAtThePoles) {
     }
 }
 
-TEST(Sampling, PowerHeuristicAtItsEdges) {
+TEST(Sampling, MC12_PowerHeuristicAtItsEdges) {
     const float inf = std::numeric_limits<float>::infinity();
     EXPECT_EQ(power_heuristic(0, 0), 0.0f);
     EXPECT_EQ(power_heuristic(1e20f, 1e20f), 0.5f);

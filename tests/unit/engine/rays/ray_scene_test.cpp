@@ -268,7 +268,7 @@ TEST(RayScene, DegenerateTrianglesAreCounted) {
     EXPECT_EQ(Stage(scene).rays.degenerate_triangles(), 2u);
 }
 
-TEST(RayScene, BrokenMeshesAreRefused) {
+TEST(RayScene, RC08_BrokenMeshesAreRefused) {
     Scene scene;
     add_mesh(scene, make_quad(1.0, 1.0, no_index));
     Scene broken = scene;
