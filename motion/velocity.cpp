@@ -18,10 +18,11 @@ void require_positive(double value, const std::string& name) {
 
 }  // namespace
 
-Image<float> compute_image_velocity(const MotionField& motion, const ViewingConditions& viewing) {
+Image<float> compute_image_velocity(const MotionField& motion, const ViewingConditions& viewing,
+                                    const FrameRate& frame_rate) {
     require_positive(viewing.pixels_per_degree, "pixels per degree");
-    require_positive(viewing.frames_per_second, "frames per second");
-    const double degrees_per_second = viewing.frames_per_second / viewing.pixels_per_degree;
+    require_positive(frame_rate.per_second(), "frames per second");
+    const double degrees_per_second = frame_rate.per_second() / viewing.pixels_per_degree;
 
     Image<float> velocity(motion.path_length.width, motion.path_length.height);
     constexpr std::size_t pixels_per_chunk = 1 << 14;

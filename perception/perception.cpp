@@ -16,22 +16,24 @@ namespace {
 
 constexpr double smallest_displacement = 1e-3;  // pixels; less is rounding (MODEL 5.1)
 
-void check_input(const Image<Rgb>& estimate, const Image<float>& velocity, const ViewingConditions& viewing) {
+void check_input(const Image<Rgb>& estimate, const Image<float>& velocity, const ViewingConditions& viewing,
+                 const FrameRate& frame_rate) {
     const auto positive = [](double v) { return std::isfinite(v) && v > 0.0; };
     if (estimate.empty()) throw InputError("", "estimate", "the image is empty");
     if (!same_size(estimate, velocity)) throw InputError("", "velocity", "not of the estimate's size");
     if (!positive(viewing.pixels_per_degree)) {
         throw InputError("", "pixels per degree", "must be positive and finite");
     }
-    if (!positive(viewing.frames_per_second)) {
+    if (!positive(frame_rate.per_second())) {
         throw InputError("", "frames per second", "must be positive and finite");
     }
     if (!positive(viewing.display_white)) throw InputError("", "display white", "must be positive and finite");
 }
 
 /// The velocity that stands out: rounding counts as rest, and nothing moves further than the image is wide in a frame.
-RowSource make_motion_rows(const Image<float>& velocity, const ViewingConditions& viewing) {
-    const double per_pixel = viewing.frames_per_second / viewing.pixels_per_degree;  // deg/s of 1 px a frame
+RowSource make_motion_rows(const Image<float>& velocity, const ViewingConditions& viewing,
+                           const FrameRate& frame_rate) {
+    const double per_pixel = frame_rate.per_second() / viewing.pixels_per_degree;  // deg/s of 1 px a frame
     const auto smallest = static_cast<float>(smallest_displacement * per_pixel);
     const auto largest = static_cast<float>(std::min(std::hypot(velocity.width, velocity.height) * per_pixel, 1e15));
     return [&velocity, smallest, largest](int y, float* out) {
@@ -54,9 +56,9 @@ RowSource make_opponent_rows(const Image<Rgb>& estimate, OpponentChannel channel
 }  // namespace
 
 PerceptionMaps compute_perception(const Image<Rgb>& estimate, const Image<float>& velocity,
-                                  const ViewingConditions& viewing, const PerceptionSettings& settings,
-                                  const PerceptionOutputs& outputs) {
-    check_input(estimate, velocity, viewing);
+                                  const ViewingConditions& viewing, const FrameRate& frame_rate,
+                                  const PerceptionSettings& settings, const PerceptionOutputs& outputs) {
+    check_input(estimate, velocity, viewing, frame_rate);
     PerceptionMaps maps;
     if (settings.guide == Guide::none) {
         maps.aleph = Image<float>(estimate.width, estimate.height, 1.0f);
@@ -86,7 +88,7 @@ PerceptionMaps compute_perception(const Image<Rgb>& estimate, const Image<float>
                                        .a = std::move(a),
                                        .c1 = feature_pyramid(opponent_rows(OpponentChannel::c1)),
                                        .c2 = feature_pyramid(opponent_rows(OpponentChannel::c2)),
-                                       .velocity = feature_pyramid(make_motion_rows(velocity, viewing))};
+                                       .velocity = feature_pyramid(make_motion_rows(velocity, viewing, frame_rate))};
         saliency = compute_saliency(pyramids, a_summary.largest, settings.grid);
     }
     AlephImages images = compute_aleph({.bands = bands,

@@ -5,6 +5,7 @@
 #include <cstdint>
 
 #include "engine/base/color.h"
+#include "engine/base/frame_rate.h"
 #include "engine/base/image.h"
 #include "engine/base/viewing.h"
 #include "perception/perception_settings.h"
@@ -30,9 +31,9 @@ struct PerceptionOutputs {
 /// Pure and deterministic, the same bits for any number of threads. Guide `none` asks nothing of the model: aleph is 1.
 /// @param estimate  sanitized (sanitize_estimate): linear RGB, Rec.709, white = 1 after exposure
 /// @param velocity  deg/s, same size as `estimate`; negative and NaN count as 0
-/// @throws InputError if the sizes differ, are empty, or viewing is not positive and finite
+/// @throws InputError if the sizes differ, are empty, or viewing or frame rate is not positive and finite
 PerceptionMaps compute_perception(const Image<Rgb>& estimate, const Image<float>& velocity,
-                                  const ViewingConditions& viewing, const PerceptionSettings& settings,
-                                  const PerceptionOutputs& outputs = {});
+                                  const ViewingConditions& viewing, const FrameRate& frame_rate,
+                                  const PerceptionSettings& settings, const PerceptionOutputs& outputs = {});
 
 }  // namespace aleph

@@ -82,6 +82,7 @@ struct ImageSequence::State {
     FrameFiles files;
     RenderSettings settings;
     ViewingConditions viewing;
+    FrameRate frame_rate;
     std::vector<std::int64_t> cuts;
     float exposure = 1.0f;
     std::map<std::int64_t, LoadedFrame> loaded;  ///< at most the two frames used last
@@ -115,11 +116,11 @@ ImageSequence::ImageSequence(const Scene& shot, FrameFiles files, const RenderSe
     state_.reset(new State{.files = std::move(files),
                            .settings = settings,
                            .viewing = shot.viewing,
+                           .frame_rate = shot.frame_rate,
                            .cuts = shot.cuts,
                            .exposure = static_cast<float>(shot.exposure.value_or(1.0)),
                            .loaded = {},
                            .first_read = {}});
-    state_->viewing.frames_per_second = shot.frame_rate.per_second();
 }
 
 ImageSequence::~ImageSequence() = default;
@@ -146,10 +147,10 @@ FrameOutput ImageSequence::compute_maps(std::int64_t frame) {
 
     out.motion = compute_image_motion(now.census, other != nullptr ? other->census : CensusPyramid(),
                                       {.backward = partner.backward, .cut = partner.none});
-    out.velocity = compute_image_velocity(out.motion, s.viewing);
+    out.velocity = compute_image_velocity(out.motion, s.viewing, s.frame_rate);
     clock.add_to(stats.seconds.motion);
 
-    out.perception = compute_perception(out.estimate, out.velocity, s.viewing, s.settings.perception,
+    out.perception = compute_perception(out.estimate, out.velocity, s.viewing, s.frame_rate, s.settings.perception,
                                         {.retinal_velocity = true, .conspicuity = true});
     stats.saliency_fallback = out.perception.fallback;
     out.threshold = compute_threshold(out.perception.aleph, compute_adaptation_luminance(out.estimate, s.viewing));

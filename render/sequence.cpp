@@ -101,7 +101,6 @@ struct Sequence::State {
     RenderSettings settings;
     int camera;
     FrameRange range;
-    ViewingConditions viewing;
     TextureSet textures;
     PosePlan pose_plan;
     RayScene rays;
@@ -122,7 +121,6 @@ Sequence::Sequence(const Scene& authored, const RenderSettings& settings, const 
                            settings,
                            camera_index,
                            frame_range(scene),
-                           scene.viewing,
                            make_texture_set(scene),
                            make_pose_plan(scene),
                            RayScene(scene),
@@ -132,7 +130,6 @@ Sequence::Sequence(const Scene& authored, const RenderSettings& settings, const 
                            nullptr,
                            1.0});
     State& s = *state_;
-    s.viewing.frames_per_second = scene.frame_rate.per_second();
     if (scene.exposure) {
         s.exposure = *scene.exposure;
         return;
@@ -234,7 +231,7 @@ FrameOutput Sequence::render(std::int64_t frame, const FrameRequest& request) {
         const SanitizeCounts sanitized = sanitize_estimate(out.estimate);
         stats.replaced = sanitized.replaced;
         stats.clamped = sanitized.clamped;
-        stats.median_luminance = median_luminance(out.estimate, s.viewing);
+        stats.median_luminance = median_luminance(out.estimate, s.scene.viewing);
         clock.add_to(stats.seconds.estimate);
 
         const bool from_images = settings.motion == MotionSource::image;
@@ -261,13 +258,15 @@ FrameOutput Sequence::render(std::int64_t frame, const FrameRequest& request) {
             }
         }
         if (look_there) stats.traced_rays += s.other_rays->rays_traced() - other_before;
-        out.velocity = compute_image_velocity(out.motion, s.viewing);
+        out.velocity = compute_image_velocity(out.motion, s.scene.viewing, s.scene.frame_rate);
         clock.add_to(stats.seconds.motion);
 
-        out.perception = compute_perception(out.estimate, out.velocity, s.viewing, settings.perception,
-                                            {.retinal_velocity = request.maps, .conspicuity = request.maps});
+        out.perception =
+            compute_perception(out.estimate, out.velocity, s.scene.viewing, s.scene.frame_rate, settings.perception,
+                               {.retinal_velocity = request.maps, .conspicuity = request.maps});
         stats.saliency_fallback = out.perception.fallback;
-        out.threshold = compute_threshold(out.perception.aleph, compute_adaptation_luminance(out.estimate, s.viewing));
+        out.threshold =
+            compute_threshold(out.perception.aleph, compute_adaptation_luminance(out.estimate, s.scene.viewing));
         clock.add_to(stats.seconds.perception);
     } else {
         out.perception.aleph = Image<float>(settings.width, settings.height, 1.0f);

@@ -115,10 +115,7 @@ Scene load_scene_file(const fs::path& path, const std::string& file, const LoadL
 
 /// An archive says at what rate it was sampled, and its range is what it holds, still parts at both ends included.
 void set_timing(const AlembicTiming& timing, Scene& scene) {
-    if (timing.frame_rate) {
-        scene.frame_rate = *timing.frame_rate;
-        scene.viewing.frames_per_second = scene.frame_rate.per_second();
-    }
+    if (timing.frame_rate) scene.frame_rate = *timing.frame_rate;
     if (!timing.first) return;
     Scene ends;  // two keys: frame_range knows how times become frames
     ends.frame_rate = scene.frame_rate;

@@ -16,6 +16,7 @@
 #include <variant>
 #include <vector>
 
+#include "engine/base/frame_rate.h"
 #include "engine/base/index.h"
 #include "engine/base/viewing.h"
 #include "engine/scene/material.h"
@@ -23,19 +24,6 @@
 #include "engine/scene/track.h"
 
 namespace aleph {
-
-/// Frames per second as a fraction, so that frame n lies at exactly n * denominator / numerator seconds.
-struct FrameRate {
-    std::int64_t numerator = 30;
-    std::int64_t denominator = 1;
-
-    double per_second() const { return static_cast<double>(numerator) / static_cast<double>(denominator); }
-    /// s; the frame number is the state and time is derived, never accumulated (HARD_CASES KF-14 to KF-16).
-    double seconds_of(std::int64_t frame) const {
-        return static_cast<double>(frame) * static_cast<double>(denominator) / static_cast<double>(numerator);
-    }
-    bool operator==(const FrameRate&) const = default;
-};
 
 /// Rotation about a fixed axis whose angle interpolates as a number, so that a spin beyond 180 degrees works.
 struct AxisRotation {
@@ -134,9 +122,9 @@ struct FrameRange {
 struct Scene {
     std::string name;
     FrameRate frame_rate;
-    std::optional<FrameRange> range;               ///< frames; unset: the keys' span (frame_range in pose.h)
-    std::vector<std::int64_t> cuts;                ///< frames that begin a new shot: no motion from the frame before
-    ViewingConditions viewing;                     ///< frames_per_second follows frame_rate
+    std::optional<FrameRange> range;  ///< frames; unset: the keys' span (frame_range in pose.h)
+    std::vector<std::int64_t> cuts;   ///< frames that begin a new shot: no motion from the frame before
+    ViewingConditions viewing;
     std::optional<double> exposure;                ///< factor on radiance
     std::optional<Track<glm::dvec3>> environment;  ///< constant radiance all around
     std::string camera;                            ///< name of the camera or of its node; empty: the first

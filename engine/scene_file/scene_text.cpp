@@ -34,7 +34,6 @@ void read_header(Scene& scene, const JsonRef& root) {
     scene.name = root.find_string("name").value_or("");
     scene.camera = root.find_string("camera").value_or("");
     if (const auto fps = root.find("fps")) scene.frame_rate = read_frame_rate(*fps);
-    scene.viewing.frames_per_second = scene.frame_rate.per_second();
     if (const auto frames = root.find("frames")) {
         scene.range = FrameRange{read_frame(*frames, 0), read_frame(*frames, 1)};
         if (scene.range->last < scene.range->first) frames->fail("the last frame comes before the first");

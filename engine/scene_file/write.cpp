@@ -95,11 +95,6 @@ class Writer {
         }
         if (scene_.range) out_["frames"] = {scene_.range->first, scene_.range->last};
         if (!scene_.cuts.empty()) out_["cuts"] = scene_.cuts;
-        at_.place = "viewing";
-        if (scene_.viewing.frames_per_second != at_.rate().per_second()) {
-            at_.refuse(fmt::format("frames_per_second is {}, the frame rate {}: they have to agree",
-                                   scene_.viewing.frames_per_second, at_.rate().per_second()));
-        }
         if (scene_.viewing.pixels_per_degree != absent.viewing.pixels_per_degree) {
             out_["viewing"]["pixels_per_degree"] = scene_.viewing.pixels_per_degree;
         }

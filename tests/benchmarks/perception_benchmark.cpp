@@ -23,7 +23,8 @@ void run_stage(benchmark::State& state, const PerceptionSettings& settings) {
     const ThreadLimit one(1);
     const SyntheticFrame& frame = synthetic_frame();
     for (auto _ : state) {
-        benchmark::DoNotOptimize(compute_perception(frame.estimate, frame.velocity, {}, settings).aleph.pixels.data());
+        benchmark::DoNotOptimize(
+            compute_perception(frame.estimate, frame.velocity, {}, {}, settings).aleph.pixels.data());
     }
 }
 

@@ -92,7 +92,7 @@ struct Inputs {
         other_rays.update(frames[1], compute_anchor(views[1]));
         hits = cast_first_hits(rays, views[0]);
         motion = compute_motion();
-        velocity = compute_image_velocity(motion, {});
+        velocity = compute_image_velocity(motion, {}, {});
         estimate = compute_estimate(hits, frames[0]);
         next_estimate = compute_estimate(cast_first_hits(other_rays, views[1]), frames[1]);
     }
@@ -141,7 +141,7 @@ void raw_embree(benchmark::State& state) {
 void motion(benchmark::State& state) {
     for (auto _ : state) {
         const MotionField field = inputs().compute_motion();
-        benchmark::DoNotOptimize(compute_image_velocity(field, {}).pixels.data());
+        benchmark::DoNotOptimize(compute_image_velocity(field, {}, {}).pixels.data());
     }
 }
 
@@ -167,7 +167,7 @@ void image_motion(benchmark::State& state) {
 void perception(benchmark::State& state, const PerceptionSettings& settings) {
     for (auto _ : state) {
         benchmark::DoNotOptimize(
-            compute_perception(inputs().estimate, inputs().velocity, {}, settings).aleph.pixels.data());
+            compute_perception(inputs().estimate, inputs().velocity, {}, {}, settings).aleph.pixels.data());
     }
 }
 

@@ -193,7 +193,7 @@ TEST(Reprojection, RP10_AcrossACutNothingMoves) {
     for (int x = 0; x < 64; ++x) hits(x, 20) = {.instance = 0, .primitive = 0};
     const auto expect_rest = [&](const MotionMoment& other) {
         const MotionField field = compute_model_motion(scene, moments.now(), other, hits, {.cut = true});
-        const Image<float> velocity = compute_image_velocity(field, {});
+        const Image<float> velocity = compute_image_velocity(field, {}, {});
         for (int y = 0; y < 48; ++y) {
             for (int x = 0; x < 64; ++x) {
                 ASSERT_EQ(field.displacement(x, y), glm::dvec2(0.0));

@@ -133,7 +133,7 @@ TEST(SensitivityHard, CS07_UniformFrameHasOnlyTheCoarsestBand) {
             const Image<Rgb> estimate(width, height, Rgb(static_cast<float>(grey)));
             for (const double v_i : {0.0, 5.0, 90.0, 130.0, 250.0}) {
                 const PerceptionMaps maps =
-                    compute_perception(estimate, constant_image(width, height, v_i), {}, {.guide = Guide::full});
+                    compute_perception(estimate, constant_image(width, height, v_i), {}, {}, {.guide = Guide::full});
                 const double expected = elevation(0.25, retinal_velocity(v_i, 0.82));
                 for (const float aleph : maps.aleph.pixels) ASSERT_NEAR(aleph / expected, 1.0, 1e-5) << grey;
                 if (retinal_velocity(v_i, 0.82) < 24.4) {
@@ -165,7 +165,7 @@ TEST(SensitivityHard, CS08_BoundsOnRandomImagesWithBrokenPixelsAndRandomMotion) 
         EXPECT_GT(sanitize_estimate(estimate).replaced, 0u);
         for (const Guide guide : {Guide::spatial, Guide::full, Guide::saliency}) {
             for (const Bands bands : {Bands::printed, Bands::measured}) {
-                const PerceptionMaps maps = compute_perception(estimate, velocity, {}, {guide, bands});
+                const PerceptionMaps maps = compute_perception(estimate, velocity, {}, {}, {guide, bands});
                 for (const float aleph : maps.aleph.pixels) ASSERT_TRUE(aleph >= 1.0f && aleph <= 250.8f) << aleph;
                 EXPECT_EQ(maps.clamped, 0u);
             }
@@ -179,7 +179,7 @@ TEST(SensitivityHard, CS08_BrokenVelocitiesCountAsRestOrAsVeryFast) {
         for (int x = 0; x < 16; ++x) checker(x, y) = Rgb((x + y) % 2 == 0 ? 0.2f : 0.8f);
     }
     const auto aleph_at = [&](double v) {
-        return compute_perception(checker, constant_image(16, 16, v), {}, {.guide = Guide::full}).aleph(8, 8);
+        return compute_perception(checker, constant_image(16, 16, v), {}, {}, {.guide = Guide::full}).aleph(8, 8);
     };
     for (const double v : {-5.0, -infinity, not_a_number, denormal, -0.0}) EXPECT_EQ(aleph_at(v), aleph_at(0.0)) << v;
     for (const double v : {largest, infinity, 1e30}) EXPECT_EQ(aleph_at(v), 1.0f) << v;
@@ -195,9 +195,9 @@ TEST(SensitivityHard, CS09_StaticCheckerAndRamp) {
         }
     }
     const Image<float> still = constant_image(size, size, 0.0);
-    const Image<float> of_checker = compute_perception(checker, still, {}, {.guide = Guide::full}).aleph;
+    const Image<float> of_checker = compute_perception(checker, still, {}, {}, {.guide = Guide::full}).aleph;
     for (const float aleph : of_checker.pixels) ASSERT_NEAR(aleph, 9.25, 0.05 * 9.25);
-    const Image<float> of_ramp = compute_perception(ramp, still, {}, {.guide = Guide::full}).aleph;
+    const Image<float> of_ramp = compute_perception(ramp, still, {}, {}, {.guide = Guide::full}).aleph;
     for (int y = 16; y < size - 16; ++y) {
         for (int x = 16; x < size - 16; ++x) ASSERT_NEAR(of_ramp(x, y), 1.0, 0.01) << x << " " << y;
     }
@@ -211,11 +211,11 @@ TEST(SensitivityHard, CS14_AlephDoesNotDependOnTheEstimatesUnit) {
         estimate.pixels[i] = Rgb(random.next(), random.next(), random.next());
         velocity.pixels[i] = 20 * random.next();
     }
-    const PerceptionMaps plain = compute_perception(estimate, velocity, {}, {});
+    const PerceptionMaps plain = compute_perception(estimate, velocity, {}, {}, {});
     for (const float scale : {0x1p-20f, 0x1p20f}) {
         Image<Rgb> scaled = estimate;
         for (Rgb& c : scaled.pixels) c *= scale;
-        const PerceptionMaps same = compute_perception(scaled, velocity, {}, {});
+        const PerceptionMaps same = compute_perception(scaled, velocity, {}, {}, {});
         EXPECT_EQ(same.aleph, plain.aleph) << scale;  // a power of two moves no bit
         EXPECT_EQ(same.saliency, plain.saliency) << scale;
     }

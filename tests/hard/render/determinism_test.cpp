@@ -20,8 +20,8 @@
 #include "render/compare.h"
 #include "render/estimate.h"
 #include "tests/support/frame_bytes.h"
-#include "tests/support/with_threads.h"
 #include "tests/support/paths.h"
+#include "tests/support/with_threads.h"
 
 namespace aleph {
 namespace {
@@ -255,8 +255,8 @@ TEST(Determinism, DT06_DenormalPixelsAndSpeeds) {
                 Maps out;
                 Image<Rgb> sane = estimate;
                 out.counts = sanitize_estimate(sane);
-                out.velocity = compute_image_velocity(motion, viewing);
-                out.maps = compute_perception(sane, out.velocity, viewing, {},
+                out.velocity = compute_image_velocity(motion, viewing, {});
+                out.maps = compute_perception(sane, out.velocity, viewing, {}, {},
                                               {.retinal_velocity = true, .conspicuity = true});
                 out.threshold = compute_threshold(out.maps.aleph, compute_adaptation_luminance(sane, viewing));
                 return out;

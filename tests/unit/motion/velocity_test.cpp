@@ -19,16 +19,16 @@ MotionField make_field(double path_length, MotionValidity validity) {
     return field;
 }
 
-float velocity_of(double path_length, const ViewingConditions& viewing,
+float velocity_of(double path_length, const ViewingConditions& viewing, const FrameRate& frame_rate = {},
                   MotionValidity validity = MotionValidity::valid) {
-    return compute_image_velocity(make_field(path_length, validity), viewing)(0, 0);
+    return compute_image_velocity(make_field(path_length, validity), viewing, frame_rate)(0, 0);
 }
 
 TEST(Velocity, Equation5_1) {
     // The thesis's display: 31 pixels per degree, 30 frames per second.
     EXPECT_EQ(velocity_of(31.0, {}), 30.0f);
     EXPECT_FLOAT_EQ(velocity_of(1.0, {}), 30.0f / 31.0f);
-    EXPECT_FLOAT_EQ(velocity_of(3.0, {.pixels_per_degree = 60.0, .frames_per_second = 24.0}), 1.2f);
+    EXPECT_FLOAT_EQ(velocity_of(3.0, {.pixels_per_degree = 60.0}, {24, 1}), 1.2f);
     EXPECT_EQ(velocity_of(0.0, {}), 0.0f);
     EXPECT_FLOAT_EQ(velocity_of(1e-7, {}), 1e-7f * 30.0f / 31.0f);
 }
@@ -36,15 +36,15 @@ TEST(Velocity, Equation5_1) {
 TEST(Velocity, ThePathCountsNotTheChord) {
     MotionField field = make_field(942.0, MotionValidity::valid);
     field.displacement(0, 0) = glm::dvec2(0.0);
-    EXPECT_FLOAT_EQ(compute_image_velocity(field, {})(0, 0), 942.0f * 30.0f / 31.0f);
+    EXPECT_FLOAT_EQ(compute_image_velocity(field, {}, {})(0, 0), 942.0f * 30.0f / 31.0f);
 }
 
 TEST(Velocity, ZeroWhereMotionIsNotKnown) {
-    EXPECT_EQ(velocity_of(5.0, {}, MotionValidity::behind_camera), 0.0f);
-    EXPECT_EQ(velocity_of(5.0, {}, MotionValidity::no_counterpart), 0.0f);
+    EXPECT_EQ(velocity_of(5.0, {}, {}, MotionValidity::behind_camera), 0.0f);
+    EXPECT_EQ(velocity_of(5.0, {}, {}, MotionValidity::no_counterpart), 0.0f);
     for (const MotionValidity known :
          {MotionValidity::valid, MotionValidity::background, MotionValidity::leaves_screen, MotionValidity::hidden}) {
-        EXPECT_FLOAT_EQ(velocity_of(5.0, {}, known), 150.0f / 31.0f);
+        EXPECT_FLOAT_EQ(velocity_of(5.0, {}, {}, known), 150.0f / 31.0f);
     }
 }
 
@@ -54,7 +54,7 @@ TEST(Velocity, KeepsTheFieldsShape) {
     field.path_length = Image<double>(5, 3);
     field.validity = Image<MotionValidity>(5, 3, MotionValidity::valid);
     field.path_length(4, 1) = 31.0;
-    const Image<float> velocity = compute_image_velocity(field, {});
+    const Image<float> velocity = compute_image_velocity(field, {}, {});
     ASSERT_EQ(velocity.width, 5);
     ASSERT_EQ(velocity.height, 3);
     for (int y = 0; y < 3; ++y) {
@@ -71,9 +71,13 @@ TEST(Velocity, RP21_RatesThatAreNotPositiveAndFiniteAreRefused) {
         } catch (const InputError& error) {
             EXPECT_EQ(error.place(), "pixels per degree");
         }
+    }
+    const FrameRate none{0, 1}, minus_none{0, -1}, minus_one{-1, 1}, infinite{1, 0}, minus_infinite{-1, 0},
+        unknown{0, 0};
+    for (const FrameRate& bad : {none, minus_none, minus_one, infinite, minus_infinite, unknown}) {
         try {
-            velocity_of(1.0, {.frames_per_second = bad});
-            FAIL() << bad;
+            velocity_of(1.0, {}, bad);
+            FAIL() << bad.per_second();
         } catch (const InputError& error) {
             EXPECT_EQ(error.place(), "frames per second");
         }

@@ -89,7 +89,7 @@ TEST(RetinalVelocityRow, AgreesWithTheDoubleFormula) {
 TEST(Perception, SaliencyIsMoreLenientThanFullTrackingAndThatThanNoMotion) {
     const SyntheticFrame frame = make_synthetic_frame(320, 240);
     const auto aleph_with = [&](Guide guide) {
-        return mean(compute_perception(frame.estimate, frame.velocity, {}, {.guide = guide}).aleph);
+        return mean(compute_perception(frame.estimate, frame.velocity, {}, {}, {.guide = guide}).aleph);
     };
     EXPECT_GT(aleph_with(Guide::saliency), 1.1 * aleph_with(Guide::full));
     EXPECT_GT(aleph_with(Guide::full), 1.1 * aleph_with(Guide::spatial));
@@ -100,7 +100,7 @@ TEST(Perception, SaliencyIsMoreLenientThanFullTrackingAndThatThanNoMotion) {
 TEST(Perception, MeasuredBandsAreStricter) {
     const SyntheticFrame frame = make_synthetic_frame(320, 240);
     const auto aleph_with = [&](Bands bands) {
-        return mean(compute_perception(frame.estimate, frame.velocity, {}, {.bands = bands}).aleph);
+        return mean(compute_perception(frame.estimate, frame.velocity, {}, {}, {.bands = bands}).aleph);
     };
     EXPECT_LT(aleph_with(Bands::measured), aleph_with(Bands::printed));
 }
@@ -110,7 +110,7 @@ TEST(Perception, SameBitsForAnyNumberOfThreadsAndAfterOtherSizes) {
     for (const SaliencyGrid grid : {SaliencyGrid::full, SaliencyGrid::center}) {
         const auto maps_with = [&](int threads) {
             const ThreadLimit limit(threads);
-            return compute_perception(frame.estimate, frame.velocity, {}, {.grid = grid}, {true, true});
+            return compute_perception(frame.estimate, frame.velocity, {}, {}, {.grid = grid}, {true, true});
         };
         const PerceptionMaps one = maps_with(1);
         for (const int threads : {2, 3, 8}) {
@@ -125,12 +125,13 @@ TEST(Perception, SameBitsForAnyNumberOfThreadsAndAfterOtherSizes) {
 
 TEST(Perception, OutputsAreThoseAskedFor) {
     const SyntheticFrame frame = make_synthetic_frame(64, 48);
-    const PerceptionMaps bare = compute_perception(frame.estimate, frame.velocity, {}, {});
+    const PerceptionMaps bare = compute_perception(frame.estimate, frame.velocity, {}, {}, {});
     EXPECT_TRUE(bare.retinal_velocity.empty());
     EXPECT_TRUE(bare.conspicuity_motion.empty());
     EXPECT_TRUE(same_size(bare.saliency, frame.velocity));
     for (const SaliencyGrid grid : {SaliencyGrid::full, SaliencyGrid::center}) {
-        const PerceptionMaps all = compute_perception(frame.estimate, frame.velocity, {}, {.grid = grid}, {true, true});
+        const PerceptionMaps all =
+            compute_perception(frame.estimate, frame.velocity, {}, {}, {.grid = grid}, {true, true});
         for (const Image<float>* map : {&all.retinal_velocity, &all.conspicuity_intensity, &all.conspicuity_color,
                                         &all.conspicuity_orientation, &all.conspicuity_motion}) {
             ASSERT_TRUE(same_size(*map, frame.velocity));
@@ -142,7 +143,7 @@ TEST(Perception, OutputsAreThoseAskedFor) {
         }
     }
     const PerceptionMaps none =
-        compute_perception(frame.estimate, frame.velocity, {}, {.guide = Guide::none}, {true, true});
+        compute_perception(frame.estimate, frame.velocity, {}, {}, {.guide = Guide::none}, {true, true});
     EXPECT_EQ(none.aleph, Image<float>(64, 48, 1.0f));
     EXPECT_EQ(none.retinal_velocity, Image<float>(64, 48, 0.15f));
 }
@@ -150,13 +151,15 @@ TEST(Perception, OutputsAreThoseAskedFor) {
 TEST(Perception, RefusesWhatDoesNotFit) {
     const Image<Rgb> estimate(8, 8);
     const Image<float> velocity(8, 8);
-    EXPECT_THROW(compute_perception(estimate, Image<float>(8, 7), {}, {}), InputError);
-    EXPECT_THROW(compute_perception({}, {}, {}, {}), InputError);
+    EXPECT_THROW(compute_perception(estimate, Image<float>(8, 7), {}, {}, {}), InputError);
+    EXPECT_THROW(compute_perception({}, {}, {}, {}, {}), InputError);
     constexpr double infinity = std::numeric_limits<double>::infinity();
     for (const double bad : {0.0, -1.0, infinity, std::nan("")}) {
-        EXPECT_THROW(compute_perception(estimate, velocity, {.pixels_per_degree = bad}, {}), InputError) << bad;
-        EXPECT_THROW(compute_perception(estimate, velocity, {.frames_per_second = bad}, {}), InputError) << bad;
-        EXPECT_THROW(compute_perception(estimate, velocity, {.display_white = bad}, {}), InputError) << bad;
+        EXPECT_THROW(compute_perception(estimate, velocity, {.pixels_per_degree = bad}, {}, {}), InputError) << bad;
+        EXPECT_THROW(compute_perception(estimate, velocity, {.display_white = bad}, {}, {}), InputError) << bad;
+    }
+    for (const FrameRate bad : {FrameRate{0, 1}, FrameRate{-1, 1}, FrameRate{1, 0}, FrameRate{0, 0}}) {
+        EXPECT_THROW(compute_perception(estimate, velocity, {}, bad, {}), InputError) << bad.per_second();
     }
 }
 

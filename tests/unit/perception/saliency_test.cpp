@@ -26,7 +26,7 @@ TEST_P(AgainstReference, FullGridAgrees) {
     const auto [width, height] = GetParam();
     const SyntheticFrame frame = make_synthetic_frame(width, height);
     const ReferenceMaps reference = reference_perception(frame.estimate, frame.velocity);
-    const PerceptionMaps maps = compute_perception(frame.estimate, frame.velocity, {}, {});
+    const PerceptionMaps maps = compute_perception(frame.estimate, frame.velocity, {}, {}, {});
     ASSERT_FALSE(reference.fallback);
     ASSERT_FALSE(maps.fallback);
     std::vector<double> saliency_errors;
@@ -58,7 +58,7 @@ double correlation(const Image<float>& a, const Image<float>& b) {
 TEST(Saliency, CenterGridIsCloseToFull) {
     const SyntheticFrame frame = make_synthetic_frame(640, 480);
     const auto saliency_on = [&](SaliencyGrid grid) {
-        return compute_perception(frame.estimate, frame.velocity, {}, {.grid = grid}).saliency;
+        return compute_perception(frame.estimate, frame.velocity, {}, {}, {.grid = grid}).saliency;
     };
     EXPECT_GT(correlation(saliency_on(SaliencyGrid::center), saliency_on(SaliencyGrid::full)), 0.95);
 }
@@ -68,7 +68,7 @@ TEST(Saliency, ALoneMovingThingOnAFlatFrameIsWhatStandsOut) {
     Image<float> velocity(320, 240);
     for (int y = 100; y < 130; ++y) std::fill_n(velocity.row(y) + 200, 30, 8.0f);
     for (const SaliencyGrid grid : {SaliencyGrid::full, SaliencyGrid::center}) {
-        const Image<float> s = compute_perception(estimate, velocity, {}, {.grid = grid}).saliency;
+        const Image<float> s = compute_perception(estimate, velocity, {}, {}, {.grid = grid}).saliency;
         EXPECT_GT(s(215, 115), 0.8f);
         EXPECT_LT(s(40, 200), 0.1f);
     }
@@ -77,7 +77,7 @@ TEST(Saliency, ALoneMovingThingOnAFlatFrameIsWhatStandsOut) {
 TEST(Saliency, NeutralOpponentColoursChangeOnlyTheColourChannel) {
     const SyntheticFrame frame = make_synthetic_frame(160, 120);
     const auto maps_with = [&](bool neutral) {
-        return compute_perception(frame.estimate, frame.velocity, {}, {.neutral_opponent = neutral}, {true, true});
+        return compute_perception(frame.estimate, frame.velocity, {}, {}, {.neutral_opponent = neutral}, {true, true});
     };
     const PerceptionMaps plain = maps_with(false), neutral = maps_with(true);
     EXPECT_EQ(neutral.conspicuity_intensity, plain.conspicuity_intensity);

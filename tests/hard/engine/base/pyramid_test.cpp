@@ -21,7 +21,7 @@ namespace {
 constexpr float infinity = std::numeric_limits<float>::infinity();
 
 PerceptionMaps with_everything(const Image<Rgb>& estimate, const Image<float>& velocity) {
-    return compute_perception(estimate, velocity, {}, {}, {true, true});
+    return compute_perception(estimate, velocity, {}, {}, {}, {true, true});
 }
 
 bool all_zero(const Image<float>& image) {
@@ -91,14 +91,14 @@ TEST(PyramidHard, PY03_EverySizeRuns) {
     for (const auto& [width, height] : sizes) {
         const SyntheticFrame frame = make_synthetic_frame(width, height);
         for (const SaliencyGrid grid : {SaliencyGrid::full, SaliencyGrid::center}) {
-            const PerceptionMaps maps = compute_perception(frame.estimate, frame.velocity, {}, {.grid = grid});
+            const PerceptionMaps maps = compute_perception(frame.estimate, frame.velocity, {}, {}, {.grid = grid});
             ASSERT_TRUE(same_size(maps.aleph, frame.velocity));
             for (std::size_t i = 0; i < maps.aleph.size(); ++i) {
                 ASSERT_TRUE(maps.aleph.pixels[i] >= 1.0f && maps.aleph.pixels[i] <= 250.8f) << width << "x" << height;
                 ASSERT_TRUE(maps.saliency.pixels[i] >= 0.0f && maps.saliency.pixels[i] <= 1.0f);
             }
             // Nothing of other sizes is left behind in buffers.
-            EXPECT_EQ(compute_perception(frame.estimate, frame.velocity, {}, {.grid = grid}).aleph, maps.aleph);
+            EXPECT_EQ(compute_perception(frame.estimate, frame.velocity, {}, {}, {.grid = grid}).aleph, maps.aleph);
         }
     }
     const auto single = compute_band_response(Image<float>(1, 1, 0.7f));
@@ -146,8 +146,8 @@ void expect_like_replaced(const Rgb& broken) {
     EXPECT_EQ(sanitize_estimate(damaged).replaced, 1u);
     EXPECT_EQ(sanitize_estimate(replaced).replaced, 0u);
     ASSERT_EQ(damaged, replaced);
-    EXPECT_EQ(compute_perception(damaged, frame.velocity, {}, {}).aleph,
-              compute_perception(replaced, frame.velocity, {}, {}).aleph);
+    EXPECT_EQ(compute_perception(damaged, frame.velocity, {}, {}, {}).aleph,
+              compute_perception(replaced, frame.velocity, {}, {}, {}).aleph);
 }
 
 TEST(PyramidHard, PY05_OneNanPixel) {
@@ -165,8 +165,8 @@ TEST(PyramidHard, PY07_FireflyDoesNotTakeTheWholeMap) {
     firefly(400, 120) = Rgb(1e6f);
     EXPECT_EQ(sanitize_estimate(calm).clamped, 0u);
     EXPECT_EQ(sanitize_estimate(firefly).clamped, 1u);
-    const Image<float> expected = compute_perception(calm, frame.velocity, {}, {}).saliency;
-    const Image<float> found = compute_perception(firefly, frame.velocity, {}, {}).saliency;
+    const Image<float> expected = compute_perception(calm, frame.velocity, {}, {}, {}).saliency;
+    const Image<float> found = compute_perception(firefly, frame.velocity, {}, {}, {}).saliency;
     EXPECT_GT(correlation_away_from(found, expected, 400, 120, 16), 0.9);
 }
 
@@ -256,7 +256,7 @@ TEST(PyramidHard, PY18_SixMapsPerPyramidAtEverySize) {
         ASSERT_EQ(maps.size(), 48u);
         std::array<int, channel_count> count{};
         for (const FeatureMap& map : maps) {
-            ++count[map.channel];
+            ++count[static_cast<std::size_t>(map.channel)];
             EXPECT_TRUE(same_size(map.difference, levels[map.level]));
         }
         EXPECT_EQ(count, (std::array{6, 12, 24, 6}));
@@ -267,7 +267,7 @@ TEST(PyramidHard, PY19_SaliencyIsWithinZeroAndOneAndReachesBoth) {
     for (std::uint32_t seed = 0; seed < 20; ++seed) {
         const SyntheticFrame frame = make_synthetic_frame(60 + 7 * static_cast<int>(seed), 90, seed);
         for (const SaliencyGrid grid : {SaliencyGrid::full, SaliencyGrid::center}) {
-            const PerceptionMaps maps = compute_perception(frame.estimate, frame.velocity, {}, {.grid = grid});
+            const PerceptionMaps maps = compute_perception(frame.estimate, frame.velocity, {}, {}, {.grid = grid});
             const auto [low, high] = std::minmax_element(maps.saliency.pixels.begin(), maps.saliency.pixels.end());
             EXPECT_EQ(*low, 0.0f);
             EXPECT_EQ(*high, 1.0f);

@@ -39,7 +39,7 @@ TEST(SceneJson, Header) {
     EXPECT_EQ(scene.frame_rate, (FrameRate{30000, 1001}));
     EXPECT_EQ(scene.range, (FrameRange{-3, 59}));
     EXPECT_EQ(scene.cuts, (std::vector<std::int64_t>{10, 30}));
-    EXPECT_EQ(scene.viewing, (ViewingConditions{62.5, 80.0, 30000.0 / 1001.0}));
+    EXPECT_EQ(scene.viewing, (ViewingConditions{62.5, 80.0}));
     EXPECT_EQ(scene.exposure, 0.25);
     EXPECT_EQ(scene.environment, Track<glm::dvec3>(glm::dvec3(0.5, 1.0, 2.0)));
     EXPECT_EQ(read(", \"fps\": 24").frame_rate, (FrameRate{24, 1}));

@@ -90,7 +90,7 @@ Scene make_full_scene(Numbers& n) {
     Scene scene;
     scene.name = "everything \"quoted\" \\ \n / ~ ü";
     scene.frame_rate = {24000, 1001};
-    scene.viewing = {n.positive(), n.positive(), scene.frame_rate.per_second()};
+    scene.viewing = {n.positive(), n.positive()};
     scene.range = FrameRange{-5, 1000000};
     scene.cuts = {-1, 3, 77};
     scene.exposure = n.positive();
@@ -338,7 +338,6 @@ TEST(SceneJsonWrite, WhatTheFormatCannotSayIsRefused) {
     expect_spoiled([](Scene& s) { s.meshes[0].positions[3].x += 1.0f; }, "mesh 0", "exactly");
     expect_spoiled([](Scene& s) { s.images.push_back({.name = "embedded", .path = "", .bytes = {}, .floats = {}}); },
                    "image", "path");
-    expect_spoiled([](Scene& s) { s.viewing.frames_per_second = 24.0; }, "viewing", "agree");
     expect_spoiled([](Scene& s) { s.nodes[1].name = "a"; }, "node 1", "name");
     expect_spoiled([](Scene& s) { s.nodes[0].name = ""; }, "node 1", "parent");
     expect_spoiled([](Scene& s) { s.materials[0].name = ""; }, "material 0", "name");
@@ -355,12 +354,7 @@ TEST(SceneJsonWrite, WhatTheFormatCannotSayIsRefused) {
     expect_spoiled([](Scene& s) { s.nodes[0].scale.values.clear(); }, "scale", "no keys");
     expect_spoiled([](Scene& s) { s.nodes[0].visible = 0.5; }, "node 0", "exactly");
     expect_spoiled([](Scene& s) { s.nodes[0].axis_rotation = AxisRotation{{0, 2, 0}, {0.5}}; }, "node 0", "exactly");
-    expect_spoiled(
-        [](Scene& s) {
-            s.frame_rate = {0, 1};
-            s.viewing.frames_per_second = 0.0;
-        },
-        "/fps", "whole number");
+    expect_spoiled([](Scene& s) { s.frame_rate = {0, 1}; }, "/fps", "whole number");
     expect_spoiled([](Scene& s) { s.settings["unheard_of"] = 1.0; }, "/settings/unheard_of", "unknown");
     expect_spoiled([](Scene& s) { s.name = "\xff\xfe"; }, "", "UTF-8");
     expect_spoiled([](Scene& s) { s.includes = {{"b.glb", 1}, {"a.glb", 0}}; }, "includes", "exactly");

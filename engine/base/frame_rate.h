@@ -1,0 +1,20 @@
+#pragma once
+// Frames per second as an exact fraction, so that 30000/1001 has no rounding.
+
+#include <cstdint>
+
+namespace aleph {
+
+struct FrameRate {
+    std::int64_t numerator = 30;  ///< frames per `denominator` seconds
+    std::int64_t denominator = 1;
+
+    double per_second() const { return static_cast<double>(numerator) / static_cast<double>(denominator); }
+    /// Time of a frame, s. Computed from the frame number alone: times that are added up frame by frame drift.
+    double seconds_of(std::int64_t frame) const {
+        return static_cast<double>(frame) * static_cast<double>(denominator) / static_cast<double>(numerator);
+    }
+    bool operator==(const FrameRate&) const = default;
+};
+
+}  // namespace aleph
