@@ -95,7 +95,7 @@ void add_moments_between(FrameMotion& motion, const Scene& scene, const MotionMo
     const Turns turns = compute_turns(scene, camera_node, begin, end);
     const bool background_turns = !now.view->orthographic && turns.background + view_turn > limit;
     for (const double seconds : times) {
-        const SceneFrame frame = pose(scene, seconds);
+        const ScenePose frame = pose(scene, seconds);
         const CameraView view = camera == no_index
                                     ? interpolate_view(*now.view, *other.view, (seconds - begin) / (end - begin))
                                     : make_camera_view(frame.cameras[camera], now.view->width, now.view->height);

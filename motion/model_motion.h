@@ -11,7 +11,7 @@ namespace aleph {
 
 /// One of the two moments between which things move.
 struct MotionMoment {
-    const SceneFrame* frame = nullptr;
+    const ScenePose* frame = nullptr;
     const CameraView* view = nullptr;
 };
 

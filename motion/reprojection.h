@@ -56,7 +56,7 @@ template <class Points>
     return point_between(mesh.positions, mesh.triangles[hit.primitive], clamp_barycentrics(hit));
 }
 
-/// The same on a mesh that may deform, at the moment of `posed` (SceneFrame::meshes): on its triangles, as rays meet
+/// The same on a mesh that may deform, at the moment of `posed` (ScenePose::meshes): on its triangles, as rays meet
 /// it.
 inline glm::dvec3 triangle_point(const Mesh& mesh, const PosedMesh& posed, const Hit& hit) {
     if (posed.positions.empty()) return surface_point(mesh, hit);

@@ -42,7 +42,7 @@ struct LightSet {
     std::vector<PunctualLight> punctual;
     Rgb environment{0.0f};
     bool has_environment = false;
-    std::vector<int> emitter_of_instance;  ///< per SceneFrame instance: its emitter or no_index
+    std::vector<int> emitter_of_instance;  ///< per ScenePose instance: its emitter or no_index
 
     /// Lights are numbered: emitters, then punctual lights, then the environment.
     int count() const { return static_cast<int>(emitters.size() + punctual.size()) + (has_environment ? 1 : 0); }

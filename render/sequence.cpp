@@ -25,7 +25,7 @@ constexpr float background_depth = 1e30f;
 
 /// A frame's moment: posed, placed for rays, seen by the camera.
 struct Moment {
-    SceneFrame frame;
+    ScenePose frame;
     CameraView view;
 };
 

@@ -39,14 +39,14 @@ bool can_emit(const Material& material) {
     return !material.unlit && is_on(material.emission, glm::dvec3(0.0)) && is_on(material.emission_strength, 0.0);
 }
 
-ShadingMaterial make_material(const Scene& scene, const SceneFrame& frame, std::size_t i) {
+ShadingMaterial make_material(const Scene& scene, const ScenePose& frame, std::size_t i) {
     const MaterialValues& values = frame.materials[i];
     return {values, &scene.materials[i], scene.materials[i].double_sided,
             values.emission != Rgb(0.0f) && !scene.materials[i].unlit};
 }
 
 PosedInstance make_instance(const ShadingScene& shading, std::size_t i) {
-    const SceneFrame& frame = *shading.frame;
+    const ScenePose& frame = *shading.frame;
     const Instance& instance = frame.instances[i];
     const auto m = static_cast<std::size_t>(instance.mesh);
     const Mesh& mesh = shading.scene->meshes[m];
@@ -65,7 +65,7 @@ PosedInstance make_instance(const ShadingScene& shading, std::size_t i) {
 
 }  // namespace
 
-ShadingScene make_shading_scene(const Scene& scene, const SceneFrame& frame, const glm::dvec3& anchor,
+ShadingScene make_shading_scene(const Scene& scene, const ScenePose& frame, const glm::dvec3& anchor,
                                 const TextureSet& textures) {
     ShadingScene shading;
     shading.scene = &scene;
@@ -89,7 +89,7 @@ ShadingScene make_shading_scene(const Scene& scene, const SceneFrame& frame, con
 }
 
 void update_shading_scene(ShadingScene& shading, const PosePlan& plan, const glm::dvec3& anchor) {
-    const SceneFrame& frame = *shading.frame;
+    const ScenePose& frame = *shading.frame;
     if (anchor != shading.anchor) {
         shading = make_shading_scene(*shading.scene, frame, anchor, *shading.textures);
         return;

@@ -48,10 +48,10 @@ struct SceneBounds {
 
 struct ShadingScene {
     const Scene* scene = nullptr;
-    const SceneFrame* frame = nullptr;
+    const ScenePose* frame = nullptr;
     const TextureSet* textures = nullptr;
     glm::dvec3 anchor{0.0};
-    std::vector<PosedInstance> instances;  ///< as SceneFrame::instances
+    std::vector<PosedInstance> instances;  ///< as ScenePose::instances
     std::vector<ShadingMaterial> materials;
     Rgb environment{0.0f};
     std::vector<int> emitting;  ///< instances whose material emits at some time
@@ -62,7 +62,7 @@ struct ShadingScene {
 
 /// Keeps pointers to scene, frame and textures: they must outlive it.
 /// @param textures  make_texture_set(scene)
-ShadingScene make_shading_scene(const Scene& scene, const SceneFrame& frame, const glm::dvec3& anchor,
+ShadingScene make_shading_scene(const Scene& scene, const ScenePose& frame, const glm::dvec3& anchor,
                                 const TextureSet& textures);
 
 /// Brings it to what shading.frame holds now, after update_pose of the same plan: equal to a fresh one, but only what

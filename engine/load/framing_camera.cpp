@@ -30,7 +30,7 @@ Bounds scene_bounds(const Scene& scene) {
             range.first + (steps == 1 ? 0
                                       : (range.last - range.first) / (steps - 1) * step +
                                             (range.last - range.first) % (steps - 1) * step / (steps - 1));
-        const SceneFrame now = pose(scene, scene.frame_rate.seconds_of(frame));
+        const ScenePose now = pose(scene, scene.frame_rate.seconds_of(frame));
         for (std::size_t i = 0; i < now.instances.size(); ++i) {
             if (now.shown[i] == 0) continue;
             const auto m = static_cast<std::size_t>(now.instances[i].mesh);

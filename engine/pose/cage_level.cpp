@@ -124,8 +124,8 @@ double find_level_needed(const SurfaceShape& shape, const glm::dmat4& world, con
 }
 
 /// Nodes and instances of the scene at a moment, without its deforming meshes.
-SceneFrame place_nodes(const Scene& scene, double seconds, std::vector<Instance> instances) {
-    SceneFrame frame;
+ScenePose place_nodes(const Scene& scene, double seconds, std::vector<Instance> instances) {
+    ScenePose frame;
     frame.seconds = seconds;
     frame.world.resize(scene.nodes.size());
     frame.visible.resize(scene.nodes.size());
@@ -203,7 +203,7 @@ std::vector<double> find_levels_needed(const Scene& scene, int camera_node, int 
     Shapes shapes(scene);
     for (const std::int64_t number : sample_frames(frame_range(scene), settings.samples)) {
         const double seconds = scene.frame_rate.seconds_of(number);
-        const SceneFrame frame = place_nodes(scene, seconds, instances);
+        const ScenePose frame = place_nodes(scene, seconds, instances);
         const CameraView view =
             make_camera_view(pose_camera(scene, camera_node, frame.world[camera_node], seconds), width, height);
         for (std::size_t i = 0; i < instances.size(); ++i) {

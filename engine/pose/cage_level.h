@@ -24,7 +24,7 @@ struct CageLevelSettings {
 /// of the picture, whichever frames are rendered. Lengths count at the triangle's nearest point: not foreshortened, not
 /// hidden.
 /// @param scene  its cages tessellated: what they need is found from their triangles, by how edges and bends shrink
-/// @param camera  index into SceneFrame::cameras
+/// @param camera  index into ScenePose::cameras
 /// @param width,height  pixels
 std::vector<int> choose_cage_levels(const Scene& scene, int camera, int width, int height,
                                     const CageLevelSettings& settings = {});

@@ -52,7 +52,7 @@ double evaluate_whole(const Track<double>& track, double seconds) {
 
 }  // namespace
 
-void place_node(const Scene& scene, int index, double seconds, SceneFrame& frame) {
+void place_node(const Scene& scene, int index, double seconds, ScenePose& frame) {
     const Node& node = scene.nodes[index];
     ALEPH_CHECK(node.parent < index, fmt::format("node {} has parent {}", index, node.parent));
     const glm::dmat4 local = local_transform(node, seconds);
@@ -64,7 +64,7 @@ void place_node(const Scene& scene, int index, double seconds, SceneFrame& frame
     frame.visible[n] = visible >= 2.0 || (visible != 0.0 && (root || frame.visible[parent] != 0));
 }
 
-bool is_shown(const Scene& scene, const SceneFrame& frame, std::size_t instance) {
+bool is_shown(const Scene& scene, const ScenePose& frame, std::size_t instance) {
     const Instance& of = frame.instances[instance];
     return frame.visible[of.node] != 0 && evaluate_whole(scene.meshes[of.mesh].present, frame.seconds) != 0.0;
 }

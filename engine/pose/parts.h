@@ -8,10 +8,10 @@
 namespace aleph {
 
 /// Transform and visibility of a node; its parent's stand in the frame already.
-void place_node(const Scene& scene, int node, double seconds, SceneFrame& frame);
+void place_node(const Scene& scene, int node, double seconds, ScenePose& frame);
 
 /// Whether the instance's node is visible and its mesh present, at frame.seconds.
-bool is_shown(const Scene& scene, const SceneFrame& frame, std::size_t instance);
+bool is_shown(const Scene& scene, const ScenePose& frame, std::size_t instance);
 
 MaterialValues pose_material(const Material& material, double seconds);
 LightValues pose_light(const Scene& scene, int node, const glm::dmat4& world, double seconds);

@@ -66,7 +66,7 @@ PosePlan make_pose_plan(const Scene& scene) {
     return plan;
 }
 
-void update_pose(const Scene& scene, const PosePlan& plan, double seconds, SceneFrame& frame) {
+void update_pose(const Scene& scene, const PosePlan& plan, double seconds, ScenePose& frame) {
     frame.seconds = seconds;
     for (const int node : plan.nodes) place_node(scene, node, seconds, frame);
     for (const int i : plan.instances) {

@@ -18,7 +18,7 @@ struct PosePlan {
     std::vector<int> materials;                        ///< with animated values
     bool lights = false;                               ///< some light moves, comes, goes or changes
     std::vector<int> light_nodes;
-    std::vector<int> cameras;  ///< into SceneFrame::cameras
+    std::vector<int> cameras;  ///< into ScenePose::cameras
     bool environment = false;
 };
 
@@ -27,6 +27,6 @@ PosePlan make_pose_plan(const Scene& scene);
 /// Takes a frame of the same scene to another time: bit for bit pose(scene, seconds), but only what can have changed
 /// is touched.
 /// @param frame  from pose() or an earlier update
-void update_pose(const Scene& scene, const PosePlan& plan, double seconds, SceneFrame& frame);
+void update_pose(const Scene& scene, const PosePlan& plan, double seconds, ScenePose& frame);
 
 }  // namespace aleph

@@ -5,8 +5,8 @@
 
 namespace aleph {
 
-SceneFrame pose(const Scene& scene, double seconds) {
-    SceneFrame frame;
+ScenePose pose(const Scene& scene, double seconds) {
+    ScenePose frame;
     frame.seconds = seconds;
     const std::size_t nodes = scene.nodes.size();
     frame.world.resize(nodes);

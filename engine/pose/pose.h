@@ -62,7 +62,7 @@ struct PosedMesh {
     bool operator==(const PosedMesh&) const = default;
 };
 
-struct SceneFrame {
+struct ScenePose {
     double seconds = 0.0;
     std::vector<glm::dmat4> world;      ///< per node, object to world
     std::vector<std::uint8_t> visible;  ///< per node, ancestors included
@@ -79,17 +79,17 @@ struct SceneFrame {
 std::vector<Instance> list_instances(const Scene& scene);
 
 /// The scene at a time. Pure: the same bits whatever was posed before. Iterative, so depth costs no stack.
-SceneFrame pose(const Scene& scene, double seconds);
+ScenePose pose(const Scene& scene, double seconds);
 
 /// The scene's frames: `range` where given, else the span of all keys rounded inwards to frames.
 FrameRange frame_range(const Scene& scene);
 
-/// Index into SceneFrame::cameras (the same at every time) by node or camera name; an empty name takes the scene's
+/// Index into ScenePose::cameras (the same at every time) by node or camera name; an empty name takes the scene's
 /// choice, then the first.
 /// @throws InputError if there is none of that name, listing those that exist, or no camera at all
 int find_camera(const Scene& scene, const std::string& name);
 
-/// True if anything that a SceneFrame holds can differ between two times, apart from cameras.
+/// True if anything that a ScenePose holds can differ between two times, apart from cameras.
 bool is_world_animated(const Scene& scene);
 
 }  // namespace aleph

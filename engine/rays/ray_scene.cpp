@@ -53,7 +53,7 @@ std::array<float, 12> make_transform(const glm::dmat4& world, const glm::dvec3& 
 }
 
 /// Brings the points of deforming meshes to the frame.
-std::vector<RefitMesh::Change> refit_meshes(RayScene::State& state, const SceneFrame& frame) {
+std::vector<RefitMesh::Change> refit_meshes(RayScene::State& state, const ScenePose& frame) {
     std::vector<RefitMesh::Change> changes(state.refits.size(), RefitMesh::Change::none);
     for (std::size_t d = 0; d < changes.size(); ++d) {
         const DeformingMesh& mesh = state.meshes->deforming[d];
@@ -64,7 +64,7 @@ std::vector<RefitMesh::Change> refit_meshes(RayScene::State& state, const SceneF
 }
 
 /// What the filters of alpha masks read.
-void note_alpha(RayScene::State& state, const SceneFrame& frame) {
+void note_alpha(RayScene::State& state, const ScenePose& frame) {
     if (!state.meshes->any_cutout) return;
     state.alpha.clear();
     for (const MaterialValues& material : frame.materials) state.alpha.push_back(material.alpha);
@@ -72,7 +72,7 @@ void note_alpha(RayScene::State& state, const SceneFrame& frame) {
 
 /// @return whether the object had to be touched
 bool place(Layer& layer, Placement& placement, const MeshStructures::Object& object, RefitMesh::Change change,
-           const SceneFrame& frame, const glm::dvec3& anchor) {
+           const ScenePose& frame, const glm::dvec3& anchor) {
     const glm::dmat4& world = frame.world[object.node];
     const bool shown = frame.shown[object.instance] != 0;
     const bool enabled = shown && change != RefitMesh::Change::unusable && is_traceable(world, anchor);
@@ -101,7 +101,7 @@ bool place(Layer& layer, Placement& placement, const MeshStructures::Object& obj
 
 /// The layer's first `count` objects.
 std::size_t place_objects(Layer& layer, std::size_t count, const MeshStructures& meshes,
-                          const std::vector<RefitMesh::Change>& changes, const SceneFrame& frame,
+                          const std::vector<RefitMesh::Change>& changes, const ScenePose& frame,
                           const glm::dvec3& anchor) {
     std::size_t touched = 0;
     for (std::size_t i = 0; i < count; ++i) {
@@ -149,7 +149,7 @@ RayScene RayScene::share_meshes() const {
     return RayScene(std::make_unique<State>(state_->meshes));
 }
 
-std::size_t RayScene::update(const SceneFrame& frame, const glm::dvec3& anchor) {
+std::size_t RayScene::update(const ScenePose& frame, const glm::dvec3& anchor) {
     const FlushDenormals flush;
     note_alpha(*state_, frame);
     const std::vector<RefitMesh::Change> changes = refit_meshes(*state_, frame);
@@ -161,7 +161,7 @@ std::size_t RayScene::update(const SceneFrame& frame, const glm::dvec3& anchor) 
     return touched;
 }
 
-std::size_t RayScene::update_moving(const SceneFrame& frame, const glm::dvec3& anchor) {
+std::size_t RayScene::update_moving(const ScenePose& frame, const glm::dvec3& anchor) {
     if (!state_->placed || anchor != state_->anchor) return update(frame, anchor);
     const FlushDenormals flush;
     note_alpha(*state_, frame);

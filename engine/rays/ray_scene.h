@@ -22,7 +22,7 @@ struct Ray {
     float far = std::numeric_limits<float>::infinity();
 };
 
-/// What a ray met. instance is an index into SceneFrame::instances, primitive a triangle of its mesh;
+/// What a ray met. instance is an index into ScenePose::instances, primitive a triangle of its mesh;
 /// the point is (1 - u - v) p0 + u p1 + v p2.
 struct Hit {
     int instance = no_index;  ///< no_index: nothing
@@ -55,11 +55,11 @@ class RayScene {
     /// the anchor moved). Instances that are not traceable (a scale of 0, points that are not finite) are left out and
     /// counted.
     /// @return how many instances were touched
-    std::size_t update(const SceneFrame& frame, const glm::dvec3& anchor);
+    std::size_t update(const ScenePose& frame, const glm::dvec3& anchor);
 
     /// The same for a frame of the very scene that this was made for, where the last update had one too: what cannot
     /// move by its tracks is not even looked at, so that it costs what moves (everything where the anchor moved).
-    std::size_t update_moving(const SceneFrame& frame, const glm::dvec3& anchor);
+    std::size_t update_moving(const ScenePose& frame, const glm::dvec3& anchor);
 
     const glm::dvec3& anchor() const;
     std::size_t degenerate_triangles() const;

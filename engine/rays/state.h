@@ -30,7 +30,7 @@ struct MeshStructures {
     /// Meshes of one node that are placed together.
     struct Object {
         int node;            ///< scene node that carries these meshes
-        int first_instance;  ///< SceneFrame::instances index of the node's first mesh; Embree's geometry number is
+        int first_instance;  ///< ScenePose::instances index of the node's first mesh; Embree's geometry number is
                              ///< added
         int instance;        ///< of those, the one that says whether the object is shown
         RTCScene mesh_scene = nullptr;  ///< null: deforming, each RayScene has its own

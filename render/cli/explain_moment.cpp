@@ -24,7 +24,7 @@ ordered_json to_rows(const glm::dmat4& m) {
 }
 
 /// The points as the file has them: of a cache or cage those that meshes are made of, else the vertices.
-std::vector<glm::dvec3> source_points(const Scene& scene, const SceneFrame& frame, int mesh_index) {
+std::vector<glm::dvec3> source_points(const Scene& scene, const ScenePose& frame, int mesh_index) {
     const Mesh& mesh = scene.meshes[mesh_index];
     const int cache = mesh.cage == no_index ? mesh.points : scene.cages[mesh.cage].points;
     if (cache != no_index) return sample_points(scene.point_caches[cache], frame.seconds);
@@ -34,7 +34,7 @@ std::vector<glm::dvec3> source_points(const Scene& scene, const SceneFrame& fram
 }
 
 /// Of a node's meshes: those made of one cache count once.
-ordered_json describe_points(const Scene& scene, const SceneFrame& frame, const Node& node) {
+ordered_json describe_points(const Scene& scene, const ScenePose& frame, const Node& node) {
     std::size_t count = 0;
     ordered_json first = ordered_json::array();
     std::map<std::pair<int, int>, bool> told;
@@ -54,7 +54,7 @@ ordered_json describe_points(const Scene& scene, const SceneFrame& frame, const 
 }  // namespace
 
 ordered_json explain_moment(const Scene& scene, double seconds) {
-    const SceneFrame frame = pose(scene, seconds);
+    const ScenePose frame = pose(scene, seconds);
     const std::vector<std::string> paths = node_paths(scene);
     std::vector<Bounds> bounds(scene.nodes.size());
     for (const Instance& instance : frame.instances) add_instance(bounds[instance.node], scene, frame, instance);

@@ -70,7 +70,7 @@ ordered_json count_elements(const Scene& scene) {
 ordered_json describe_bounds(const Scene& scene) {
     const FrameRange range = frame_range(scene);
     const auto at_frame = [&](std::int64_t number, Bounds& bounds) {
-        const SceneFrame frame = pose(scene, scene.frame_rate.seconds_of(number));
+        const ScenePose frame = pose(scene, scene.frame_rate.seconds_of(number));
         for (std::size_t i = 0; i < frame.instances.size(); ++i)
             if (frame.shown[i] != 0) add_instance(bounds, scene, frame, frame.instances[i]);
     };
@@ -150,7 +150,7 @@ ordered_json list_unused(const Scene& scene, const Use& use) {
 void describe_view(ordered_json& out, const Scene& scene, const RenderSettings& settings, const std::string& camera) {
     try {
         const Sequence sequence(scene, settings, camera);
-        const SceneFrame frame = pose(scene, 0.0);
+        const ScenePose frame = pose(scene, 0.0);
         const int index = find_camera(scene, camera);
         out["camera"] = scene.nodes[frame.cameras[index].node].name;
         out["exposure"] = {{"factor", sequence.exposure()}, {"from", scene.exposure ? "given" : "first frame"}};

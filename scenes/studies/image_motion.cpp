@@ -28,8 +28,8 @@ struct MotionOptions {
 
 /// Which instances move by themselves between two frames, whatever the camera does.
 std::vector<bool> find_movers(const Scene& scene, int frame) {
-    const SceneFrame now = pose(scene, scene.frame_rate.seconds_of(frame));
-    const SceneFrame next = pose(scene, scene.frame_rate.seconds_of(frame + 1));
+    const ScenePose now = pose(scene, scene.frame_rate.seconds_of(frame));
+    const ScenePose next = pose(scene, scene.frame_rate.seconds_of(frame + 1));
     std::vector<bool> moves;
     for (const Instance& instance : now.instances) {
         const auto node = static_cast<std::size_t>(instance.node);

@@ -48,7 +48,7 @@ RTCRayHit16 make_packet(const CameraView& view, const glm::vec3& origin, int x0,
 
 }  // namespace
 
-RawEmbree::RawEmbree(const Scene& scene, const SceneFrame& frame, const CameraView& view) {
+RawEmbree::RawEmbree(const Scene& scene, const ScenePose& frame, const CameraView& view) {
     const FlushDenormals flush;
     device_ = rtcNewDevice(nullptr);
     top_ = rtcNewScene(device_);

@@ -13,7 +13,7 @@ namespace aleph {
 class RawEmbree {
   public:
     /// Instances as RayScene makes them; rays through the pixel centres in blocks of 4 x 4.
-    RawEmbree(const Scene& scene, const SceneFrame& frame, const CameraView& view);
+    RawEmbree(const Scene& scene, const ScenePose& frame, const CameraView& view);
     ~RawEmbree();
     RawEmbree(const RawEmbree&) = delete;
     RawEmbree& operator=(const RawEmbree&) = delete;

@@ -71,7 +71,7 @@ struct Inputs {
     std::string name;
     Scene scene;
     std::int64_t frame_number = 0;
-    SceneFrame frames[2];
+    ScenePose frames[2];
     CameraView views[2];
     RayScene rays, other_rays;
     Image<Hit> hits;
@@ -100,7 +100,7 @@ struct Inputs {
         return compute_model_motion(scene, {&frames[0], &views[0]}, {&frames[1], &views[1]}, hits, {});
     }
     /// A checker on every surface, a gradient behind: edges and texture enough for the maps of perception.
-    Image<Rgb> compute_estimate(const Image<Hit>& seen, const SceneFrame& frame) const {
+    Image<Rgb> compute_estimate(const Image<Hit>& seen, const ScenePose& frame) const {
         Image<Rgb> image(width, height);
         for (int y = 0; y < height; ++y) {
             for (int x = 0; x < width; ++x) {

@@ -84,7 +84,7 @@ std::vector<Row> measure(int objects) {
     const glm::dvec3 anchor(0.0);
     std::optional<RayScene> rays;
     rows[8].best.time([&] { rays.emplace(scene); });
-    SceneFrame frame = pose(scene, 0.0);
+    ScenePose frame = pose(scene, 0.0);
     rows[2].best.time([&] { rays->update(frame, anchor); });
     ShadingScene shading = make_shading_scene(scene, frame, anchor, textures);
     update_shading_scene(shading, plan, anchor);

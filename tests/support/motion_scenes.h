@@ -91,7 +91,7 @@ inline int add_point(Scene& scene, const glm::vec3& point) {
 
 /// Both moments of a scene, posed and viewed through its first camera.
 struct TwoMoments {
-    SceneFrame frames[2];
+    ScenePose frames[2];
     CameraView views[2];
 
     TwoMoments(const Scene& scene, double now, double other, int width, int height)
@@ -103,7 +103,7 @@ struct TwoMoments {
 };
 
 /// Hits all over the scene's surfaces, whatever a ray would see: exactness is about the hit's own (primitive, u, v).
-inline Image<Hit> make_random_hits(const Scene& scene, const SceneFrame& frame, int width, int height) {
+inline Image<Hit> make_random_hits(const Scene& scene, const ScenePose& frame, int width, int height) {
     std::mt19937 random(11);
     std::uniform_real_distribution<float> fraction(0.0f, 1.0f);
     Image<Hit> hits(width, height);

@@ -137,7 +137,7 @@ struct Stage {
     }
 
     Scene scene;
-    SceneFrame frame;
+    ScenePose frame;
     CameraView view;
     TextureSet textures;
     RayScene rays;

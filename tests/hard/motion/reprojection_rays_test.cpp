@@ -18,7 +18,7 @@
 namespace aleph {
 namespace {
 
-RayScene trace(const Scene& scene, const SceneFrame& frame, const CameraView& view) {
+RayScene trace(const Scene& scene, const ScenePose& frame, const CameraView& view) {
     RayScene rays(scene);
     rays.update(frame, compute_anchor(view));
     return rays;
@@ -75,7 +75,7 @@ TEST(ReprojectionRays, RP18_BarycentricsOffTheTriangleArePutBack) {
 }
 
 /// Where the hit's own barycentrics put it on the screen.
-glm::dvec2 hit_pixel(const Scene& scene, const SceneFrame& frame, const CameraView& view, const Hit& hit) {
+glm::dvec2 hit_pixel(const Scene& scene, const ScenePose& frame, const CameraView& view, const Hit& hit) {
     const Instance& instance = frame.instances[hit.instance];
     const CameraFromObject map = make_camera_from_object(view, frame.world[instance.node]);
     return project_camera_point(view, map(surface_point(scene.meshes[instance.mesh], hit)));

@@ -169,7 +169,7 @@ TEST(Determinism, DT03_FirstHitsAreEqualForAnyNumberOfBuildThreads) {
     view.pixels_per_unit = 300.0;
     view.position = glm::dvec3(0.0, 3.0, 0.0);
     view.axes = glm::dmat3(1, 0, 0, 0, 0, -1, 0, 1, 0);  // looks straight down
-    const SceneFrame frame = pose(scene, 0.0);
+    const ScenePose frame = pose(scene, 0.0);
     const auto cast = [&](int threads) {
         return with_threads(threads, [&] {
             RayScene rays(scene);

@@ -20,8 +20,8 @@ struct Moved {
 };
 
 Moved compute_motion(const Scene& scene, std::int64_t from, std::int64_t to) {
-    const SceneFrame now = pose(scene, scene.frame_rate.seconds_of(from)),
-                     other = pose(scene, scene.frame_rate.seconds_of(to));
+    const ScenePose now = pose(scene, scene.frame_rate.seconds_of(from)),
+                    other = pose(scene, scene.frame_rate.seconds_of(to));
     Moved moved;
     moved.now = make_camera_view(now.cameras[0], width, height);
     moved.other = make_camera_view(other.cameras[0], width, height);

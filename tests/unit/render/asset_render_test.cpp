@@ -29,7 +29,7 @@ TEST(AssetRender, TruckRollsItsWheelsAndNothingElse) {
     const Scene scene = load_scene(file);
     Sequence sequence(scene, small_settings());
     const FrameOutput output = sequence.render(3, {.frame = true, .maps = true, .progress = {}});
-    const SceneFrame frame = pose(scene, scene.frame_rate.seconds_of(3));
+    const ScenePose frame = pose(scene, scene.frame_rate.seconds_of(3));
     int wheel_pixels = 0, body_pixels = 0;
     double fastest = 0.0;
     for (int y = 0; y < output.view.height; ++y) {

@@ -35,11 +35,11 @@ inline int find_node(const Scene& scene, const std::string& name) {
     return 0;
 }
 
-inline const glm::dmat4& world_of(const SceneFrame& frame, int node) {
+inline const glm::dmat4& world_of(const ScenePose& frame, int node) {
     return frame.world[node];
 }
 
-inline Image<Hit> cast(const Scene& scene, const SceneFrame& now, const CameraView& view) {
+inline Image<Hit> cast(const Scene& scene, const ScenePose& now, const CameraView& view) {
     RayScene rays(scene);
     rays.update(now, compute_anchor(view));
     return cast_first_hits(rays, view);
@@ -53,8 +53,8 @@ struct FrameMotion {
 };
 
 inline FrameMotion compute_motion(const Scene& scene, int frame, int width, int height) {
-    const SceneFrame now = pose(scene, scene.frame_rate.seconds_of(frame));
-    const SceneFrame next = pose(scene, scene.frame_rate.seconds_of(frame + 1));
+    const ScenePose now = pose(scene, scene.frame_rate.seconds_of(frame));
+    const ScenePose next = pose(scene, scene.frame_rate.seconds_of(frame + 1));
     const CameraView view = make_camera_view(now.cameras.front(), width, height);
     const CameraView next_view = make_camera_view(next.cameras.front(), width, height);
     FrameMotion result{cast(scene, now, view), {}, now.instances};

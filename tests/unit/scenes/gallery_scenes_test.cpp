@@ -82,10 +82,10 @@ TEST(ArtGallery, IsSmall) {
 
 TEST(ArtGallery, OnlyItsWorksMove) {
     const Scene& scene = loaded("art-gallery");
-    const SceneFrame first = pose(scene, 0.0);
+    const ScenePose first = pose(scene, 0.0);
     std::set<std::string> moved;
     for (const double seconds : {4.0, 9.1, 17.3, 24.9}) {
-        const SceneFrame now = pose(scene, seconds);
+        const ScenePose now = pose(scene, seconds);
         for (std::size_t i = 0; i < scene.nodes.size(); ++i)
             if (now.world[i] != first.world[i])
                 moved.insert(top_of(scene, static_cast<int>(i)) == "sculptures" ? scene.nodes[i].name
@@ -119,7 +119,7 @@ TEST(ArtGallery, BallsFallAndBounceAsTheLawsWant) {
     std::vector<double> highest(drops.size(), 0.0), lowest(drops.size(), 9.0);
     for (int k = 0; k <= 749 * 4; ++k) {
         const double seconds = k / 120.0;
-        const SceneFrame now = pose(scene, seconds);
+        const ScenePose now = pose(scene, seconds);
         for (std::size_t i = 0; i < drops.size(); ++i) {
             const double y = world_of(now, find_node(scene, "ball_" + std::to_string(i)))[3].y;
             // Keys are rounded to a micrometre, their velocities to a micrometre a second.
@@ -180,7 +180,7 @@ TEST(ArtGallery, BallsNeverTouchOneAnother) {
     std::vector<int> nodes;
     for (std::size_t i = 0; i < drops.size(); ++i) nodes.push_back(find_node(scene, "ball_" + std::to_string(i)));
     for (int k = 0; k <= 749 * 2; ++k) {
-        const SceneFrame now = pose(scene, k / 60.0);
+        const ScenePose now = pose(scene, k / 60.0);
         for (std::size_t a = 0; a < drops.size(); ++a) {
             for (std::size_t b = 0; b < a; ++b) {
                 EXPECT_GT(glm::distance(glm::dvec3(world_of(now, nodes[a])[3]), glm::dvec3(world_of(now, nodes[b])[3])),
@@ -217,7 +217,7 @@ TEST(ArtGallery, TopSpinsAndPrecessesOnItsTip) {
 TEST(ArtGallery, EveryViewIsClosedAndShowsMotion) {
     const Scene& scene = loaded("art-gallery");
     for (int frame = 0; frame < 749; frame += 53) {
-        const SceneFrame now = pose(scene, frame / 30.0), next = pose(scene, (frame + 1) / 30.0);
+        const ScenePose now = pose(scene, frame / 30.0), next = pose(scene, (frame + 1) / 30.0);
         const Image<Hit> hits = cast(scene, now, make_camera_view(now.cameras.front(), 160, 120));
         int moving = 0;
         for (const Hit& hit : hits.pixels) {
@@ -245,7 +245,7 @@ TEST(ArtGallery, KineticWorkBleedsColour) {
     const FrameOutput with = Sequence(scene, settings).render(frame);
     settings.bounces = 0;
     const FrameOutput without = Sequence(scene, settings).render(frame);
-    const SceneFrame now = pose(scene, scene.frame_rate.seconds_of(frame));
+    const ScenePose now = pose(scene, scene.frame_rate.seconds_of(frame));
     double reddest = 0.0, least_red = 9.0;
     for (std::size_t i = 0; i < with.hits.size(); ++i) {
         const Hit& hit = with.hits.pixels[i];
@@ -272,7 +272,7 @@ TEST(AntiqueRoom, OnlyTheCameraMoves) {
     const Scene& scene = loaded("antique-room");
     EXPECT_EQ(frame_range(scene), (FrameRange{0, 119}));
     EXPECT_FALSE(is_world_animated(scene));
-    const SceneFrame first = pose(scene, 0.0), last = pose(scene, 119.0 / 30.0);
+    const ScenePose first = pose(scene, 0.0), last = pose(scene, 119.0 / 30.0);
     EXPECT_GT(glm::distance(first.cameras[0].position, last.cameras[0].position), 1.5);
     for (const Instance& instance : first.instances)
         EXPECT_TRUE(world_of(first, instance.node) == world_of(last, instance.node));
@@ -283,7 +283,7 @@ TEST(AntiqueRoom, IsClosedSmallAndGlossy) {
     EXPECT_LT(folder_size(scenes_folder / "antique-room"), 2'000'000u);
     std::size_t pixels = 0, glossy = 0;
     for (const int frame : {0, 40, 80, 119}) {
-        const SceneFrame now = pose(scene, frame / 30.0);
+        const ScenePose now = pose(scene, frame / 30.0);
         for (const Hit& hit : cast(scene, now, make_camera_view(now.cameras.front(), 160, 120)).pixels) {
             ASSERT_NE(hit.instance, no_index) << frame;
             EXPECT_GT(hit.distance, 0.3) << frame;

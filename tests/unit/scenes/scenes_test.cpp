@@ -16,7 +16,7 @@
 namespace aleph {
 namespace {
 
-glm::dvec3 origin_of(const SceneFrame& frame, int node) {
+glm::dvec3 origin_of(const ScenePose& frame, int node) {
     return world_of(frame, node)[3];
 }
 
@@ -58,7 +58,7 @@ TEST(PoolScene, SixteenBallsOverNinetyFrames) {
     const Scene& scene = loaded("pool");
     EXPECT_EQ(frame_range(scene), (FrameRange{0, 89}));
     const PoolSettings settings;
-    const SceneFrame first = pose(scene, 0.0), last = pose(scene, scene.frame_rate.seconds_of(89));
+    const ScenePose first = pose(scene, 0.0), last = pose(scene, scene.frame_rate.seconds_of(89));
     for (int i = 0; i < 16; ++i) {
         const int node = find_node(scene, "ball_" + std::string(i < 10 ? "0" : "") + std::to_string(i));
         EXPECT_GT(glm::distance(origin_of(first, node), origin_of(last, node)), settings.radius) << i;
@@ -73,7 +73,7 @@ TEST(PoolScene, FramesShowTheSimulationsOwnStates) {
     const PoolRun run = simulate_pool(make_rack(settings), settings, 3.0, 120.0);
     const int node = find_node(scene, "ball_15");
     for (const int frame : {5, 12, 30, 89}) {
-        const SceneFrame now = pose(scene, scene.frame_rate.seconds_of(frame));
+        const ScenePose now = pose(scene, scene.frame_rate.seconds_of(frame));
         const PoolBall& ball = run.samples[(frame - 5) * 4][15];
         EXPECT_LT(glm::distance(origin_of(now, node), ball.position + glm::dvec3(0.0, cloth_height, 0.0)), 1e-6);
         const glm::dvec3 mark = glm::dmat3(now.world[node]) * glm::dvec3(1.0, 0.0, 0.0);
@@ -126,7 +126,7 @@ TEST(PoolScene, BallsFillThePicture) {
 
 /// How many balls have their whole outline in a frame's picture of 4 by 3?
 int whole_balls(const Scene& scene, int frame) {
-    const SceneFrame now = pose(scene, scene.frame_rate.seconds_of(frame));
+    const ScenePose now = pose(scene, scene.frame_rate.seconds_of(frame));
     const CameraView view = make_camera_view(now.cameras.front(), 640, 480);
     int count = 0;
     for (int i = 0; i < 16; ++i) {
@@ -151,7 +151,7 @@ TEST(PoolScene, CameraMovesSmoothly) {
     const Scene& scene = loaded("pool");
     std::vector<glm::dvec3> places, gazes;
     for (int frame = 0; frame <= 89; ++frame) {
-        const SceneFrame now = pose(scene, scene.frame_rate.seconds_of(frame));
+        const ScenePose now = pose(scene, scene.frame_rate.seconds_of(frame));
         const CameraView view = make_camera_view(now.cameras.front(), 640, 480);
         places.push_back(view.position);
         gazes.push_back(view.axes[2]);
@@ -199,7 +199,7 @@ TEST(PoolScene, CueTouchesOnlyTheCueBall) {
     const int cue = find_node(scene, "cue");
     double nearest_to_cue_ball = 1.0;
     for (int i = 0; i <= 89 * 4; ++i) {
-        const SceneFrame now = pose(scene, i / 120.0);
+        const ScenePose now = pose(scene, i / 120.0);
         const glm::dmat4& world = now.world[cue];
         const glm::dvec3 tip = world[3], along = world[1];
         for (int ball = 0; ball < 16; ++ball) {
@@ -238,7 +238,7 @@ TEST(CornellScene, LoadsAndMoves) {
 
 TEST(CornellScene, BoxFacesInwardsAndFillsThePicture) {
     const Scene& scene = loaded("cornell");
-    const SceneFrame now = pose(scene, 0.0);
+    const ScenePose now = pose(scene, 0.0);
     const CameraView view = make_camera_view(now.cameras.front(), 160, 120);
     RayScene rays(scene);
     rays.update(now, compute_anchor(view));
@@ -266,7 +266,7 @@ TEST(RoomScene, KeepsTheFilesContent) {
     EXPECT_EQ(with_mesh, 58u);
     EXPECT_EQ(triangles, 70'810u);
     EXPECT_EQ(scene.materials.size(), 24u);
-    const SceneFrame now = pose(scene, 0.0);
+    const ScenePose now = pose(scene, 0.0);
     ASSERT_EQ(now.cameras.size(), 1u);
     EXPECT_NEAR(now.cameras[0].fov, 3.14159265358979 / 3.0, 1e-9);
     EXPECT_FALSE(is_world_animated(scene));

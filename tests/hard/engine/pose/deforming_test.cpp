@@ -29,7 +29,7 @@ int add_camera(Scene& scene, double distance = 4.0) {
 }
 
 struct Observed {
-    SceneFrame now, other;
+    ScenePose now, other;
     CameraView view_now, view_other;
     Image<Hit> hits;
     MotionField motion;

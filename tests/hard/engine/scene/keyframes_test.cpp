@@ -271,9 +271,9 @@ TEST(Keyframes, EqualKeysPoseToTheSameBitsAtEveryTime) {
         scene.nodes.push_back(node);
     }
     EXPECT_FALSE(is_world_animated(scene));
-    const SceneFrame first = pose(scene, -1.0);
+    const ScenePose first = pose(scene, -1.0);
     for (double t = -1.5; t < 3.0; t += 0.01) {
-        const SceneFrame frame = pose(scene, t);
+        const ScenePose frame = pose(scene, t);
         ASSERT_EQ(std::memcmp(frame.world.data(), first.world.data(), first.world.size() * sizeof(glm::dmat4)), 0);
     }
 }

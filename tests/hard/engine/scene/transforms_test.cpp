@@ -212,7 +212,7 @@ Scene chain(int depth, double degrees) {
 
 TEST(Transforms, KF24_DeepHierarchiesMatchTheClosedForm) {
     for (const int depth : {10'000, 100'000}) {
-        const SceneFrame frame = pose(chain(depth, 0.36), 0.0);
+        const ScenePose frame = pose(chain(depth, 0.36), 0.0);
         const long double step = 0.36L * std::numbers::pi_v<long double> / 180.0L;
         long double x = 0.0L, y = 0.0L, radius = 0.0L;
         for (int i = 0; i < depth; ++i) {
@@ -243,7 +243,7 @@ TEST(Transforms, KF25_FarFromTheOriginNothingMoves) {
         scene.nodes[2].rotation = glm::angleAxis(0.6, glm::dvec3(0.0, 1.0, 0.0));
         scene.nodes[3].parent = 2;
         scene.nodes[3].translation = glm::dvec3(1.1, 0.2, 0.7);
-        const SceneFrame frame = pose(scene, 0.0);
+        const ScenePose frame = pose(scene, 0.0);
         const CameraView view = make_camera_view(frame.cameras[0], 1920, 1080);
         return project_camera_point(view, to_camera(view, glm::dvec3(frame.world[3][3])));
     };
@@ -302,7 +302,7 @@ TEST(Transforms, KF28_NormalizeAnyLength) {
     EXPECT_EQ(safe_normalize(glm::dquat(0.0, 0.0, 0.0, 0.0)), identity);
     EXPECT_EQ(safe_normalize(glm::dquat(0.0, nan, 0.0, 1.0)), identity);
     EXPECT_EQ(safe_normalize(glm::dquat(0.0, infinity, 0.0, 1.0)), identity);
-    EXPECT_EQ(SceneFrame{}.world.size(), 0u);
+    EXPECT_EQ(ScenePose{}.world.size(), 0u);
     Scene scene;
     scene.nodes.resize(1);
     EXPECT_EQ(pose(scene, 0.0).world[0], glm::dmat4(1.0));  // a default node stays where it is

@@ -40,7 +40,7 @@ Seen look(const Scene& scene, double seconds, double other_seconds, const View& 
     camera.position = view.eye;
     camera.axes = look_at(view.eye, view.target, {0.0, 1.0, 0.0});
     const CameraView pixels = make_camera_view(camera, width, height);
-    const SceneFrame now = pose(scene, seconds), other = pose(scene, other_seconds);
+    const ScenePose now = pose(scene, seconds), other = pose(scene, other_seconds);
     RayScene rays(scene);
     rays.update(now, compute_anchor(pixels));
     Seen seen;

@@ -75,7 +75,7 @@ TEST(AlembicMeshes, CornersBecomeVertices) {
     const json& normals = object["polymesh"]["normals"]["expanded_samples"];
     const json& uv = object["polymesh"]["uv"]["expanded_samples"][0][1];
     for (const std::size_t sample : {0u, 3u, 7u}) {
-        const SceneFrame frame = pose(scene, static_cast<double>(sample) / 24.0);
+        const ScenePose frame = pose(scene, static_cast<double>(sample) / 24.0);
         const PosedMesh& posed = frame.meshes[node_named(scene, "wave").meshes[0]];
         ASSERT_EQ(posed.normals.size(), mesh.positions.size());
         std::vector<bool> used(mesh.positions.size(), false);
@@ -167,7 +167,7 @@ TEST(AlembicMeshes, RP15_TopologyThatChangesIsAMeshForEach) {
     EXPECT_TRUE(has_warning(scene, "there is no motion across a change"));
     for (int step = -2; step < 18; ++step) {
         const double seconds = (step + 0.5) / 4.0 / 24.0;
-        const SceneFrame frame = pose(scene, seconds);
+        const ScenePose frame = pose(scene, seconds);
         const int expected = std::clamp(static_cast<int>(std::floor(seconds * 24.0)), 0, 3);
         for (std::size_t i = 0; i < frame.instances.size(); ++i) {
             const auto found = std::ranges::find(growing.meshes, frame.instances[i].mesh);
@@ -349,7 +349,7 @@ TEST(AlembicInclude, HangsBelowANodeOfASceneFile) {
     EXPECT_EQ(scene.frame_rate, (FrameRate{30, 1}));
     EXPECT_EQ(frame_range(scene), (FrameRange{0, 8}));
     ASSERT_EQ(scene.includes.size(), 1u);
-    const SceneFrame frame = pose(scene, 2.0 / 24.0), own = pose(load("polymesh_anim"), 2.0 / 24.0);
+    const ScenePose frame = pose(scene, 2.0 / 24.0), own = pose(load("polymesh_anim"), 2.0 / 24.0);
     const Scene alone = load("polymesh_anim");
     for (const char* name : {"wave", "pentagon", "growing"}) {
         const auto at = static_cast<std::size_t>(&node_named(scene, name) - scene.nodes.data());

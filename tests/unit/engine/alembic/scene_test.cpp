@@ -53,7 +53,7 @@ TEST_P(AlembicScene, WorldTransformsAtEveryQueryTime) {
     int compared = 0;
     for (std::size_t t = 0; t < truth["query_times"].size(); ++t) {
         const double seconds = truth["query_times"][t];
-        const SceneFrame frame = pose(scene, seconds);
+        const ScenePose frame = pose(scene, seconds);
         for (const json& object : truth["objects"]) {
             const bool xform = object.contains("xform");
             if (!xform && !object.contains("world_lerp_ops_at")) continue;
@@ -115,7 +115,7 @@ TEST_P(AlembicScene, VisibilityAtEveryQueryTime) {
     const Scene scene = load(GetParam());
     const json truth = truth_of(GetParam());
     for (std::size_t t = 0; t < truth["query_times"].size(); ++t) {
-        const SceneFrame frame = pose(scene, truth["query_times"][t]);
+        const ScenePose frame = pose(scene, truth["query_times"][t]);
         for (const json& object : truth["objects"]) {
             const int node = find_node(scene, object["path"]);
             if (node == no_index) continue;
@@ -132,7 +132,7 @@ TEST_P(AlembicScene, PointsAtEveryQueryTime) {
     int surfaces = 0;
     for (std::size_t t = 0; t < truth["query_times"].size(); ++t) {
         const double seconds = truth["query_times"][t];
-        const SceneFrame frame = pose(scene, seconds);
+        const ScenePose frame = pose(scene, seconds);
         for (const json& object : truth["objects"]) {
             const char* kind = object.contains("polymesh") ? "polymesh" : object.contains("subd") ? "subd" : nullptr;
             if (kind == nullptr) continue;
@@ -215,7 +215,7 @@ TEST(AlembicCameras, FieldOfViewAndShiftAtEveryQueryTime) {
         const json& camera = object_of(truth, path)["camera"];
         for (const json& at : camera["at"]) {
             const auto core = at["core_lerp"].get<std::vector<double>>();
-            const SceneFrame frame = pose(scene, at["time"]);
+            const ScenePose frame = pose(scene, at["time"]);
             const auto values = std::ranges::find(frame.cameras, find_node(scene, path), &CameraValues::node);
             ASSERT_NE(values, frame.cameras.end());
             const double aperture = core[vertical_aperture], width = core[horizontal_aperture];

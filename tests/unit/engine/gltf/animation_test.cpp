@@ -36,7 +36,7 @@ TEST_F(GltfAnimation, RotationKeysTurnByTheShorterArc) {
     GltfDraft draft = triangle_draft();
     const float h = std::sqrt(0.5f);
     draft.animate(0, "rotation", {0.0f, 2.0f}, {0, 0, 0, 1, 0, 0, h, h});  // 0 to 90 degrees about z
-    const SceneFrame frame = pose(load(draft), 0.5);                       // 22.5 degrees
+    const ScenePose frame = pose(load(draft), 0.5);                        // 22.5 degrees
     const double angle = std::numbers::pi / 8.0;
     EXPECT_NEAR(frame.world[0][0].x, std::cos(angle), 1e-7);  // the keys are floats
     EXPECT_NEAR(frame.world[0][0].y, std::sin(angle), 1e-7);
@@ -140,7 +140,7 @@ TEST_F(GltfAnimation, AllAnimationsPlayTogether) {
     draft.json["scenes"][0]["nodes"] = {0, 1};
     draft.animate(0, "translation", {0.0f, 1.0f}, {0, 0, 0, 1, 0, 0});
     draft.animate(1, "translation", {0.0f, 1.0f}, {0, 0, 0, 0, 1, 0});
-    const SceneFrame frame = pose(load(draft), 1.0);
+    const ScenePose frame = pose(load(draft), 1.0);
     EXPECT_EQ(frame.world[0][3], glm::dvec4(1, 0, 0, 1));
     EXPECT_EQ(frame.world[1][3], glm::dvec4(0, 1, 0, 1));
 }

@@ -51,12 +51,12 @@ TEST(GltfAssets, MilkTruckHasItsWheelsTwiceAndTurning) {
     EXPECT_EQ(last_time(turn), 1.25);
     // The wheel's axle lies where the parent's matrix puts it, at every time.
     for (const double seconds : {0.0, 0.3, 1.25}) {
-        const SceneFrame frame = pose(scene, seconds);
+        const ScenePose frame = pose(scene, seconds);
         const glm::dvec4 axle = frame.world[wheels[0]][3];
         EXPECT_DOUBLE_EQ(std::abs(axle.x), axle.x > 0 ? 1.432669997215271 : 1.352329969406128);
         EXPECT_DOUBLE_EQ(axle.y, 0.4277220070362091);
     }
-    const SceneFrame start = pose(scene, 0.0), later = pose(scene, 0.3);
+    const ScenePose start = pose(scene, 0.0), later = pose(scene, 0.3);
     EXPECT_NE(start.world[wheels[0]], later.world[wheels[0]]);
     EXPECT_EQ(start.world[0], later.world[0]);
 }
@@ -124,7 +124,7 @@ TEST(GltfAssets, LightAndCameraMove) {
     const Scene scene = load("gltf/lightCameraAnimations/lightCameraAnimations.gltf");
     ASSERT_EQ(scene.lights.size(), 1u);
     EXPECT_EQ(scene.lights[0].kind, Light::Kind::point);
-    const SceneFrame first = pose(scene, 0.0), last = pose(scene, 100.0);
+    const ScenePose first = pose(scene, 0.0), last = pose(scene, 100.0);
     ASSERT_EQ(first.lights.size(), 1u);
     ASSERT_EQ(first.cameras.size(), 1u);
     EXPECT_NE(first.lights[0].position, last.lights[0].position);
@@ -135,7 +135,7 @@ TEST(GltfAssets, LightAndCameraMove) {
 TEST(GltfAssets, OrientationTestArrowsPointAtTheirTargets) {
     SKIP_WITHOUT("gltf/OrientationTest.glb");
     const Scene scene = load("gltf/OrientationTest.glb");
-    const SceneFrame frame = pose(scene, 0.0);
+    const ScenePose frame = pose(scene, 0.0);
     const auto world_mean = [&](const std::string& name) {
         for (std::size_t i = 0; i < scene.nodes.size(); ++i) {
             if (scene.nodes[i].name != name) continue;

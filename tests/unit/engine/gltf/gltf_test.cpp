@@ -73,7 +73,7 @@ TEST_F(Gltf, TranslationRotationScaleApplyInThatOrder) {
     GltfDraft draft = triangle_draft();
     const double h = std::sqrt(0.5);  // 90 degrees about z
     draft.json["nodes"][0].update({{"translation", {1, 2, 3}}, {"rotation", {0, 0, h, h}}, {"scale", {2, 3, 4}}});
-    const SceneFrame frame = pose(load(draft), 0.0);
+    const ScenePose frame = pose(load(draft), 0.0);
     // x: (2,0,0) turns to (0,2,0); y: (0,3,0) turns to (-3,0,0).
     expect_near(frame.world[0], glm::dmat4(0, 2, 0, 0, -3, 0, 0, 0, 0, 0, 4, 0, 1, 2, 3, 1), 1e-15);
 }
@@ -179,7 +179,7 @@ TEST_F(Gltf, PunctualLightsKeepTheirUnits) {
     EXPECT_EQ(scene.lights[1].kind, Light::Kind::directional);
     EXPECT_EQ(scene.lights[1].intensity, Track<double>(1.0));
     EXPECT_EQ(scene.lights[1].color, Track<glm::dvec3>(glm::dvec3(1.0)));
-    const SceneFrame frame = pose(scene, 0.0);
+    const ScenePose frame = pose(scene, 0.0);
     ASSERT_EQ(frame.lights.size(), 3u);
     EXPECT_NEAR(frame.lights[0].direction.z, 1.0, 1e-15);  // -z turned half round y
     EXPECT_EQ(frame.lights[1].position, glm::dvec3(1, 2, 3));

@@ -71,7 +71,7 @@ TEST_F(GltfPointerTest, ColoursAndIor) {
     draft.animate_pointer("/materials/0/extensions/KHR_materials_ior/ior", {0, 1}, {1, 2}, "STEP");
     draft.animate_pointer("/extensions/KHR_lights_punctual/lights/0/color", {0, 1}, {0, 0, 0, 2, 0, 0});
     const Scene scene = load(draft);
-    const SceneFrame half = pose(scene, 0.5);
+    const ScenePose half = pose(scene, 0.5);
     EXPECT_EQ(half.materials[0].base_color, Rgb(0.5f, 0.25f, 0.0f));
     EXPECT_EQ(half.materials[0].alpha, 0.5f);
     EXPECT_EQ(half.materials[0].emission, Rgb(0.0f, 0.0f, 0.5f));

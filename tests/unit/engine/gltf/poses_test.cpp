@@ -174,7 +174,7 @@ void expect_same_poses(const fs::path& name, const std::vector<double>& times) {
     const Scene scene = load(name);
     for (const double seconds : times) {
         const std::vector<glm::dmat4> expected = world_matrices(raw, seconds);
-        const SceneFrame frame = pose(scene, seconds);
+        const ScenePose frame = pose(scene, seconds);
         ASSERT_EQ(frame.world.size(), expected.size());
         for (std::size_t i = 0; i < expected.size(); ++i) {
             const std::string& own = raw.model.nodes[i].name;
@@ -226,7 +226,7 @@ TEST(GltfPoses, FoxSurveysAndItsOtherAnimationsAreNamed) {
 }
 
 /// Points of a mesh in world space, as pose gives them.
-std::vector<glm::dvec3> world_points(const SceneFrame& frame, std::size_t mesh) {
+std::vector<glm::dvec3> world_points(const ScenePose& frame, std::size_t mesh) {
     std::vector<glm::dvec3> points;
     for (const Instance& instance : frame.instances) {
         if (instance.mesh != static_cast<int>(mesh)) continue;

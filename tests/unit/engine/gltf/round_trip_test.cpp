@@ -28,8 +28,8 @@ struct View {
 
 View look(const Scene& scene, std::int64_t frame_number) {
     const FrameRate rate;
-    const SceneFrame frame = pose(scene, rate.seconds_of(frame_number));
-    const SceneFrame next = pose(scene, rate.seconds_of(frame_number + 1));
+    const ScenePose frame = pose(scene, rate.seconds_of(frame_number));
+    const ScenePose next = pose(scene, rate.seconds_of(frame_number + 1));
     const auto camera = static_cast<std::size_t>(find_camera(scene, scene.camera));
     const CameraView view = make_camera_view(frame.cameras[camera], 320, 240);
     const CameraView next_view = make_camera_view(next.cameras[camera], 320, 240);
@@ -123,7 +123,7 @@ TEST_F(PoolRoundTrip, ElementsAndFrameRange) {
     ASSERT_EQ(a.cameras.size(), b.cameras.size());
     EXPECT_EQ(a.cameras[0].fov, b.cameras[0].fov);
     EXPECT_EQ(frame_range(a), frame_range(b));
-    const SceneFrame at_a = pose(a, 0.0), at_b = pose(b, 0.0);
+    const ScenePose at_a = pose(a, 0.0), at_b = pose(b, 0.0);
     for (std::size_t i = 0; i < a.materials.size(); ++i) {
         EXPECT_EQ(a.materials[i].name, b.materials[i].name);
         TextureRef texture = a.materials[i].base_color_texture;
@@ -178,7 +178,7 @@ TEST(GltfRoundTrip, LightsAndCameras) {
     for (Camera& each : loaded.cameras) each.include = no_index;
     EXPECT_EQ(loaded.lights, scene.lights);
     EXPECT_EQ(loaded.cameras, scene.cameras);
-    const SceneFrame a = pose(scene, 0.0), b = pose(loaded, 0.0);
+    const ScenePose a = pose(scene, 0.0), b = pose(loaded, 0.0);
     ASSERT_EQ(a.world.size(), b.world.size());
     for (std::size_t i = 0; i < a.world.size(); ++i) {
         for (int k = 0; k < 16; ++k) EXPECT_NEAR(a.world[i][k / 4][k % 4], b.world[i][k / 4][k % 4], 1e-15);

@@ -142,7 +142,7 @@ TEST_F(Archive, GltfWithoutCameraGetsOneThatSeesEverythingAllTheTime) {
     EXPECT_EQ(frame_range(scene), (FrameRange{0, 30}));
     double widest = 0.0;
     for (int frame = 0; frame <= 30; ++frame) {
-        const SceneFrame now = pose(scene, scene.frame_rate.seconds_of(frame));
+        const ScenePose now = pose(scene, scene.frame_rate.seconds_of(frame));
         const CameraView view = make_camera_view(now.cameras.at(0), 640, 480);
         EXPECT_GT(view.position.y, 0.5);  // above the middle
         EXPECT_GT(view.position.z, 1.0);

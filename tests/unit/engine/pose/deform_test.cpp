@@ -61,7 +61,7 @@ TEST(Deform, PointsAreLinearBetweenSamplesAndExactOnThem) {
         return p + glm::vec3(0.0f, 0.0f, static_cast<float>(sample) * (1.0f + p.x));
     });
     const Mesh& mesh = scene.meshes[0];
-    const SceneFrame middle = pose(scene, 0.5);
+    const ScenePose middle = pose(scene, 0.5);
     ASSERT_EQ(middle.meshes[0].positions.size(), mesh.positions.size());
     for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
         const glm::dvec3 rest(mesh.positions[v]);
@@ -80,7 +80,7 @@ TEST(Deform, VerticesFindTheirPoints) {
     std::vector<std::uint32_t>& to = mesh.vertex_points;
     for (std::uint32_t v = 0; v < mesh.positions.size(); ++v)
         to.push_back(static_cast<std::uint32_t>(mesh.positions.size()) - 1 - v);
-    const SceneFrame frame = pose(scene, 1.0);
+    const ScenePose frame = pose(scene, 1.0);
     for (std::size_t v = 0; v < to.size(); ++v)
         EXPECT_EQ(frame.meshes[0].positions[v], glm::dvec3(scene.point_caches[0].positions[1][to[v]]));
 }
@@ -130,14 +130,14 @@ TEST(Deform, NormalsFollowTheTrianglesAndEdgesStaySharp) {
                        {{0, 0, 0}, {0, 1, 0}, {-1, 0, 0}, {-1, 1, 0}, {0, 0, 1}, {0, 1, 1}}};
     scene.point_caches = {cache};
     scene.meshes[0].points = 0;
-    const SceneFrame smooth = pose(scene, 1.0);  // the right square stands up and faces -x
+    const ScenePose smooth = pose(scene, 1.0);  // the right square stands up and faces -x
     expect_near(smooth.meshes[0].normals[2], {0.0, 0.0, 1.0}, 1e-6);
     expect_near(smooth.meshes[0].normals[6], {-1.0, 0.0, 0.0}, 1e-6);
     expect_near(smooth.meshes[0].normals[0], glm::normalize(glm::dvec3(-1.0, 0.0, 1.0)), 1e-6);
     EXPECT_EQ(smooth.meshes[0].normals[0], smooth.meshes[0].normals[4]);
     for (const std::size_t v : {4, 5, 6, 7})
         scene.meshes[0].normals[v] = glm::vec3(0.1f, 0.0f, 1.0f);  // an edge at rest
-    const SceneFrame sharp = pose(scene, 1.0);
+    const ScenePose sharp = pose(scene, 1.0);
     expect_near(sharp.meshes[0].normals[0], {0.0, 0.0, 1.0}, 1e-6);
     expect_near(sharp.meshes[0].normals[4], {-1.0, 0.0, 0.0}, 1e-6);
     scene.meshes[0].normals.clear();
@@ -151,7 +151,7 @@ TEST(Deform, NormalSamplesAreTakenWhereGiven) {
     scene.meshes[0].normals.assign(count, glm::vec3(0.0f, 0.0f, 1.0f));
     scene.meshes[0].normal_sampling.period = 2.0;
     scene.meshes[0].normal_samples = {scene.meshes[0].normals, {count, glm::vec3(1.0f, 0.0f, 0.0f)}};
-    const SceneFrame frame = pose(scene, 1.0);  // the points stand still, the normals do not
+    const ScenePose frame = pose(scene, 1.0);  // the points stand still, the normals do not
     EXPECT_EQ(frame.meshes[0].normals[3], glm::vec3(0.5f, 0.0f, 0.5f));
     EXPECT_EQ(frame.meshes[0].positions[3], glm::dvec3(scene.meshes[0].positions[3]));
 }
@@ -174,18 +174,18 @@ TEST(Deform, SkinFollowsItsJointsWhateverItsOwnNodeDoes) {
     Scene scene = make_skin_scene();
     for (const double angle : {0.0, 30.0, 90.0, 210.0}) {
         scene.nodes[2].rotation = glm::angleAxis(angle * pi / 180.0, glm::dvec3(0.0, 0.0, 1.0));
-        const SceneFrame frame = pose(scene, 0.0);
+        const ScenePose frame = pose(scene, 0.0);
         for (std::size_t v = 0; v < scene.meshes[0].positions.size(); ++v) {
             const glm::dvec3 world(frame.world[0] * glm::dvec4(frame.meshes[0].positions[v], 1.0));
             expect_near(world, bent_by(scene.meshes[0].positions[v], angle * pi / 180.0), 1e-6);
         }
     }
     scene.nodes[0].scale = glm::dvec3(1.0, 0.0, 1.0);
-    const SceneFrame flat = pose(scene, 0.0);
+    const ScenePose flat = pose(scene, 0.0);
     for (const glm::dvec3& p : flat.meshes[0].positions) EXPECT_TRUE(std::isfinite(p.x + p.y + p.z));
 }
 
-void expect_same(const SceneFrame& a, const SceneFrame& b) {
+void expect_same(const ScenePose& a, const ScenePose& b) {
     EXPECT_EQ(a.seconds, b.seconds);
     EXPECT_EQ(a.world, b.world);
     EXPECT_EQ(a.visible, b.visible);
@@ -202,7 +202,7 @@ TEST(PosePlan, UpdatesGiveTheBitsOfAFreshPose) {
     const Scene scene = make_everything_scene();
     const PosePlan plan = make_pose_plan(scene);
     EXPECT_LT(plan.nodes.size(), scene.nodes.size());
-    SceneFrame frame = pose(scene, 0.0);
+    ScenePose frame = pose(scene, 0.0);
     for (const double seconds : {0.0, 0.3, 2.0, 1.1, 1.0, -4.0, 0.5, 0.77, 9.0, 0.25}) {
         SCOPED_TRACE(seconds);
         update_pose(scene, plan, seconds, frame);
@@ -213,7 +213,7 @@ TEST(PosePlan, UpdatesGiveTheBitsOfAFreshPose) {
 TEST(PosePlan, NamesOnlyWhatCanChange) {
     const Scene scene = make_everything_scene();
     const PosePlan plan = make_pose_plan(scene);
-    const SceneFrame a = pose(scene, 0.1), b = pose(scene, 0.9);
+    const ScenePose a = pose(scene, 0.1), b = pose(scene, 0.9);
     for (std::size_t n = 0; n < scene.nodes.size(); ++n)
         EXPECT_TRUE(plan.moving[n] != 0 || a.world[n] == b.world[n]) << n;
     EXPECT_EQ(make_pose_plan(make_sheet_scene()).nodes, std::vector<int>{});

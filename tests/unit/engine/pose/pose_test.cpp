@@ -33,7 +33,7 @@ TEST(Pose, LocalTransformIsTranslationRotationScale) {
     scene.nodes[0].rotation = glm::angleAxis(pi / 2.0, glm::dvec3(0.0, 0.0, 1.0));
     scene.nodes[0].scale = glm::dvec3(2.0, 3.0, 4.0);
     scene.nodes.push_back(child_of(0, {1.0, 1.0, 1.0}));
-    const SceneFrame frame = pose(scene, 0.0);
+    const ScenePose frame = pose(scene, 0.0);
     expect_near(frame.world[0] * glm::dvec4(1.0, 1.0, 1.0, 1.0), {-2.0, 4.0, 7.0});
     expect_near(frame.world[1][3], {-2.0, 4.0, 7.0});
     expect_near(frame.world[1] * glm::dvec4(1.0, 0.0, 0.0, 1.0), {-2.0, 6.0, 7.0});
@@ -95,7 +95,7 @@ TEST(Pose, LightsShineAlongMinusZWithoutTheirScale) {
     scene.nodes[0].light = 0;
     scene.nodes[1].light = 0;
     scene.nodes[1].visible = 0.0;
-    const SceneFrame frame = pose(scene, 0.5);
+    const ScenePose frame = pose(scene, 0.5);
     ASSERT_EQ(frame.lights.size(), 1u);
     expect_near(frame.lights[0].direction, {0.0, -1.0, 0.0});
     expect_near(frame.lights[0].position, {1.0, 2.0, 3.0});
@@ -139,7 +139,7 @@ TEST(Pose, MaterialsStayInRangeWhereCubicKeysOvershoot) {
     material.emission_strength = 4.0;
     scene.materials = {material};
     scene.environment = Track<glm::dvec3>(keyed<glm::dvec3>({0.0, 1.0}, {glm::dvec3(0.0), glm::dvec3(2.0)}));
-    const SceneFrame frame = pose(scene, 0.5);
+    const ScenePose frame = pose(scene, 0.5);
     EXPECT_EQ(frame.materials[0].roughness, 1.0f);  // the curve is at 3.25
     EXPECT_EQ(frame.materials[0].emission, Rgb(4.0f, 8.0f, 12.0f));
     EXPECT_EQ(frame.materials[0].ior, 1.5f);

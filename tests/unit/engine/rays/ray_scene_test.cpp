@@ -184,7 +184,7 @@ TEST(RayScene, UpdateTouchesWhatMoved) {
     moving.values = {glm::dvec3(0.0, 0.0, -5.0), glm::dvec3(3.0, 0.0, -5.0)};
     scene.nodes[0].translation = moving;
     RayScene rays(scene);
-    SceneFrame frame = pose(scene, 0.0);
+    ScenePose frame = pose(scene, 0.0);
     EXPECT_EQ(rays.update(frame, glm::dvec3(0.0)), 4u);
     EXPECT_EQ(rays.update(frame, glm::dvec3(0.0)), 0u);
     frame = pose(scene, 0.5);

@@ -35,7 +35,7 @@ std::vector<Hit> trace(const RayScene& scene, const std::vector<Ray>& rays) {
 
 /// The scene with everything frozen as it is at a moment: rigid meshes of the posed points.
 Scene freeze(const Scene& scene, double seconds) {
-    const SceneFrame frame = pose(scene, seconds);
+    const ScenePose frame = pose(scene, seconds);
     Scene frozen;
     frozen.meshes = scene.meshes;
     for (std::size_t m = 0; m < frozen.meshes.size(); ++m) {
@@ -61,7 +61,7 @@ TEST(RayDeform, HitsAreThoseOfTheMovedTriangles) {
     const Scene scene = make_everything_scene();
     const PosePlan plan = make_pose_plan(scene);
     RayScene rays(scene), moving(scene);
-    SceneFrame frame = pose(scene, 0.0);
+    ScenePose frame = pose(scene, 0.0);
     const std::vector<Ray> asked = make_rays(4000);
     for (const double seconds : {0.0, 0.4, 0.8, 2.0, 1.0, 0.1}) {
         SCOPED_TRACE(seconds);
@@ -166,7 +166,7 @@ TEST(RayDeform, UpdatesTouchOnlyWhatMoves) {
     const PosePlan plan = make_pose_plan(scene);
     EXPECT_EQ(plan.nodes.size(), 6u);
     EXPECT_EQ(plan.instances.size(), 6u);
-    SceneFrame frame = pose(scene, 0.0);
+    ScenePose frame = pose(scene, 0.0);
     RayScene rays(scene);
     EXPECT_EQ(rays.update_moving(frame, glm::dvec3(0.0)), 601u);  // the first time everything
     update_pose(scene, plan, 0.5, frame);

@@ -58,7 +58,7 @@ TEST(SceneJsonMeshes, KeyedPositionsMove) {
     EXPECT_EQ(scene.point_caches[0].sampling.times, (std::vector<double>{0.0, 2.0}));
     EXPECT_EQ(scene.meshes[0].points, 0);
     EXPECT_EQ(scene.meshes[0].positions, scene.point_caches[0].positions[0]);
-    const SceneFrame frame = pose(scene, 0.5);
+    const ScenePose frame = pose(scene, 0.5);
     ASSERT_EQ(frame.meshes[0].positions.size(), 3u);
     EXPECT_EQ(frame.meshes[0].positions[0], glm::dvec3(0, 0, 1));
     EXPECT_EQ(frame.meshes[0].positions[2], glm::dvec3(0, 1.5, 0));

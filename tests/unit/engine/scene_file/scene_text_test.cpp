@@ -157,7 +157,7 @@ TEST(SceneJson, NodesThatDoNotInheritAndAlwaysShow) {
     const Scene scene =
         read(R"(, "fps": 10, "nodes": [{"name": "a", "translation": [1, 0, 0], "visible": false, "children": [
         {"name": "b", "inherits": {"keys": [[0, true], [10, false]]}, "visible": {"keys": [[0, true], [10, "always"]]}}]}])");
-    const SceneFrame before = pose(scene, 0.5), after = pose(scene, 1.0);
+    const ScenePose before = pose(scene, 0.5), after = pose(scene, 1.0);
     EXPECT_EQ(before.world[1][3].x, 1.0);
     EXPECT_EQ(after.world[1][3].x, 0.0);
     EXPECT_EQ(before.visible[1], 0);
