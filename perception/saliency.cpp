@@ -55,7 +55,7 @@ void sum_full(const std::vector<WeightedMap>& maps, const std::vector<LevelSize>
         RowExpander expander(sizes);
         std::vector<float> row(static_cast<std::size_t>(size.width));
         for (const WeightedMap& w : maps) {
-            Image<float>& sum = out.conspicuity[w.map->channel];
+            Image<float>& sum = out.conspicuity[static_cast<int>(w.map->channel)];
             expander.load(w.map->difference, w.map->level, begin, end);
             for (int y = begin; y < end; ++y) {
                 expander.expand_row(y, row.data());
@@ -148,7 +148,8 @@ void scale_saliency_row(Saliency& saliency, int y) {
 }
 
 Image<float> full_conspicuity(const Saliency& saliency, FeatureChannel channel) {
-    return expand_to_level(saliency.conspicuity[channel], saliency.sizes, saliency.conspicuity_level, 0);
+    return expand_to_level(saliency.conspicuity[static_cast<int>(channel)], saliency.sizes, saliency.conspicuity_level,
+                           0);
 }
 
 Saliency compute_saliency(const ChannelPyramids& pyramids, double largest_a, SaliencyGrid grid) {

@@ -61,10 +61,10 @@ class LuminanceSums {
           stride_(static_cast<std::size_t>(estimate.width + 2 * reach + 1)),
           sums_(stride_ * static_cast<std::size_t>(estimate.height)) {
         parallel_rows(estimate.height, rows_per_band, [&](int begin, int end) {
-            for (std::size_t y = begin; y < end; ++y) {
+            for (int y = begin; y < end; ++y) {
                 double* out = sums_.data() + y * stride_ + reach + 1;
                 double sum = 0.0;
-                const Rgb* const row = estimate.row(static_cast<int>(y));
+                const Rgb* const row = estimate.row(y);
                 for (int x = 0; x < estimate.width; ++x) *out++ = sum += white * luminance(row[x]);
                 std::fill_n(out, reach, sum);
             }
