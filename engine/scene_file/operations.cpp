@@ -156,7 +156,7 @@ class Channels {
 };
 
 ordered_json write_operation(Kind kind, Channels& channels, const FrameRate& rate) {
-    const char* word = operation_words[kind];
+    const char* word = operation_words[index_of(kind)];
     switch (kind) {
         case Kind::translate:
             return {{word, write_vector(channels.vector(), rate)}};

@@ -13,7 +13,7 @@ ordered_json write_texture(const SceneWriting& at, const TextureRef& texture) {
     if (texture == TextureRef{.image = texture.image}) return out;
     out = {{"image", out}};
     if (texture.uv_set != 0) out["uv_set"] = texture.uv_set;
-    const auto word = [](Wrap wrap) { return wrap_words[wrap]; };
+    const auto word = [](Wrap wrap) { return wrap_words[index_of(wrap)]; };
     if (texture.wrap_u != texture.wrap_v) {
         out["wrap"] = {word(texture.wrap_u), word(texture.wrap_v)};
     } else if (texture.wrap_u != Wrap::repeat) {
@@ -54,7 +54,7 @@ ordered_json write_material(const SceneWriting& at, const Material& material) {
         if ((material.*field.member).image != no_index) out[field.key] = write_texture(at, material.*field.member);
     }
     if (material.alpha_mode != absent.alpha_mode) {
-        out["alpha_mode"] = alpha_words[material.alpha_mode];
+        out["alpha_mode"] = alpha_words[index_of(material.alpha_mode)];
     }
     if (material.alpha_cutoff != absent.alpha_cutoff) out["alpha_cutoff"] = material.alpha_cutoff;
     if (material.unlit) out["unlit"] = true;
@@ -64,7 +64,7 @@ ordered_json write_material(const SceneWriting& at, const Material& material) {
 
 ordered_json write_light(const SceneWriting& at, const Light& light) {
     const Light absent;
-    ordered_json out = {{"type", light_words[light.kind]}};
+    ordered_json out = {{"type", light_words[index_of(light.kind)]}};
     at.track(out, "color", light.color, absent.color, write_vector);
     at.track(out, "intensity", light.intensity, absent.intensity, write_number);
     at.track(out, "range", light.range, absent.range, write_number);

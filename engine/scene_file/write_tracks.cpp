@@ -54,7 +54,7 @@ ordered_json write_track(const Track<T>& track, const FrameRate& rate, const Wri
         values.push_back(std::move(item));
     }
     ordered_json out = ordered_json::object();
-    if (track.interpolation != absent) out["interpolation"] = interpolation_words[track.interpolation];
+    if (track.interpolation != absent) out["interpolation"] = interpolation_words[index_of(track.interpolation)];
     out.update(write_samples(track.sampling, rate, std::move(values)));
     if (!cubic || !with_time) return out;
     for (ordered_json& key : out["keys"]) {  // [time, [in, value, out]] to [time, in, value, out]

@@ -49,7 +49,7 @@ class TrackList {
         if (samples <= 1) return;
         ordered_json item = {{"property", property}};
         item.update(describe_sampling(sampling, samples));
-        item["interpolation"] = interpolation_words[interpolation];
+        item["interpolation"] = interpolation_words[index_of(interpolation)];
         if (!animated) item["constant"] = true;
         tracks_.push_back(std::move(item));
     }

@@ -84,7 +84,7 @@ int expect_properties(const AlembicArchive& archive, const AlembicCompound& comp
         }
         const bool array = kind == "array";
         EXPECT_EQ(property->kind, array ? AlembicProperty::Kind::array : AlembicProperty::Kind::scalar) << here;
-        EXPECT_EQ(type_names[property->type], entry["pod"]) << here;
+        EXPECT_EQ(type_names[static_cast<std::size_t>(property->type)], entry["pod"]) << here;
         EXPECT_EQ(property->extent, entry["extent"]) << here;
         EXPECT_EQ(property->time_sampling, entry["time_sampling"]) << here;
         EXPECT_EQ(property->sample_count, entry["num_samples"]) << here;
