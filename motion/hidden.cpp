@@ -70,9 +70,9 @@ std::uint64_t mark_hidden(MotionField& field, const Scene& scene, const MotionMo
     };
     parallel_rows(rows, 1, [&](int begin, int end) {
         Tracer tracer(other_rays);
-        for (std::size_t row = begin; row < end; ++row) {
+        for (int row = begin; row < end; ++row) {
             for (int column = 0; column < columns; ++column) {
-                rays_of_row[row] += mark_block(tracer, column * block, static_cast<int>(row) * block);
+                rays_of_row[row] += mark_block(tracer, column * block, row * block);
             }
         }
     });
