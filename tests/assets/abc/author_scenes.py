@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
-"""Writes scene files that say in our words what two archives say in theirs, after the truth beside the archives
-(NAME.json, read back through the reference library): NAME.scene.json. The test that compares both is
-tests/unit/engine/alembic/authored_test.cpp. Run it in this folder; it needs the JSON files alone.
+"""Writes NAME.scene.json: scene files with the same content as two of the archives, made from NAME.json (the content of
+the archives as the reference library reads it). tests/unit/engine/alembic/authored_test.cpp compares both. Run it in
+this folder; it needs the JSON files only.
 
-Nodes are called by the path of the object; "#n" behind it tells parts of one object apart.
+Nodes are named by the path of the object; "#n" at the end distinguishes the parts of one object.
 """
 import json
 import re
@@ -39,7 +39,7 @@ def channels(entry, first, count):
 
 
 def keyed(values):
-    """One value per frame from frame 0; one that never changes by itself."""
+    """One value per frame from frame 0, or a plain value if it never changes."""
     return values[0] if all(value == values[0] for value in values) else {"values": values}
 
 
@@ -56,7 +56,7 @@ def polymesh_anim():
         shape = {"type": "mesh", "positions": keyed(points), "triangles": triangles(counts[0], indices[0], clockwise)}
         nodes.append({"name": path, "parent": "/meshXform", "shape": shape})
     points, counts, indices = geometry(objects["/growing"])
-    for i, positions in enumerate(points):  # one for each topology, each there for its frame
+    for i, positions in enumerate(points):  # one mesh per topology, shown on its frame
         shape = {"type": "mesh", "positions": positions, "triangles": triangles(counts[i], indices[i], True)}
         keys = [[0, i == 0]] if i == 0 else [[0, False], [i, True]]
         if i + 1 < len(points):
