@@ -31,14 +31,14 @@ Ray make_visibility_ray(const CameraView& view, const glm::dvec3& anchor, const 
 
 }  // namespace
 
-std::uint64_t mark_hidden(MotionField& field, const Scene& scene, const MotionMoment& other, const Image<Hit>& hits,
+std::uint64_t mark_hidden(MotionField& field, const Scene& scene, const PosedView& other, const Image<Hit>& hits,
                           const RayScene& other_rays) {
     ALEPH_CHECK(same_size(field.validity, hits), fmt::format("{}x{} motion, {}x{} hits", field.validity.width,
                                                              field.validity.height, hits.width, hits.height));
-    const std::vector<Instance>& instances = other.frame->instances;
+    const std::vector<Instance>& instances = other.pose.instances;
     std::vector<CameraFromObject> maps(instances.size());
     for (std::size_t i = 0; i < maps.size(); ++i) {
-        maps[i] = make_camera_from_object(*other.view, other.frame->world[instances[i].node]);
+        maps[i] = make_camera_from_object(other.view, other.pose.world[instances[i].node]);
     }
 
     // Blocks of neighbouring pixels: their points lie close together, so do the rays.
@@ -56,8 +56,8 @@ std::uint64_t mark_hidden(MotionField& field, const Scene& scene, const MotionMo
                 const Hit& hit = hits.pixels[pixel];
                 const auto instance = static_cast<std::size_t>(hit.instance);
                 const auto mesh = static_cast<std::size_t>(instances[instance].mesh);
-                const glm::dvec3 point = triangle_point(scene.meshes[mesh], other.frame->meshes[mesh], hit);
-                rays[count] = make_visibility_ray(*other.view, other_rays.anchor(), maps[instance](point));
+                const glm::dvec3 point = triangle_point(scene.meshes[mesh], other.pose.meshes[mesh], hit);
+                rays[count] = make_visibility_ray(other.view, other_rays.anchor(), maps[instance](point));
                 pixels[count++] = pixel;
             }
         }

@@ -222,16 +222,15 @@ CensusPyramid make_census_pyramid(const Image<Rgb>& frame) {
     return pyramid;
 }
 
-MotionField compute_image_motion(const CensusPyramid& now, const CensusPyramid& other,
-                                 const ImageMotionSettings& settings) {
+MotionField compute_image_motion(const CensusPyramid& now, const CensusPyramid& other, OtherFrame which) {
     if (now.empty()) throw InputError("", "image-based motion", "the frame has no pixels");
     const int width = now.front().width, height = now.front().height;
     MotionField field;
     field.displacement = Image<glm::dvec2>(width, height, glm::dvec2(0.0));
     field.path_length = Image<double>(width, height);
-    field.validity =
-        Image<MotionValidity>(width, height, settings.cut ? MotionValidity::no_counterpart : MotionValidity::valid);
-    if (settings.cut) return field;
+    field.validity = Image<MotionValidity>(
+        width, height, which == OtherFrame::none ? MotionValidity::no_counterpart : MotionValidity::valid);
+    if (which == OtherFrame::none) return field;
     if (other.empty() || other.front().width != width || other.front().height != height) {
         throw InputError("", "image-based motion",
                          other.empty() ? std::string("the other frame has no pixels")
@@ -240,7 +239,7 @@ MotionField compute_image_motion(const CensusPyramid& now, const CensusPyramid& 
     }
     Image<Offset> offsets = search_exhaustively(now.back(), other.back());
     for (std::size_t level = now.size() - 1; level-- > 0;) offsets = refine(now[level], other[level], offsets);
-    const double sign = settings.backward ? -1.0 : 1.0;
+    const double sign = displacement_sign(which);
     for (std::size_t i = 0; i < offsets.size(); ++i) {
         const Offset& offset = offsets.pixels[i];
         if (offset.x == 0 && offset.y == 0) continue;  // +0, whatever the sign
@@ -250,9 +249,9 @@ MotionField compute_image_motion(const CensusPyramid& now, const CensusPyramid& 
     return field;
 }
 
-MotionField compute_image_motion(const Image<Rgb>& now, const Image<Rgb>& other, const ImageMotionSettings& settings) {
-    return settings.cut ? compute_image_motion(make_census_pyramid(now), {}, settings)
-                        : compute_image_motion(make_census_pyramid(now), make_census_pyramid(other), settings);
+MotionField compute_image_motion(const Image<Rgb>& now, const Image<Rgb>& other, OtherFrame which) {
+    return compute_image_motion(make_census_pyramid(now),
+                                which == OtherFrame::none ? CensusPyramid() : make_census_pyramid(other), which);
 }
 
 }  // namespace aleph

@@ -10,6 +10,7 @@
 #include "engine/base/color.h"
 #include "engine/base/image.h"
 #include "motion/motion_field.h"
+#include "motion/other_frame.h"
 
 namespace aleph {
 
@@ -34,24 +35,16 @@ CensusPyramid make_census_pyramid(const Image<Rgb>& frame);
 /// The census of one level; neighbours beyond the border are the nearest pixel inside.
 CensusLevel make_census_level(const Image<float>& level);
 
-struct ImageMotionSettings {
-    /// The other frame is N-1 (the sequence's last frame): displacement is from it to this one, so that constant speed
-    /// gives what the forward difference gives (HARD_CASES RP-11).
-    bool backward = false;
-    /// A camera cut, or no other frame: displacement 0, every pixel `no_counterpart`.
-    bool cut = false;
-};
-
 /// Whole pixels, for every pixel. Cost of an offset: sum of Hamming distances over 3x3, borders clamped; targets
 /// outside the frame are excluded. Exhaustive within 8 pixels at the coarsest level; at each finer level three steps
 /// (4, 2, 1) from twice the coarser result (of pixel floor(x/2), floor(y/2); brought back inside where it leads one
 /// pixel out). Ties go to the smaller |offset|^2, then dy, then dx, of the whole offset from the pixel: what shows
 /// nothing stands still. Reach: 53 pixels with three levels, 23 with two, 8 with one. Every pixel has a target, so that
 /// all are `valid`. The same bits for any number of threads.
+/// @param other  may be empty where `which` is none
 /// @throws InputError if the sizes differ or are empty
 MotionField compute_image_motion(const CensusPyramid& now, const CensusPyramid& other,
-                                 const ImageMotionSettings& settings = {});
-MotionField compute_image_motion(const Image<Rgb>& now, const Image<Rgb>& other,
-                                 const ImageMotionSettings& settings = {});
+                                 OtherFrame which = OtherFrame::next);
+MotionField compute_image_motion(const Image<Rgb>& now, const Image<Rgb>& other, OtherFrame which = OtherFrame::next);
 
 }  // namespace aleph

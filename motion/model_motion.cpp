@@ -15,6 +15,9 @@
 namespace aleph {
 namespace {
 
+/// The turn (of an object or the camera) that one chord of the path may stand for, radians.
+constexpr double max_chord_turn = 20.0 * std::numbers::pi / 180.0;
+
 /// What is known about an object (or the background) before any pixel is looked at.
 struct ObjectMotion {
     CameraFromObject now, other;
@@ -44,13 +47,13 @@ struct FrameMotion {
 };
 
 /// Index of the scene's camera that both views look through; no_index for views made by hand.
-int find_viewing_camera(const MotionMoment& now, const MotionMoment& other) {
+int find_viewing_camera(const PosedView& now, const PosedView& other) {
     const auto matches = [](const CameraView& view, const CameraValues& camera) {
         return view.orthographic == camera.orthographic && view.position == camera.position && view.axes == camera.axes;
     };
-    const std::size_t count = std::min(now.frame->cameras.size(), other.frame->cameras.size());
+    const std::size_t count = std::min(now.pose.cameras.size(), other.pose.cameras.size());
     for (std::size_t i = 0; i < count; ++i) {
-        if (matches(*now.view, now.frame->cameras[i]) && matches(*other.view, other.frame->cameras[i])) {
+        if (matches(now.view, now.pose.cameras[i]) && matches(other.view, other.pose.cameras[i])) {
             return static_cast<int>(i);
         }
     }
@@ -82,29 +85,28 @@ CameraFromObject make_background_map(const CameraView& now, const CameraView& vi
 }
 
 /// Poses the moments between, where something turns too far for a chord, and keeps what is needed of them.
-void add_moments_between(FrameMotion& motion, const Scene& scene, const MotionMoment& now, const MotionMoment& other,
-                         double chord_degrees) {
+void add_moments_between(FrameMotion& motion, const Scene& scene, const PosedView& now, const PosedView& other) {
     const int camera = find_viewing_camera(now, other);
-    const int camera_node = camera == no_index ? no_index : now.frame->cameras[camera].node;
-    const double limit = chord_degrees * std::numbers::pi / 180.0;
-    const double begin = now.frame->seconds, end = other.frame->seconds;
-    const double view_turn = camera == no_index ? turn_between(*now.view, *other.view) : 0.0;
+    const int camera_node = camera == no_index ? no_index : now.pose.cameras[camera].node;
+    const double limit = max_chord_turn;
+    const double begin = now.pose.seconds, end = other.pose.seconds;
+    const double view_turn = camera == no_index ? turn_between(now.view, other.view) : 0.0;
     const std::vector<double> times = subdivide_turns(scene, camera_node, begin, end, limit, view_turn);
     if (times.empty()) return;
 
     const Turns turns = compute_turns(scene, camera_node, begin, end);
-    const bool background_turns = !now.view->orthographic && turns.background + view_turn > limit;
+    const bool background_turns = !now.view.orthographic && turns.background + view_turn > limit;
     for (const double seconds : times) {
         const ScenePose frame = pose(scene, seconds);
         const CameraView view = camera == no_index
-                                    ? interpolate_view(*now.view, *other.view, (seconds - begin) / (end - begin))
-                                    : make_camera_view(frame.cameras[camera], now.view->width, now.view->height);
+                                    ? interpolate_view(now.view, other.view, (seconds - begin) / (end - begin))
+                                    : make_camera_view(frame.cameras[camera], now.view.width, now.view.height);
         motion.between.push_back(view);
-        if (background_turns) motion.background.between.push_back({make_background_map(*now.view, view), {}});
+        if (background_turns) motion.background.between.push_back({make_background_map(now.view, view), {}});
         for (std::size_t i = 0; i < motion.objects.size(); ++i) {
-            const auto node = static_cast<std::size_t>(now.frame->instances[i].node);
+            const auto node = static_cast<std::size_t>(now.pose.instances[i].node);
             if (motion.objects[i].counterpart && turns.nodes[node] + view_turn > limit) {
-                const auto mesh = static_cast<std::size_t>(now.frame->instances[i].mesh);
+                const auto mesh = static_cast<std::size_t>(now.pose.instances[i].mesh);
                 motion.objects[i].between.push_back(
                     {make_camera_from_object(view, frame.world[node]), frame.meshes[mesh]});
             }
@@ -112,13 +114,12 @@ void add_moments_between(FrameMotion& motion, const Scene& scene, const MotionMo
     }
 }
 
-FrameMotion prepare(const Scene& scene, const MotionMoment& now, const MotionMoment& other,
-                    const ModelMotionSettings& settings) {
+FrameMotion prepare(const Scene& scene, const PosedView& now, const PosedView& other, OtherFrame which) {
     FrameMotion motion;
-    motion.now = *now.view;
-    motion.other = *other.view;
-    motion.sign = settings.backward ? -1.0 : 1.0;
-    motion.diagonal = std::hypot(now.view->width, now.view->height);
+    motion.now = now.view;
+    motion.other = other.view;
+    motion.sign = displacement_sign(which);
+    motion.diagonal = std::hypot(now.view.width, now.view.height);
     const bool same = same_projection(motion.now, motion.other);
 
     motion.background.counterpart = true;
@@ -126,23 +127,23 @@ FrameMotion prepare(const Scene& scene, const MotionMoment& now, const MotionMom
     motion.background.other = make_background_map(motion.now, motion.other);
     motion.background.still = motion.now.orthographic || (same && motion.background.now == motion.background.other);
 
-    motion.objects.resize(now.frame->instances.size());
+    motion.objects.resize(now.pose.instances.size());
     for (std::size_t i = 0; i < motion.objects.size(); ++i) {
-        const Instance& instance = now.frame->instances[i];
+        const Instance& instance = now.pose.instances[i];
         const auto node = static_cast<std::size_t>(instance.node);
         ObjectMotion& object = motion.objects[i];
         object.mesh = &scene.meshes[instance.mesh];
-        object.now = make_camera_from_object(motion.now, now.frame->world[node]);
+        object.now = make_camera_from_object(motion.now, now.pose.world[node]);
         // The list of instances is the same at every time; two frames of different scenes have no counterparts.
-        if (i >= other.frame->instances.size() || !(other.frame->instances[i] == instance)) continue;
-        object.counterpart = other.frame->shown[i] != 0;
-        object.other = make_camera_from_object(motion.other, other.frame->world[node]);
-        object.shape_now = &now.frame->meshes[instance.mesh];
-        object.shape_other = &other.frame->meshes[instance.mesh];
+        if (i >= other.pose.instances.size() || !(other.pose.instances[i] == instance)) continue;
+        object.counterpart = other.pose.shown[i] != 0;
+        object.other = make_camera_from_object(motion.other, other.pose.world[node]);
+        object.shape_now = &now.pose.meshes[instance.mesh];
+        object.shape_other = &other.pose.meshes[instance.mesh];
         object.deforms = !object.shape_now->positions.empty();
         object.still = same && object.now == object.other && *object.shape_now == *object.shape_other;
     }
-    add_moments_between(motion, scene, now, other, settings.chord_degrees);
+    add_moments_between(motion, scene, now, other);
     return motion;
 }
 
@@ -246,23 +247,23 @@ PixelMotion compute_hit_motion(const FrameMotion& frame, const Hit& hit) {
 
 }  // namespace
 
-MotionField compute_model_motion(const Scene& scene, const MotionMoment& now, const MotionMoment& other,
-                                 const Image<Hit>& hits, const ModelMotionSettings& settings) {
-    ALEPH_CHECK(hits.width == now.view->width && hits.height == now.view->height,
-                fmt::format("{}x{} hits, {}x{} view", hits.width, hits.height, now.view->width, now.view->height));
+MotionField compute_model_motion(const Scene& scene, const PosedView& now, const PosedView& other,
+                                 const Image<Hit>& hits, OtherFrame which) {
+    ALEPH_CHECK(hits.width == now.view.width && hits.height == now.view.height,
+                fmt::format("{}x{} hits, {}x{} view", hits.width, hits.height, now.view.width, now.view.height));
     MotionField field;
     field.displacement = Image<glm::dvec2>(hits.width, hits.height);
     field.path_length = Image<double>(hits.width, hits.height);
     field.validity = Image<MotionValidity>(hits.width, hits.height);
 
-    if (settings.cut) {
+    if (which == OtherFrame::none) {
         for (std::size_t i = 0; i < hits.size(); ++i) {
             field.validity.pixels[i] =
                 hits.pixels[i].instance == no_index ? MotionValidity::background : MotionValidity::no_counterpart;
         }
         return field;
     }
-    const FrameMotion frame = prepare(scene, now, other, settings);
+    const FrameMotion frame = prepare(scene, now, other, which);
     constexpr int rows_per_chunk = 8;
     parallel_rows(hits.height, rows_per_chunk, [&](int begin, int end) {
         for (int y = begin; y < end; ++y) {

@@ -52,7 +52,7 @@ Image<Rgb> load_linear_frame(const std::filesystem::path& path) {
     return frame;
 }
 
-ImagePartner find_partner(const FrameFiles& files, const std::vector<std::int64_t>& cuts, std::int64_t frame) {
+OtherFrame find_other_frame(const FrameFiles& files, const std::vector<std::int64_t>& cuts, std::int64_t frame) {
     const auto own = files.find(frame);
     if (own == files.end()) {
         throw InputError("", "--images",
@@ -62,10 +62,10 @@ ImagePartner find_partner(const FrameFiles& files, const std::vector<std::int64_
     }
     const auto is_cut = [&](std::int64_t number) { return std::find(cuts.begin(), cuts.end(), number) != cuts.end(); };
     const bool backward = std::next(own) == files.end();
-    if (backward && own == files.begin()) return {.none = true};
+    if (backward && own == files.begin()) return OtherFrame::none;
     const auto other = backward ? std::prev(own) : std::next(own);
     const auto& [first, second] = backward ? std::pair(other, own) : std::pair(own, other);
-    if (is_cut(second->first)) return {.none = true};
+    if (is_cut(second->first)) return OtherFrame::none;
     if (second->first != first->first + 1) {
         const std::int64_t from = first->first + 1, to = second->first - 1;
         throw InputError(
@@ -75,7 +75,7 @@ ImagePartner find_partner(const FrameFiles& files, const std::vector<std::int64_
                         from == to ? fmt::format("frame {} is", from) : fmt::format("frames {} to {} are", from, to),
                         display_name(first->second), display_name(second->second), second->first));
     }
-    return {.none = false, .backward = backward, .frame = other->first};
+    return backward ? OtherFrame::previous : OtherFrame::next;
 }
 
 struct ImageSequence::State {
@@ -133,20 +133,18 @@ FrameOutput ImageSequence::compute_maps(std::int64_t frame) {
     FrameStatistics& stats = out.statistics;
     stats.frame = frame;
 
-    const ImagePartner partner = find_partner(s.files, s.cuts, frame);
-    std::erase_if(s.loaded, [&](const auto& entry) {
-        return entry.first != frame && (partner.none || entry.first != partner.frame);
-    });
+    const OtherFrame which = find_other_frame(s.files, s.cuts, frame);
+    const std::int64_t other_number = other_frame_number(frame, which);
+    std::erase_if(s.loaded, [&](const auto& entry) { return entry.first != frame && entry.first != other_number; });
     const LoadedFrame& now = s.load(frame);
-    const LoadedFrame* const other = partner.none ? nullptr : &s.load(partner.frame);
+    const LoadedFrame* const other = which == OtherFrame::none ? nullptr : &s.load(other_number);
     out.estimate = now.estimate;
     stats.replaced = now.sanitized.replaced;
     stats.clamped = now.sanitized.clamped;
     stats.median_luminance = median_luminance(out.estimate, s.viewing);
     clock.add_to(stats.seconds.estimate);
 
-    out.motion = compute_image_motion(now.census, other != nullptr ? other->census : CensusPyramid(),
-                                      {.backward = partner.backward, .cut = partner.none});
+    out.motion = compute_image_motion(now.census, other != nullptr ? other->census : CensusPyramid(), which);
     out.velocity = compute_image_velocity(out.motion, s.viewing, s.frame_rate);
     clock.add_to(stats.seconds.motion);
 

@@ -7,6 +7,7 @@
 #include <map>
 #include <memory>
 
+#include "motion/other_frame.h"
 #include "render/sequence.h"
 
 namespace aleph {
@@ -20,16 +21,11 @@ Image<Rgb> load_linear_frame(const std::filesystem::path& path);
 /// Where each frame lies, by its number.
 using FrameFiles = std::map<std::int64_t, std::filesystem::path>;
 
-/// The frame whose picture tells how `frame` moves: the next one; the one before at the last frame. Nothing across a
+/// The frame whose picture tells how `frame` moves: the next one; the one before at the last frame. None across a
 /// cut, and for a single frame.
-struct ImagePartner {
-    bool none = false, backward = false;
-    std::int64_t frame = 0;
-};
-
-/// @param cuts  frames that begin a new shot. Frame numbers may have gaps there, and nowhere else between two partners.
+/// @param cuts  frames that begin a new shot. Frame numbers may have gaps there and nowhere else.
 /// @throws InputError naming the missing files: `frame`'s own, or those up to the next frame that exists
-ImagePartner find_partner(const FrameFiles& files, const std::vector<std::int64_t>& cuts, std::int64_t frame);
+OtherFrame find_other_frame(const FrameFiles& files, const std::vector<std::int64_t>& cuts, std::int64_t frame);
 
 /// Maps of frames in files, one after the other; every picture is read once where they come in order.
 class ImageSequence {

@@ -6,6 +6,7 @@
 #include "engine/base/errors.h"
 #include "engine/base/parallel.h"
 #include "engine/pose/cage_level.h"
+#include "engine/pose/posed_view.h"
 #include "motion/image_motion.h"
 #include "motion/model_motion.h"
 #include "motion/velocity.h"
@@ -23,28 +24,15 @@ namespace {
 constexpr int exposure_columns = 160;
 constexpr float background_depth = 1e30f;
 
-/// A frame's moment: posed, placed for rays, seen by the camera.
-struct Moment {
-    ScenePose frame;
-    CameraView view;
-};
-
-Moment make_moment(const Scene& scene, std::int64_t frame, int camera, int width, int height) {
-    Moment moment;
-    moment.frame = pose(scene, scene.frame_rate.seconds_of(frame));
-    moment.view = make_camera_view(moment.frame.cameras[camera], width, height);
-    return moment;
-}
-
-/// Brings a moment to another frame: what cannot move is not touched.
-void update_moment(std::optional<Moment>& moment, const Scene& scene, const PosePlan& plan, std::int64_t frame,
-                   int camera, int width, int height) {
-    if (!moment) {
-        moment = make_moment(scene, frame, camera, width, height);
-        return;
+/// Takes `posed` to a frame. Its first call poses the whole scene, later calls only what can move.
+void move_to_frame(std::optional<PosedView>& posed, const Scene& scene, const PosePlan& plan, std::int64_t frame,
+                   int camera, const RenderSettings& settings) {
+    const double seconds = scene.frame_rate.seconds_of(frame);
+    if (posed) {
+        update_posed_view(scene, plan, seconds, camera, *posed);
+    } else {
+        posed = make_posed_view(scene, seconds, camera, settings.width, settings.height);
     }
-    update_pose(scene, plan, scene.frame_rate.seconds_of(frame), moment->frame);
-    moment->view = make_camera_view(moment->frame.cameras[camera], width, height);
 }
 
 void refuse_later_effects(const Scene& scene, const CameraValues& camera) {
@@ -59,13 +47,13 @@ void refuse_later_effects(const Scene& scene, const CameraValues& camera) {
     }
 }
 
-/// The quick estimate of a moment at which `rays` stand, not sanitized.
-Image<Rgb> estimate_moment(const Scene& scene, const TextureSet& textures, const RayScene& rays, const Moment& moment,
-                           EstimateKind kind, double exposure, RayCounts& counts) {
-    const ShadingScene shading = make_shading_scene(scene, moment.frame, rays.anchor(), textures);
+/// The quick estimate of a posed view to which `rays` have been updated, not sanitized.
+Image<Rgb> estimate_view(const Scene& scene, const TextureSet& textures, const RayScene& rays, const PosedView& posed,
+                         EstimateKind kind, double exposure, RayCounts& counts) {
+    const ShadingScene shading = make_shading_scene(scene, posed.pose, rays.anchor(), textures);
     const LightSet lights = make_light_set(shading);
-    const SampleHits centers = cast_sample(rays, moment.view, 0, 1, &counts.primary);
-    return compute_estimate({shading, lights, rays}, moment.view, centers, kind, exposure, counts);
+    const SampleHits centers = cast_sample(rays, posed.view, 0, 1, &counts.primary);
+    return compute_estimate({shading, lights, rays}, posed.view, centers, kind, exposure, counts);
 }
 
 /// The scene with its subdivision cages at the levels that the picture asks for; null where they are.
@@ -105,7 +93,7 @@ struct Sequence::State {
     PosePlan pose_plan;
     RayScene rays;
     // What the last frame left: the next one updates it, and is the same as without.
-    std::optional<Moment> now, other;
+    std::optional<PosedView> now, other;
     std::optional<ShadingScene> shading;   ///< of `now`
     std::unique_ptr<RayScene> other_rays;  ///< for visibility in the other frame, or its quick estimate
     double exposure = 1.0;
@@ -116,14 +104,16 @@ Sequence::Sequence(const Scene& authored, const RenderSettings& settings, const 
     const int camera_index = find_camera(authored, camera);
     std::unique_ptr<const Scene> refined = refine_cages(authored, camera_index, settings);
     const Scene& scene = refined ? *refined : authored;
+    PosePlan plan = make_pose_plan(scene);
+    RayScene rays(scene, plan);
     state_.reset(new State{std::move(refined),
                            scene,
                            settings,
                            camera_index,
                            frame_range(scene),
                            make_texture_set(scene),
-                           make_pose_plan(scene),
-                           RayScene(scene),
+                           std::move(plan),
+                           std::move(rays),
                            {},
                            {},
                            {},
@@ -135,11 +125,11 @@ Sequence::Sequence(const Scene& authored, const RenderSettings& settings, const 
         return;
     }
     const int height = std::max(1, exposure_columns * settings.height / settings.width);
-    const Moment moment = make_moment(scene, s.range.first, s.camera, exposure_columns, height);
-    s.rays.update(moment.frame, compute_anchor(moment.view));
+    const double seconds = scene.frame_rate.seconds_of(s.range.first);
+    const PosedView posed = make_posed_view(scene, seconds, s.camera, exposure_columns, height);
+    s.rays.update(posed.pose, compute_anchor(posed.view));
     RayCounts counts;
-    s.exposure =
-        compute_exposure(estimate_moment(scene, s.textures, s.rays, moment, EstimateKind::direct, 1.0, counts));
+    s.exposure = compute_exposure(estimate_view(scene, s.textures, s.rays, posed, EstimateKind::direct, 1.0, counts));
 }
 
 Sequence::~Sequence() = default;
@@ -153,21 +143,11 @@ FrameRange Sequence::range() const {
 
 namespace {
 
-/// Motion to the next frame; from the one before at the scene's last frame; none across a cut.
-struct MotionPlan {
-    bool needed = false;
-    bool cut = false;
-    bool backward = false;
-    std::int64_t other = 0;
-};
-
-MotionPlan plan_motion(const Scene& scene, const FrameRange& range, std::int64_t frame, bool needed) {
-    MotionPlan plan;
-    plan.needed = needed;
-    plan.backward = frame == range.last && range.last > range.first;
-    plan.other = plan.backward ? frame - 1 : frame + 1;
-    plan.cut = is_cut(scene, plan.backward ? frame : frame + 1);
-    return plan;
+/// Motion to the next frame; from the previous one at the scene's last frame; none across a cut.
+OtherFrame find_other_frame(const Scene& scene, const FrameRange& range, std::int64_t frame) {
+    const bool is_last = frame == range.last && range.last > range.first;
+    if (is_cut(scene, is_last ? frame : frame + 1)) return OtherFrame::none;
+    return is_last ? OtherFrame::previous : OtherFrame::next;
 }
 
 void fill_geometry_maps(const ShadingScene& shading, const SampleHits& centers, FrameOutput& out) {
@@ -195,28 +175,28 @@ FrameOutput Sequence::render(std::int64_t frame, const FrameRequest& request) {
     const RenderSettings& settings = s.settings;
     const bool guided = settings.perception.guide != Guide::none;
     const bool perceive = guided || request.maps;
-    const MotionPlan plan = plan_motion(s.scene, s.range, frame, perceive);
+    const OtherFrame which = find_other_frame(s.scene, s.range, frame);
+    const bool has_other = perceive && which != OtherFrame::none;
     FrameOutput out;
     FrameStatistics& stats = out.statistics;
     stats.frame = frame;
     const std::uint64_t traced_before = s.rays.rays_traced(), invalid_before = s.rays.invalid_rays();
     StageClock clock, total;
 
-    update_moment(s.now, s.scene, s.pose_plan, frame, s.camera, settings.width, settings.height);
-    const Moment& now = *s.now;
-    if (request.frame) refuse_later_effects(s.scene, now.frame.cameras[s.camera]);
-    if (plan.needed)
-        update_moment(s.other, s.scene, s.pose_plan, plan.other, s.camera, settings.width, settings.height);
-    const Moment& other = plan.needed ? *s.other : now;  // then nobody asks
+    move_to_frame(s.now, s.scene, s.pose_plan, frame, s.camera, settings);
+    const PosedView& now = *s.now;
+    if (request.frame) refuse_later_effects(s.scene, now.pose.cameras[s.camera]);
+    if (has_other) move_to_frame(s.other, s.scene, s.pose_plan, other_frame_number(frame, which), s.camera, settings);
+    const PosedView& other = has_other ? *s.other : now;
     out.view = now.view;
     clock.add_to(stats.seconds.pose);
 
     const glm::dvec3 anchor = compute_anchor(now.view);
-    stats.instances_touched = s.rays.update_moving(now.frame, anchor);
+    stats.instances_touched = s.rays.update_moving(now.pose, anchor);
     if (s.shading) {
         update_shading_scene(*s.shading, s.pose_plan, anchor);
     } else {
-        s.shading = make_shading_scene(s.scene, now.frame, anchor, s.textures);
+        s.shading = make_shading_scene(s.scene, now.pose, anchor, s.textures);
     }
     const ShadingScene& shading = *s.shading;
     const LightSet lights = make_light_set(shading);
@@ -235,26 +215,23 @@ FrameOutput Sequence::render(std::int64_t frame, const FrameRequest& request) {
         clock.add_to(stats.seconds.estimate);
 
         const bool from_images = settings.motion == MotionSource::image;
-        const bool look_there = !plan.cut && (from_images || request.maps);
+        const bool look_there = has_other && (from_images || request.maps);
         if (look_there && !s.other_rays) s.other_rays = std::make_unique<RayScene>(s.rays.share_meshes());
         const std::uint64_t other_before = look_there ? s.other_rays->rays_traced() : 0;
-        if (look_there) s.other_rays->update_moving(other.frame, compute_anchor(other.view));
+        if (look_there) s.other_rays->update_moving(other.pose, compute_anchor(other.view));
         if (from_images) {
             Image<Rgb> other_estimate;
             if (look_there) {
-                other_estimate = estimate_moment(s.scene, s.textures, *s.other_rays, other, settings.estimate,
-                                                 s.exposure, stats.rays);
+                other_estimate =
+                    estimate_view(s.scene, s.textures, *s.other_rays, other, settings.estimate, s.exposure, stats.rays);
                 sanitize_estimate(other_estimate);
             }
             clock.add_to(stats.seconds.estimate);
-            out.motion =
-                compute_image_motion(out.estimate, other_estimate, {.backward = plan.backward, .cut = plan.cut});
+            out.motion = compute_image_motion(out.estimate, other_estimate, which);
         } else {
-            out.motion = compute_model_motion(s.scene, {&now.frame, &now.view}, {&other.frame, &other.view},
-                                              centers.hits, {.backward = plan.backward, .cut = plan.cut});
+            out.motion = compute_model_motion(s.scene, now, other, centers.hits, which);
             if (look_there) {
-                stats.rays.primary +=
-                    mark_hidden(out.motion, s.scene, {&other.frame, &other.view}, centers.hits, *s.other_rays);
+                stats.rays.primary += mark_hidden(out.motion, s.scene, other, centers.hits, *s.other_rays);
             }
         }
         if (look_there) stats.traced_rays += s.other_rays->rays_traced() - other_before;

@@ -70,7 +70,7 @@ constexpr std::size_t most_still_beside_moving = 256;
 
 /// How each mesh of the scene is handled.
 struct MeshKinds {
-    explicit MeshKinds(const Scene& scene, const PosePlan& plan)
+    MeshKinds(const Scene& scene, const PosePlan& plan)
         : deforms(scene.meshes.size(), 0), changes(scene.meshes.size(), 0), comes_and_goes(scene.meshes.size(), 0) {
         for (const Deformer& deformer : plan.deformers) {
             deforms[deformer.mesh] = 1;
@@ -86,8 +86,8 @@ struct MeshKinds {
 /// Gathers the scene's meshes into objects, one node after the other.
 class ObjectMaker {
   public:
-    ObjectMaker(MeshStructures& structures, const Scene& scene)
-        : structures_(structures), scene_(scene), plan_(make_pose_plan(scene)), kinds_(scene, plan_) {}
+    ObjectMaker(MeshStructures& structures, const Scene& scene, const PosePlan& plan)
+        : structures_(structures), scene_(scene), plan_(plan), kinds_(scene, plan_) {}
 
     void add_node(int node) {
         const std::vector<int>& meshes = scene_.nodes[node].meshes;
@@ -144,7 +144,7 @@ class ObjectMaker {
 
     MeshStructures& structures_;
     const Scene& scene_;
-    PosePlan plan_;
+    const PosePlan& plan_;
     MeshKinds kinds_;
     int first_instance_ = 0;
     std::vector<MeshStructures::Object> still_;
@@ -154,7 +154,7 @@ class ObjectMaker {
 
 }  // namespace
 
-MeshStructures::MeshStructures(const Scene& scene) {
+MeshStructures::MeshStructures(const Scene& scene, const PosePlan& plan) {
     const FlushDenormals flush;
     device = rtcNewDevice(nullptr);
     if (device == nullptr) throw std::runtime_error("Embree found no way to start on this machine");
@@ -169,7 +169,7 @@ MeshStructures::MeshStructures(const Scene& scene) {
         cutouts[i] = std::make_unique<const AlphaCutout>(make_alpha_cutout(scene, scene.meshes[i]));
         any_cutout = true;
     }
-    ObjectMaker maker(*this, scene);
+    ObjectMaker maker(*this, scene, plan);
     for (std::size_t n = 0; n < scene.nodes.size(); ++n) maker.add_node(static_cast<int>(n));
     maker.finish();
 }

@@ -139,7 +139,9 @@ bool is_traceable(const glm::dmat4& world, const glm::dvec3& anchor) {
     return 3.0 * largest * largest_ray_component + std::max({moved.x, moved.y, moved.z}) < largest_coordinate;
 }
 
-RayScene::RayScene(const Scene& scene) : state_(new State(std::make_shared<MeshStructures>(scene))) {}
+RayScene::RayScene(const Scene& scene, const PosePlan& plan)
+    : state_(new State(std::make_shared<MeshStructures>(scene, plan))) {}
+RayScene::RayScene(const Scene& scene) : RayScene(scene, make_pose_plan(scene)) {}
 RayScene::RayScene(std::unique_ptr<State> state) : state_(std::move(state)) {}
 RayScene::~RayScene() = default;
 RayScene::RayScene(RayScene&&) noexcept = default;

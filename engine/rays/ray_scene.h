@@ -11,6 +11,7 @@
 #include <span>
 #include <vector>
 
+#include "engine/pose/plan.h"
 #include "engine/pose/pose.h"
 
 namespace aleph {
@@ -44,6 +45,8 @@ class RayScene {
   public:
     /// Builds the structures of every rigid mesh once; deforming ones follow at the first update. Degenerate triangles
     /// are left out and counted.
+    /// @param plan  make_pose_plan(scene); only read during the call
+    RayScene(const Scene& scene, const PosePlan& plan);
     explicit RayScene(const Scene& scene);
     /// Another one over the same mesh structures: only the placement of instances and the deforming meshes are its own.
     RayScene share_meshes() const;

@@ -37,7 +37,7 @@ struct MeshStructures {
         int deforming = no_index;       ///< into `deforming`
     };
 
-    explicit MeshStructures(const Scene& scene);
+    MeshStructures(const Scene& scene, const PosePlan& plan);
     ~MeshStructures();
     MeshStructures(const MeshStructures&) = delete;
     MeshStructures& operator=(const MeshStructures&) = delete;

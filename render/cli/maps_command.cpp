@@ -131,14 +131,14 @@ PreparedImages prepare_images(const MapsOptions& options) {
     return images;
 }
 
-/// Every frame has its partner, and no picture would be written over.
+/// Every frame has the other one that its motion needs, and no picture would be written over.
 void check_frames(const PreparedImages& images, const std::string& output) {
     const PreparedScene& prepared = images.prepared;
     std::set<std::filesystem::path> names;
     for (const auto& [number, file] : images.files) names.insert(file.filename());
     const std::filesystem::path folder = images.files.begin()->second.parent_path();
     for (const int frame : prepared.frames) {
-        find_partner(images.files, prepared.scene.cuts, frame);
+        find_other_frame(images.files, prepared.scene.cuts, frame);
         const std::filesystem::path path = output_path(output, prepared.name, frame);
         std::error_code ignored;
         if (names.contains(path.filename()) && std::filesystem::equivalent(folder / path.filename(), path, ignored)) {

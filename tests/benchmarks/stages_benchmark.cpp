@@ -71,8 +71,7 @@ struct Inputs {
     std::string name;
     Scene scene;
     std::int64_t frame_number = 0;
-    ScenePose frames[2];
-    CameraView views[2];
+    PosedView now, next;
     RayScene rays, other_rays;
     Image<Hit> hits;
     MotionField motion;
@@ -83,22 +82,18 @@ struct Inputs {
         : name(scene_name), scene(std::move(from)), rays(scene), other_rays(rays.share_meshes()) {
         const FrameRange range = frame_range(scene);
         frame_number = range.first + (range.last - range.first) / 4;
-        const auto camera = static_cast<std::size_t>(find_camera(scene, ""));
-        for (int i : {0, 1}) {
-            frames[i] = pose(scene, scene.frame_rate.seconds_of(frame_number + i));
-            views[i] = make_camera_view(frames[i].cameras[camera], width, height);
-        }
-        rays.update(frames[0], compute_anchor(views[0]));
-        other_rays.update(frames[1], compute_anchor(views[1]));
-        hits = cast_first_hits(rays, views[0]);
+        const int camera = find_camera(scene, "");
+        now = make_posed_view(scene, scene.frame_rate.seconds_of(frame_number), camera, width, height);
+        next = make_posed_view(scene, scene.frame_rate.seconds_of(frame_number + 1), camera, width, height);
+        rays.update(now.pose, compute_anchor(now.view));
+        other_rays.update(next.pose, compute_anchor(next.view));
+        hits = cast_first_hits(rays, now.view);
         motion = compute_motion();
         velocity = compute_image_velocity(motion, {}, {});
-        estimate = compute_estimate(hits, frames[0]);
-        next_estimate = compute_estimate(cast_first_hits(other_rays, views[1]), frames[1]);
+        estimate = compute_estimate(hits, now.pose);
+        next_estimate = compute_estimate(cast_first_hits(other_rays, next.view), next.pose);
     }
-    MotionField compute_motion() const {
-        return compute_model_motion(scene, {&frames[0], &views[0]}, {&frames[1], &views[1]}, hits, {});
-    }
+    MotionField compute_motion() const { return compute_model_motion(scene, now, next, hits); }
     /// A checker on every surface, a gradient behind: edges and texture enough for the maps of perception.
     Image<Rgb> compute_estimate(const Image<Hit>& seen, const ScenePose& frame) const {
         Image<Rgb> image(width, height);
@@ -130,11 +125,11 @@ const Inputs& inputs() {
 }
 
 void first_hits(benchmark::State& state) {
-    for (auto _ : state) benchmark::DoNotOptimize(cast_first_hits(inputs().rays, inputs().views[0]).pixels.data());
+    for (auto _ : state) benchmark::DoNotOptimize(cast_first_hits(inputs().rays, inputs().now.view).pixels.data());
 }
 
 void raw_embree(benchmark::State& state) {
-    static RawEmbree raw(inputs().scene, inputs().frames[0], inputs().views[0]);
+    static RawEmbree raw(inputs().scene, inputs().now.pose, inputs().now.view);
     for (auto _ : state) benchmark::DoNotOptimize(raw.trace());
 }
 
@@ -150,8 +145,7 @@ void motion_hidden(benchmark::State& state) {
         state.PauseTiming();
         MotionField field = inputs().motion;
         state.ResumeTiming();
-        const MotionMoment other{&inputs().frames[1], &inputs().views[1]};
-        benchmark::DoNotOptimize(mark_hidden(field, inputs().scene, other, inputs().hits, inputs().other_rays));
+        benchmark::DoNotOptimize(mark_hidden(field, inputs().scene, inputs().next, inputs().hits, inputs().other_rays));
     }
 }
 

@@ -8,8 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "engine/pose/camera_view.h"
-#include "engine/pose/pose.h"
+#include "engine/pose/posed_view.h"
 #include "engine/scene/scene.h"
 #include "motion/model_motion.h"
 
@@ -89,17 +88,13 @@ inline int add_point(Scene& scene, const glm::vec3& point) {
     return static_cast<int>(scene.meshes.size()) - 1;
 }
 
-/// Both moments of a scene, posed and viewed through its first camera.
-struct TwoMoments {
-    ScenePose frames[2];
-    CameraView views[2];
+/// A scene at two times, seen by its first camera.
+struct TwoViews {
+    PosedView now, other;
 
-    TwoMoments(const Scene& scene, double now, double other, int width, int height)
-        : frames{pose(scene, now), pose(scene, other)} {
-        for (int i : {0, 1}) views[i] = make_camera_view(frames[i].cameras.at(0), width, height);
-    }
-    MotionMoment now() const { return {&frames[0], &views[0]}; }
-    MotionMoment other() const { return {&frames[1], &views[1]}; }
+    TwoViews(const Scene& scene, double seconds, double other_seconds, int width, int height)
+        : now(make_posed_view(scene, seconds, 0, width, height)),
+          other(make_posed_view(scene, other_seconds, 0, width, height)) {}
 };
 
 /// Hits all over the scene's surfaces, whatever a ray would see: exactness is about the hit's own (primitive, u, v).
@@ -126,11 +121,11 @@ struct PointMotion {
     MotionValidity validity = MotionValidity::valid;
 };
 inline PointMotion point_motion(const Scene& scene, double now, double other, const Hit& hit, int width, int height,
-                                const ModelMotionSettings& settings = {}) {
-    const TwoMoments moments(scene, now, other, width, height);
+                                OtherFrame which = OtherFrame::next) {
+    const TwoViews views(scene, now, other, width, height);
     Image<Hit> hits(width, height);
     hits(width / 2, height / 2) = hit;
-    const MotionField field = compute_model_motion(scene, moments.now(), moments.other(), hits, settings);
+    const MotionField field = compute_model_motion(scene, views.now, views.other, hits, which);
     return {field.displacement(width / 2, height / 2), field.path_length(width / 2, height / 2),
             field.validity(width / 2, height / 2)};
 }
@@ -150,8 +145,8 @@ inline Scene make_point_scene(const glm::vec3& point, double focal_length = 1000
     return scene;
 }
 inline PointMotion motion_of_point(const Scene& scene, double now = 0.0, double other = 1.0,
-                                   const ModelMotionSettings& settings = {}) {
-    return point_motion(scene, now, other, {.instance = 0, .primitive = 0}, 1000, 1000, settings);
+                                   OtherFrame which = OtherFrame::next) {
+    return point_motion(scene, now, other, {.instance = 0, .primitive = 0}, 1000, 1000, which);
 }
 
 }  // namespace aleph

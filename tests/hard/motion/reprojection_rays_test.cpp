@@ -36,10 +36,10 @@ TEST(ReprojectionRays, RP01_StaticSceneMovesByExactlyZero) {
         mount.axis_rotation = AxisRotation{glm::normalize(glm::dvec3(1.0, 2.0, 3.0)), 0.03};
         mount.translation = glm::dvec3(0.1, 0.7, -0.3);
         add_camera(scene, add_node(scene, mount));
-        const TwoMoments moments(scene, 0.0, 1.0 / 30.0, 320, 240);
-        const RayScene rays = trace(scene, moments.frames[0], moments.views[0]);
-        const Image<Hit> hits = cast_first_hits(rays, moments.views[0]);
-        const MotionField field = compute_model_motion(scene, moments.now(), moments.other(), hits, {});
+        const TwoViews views(scene, 0.0, 1.0 / 30.0, 320, 240);
+        const RayScene rays = trace(scene, views.now.pose, views.now.view);
+        const Image<Hit> hits = cast_first_hits(rays, views.now.view);
+        const MotionField field = compute_model_motion(scene, views.now, views.other, hits);
         std::size_t surface = 0;
         for (std::size_t i = 0; i < hits.size(); ++i) {
             ASSERT_EQ(field.displacement.pixels[i], glm::dvec2(0.0)) << tilt;
@@ -93,10 +93,10 @@ TEST(ReprojectionRays, RP18_HitsOnSubPixelTrianglesLieAtTheirPixel) {
         node.axis_rotation = AxisRotation{{1.0, 0.0, 0.0}, -tilt * degrees};
         add_node(scene, node);
         add_camera(scene, no_index, fov_of(1000.0, 100));
-        const TwoMoments moments(scene, 0.0, 1.0, 100, 100);
-        const Image<Hit> hits = cast_first_hits(trace(scene, moments.frames[0], moments.views[0]), moments.views[0]);
+        const TwoViews views(scene, 0.0, 1.0, 100, 100);
+        const Image<Hit> hits = cast_first_hits(trace(scene, views.now.pose, views.now.view), views.now.view);
         ASSERT_EQ(hits(70, 40).instance, 0) << tilt;
-        const glm::dvec2 pixel = hit_pixel(scene, moments.frames[0], moments.views[0], hits(70, 40));
+        const glm::dvec2 pixel = hit_pixel(scene, views.now.pose, views.now.view, hits(70, 40));
         EXPECT_NEAR(pixel.x, 70.5, 1e-4) << tilt;
         EXPECT_NEAR(pixel.y, 40.5, 1e-4) << tilt;
     }
@@ -123,9 +123,9 @@ TEST(ReprojectionRays, RP19_BarycentricPointsLieOnTheirTriangles) {
     node.meshes = {0};
     add_node(scene, node);
     add_camera(scene, no_index, 0.12);
-    const TwoMoments moments(scene, 0.0, 1.0, 320, 240);
-    const CameraView& view = moments.views[0];
-    const Image<Hit> hits = cast_first_hits(trace(scene, moments.frames[0], view), view);
+    const TwoViews views(scene, 0.0, 1.0, 320, 240);
+    const CameraView& view = views.now.view;
+    const Image<Hit> hits = cast_first_hits(trace(scene, views.now.pose, view), view);
     Real worst = 0, worst_by_distance = 0;
     std::size_t count = 0;
     for (int y = 0; y < hits.height; ++y) {
@@ -154,21 +154,21 @@ TEST(ReprojectionRays, RP19_BarycentricPointsLieOnTheirTriangles) {
 
 /// A scene with what it takes to ask who is hidden in its second moment.
 struct Hidden {
-    TwoMoments moments;
+    TwoViews views;
     RayScene rays, other_rays;
     Image<Hit> hits, other_hits;
     MotionField before, after;
     std::uint64_t rays_cast = 0;
 
     Hidden(const Scene& scene, int width, int height)
-        : moments(scene, 0.0, 1.0, width, height), rays(scene), other_rays(rays.share_meshes()) {
-        rays.update(moments.frames[0], compute_anchor(moments.views[0]));
-        other_rays.update(moments.frames[1], compute_anchor(moments.views[1]));
-        hits = cast_first_hits(rays, moments.views[0]);
-        other_hits = cast_first_hits(other_rays, moments.views[1]);
-        before = compute_model_motion(scene, moments.now(), moments.other(), hits, {});
+        : views(scene, 0.0, 1.0, width, height), rays(scene), other_rays(rays.share_meshes()) {
+        rays.update(views.now.pose, compute_anchor(views.now.view));
+        other_rays.update(views.other.pose, compute_anchor(views.other.view));
+        hits = cast_first_hits(rays, views.now.view);
+        other_hits = cast_first_hits(other_rays, views.other.view);
+        before = compute_model_motion(scene, views.now, views.other, hits);
         after = before;
-        rays_cast = mark_hidden(after, scene, moments.other(), hits, other_rays);
+        rays_cast = mark_hidden(after, scene, views.other, hits, other_rays);
     }
 };
 

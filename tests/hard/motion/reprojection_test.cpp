@@ -55,9 +55,9 @@ TEST(Reprojection, RP03_RoundingStaysFarBelowTheDeadZone) {
     node.axis_rotation = AxisRotation{{0.0, 1.0, 0.0}, ramp(0.0, 200.0 * std::numbers::pi)};
     add_node(scene, node);
     add_camera(scene);
-    const TwoMoments moments(scene, 0.13, 0.14, 320, 240);  // one full turn
-    const Image<Hit> hits = make_random_hits(scene, moments.frames[0], 320, 240);
-    const MotionField field = compute_model_motion(scene, moments.now(), moments.other(), hits, {});
+    const TwoViews views(scene, 0.13, 0.14, 320, 240);  // one full turn
+    const Image<Hit> hits = make_random_hits(scene, views.now.pose, 320, 240);
+    const MotionField field = compute_model_motion(scene, views.now, views.other, hits);
     double largest = 0.0, shortest_path = 1e9;
     for (std::size_t i = 0; i < hits.size(); ++i) {
         largest = std::max(largest, glm::length(field.displacement.pixels[i]));
@@ -130,8 +130,8 @@ TEST(Reprojection, RP06_ApproachingSurface) {
 
 /// Focal length 100, 200x100, no surface at all.
 MotionField background_motion(const Scene& scene) {
-    const TwoMoments moments(scene, 0.0, 1.0, 200, 100);
-    return compute_model_motion(scene, moments.now(), moments.other(), Image<Hit>(200, 100), {});
+    const TwoViews views(scene, 0.0, 1.0, 200, 100);
+    return compute_model_motion(scene, views.now, views.other, Image<Hit>(200, 100));
 }
 Scene make_empty_scene() {
     Scene scene;
@@ -188,11 +188,11 @@ TEST(Reprojection, RP10_AcrossACutNothingMoves) {
     Scene scene = make_point_scene({0.1f, 0.1f, -5.0f});
     scene.nodes[1].translation = ramp(glm::dvec3(0.0), glm::dvec3(0.3, 0.0, 0.0));
     scene.nodes[1].axis_rotation = AxisRotation{{0.0, 1.0, 0.0}, ramp(0.0, 25.0 * degrees)};
-    const TwoMoments moments(scene, 0.0, 1.0, 64, 48);
+    const TwoViews views(scene, 0.0, 1.0, 64, 48);
     Image<Hit> hits(64, 48);
     for (int x = 0; x < 64; ++x) hits(x, 20) = {.instance = 0, .primitive = 0};
-    const auto expect_rest = [&](const MotionMoment& other) {
-        const MotionField field = compute_model_motion(scene, moments.now(), other, hits, {.cut = true});
+    const auto expect_rest = [&](const PosedView& other) {
+        const MotionField field = compute_model_motion(scene, views.now, other, hits, OtherFrame::none);
         const Image<float> velocity = compute_image_velocity(field, {}, {});
         for (int y = 0; y < 48; ++y) {
             for (int x = 0; x < 64; ++x) {
@@ -203,7 +203,7 @@ TEST(Reprojection, RP10_AcrossACutNothingMoves) {
             }
         }
     };
-    expect_rest(moments.other());
+    expect_rest(views.other);
     expect_rest({});  // RP-11: a single frame has no other
 }
 
@@ -213,7 +213,7 @@ TEST(Reprojection, RP11_LastFrameGoesBackwards) {
     scene.nodes[0].translation = ramp(glm::dvec3(-0.5, 0.0, 0.0), glm::dvec3(0.7, -0.3, 0.0));
     const double last = 1.0, before = last - 1.0 / 30.0;
     const PointMotion forward = motion_of_point(scene, before, last);
-    const PointMotion backward = motion_of_point(scene, last, before, {.backward = true});
+    const PointMotion backward = motion_of_point(scene, last, before, OtherFrame::previous);
     EXPECT_NEAR(backward.displacement.x, forward.displacement.x, 1e-6);
     EXPECT_NEAR(backward.displacement.y, forward.displacement.y, 1e-6);
     EXPECT_NEAR(forward.displacement.x, 1.2 / 30.0 * 200.0, 1e-6);
@@ -251,11 +251,11 @@ TEST(Reprojection, RP13_LeavingTheScreen) {
             scene.nodes[0].translation =
                 ramp(glm::dvec3(0.0), vertical ? glm::dvec3(0.0, c.metres, 0.0) : glm::dvec3(c.metres, 0.0, 0.0));
             // A focal length of exactly 1000 px, so that the border case is one.
-            TwoMoments moments(scene, 0.0, 1.0, 1000, 1000);
-            for (CameraView& view : moments.views) view.pixels_per_unit = 1000.0;
+            TwoViews views(scene, 0.0, 1.0, 1000, 1000);
+            for (PosedView* posed : {&views.now, &views.other}) posed->view.pixels_per_unit = 1000.0;
             Image<Hit> hits(1000, 1000);
             hits(500, 500) = {.instance = 0, .primitive = 0};
-            const MotionField field = compute_model_motion(scene, moments.now(), moments.other(), hits, {});
+            const MotionField field = compute_model_motion(scene, views.now, views.other, hits);
             EXPECT_EQ(field.validity(500, 500), c.validity) << c.metres;
             const glm::dvec2 expected = vertical ? glm::dvec2(0.0, -200.0 * c.metres) : glm::dvec2(200.0 * c.metres, 0);
             EXPECT_NEAR(glm::length(field.displacement(500, 500) - expected), 0.0, 1e-9) << c.metres;

@@ -39,10 +39,10 @@ TEST(ReprojectionTurn, RP07_RotationBeyondAHalfTurnPerFrame) {
 TEST(ReprojectionTurn, RP07_TheCameraTurnsInstead) {
     Scene scene = make_point_scene({1.0f, 0.0f, -10.0f}, 1500.0);
     scene.nodes[1].axis_rotation = AxisRotation{{0.0, 0.0, 1.0}, ramp(0.0, 2.0 * std::numbers::pi)};
-    const TwoMoments moments(scene, 0.0, 1.0, 1000, 1000);
+    const TwoViews views(scene, 0.0, 1.0, 1000, 1000);
     Image<Hit> hits(1000, 1000);
     hits(650, 500) = {.instance = 0, .primitive = 0};
-    const MotionField field = compute_model_motion(scene, moments.now(), moments.other(), hits, {});
+    const MotionField field = compute_model_motion(scene, views.now, views.other, hits);
     EXPECT_NEAR(field.path_length(650, 500), 942.48, 9.4);
     EXPECT_LT(glm::length(field.displacement(650, 500)), 1e-9);
     // The background too: a roll moves it on a circle around the centre.
@@ -59,10 +59,10 @@ TEST(ReprojectionTurn, RP07_FullTurnBetweenEqualPoses) {
         rotation.sampling.times = {0.0, 0.25, 0.5, 0.75, 1.0};
         for (int i = 1; i < 4; ++i) rotation.values.push_back(glm::angleAxis(90.0 * i * degrees, glm::dvec3(0, 0, 1)));
         rotation.values.push_back(rotation.values.front());
-        const TwoMoments moments(scene, 0.0, 1.0, 1000, 1000);
+        const TwoViews views(scene, 0.0, 1.0, 1000, 1000);
         Image<Hit> hits(1000, 1000);
         hits(650, 500) = {.instance = 0, .primitive = 0};
-        const MotionField field = compute_model_motion(scene, moments.now(), moments.other(), hits, {});
+        const MotionField field = compute_model_motion(scene, views.now, views.other, hits);
         EXPECT_EQ(field.displacement(650, 500), glm::dvec2(0.0));
         EXPECT_NEAR(field.path_length(650, 500), 942.48, 9.4);
         const double background = camera_turns ? 2.0 * std::numbers::pi * std::hypot(300.5, 0.5) : 0.0;

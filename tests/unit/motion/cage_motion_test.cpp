@@ -16,19 +16,17 @@ constexpr int width = 160, height = 120;
 struct Moved {
     Image<Hit> hits;
     MotionField motion;
-    CameraView now, other;
+    PosedView now, other;
 };
 
 Moved compute_motion(const Scene& scene, std::int64_t from, std::int64_t to) {
-    const ScenePose now = pose(scene, scene.frame_rate.seconds_of(from)),
-                    other = pose(scene, scene.frame_rate.seconds_of(to));
     Moved moved;
-    moved.now = make_camera_view(now.cameras[0], width, height);
-    moved.other = make_camera_view(other.cameras[0], width, height);
+    moved.now = make_posed_view(scene, scene.frame_rate.seconds_of(from), 0, width, height);
+    moved.other = make_posed_view(scene, scene.frame_rate.seconds_of(to), 0, width, height);
     RayScene rays(scene);
-    rays.update(now, compute_anchor(moved.now));
-    moved.hits = cast_first_hits(rays, moved.now);
-    moved.motion = compute_model_motion(scene, {&now, &moved.now}, {&other, &moved.other}, moved.hits, {});
+    rays.update(moved.now.pose, compute_anchor(moved.now.view));
+    moved.hits = cast_first_hits(rays, moved.now.view);
+    moved.motion = compute_model_motion(scene, moved.now, moved.other, moved.hits);
     return moved;
 }
 
@@ -76,8 +74,8 @@ TEST(CageMotion, IsTheLimitSurfacesAtEveryLevel) {
             ++hits;
             const glm::dvec2 st = place_of(hit, level);
             const glm::dvec2 expected =
-                project_camera_point(moved.other, to_camera(moved.other, bspline_patch(to, st.x, st.y))) -
-                project_camera_point(moved.now, to_camera(moved.now, bspline_patch(from, st.x, st.y)));
+                project_camera_point(moved.other.view, to_camera(moved.other.view, bspline_patch(to, st.x, st.y))) -
+                project_camera_point(moved.now.view, to_camera(moved.now.view, bspline_patch(from, st.x, st.y)));
             worst = std::max(worst, glm::length(moved.motion.displacement.pixels[i] - expected));
             longest = std::max(longest, glm::length(expected));
         }
@@ -105,8 +103,9 @@ TEST(CageMotion, FollowsAnAffineMapOfAnIrregularCage) {
         if (hit.instance == no_index) continue;
         ++hits;
         const glm::dvec3 p = surface.evaluate(0, control, hit.primitive, hit.u, hit.v);
-        const glm::dvec2 expected = project_camera_point(moved.other, to_camera(moved.other, map * p + shift)) -
-                                    project_camera_point(moved.now, to_camera(moved.now, p));
+        const glm::dvec2 expected =
+            project_camera_point(moved.other.view, to_camera(moved.other.view, map * p + shift)) -
+            project_camera_point(moved.now.view, to_camera(moved.now.view, p));
         worst = std::max(worst, glm::length(moved.motion.displacement.pixels[i] - expected));
     }
     EXPECT_GT(hits, 1000);

@@ -139,14 +139,14 @@ class MotionTruth : public testing::TestWithParam<std::tuple<Moving, double>> {
 TEST_P(MotionTruth, ErrorBelowMillionthOfAPixel) {
     for (const int frame : {0, 1, 7, 23}) {
         const double now = scene_.frame_rate.seconds_of(frame), other = scene_.frame_rate.seconds_of(frame + 1);
-        const TwoMoments moments(scene_, now, other, width, height);
-        const Image<Hit> hits = make_random_hits(scene_, moments.frames[0], width, height);
-        const MotionField field = compute_model_motion(scene_, moments.now(), moments.other(), hits, {});
+        const TwoViews views(scene_, now, other, width, height);
+        const Image<Hit> hits = make_random_hits(scene_, views.now.pose, width, height);
+        const MotionField field = compute_model_motion(scene_, views.now, views.other, hits);
         std::size_t compared = 0;
         Real worst = 0, longest = 0;
         for (std::size_t i = 0; i < hits.size(); ++i) {
             const Hit& hit = hits.pixels[i];
-            const Instance& instance = moments.frames[0].instances[hit.instance];
+            const Instance& instance = views.now.pose.instances[hit.instance];
             const RealVector point = real_surface_point(scene_.meshes[instance.mesh], hit);
             const auto pixel_at = [&](double seconds) {
                 return real_project(scene_, camera_, real_to_world(scene_, instance.node, point, seconds), seconds,
@@ -170,9 +170,9 @@ TEST_P(MotionTruth, ErrorBelowMillionthOfAPixel) {
 }
 
 TEST_P(MotionTruth, TheSameMomentTwiceGivesExactlyZero) {
-    const TwoMoments moments(scene_, 0.3, 0.3, width, height);
-    const Image<Hit> hits = make_random_hits(scene_, moments.frames[0], width, height);
-    const MotionField field = compute_model_motion(scene_, moments.now(), moments.other(), hits, {});
+    const TwoViews views(scene_, 0.3, 0.3, width, height);
+    const Image<Hit> hits = make_random_hits(scene_, views.now.pose, width, height);
+    const MotionField field = compute_model_motion(scene_, views.now, views.other, hits);
     for (std::size_t i = 0; i < hits.size(); ++i) {
         ASSERT_EQ(field.displacement.pixels[i], glm::dvec2(0.0));
         ASSERT_EQ(field.path_length.pixels[i], 0.0);
@@ -180,11 +180,11 @@ TEST_P(MotionTruth, TheSameMomentTwiceGivesExactlyZero) {
 }
 
 TEST_P(MotionTruth, SameBitsForAnyNumberOfThreads) {
-    const TwoMoments moments(scene_, 0.3, 0.3 + 1.0 / 30.0, width, height);
-    const Image<Hit> hits = make_random_hits(scene_, moments.frames[0], width, height);
+    const TwoViews views(scene_, 0.3, 0.3 + 1.0 / 30.0, width, height);
+    const Image<Hit> hits = make_random_hits(scene_, views.now.pose, width, height);
     const auto run = [&](int threads) {
         const ThreadLimit limit(threads);
-        return compute_model_motion(scene_, moments.now(), moments.other(), hits, {});
+        return compute_model_motion(scene_, views.now, views.other, hits);
     };
     const MotionField one = run(1), four = run(4);
     EXPECT_EQ(one.displacement, four.displacement);
@@ -212,9 +212,9 @@ TEST(ModelMotion, StaticObjectsBesideMovingOnesAreExactlyStill) {
     still.scale = glm::dvec3(1.1, -0.7, 0.3);
     add_object(scene, still);
     translating(scene, root);
-    const TwoMoments moments(scene, 0.1, 0.4, width, height);
-    const Image<Hit> hits = make_random_hits(scene, moments.frames[0], width, height);
-    const MotionField field = compute_model_motion(scene, moments.now(), moments.other(), hits, {});
+    const TwoViews views(scene, 0.1, 0.4, width, height);
+    const Image<Hit> hits = make_random_hits(scene, views.now.pose, width, height);
+    const MotionField field = compute_model_motion(scene, views.now, views.other, hits);
     for (std::size_t i = 0; i < hits.size(); ++i) {
         if (hits.pixels[i].instance == 0) {
             EXPECT_EQ(field.displacement.pixels[i], glm::dvec2(0.0));
@@ -232,10 +232,10 @@ TEST(ModelMotion, ZoomMovesObjectsAndBackground) {
     add_node(scene, node);
     add_camera(scene);
     scene.cameras[0].fov = ramp(0.6, 0.9);
-    const TwoMoments moments(scene, 0.0, 1.0, width, height);
+    const TwoViews views(scene, 0.0, 1.0, width, height);
     Image<Hit> hits(width, height);
     hits(width / 2, height / 2) = {.instance = 0, .primitive = 0};
-    const MotionField field = compute_model_motion(scene, moments.now(), moments.other(), hits, {});
+    const MotionField field = compute_model_motion(scene, views.now, views.other, hits);
     const double grown = 0.5 * height / std::tan(0.45) - 0.5 * height / std::tan(0.3);  // focal length in pixels
     EXPECT_NEAR(field.displacement(width / 2, height / 2).x, 0.1 * grown, 1e-9);
     EXPECT_NEAR(field.displacement(width / 2, height / 2).y, -0.05 * grown, 1e-9);
@@ -252,17 +252,17 @@ TEST(ModelMotion, FilmOffsetSlidesThePicture) {
         scene.cameras[0].orthographic = orthographic;
         scene.cameras[0].shift_x = ramp(0.1, 0.35);
         scene.cameras[0].shift_y = -0.2;
-        const TwoMoments moments(scene, 0.0, 1.0, width, height);
-        Image<Hit> hits = make_random_hits(scene, moments.frames[0], width, height);
+        const TwoViews views(scene, 0.0, 1.0, width, height);
+        Image<Hit> hits = make_random_hits(scene, views.now.pose, width, height);
         if (!orthographic) hits(3, 5).instance = no_index;
-        const MotionField field = compute_model_motion(scene, moments.now(), moments.other(), hits, {});
+        const MotionField field = compute_model_motion(scene, views.now, views.other, hits);
         for (const glm::dvec2& d : field.displacement.pixels) {
             ASSERT_NEAR(d.x, -0.25 * height, 1e-9);
             ASSERT_NEAR(d.y, 0.0, 1e-9);
         }
         scene.cameras[0].shift_x = 0.35;
-        const TwoMoments held(scene, 0.0, 1.0, width, height);
-        const MotionField still = compute_model_motion(scene, held.now(), held.other(), hits, {});
+        const TwoViews held(scene, 0.0, 1.0, width, height);
+        const MotionField still = compute_model_motion(scene, held.now, held.other, hits);
         for (const glm::dvec2& d : still.displacement.pixels) ASSERT_EQ(d, glm::dvec2(0.0));
     }
 }
@@ -270,9 +270,9 @@ TEST(ModelMotion, FilmOffsetSlidesThePicture) {
 TEST(ModelMotion, PathIsTheDisplacementsLengthWhereNothingTurnsFar) {
     Scene scene;
     dollying(scene, add_node(scene, make_node(no_index, {})));
-    const TwoMoments moments(scene, 0.0, 1.0 / 30.0, width, height);
-    const Image<Hit> hits = make_random_hits(scene, moments.frames[0], width, height);
-    const MotionField field = compute_model_motion(scene, moments.now(), moments.other(), hits, {});
+    const TwoViews views(scene, 0.0, 1.0 / 30.0, width, height);
+    const Image<Hit> hits = make_random_hits(scene, views.now.pose, width, height);
+    const MotionField field = compute_model_motion(scene, views.now, views.other, hits);
     for (std::size_t i = 0; i < hits.size(); ++i) {
         const glm::dvec2& d = field.displacement.pixels[i];
         ASSERT_DOUBLE_EQ(field.path_length.pixels[i], std::sqrt(d.x * d.x + d.y * d.y));

@@ -53,12 +53,10 @@ struct FrameMotion {
 };
 
 inline FrameMotion compute_motion(const Scene& scene, int frame, int width, int height) {
-    const ScenePose now = pose(scene, scene.frame_rate.seconds_of(frame));
-    const ScenePose next = pose(scene, scene.frame_rate.seconds_of(frame + 1));
-    const CameraView view = make_camera_view(now.cameras.front(), width, height);
-    const CameraView next_view = make_camera_view(next.cameras.front(), width, height);
-    FrameMotion result{cast(scene, now, view), {}, now.instances};
-    result.field = compute_model_motion(scene, {&now, &view}, {&next, &next_view}, result.hits, {});
+    const PosedView now = make_posed_view(scene, scene.frame_rate.seconds_of(frame), 0, width, height);
+    const PosedView next = make_posed_view(scene, scene.frame_rate.seconds_of(frame + 1), 0, width, height);
+    FrameMotion result{cast(scene, now.pose, now.view), {}, now.pose.instances};
+    result.field = compute_model_motion(scene, now, next, result.hits);
     return result;
 }
 

@@ -29,23 +29,19 @@ int add_camera(Scene& scene, double distance = 4.0) {
 }
 
 struct Observed {
-    ScenePose now, other;
-    CameraView view_now, view_other;
+    PosedView now, other;
     Image<Hit> hits;
     MotionField motion;
 };
 
 Observed observe(const Scene& scene, double from, double to) {
     Observed seen;
-    seen.now = pose(scene, from);
-    seen.other = pose(scene, to);
-    seen.view_now = make_camera_view(seen.now.cameras[0], width, height);
-    seen.view_other = make_camera_view(seen.other.cameras[0], width, height);
+    seen.now = make_posed_view(scene, from, 0, width, height);
+    seen.other = make_posed_view(scene, to, 0, width, height);
     RayScene rays(scene);
-    rays.update(seen.now, compute_anchor(seen.view_now));
-    seen.hits = cast_first_hits(rays, seen.view_now);
-    seen.motion =
-        compute_model_motion(scene, {&seen.now, &seen.view_now}, {&seen.other, &seen.view_other}, seen.hits, {});
+    rays.update(seen.now.pose, compute_anchor(seen.now.view));
+    seen.hits = cast_first_hits(rays, seen.now.view);
+    seen.motion = compute_model_motion(scene, seen.now, seen.other, seen.hits);
     return seen;
 }
 
@@ -74,7 +70,7 @@ double largest_error(const Observed& seen, const Mesh& rest, const AtNow& at_now
                    uv.y * place(rest.positions[t.z]);
         };
         const glm::dvec2 expected =
-            project(seen.view_other, between(at_other)) - project(seen.view_now, between(at_now));
+            project(seen.other.view, between(at_other)) - project(seen.now.view, between(at_now));
         largest = std::max(largest, glm::length(expected - seen.motion.displacement.pixels[i]));
     }
     return largest;
@@ -100,8 +96,7 @@ TEST(Deforming, RP14_MovingAllVerticesIsMovingTheObject) {
         EXPECT_GT(glm::length(a.motion.displacement(width / 2, height / 2)), 1.0);
         EXPECT_LT(largest, 1e-4);
         // The same hits: the same motion.
-        const MotionField of_rigid =
-            compute_model_motion(rigid, {&b.now, &b.view_now}, {&b.other, &b.view_other}, a.hits, {});
+        const MotionField of_rigid = compute_model_motion(rigid, b.now, b.other, a.hits);
         double exact = 0.0;
         for (std::size_t i = 0; i < a.hits.size(); ++i)
             exact = std::max(exact, glm::length(a.motion.displacement.pixels[i] - of_rigid.displacement.pixels[i]));
@@ -116,7 +111,7 @@ TEST(Deforming, RP14_WhatStandsStillBetweenSamplesMovesByExactlyNothing) {
     });
     add_camera(scene);
     const Observed seen = observe(scene, 0.2, 0.7);
-    EXPECT_FALSE(seen.now.meshes[0].positions.empty());
+    EXPECT_FALSE(seen.now.pose.meshes[0].positions.empty());
     for (const glm::dvec2& d : seen.motion.displacement.pixels) EXPECT_EQ(d, glm::dvec2(0.0));
     const Observed later = observe(scene, 1.2, 1.7);
     EXPECT_GT(glm::length(later.motion.displacement(width / 2 + 10, height / 2)), 0.1);
@@ -192,8 +187,8 @@ TEST(Deforming, RP16_CagesAreReprojectedOnTheLimitSurface) {
         const Hit& hit = seen.hits.pixels[i];
         if (hit.instance == no_index) continue;
         const glm::dvec2 uv = clamp_barycentrics(hit);
-        const glm::dvec2 expected = project(seen.view_other, surface.evaluate(0, to, hit.primitive, uv.x, uv.y)) -
-                                    project(seen.view_now, surface.evaluate(0, from, hit.primitive, uv.x, uv.y));
+        const glm::dvec2 expected = project(seen.other.view, surface.evaluate(0, to, hit.primitive, uv.x, uv.y)) -
+                                    project(seen.now.view, surface.evaluate(0, from, hit.primitive, uv.x, uv.y));
         largest = std::max(largest, glm::length(expected - seen.motion.displacement.pixels[i]));
         moved = std::max(moved, glm::length(expected));
     }
@@ -207,12 +202,12 @@ TEST(Deforming, RP16_AStaticCageStandsStillBitForBitAndIsRigid) {
     add_camera(scene);
     const Observed seen = observe(scene, 0.25, 0.75);
     EXPECT_GT(count_hits(seen), 500u);
-    EXPECT_TRUE(seen.now.meshes[0].positions.empty());
+    EXPECT_TRUE(seen.now.pose.meshes[0].positions.empty());
     for (const glm::dvec2& d : seen.motion.displacement.pixels) EXPECT_EQ(d, glm::dvec2(0.0));
     Scene held = make_cage_scene(true);  // moves, but not between these times
     add_camera(held);
     const Observed late = observe(held, 1.5, 2.5);
-    EXPECT_FALSE(late.now.meshes[0].control.empty());
+    EXPECT_FALSE(late.now.pose.meshes[0].control.empty());
     for (const glm::dvec2& d : late.motion.displacement.pixels) EXPECT_EQ(d, glm::dvec2(0.0));
 }
 
@@ -246,7 +241,7 @@ TEST(Deforming, RP07_PathsOfTurningJointsAreArcs) {
         const auto on_right = [&](std::uint32_t v) { return scene.meshes[0].positions[v].x > 0.0f; };
         if (!on_right(t.x) || !on_right(t.y) || !on_right(t.z)) continue;
         const glm::dvec3 p = point_between(scene.meshes[0].positions, t, uv);
-        const double radius = std::hypot(p.x, p.y) / 4.0 * seen.view_now.pixels_per_unit;
+        const double radius = std::hypot(p.x, p.y) / 4.0 * seen.now.view.pixels_per_unit;
         EXPECT_LT(glm::length(seen.motion.displacement.pixels[i]), 1e-9);
         EXPECT_NEAR(seen.motion.path_length.pixels[i], 2.0 * std::numbers::pi * radius,
                     0.01 * 2.0 * std::numbers::pi * radius);
@@ -286,8 +281,8 @@ TEST(Deforming, HiddenPointsAreFoundWhereTheyHaveMoved) {
     add_camera(scene);
     Observed seen = observe(scene, 0.0, 1.0);
     RayScene rays(scene);
-    rays.update(seen.other, compute_anchor(seen.view_other));
-    mark_hidden(seen.motion, scene, {&seen.other, &seen.view_other}, seen.hits, rays);
+    rays.update(seen.other.pose, compute_anchor(seen.other.view));
+    mark_hidden(seen.motion, scene, seen.other, seen.hits, rays);
     std::size_t hidden = 0, valid = 0;
     for (const MotionValidity validity : seen.motion.validity.pixels) {
         hidden += validity == MotionValidity::hidden;

@@ -40,12 +40,12 @@ Seen look(const Scene& scene, double seconds, double other_seconds, const View& 
     camera.position = view.eye;
     camera.axes = look_at(view.eye, view.target, {0.0, 1.0, 0.0});
     const CameraView pixels = make_camera_view(camera, width, height);
-    const ScenePose now = pose(scene, seconds), other = pose(scene, other_seconds);
+    const PosedView now{pose(scene, seconds), pixels}, other{pose(scene, other_seconds), pixels};
     RayScene rays(scene);
-    rays.update(now, compute_anchor(pixels));
+    rays.update(now.pose, compute_anchor(pixels));
     Seen seen;
     seen.hits = cast_first_hits(rays, pixels);
-    seen.motion = compute_model_motion(scene, {&now, &pixels}, {&other, &pixels}, seen.hits, {});
+    seen.motion = compute_model_motion(scene, now, other, seen.hits);
     return seen;
 }
 

@@ -28,16 +28,14 @@ struct View {
 
 View look(const Scene& scene, std::int64_t frame_number) {
     const FrameRate rate;
-    const ScenePose frame = pose(scene, rate.seconds_of(frame_number));
-    const ScenePose next = pose(scene, rate.seconds_of(frame_number + 1));
-    const auto camera = static_cast<std::size_t>(find_camera(scene, scene.camera));
-    const CameraView view = make_camera_view(frame.cameras[camera], 320, 240);
-    const CameraView next_view = make_camera_view(next.cameras[camera], 320, 240);
+    const int camera = find_camera(scene, scene.camera);
+    const PosedView now = make_posed_view(scene, rate.seconds_of(frame_number), camera, 320, 240);
+    const PosedView next = make_posed_view(scene, rate.seconds_of(frame_number + 1), camera, 320, 240);
     RayScene rays(scene);
-    rays.update(frame, compute_anchor(view));
+    rays.update(now.pose, compute_anchor(now.view));
     View seen;
-    seen.hits = cast_first_hits(rays, view);
-    seen.motion = compute_model_motion(scene, {&frame, &view}, {&next, &next_view}, seen.hits, {});
+    seen.hits = cast_first_hits(rays, now.view);
+    seen.motion = compute_model_motion(scene, now, next, seen.hits);
     return seen;
 }
 

@@ -17,8 +17,8 @@
 #include "render/frame_files.h"
 #include "render/image_sequence.h"
 #include "tests/support/image_patterns.h"
-#include "tests/support/scratch_folder.h"
 #include "tests/support/paths.h"
+#include "tests/support/scratch_folder.h"
 
 namespace aleph {
 namespace {
@@ -323,18 +323,17 @@ TEST(MapsImages, FindsFilesByPattern) {
     EXPECT_EQ(find_frame_files((folder / "f.%d.exr").string()).size(), 2u);  // 1 and 12345
 }
 
-TEST(MapsImages, PartnersOfFrames) {
+TEST(MapsImages, TheOtherFrameOfAFrame) {
     FrameFiles files;
     for (const int frame : {1, 2, 3, 10, 11}) files[frame] = "f";
     const std::vector<std::int64_t> cuts = {10};
-    EXPECT_EQ(find_partner(files, cuts, 1).frame, 2);
-    EXPECT_TRUE(find_partner(files, cuts, 3).none);
-    EXPECT_EQ(find_partner(files, cuts, 11).frame, 10);
-    EXPECT_TRUE(find_partner(files, cuts, 11).backward);
-    EXPECT_THROW(find_partner(files, {}, 3), InputError);
-    EXPECT_THROW(find_partner(files, cuts, 4), InputError);
-    EXPECT_THROW(find_partner({}, cuts, 4), InputError);
-    EXPECT_TRUE(find_partner({{5, "f"}}, {}, 5).none);
+    EXPECT_EQ(find_other_frame(files, cuts, 1), OtherFrame::next);
+    EXPECT_EQ(find_other_frame(files, cuts, 3), OtherFrame::none);
+    EXPECT_EQ(find_other_frame(files, cuts, 11), OtherFrame::previous);
+    EXPECT_THROW(find_other_frame(files, {}, 3), InputError);
+    EXPECT_THROW(find_other_frame(files, cuts, 4), InputError);
+    EXPECT_THROW(find_other_frame({}, cuts, 4), InputError);
+    EXPECT_EQ(find_other_frame({{5, "f"}}, {}, 5), OtherFrame::none);
 }
 
 TEST(SceneMotionFromImages, IsTheSearchBetweenTheQuickEstimates) {
@@ -354,7 +353,7 @@ TEST(SceneMotionFromImages, IsTheSearchBetweenTheQuickEstimates) {
     const FrameRange range = sequence.range();
     const FrameOutput last = sequence.render(range.last, request), before = sequence.render(range.last - 1, request);
     EXPECT_EQ(last.motion.displacement,
-              compute_image_motion(last.estimate, before.estimate, {.backward = true}).displacement);
+              compute_image_motion(last.estimate, before.estimate, OtherFrame::previous).displacement);
     // Geometry's maps are there; nothing is marked hidden.
     EXPECT_FALSE(now.depth.empty());
     settings.motion = MotionSource::model;

@@ -1,0 +1,24 @@
+#pragma once
+// A posed scene seen by one of its cameras: what motion, rays and shading need of one time.
+
+#include "engine/pose/camera_view.h"
+#include "engine/pose/plan.h"
+#include "engine/pose/pose.h"
+
+namespace aleph {
+
+struct PosedView {
+    ScenePose pose;
+    CameraView view;
+};
+
+/// @param camera  index into ScenePose::cameras
+/// @param width, height  pixels
+/// @throws InputError as make_camera_view
+PosedView make_posed_view(const Scene& scene, double seconds, int camera, int width, int height);
+
+/// Takes a posed view of the same scene to another time. Only what can change is computed again (update_pose); camera
+/// and size stay.
+void update_posed_view(const Scene& scene, const PosePlan& plan, double seconds, int camera, PosedView& posed);
+
+}  // namespace aleph
