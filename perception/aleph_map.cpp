@@ -13,19 +13,19 @@ namespace aleph {
 namespace {
 
 constexpr int rows_per_band = 32;
-constexpr float largest_aleph = 250.76f;        // the supremum of CSF_max is 250.751
-constexpr float largest_velocity = 1e30f;       // deg/s
-constexpr float largest_model_velocity = 1e6f;  // deg/s; beyond 1.8e5 no contrast is seen and every f is 1
+constexpr float max_aleph = 250.76f;        // the supremum of CSF_max is 250.751
+constexpr float max_velocity = 1e30f;       // deg/s
+constexpr float max_model_velocity = 1e6f;  // deg/s; beyond 1.8e5 no contrast is seen and every f is 1
 constexpr float log2_e = static_cast<float>(std::numbers::log2e);
 constexpr float log10_2 = 0.30102999566398120f;
 
 /// What one row of the pass works on.
 struct RowBuffers {
-    explicit RowBuffers(std::size_t width)
-        : saliency(width), velocity(width), elevation(width), sum(width), above(width) {}
-    std::vector<float> saliency, velocity, elevation;
-    std::vector<float> sum;    ///< sum of L_i
-    std::vector<float> above;  ///< sum of L_i (f_i - 1)
+    explicit RowBuffers(int width) : velocity(width), elevation(width), sum(width), above(width) {}
+    std::vector<float> velocity;   ///< v_R, deg/s
+    std::vector<float> elevation;  ///< f_i of the band that was added last
+    std::vector<float> sum;        ///< sum of L_i
+    std::vector<float> above;      ///< sum of L_i (f_i - 1)
 };
 
 /// Adds one band to the sums. f - 1 is summed, so that rounding cannot bring aleph below 1.
@@ -42,10 +42,27 @@ void add_flat_band(const float* band, std::size_t width, float* sum) {
     for (std::size_t x = 0; x < width; ++x) sum[x] += std::abs(band[x]);
 }
 
-/// (5.11) from the sums; `flat`: f_6, for pixels without contrast.
-void divide_sums(const RowBuffers& b, const float* noise, const float* flat, float* out) {
+/// The sums over all bands of one row. Leaves f_6 in `elevation`.
+void sum_bands(const BandRows& bands, const ElevationRow& elevation, RowBuffers& b) {
+    const std::size_t width = b.sum.size();
+    std::fill(b.sum.begin(), b.sum.end(), 0.0f);
+    std::fill(b.above.begin(), b.above.end(), 0.0f);
+    for (int i = 0; i < band_count; ++i) {
+        if (elevation.is_one(i)) {
+            add_flat_band(bands.band(i), width, b.sum.data());
+        } else {
+            elevation.elevations(i, b.elevation.data());
+            add_band(bands.band(i), b.elevation.data(), width, b.sum.data(), b.above.data());
+        }
+    }
+    if (elevation.is_one(band_count - 1)) std::fill(b.elevation.begin(), b.elevation.end(), 1.0f);
+}
+
+/// (5.11) from the sums; a pixel without contrast gets f_6.
+void divide_sums(const RowBuffers& b, const float* noise, float* out) {
     const float* const sum = b.sum.data();
     const float* const above = b.above.data();
+    const float* const flat = b.elevation.data();
     const std::size_t width = b.sum.size();
     for (std::size_t x = 0; x < width; ++x) {
         const bool has_contrast = sum[x] > noise[x];
@@ -58,18 +75,17 @@ void divide_sums(const RowBuffers& b, const float* noise, const float* flat, flo
 std::uint64_t clamp_row(float* row, std::size_t width) {
     int outside = 0;
     for (std::size_t x = 0; x < width; ++x) {
-        outside += static_cast<int>(!(row[x] >= 1.0f)) | static_cast<int>(!(row[x] <= largest_aleph));
+        outside += static_cast<int>(!(row[x] >= 1.0f)) | static_cast<int>(!(row[x] <= max_aleph));
     }
     if (outside == 0) return 0;
-    for (std::size_t x = 0; x < width; ++x) row[x] = row[x] >= 1.0f ? std::min(row[x], largest_aleph) : 1.0f;
+    for (std::size_t x = 0; x < width; ++x) row[x] = row[x] >= 1.0f ? std::min(row[x], max_aleph) : 1.0f;
     return static_cast<std::uint64_t>(outside);
 }
 
 }  // namespace
 
-ElevationRow::ElevationRow(const std::array<double, band_count>& rho, int width)
-    : spread_(static_cast<std::size_t>(width)), peak_(static_cast<std::size_t>(width)) {
-    for (std::size_t i = 0; i < slope_.size(); ++i) {
+ElevationRow::ElevationRow(const std::array<double, band_count>& rho, int width) : spread_(width), peak_(width) {
+    for (int i = 0; i < band_count; ++i) {
         slope_[i] = static_cast<float>(rho[i] * csf_angular / csf_rho_numerator);
     }
 }
@@ -85,7 +101,7 @@ void ElevationRow::load(const float* velocity) {
     float largest = 0.0f;
 #pragma omp simd reduction(max : largest)
     for (std::size_t x = 0; x < width; ++x) {
-        const float v = velocity[x] < largest_model_velocity ? velocity[x] : largest_model_velocity;
+        const float v = velocity[x] < max_model_velocity ? velocity[x] : max_model_velocity;
         const float s = static_cast<float>(csf_c2) * v + static_cast<float>(csf_rho_offset);
         const float l = std::abs(log10_2 * fast_log2(v) + log_offset);
         const float k = static_cast<float>(csf_k_offset) + static_cast<float>(csf_k_slope) * (l * l * l);
@@ -93,11 +109,11 @@ void ElevationRow::load(const float* velocity) {
         largest = s > largest ? s : largest;
         peak[x] = peak_factor * k * v / (s * s);
     }
-    largest_spread_ = largest;
+    max_spread_ = largest;
 }
 
 bool ElevationRow::is_one(int band) const {
-    return !(slope_[band] * largest_spread_ > 1.0f);
+    return !(slope_[band] * max_spread_ > 1.0f);
 }
 
 void ElevationRow::elevations(int band, float* out) const {
@@ -119,7 +135,7 @@ void retinal_velocity_row(const float* velocity, const float* saliency, int coun
     constexpr auto drift = static_cast<float>(drift_velocity);
     for (int x = 0; x < count; ++x) {
         const float positive = velocity[x] > 0.0f ? velocity[x] : 0.0f;
-        const float v = positive < largest_velocity ? positive : largest_velocity;
+        const float v = positive < max_velocity ? positive : max_velocity;
         const float tracked = v * (1.0f - saliency[x]) - drift;
         const float limited = v - static_cast<float>(pursuit_limit);
         const float slip = tracked > limited ? tracked : limited;
@@ -133,43 +149,25 @@ AlephImages compute_aleph(const AlephPass& pass, bool with_retinal_velocity) {
     out.aleph = Image<float>(size.width, size.height);
     if (with_retinal_velocity) out.retinal_velocity = Image<float>(size.width, size.height);
 
-    const auto height = static_cast<std::size_t>(size.height);
-    const auto width = static_cast<std::size_t>(size.width);
-    std::vector<std::uint64_t> clamped((height + rows_per_band - 1) / rows_per_band);
-    parallel_for(height, rows_per_band, [&](std::size_t begin, std::size_t end) {
+    std::vector<std::uint64_t> clamped((size.height + rows_per_band - 1) / rows_per_band);
+    parallel_rows(size.height, rows_per_band, [&](int begin, int end) {
         BandRows bands(pass.bands);
-        bands.load(static_cast<int>(begin), static_cast<int>(end));
+        bands.load(begin, end);
         ElevationRow elevation(pass.rho, size.width);
-        RowBuffers b(width);
-        std::fill(b.saliency.begin(), b.saliency.end(), static_cast<float>(tracking_efficiency));
+        RowBuffers b(size.width);
+        const std::vector<float> full_tracking(size.width, static_cast<float>(tracking_efficiency));
         std::fill(b.velocity.begin(), b.velocity.end(), static_cast<float>(drift_velocity));
-        for (int y = static_cast<int>(begin); y < static_cast<int>(end); ++y) {
-            const float* saliency = b.saliency.data();
-            if (pass.saliency != nullptr) {
-                scale_saliency_row(*pass.saliency, y);
-                saliency = pass.saliency->map.row(y);
-            }
+        for (int y = begin; y < end; ++y) {
             if (pass.velocity != nullptr) {
+                const float* const saliency = pass.saliency != nullptr ? pass.saliency->row(y) : full_tracking.data();
                 retinal_velocity_row(pass.velocity->row(y), saliency, size.width, b.velocity.data());
             }
             if (with_retinal_velocity) std::copy(b.velocity.begin(), b.velocity.end(), out.retinal_velocity.row(y));
-
             elevation.load(b.velocity.data());
-            std::fill(b.sum.begin(), b.sum.end(), 0.0f);
-            std::fill(b.above.begin(), b.above.end(), 0.0f);
             bands.expand_row(y);
-            for (int i = 0; i < band_count; ++i) {
-                if (elevation.is_one(i)) {
-                    add_flat_band(bands.band(i), width, b.sum.data());
-                } else {
-                    elevation.elevations(i, b.elevation.data());
-                    add_band(bands.band(i), b.elevation.data(), width, b.sum.data(), b.above.data());
-                }
-            }
-            if (elevation.is_one(band_count - 1)) std::fill(b.elevation.begin(), b.elevation.end(), 1.0f);
-            // The last band's elevation is what a pixel without contrast gets.
-            divide_sums(b, bands.noise(), b.elevation.data(), out.aleph.row(y));
-            clamped[begin / rows_per_band] += clamp_row(out.aleph.row(y), width);
+            sum_bands(bands, elevation, b);
+            divide_sums(b, bands.noise(), out.aleph.row(y));
+            clamped[begin / rows_per_band] += clamp_row(out.aleph.row(y), size.width);
         }
     });
     for (const std::uint64_t c : clamped) out.clamped += c;

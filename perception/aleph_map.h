@@ -3,10 +3,10 @@
 
 #include <array>
 #include <cstdint>
+#include <vector>
 
 #include "engine/base/image.h"
 #include "perception/band_response.h"
-#include "perception/saliency.h"
 
 namespace aleph {
 
@@ -28,7 +28,7 @@ class ElevationRow {
   private:
     std::array<float, band_count> slope_;  ///< rho / rho_peak = slope * (c2 v + 2)
     std::vector<float> spread_;            ///< c2 v + 2
-    float largest_spread_ = 0.0f;
+    float max_spread_ = 0.0f;
     std::vector<float> peak_;  ///< CSF_max
 };
 
@@ -39,7 +39,7 @@ void retinal_velocity_row(const float* velocity, const float* saliency, int coun
 struct AlephPass {
     const BandLevels& bands;
     const Image<float>* velocity;  ///< deg/s; null: nothing moves
-    Saliency* saliency;            ///< its map becomes S; null: S = tracking_efficiency
+    const Image<float>* saliency;  ///< S, [0,1]; null: S = tracking_efficiency
     std::array<double, band_count> rho;
 };
 

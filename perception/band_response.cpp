@@ -34,7 +34,7 @@ BandLevels make_band_levels(LevelSize size, RowSource finest, const std::vector<
 BandRows::BandRows(const BandLevels& levels)
     : levels_(levels),
       expanders_(band_count + 1, RowExpander(levels.sizes)),
-      finest_(static_cast<std::size_t>(levels.sizes.front().width)),
+      finest_(levels.sizes.front().width),
       noise_(finest_.size()) {
     for (std::vector<float>& row : rows_) row.resize(finest_.size());
 }
@@ -42,14 +42,13 @@ BandRows::BandRows(const BandLevels& levels)
 void BandRows::load(int begin, int end) {
     expanders_[0].load(levels_.second, 1, begin, end);
     for (int i = 1; i < band_count; ++i) {
-        const auto index = static_cast<std::size_t>(i);
-        expanders_[index].load(levels_.differences[index], i, begin, end);
+        expanders_[i].load(levels_.differences[i], i, begin, end);
     }
     expanders_[band_count].load(levels_.coarsest, band_count, begin, end);
 }
 
 void BandRows::expand_row(int y) {
-    for (std::size_t i = 0; i < rows_.size(); ++i) expanders_[i].expand_row(y, rows_[i].data());
+    for (int i = 0; i < band_count; ++i) expanders_[i].expand_row(y, rows_[i].data());
     expanders_[band_count].expand_row(y, noise_.data());
     levels_.finest(y, finest_.data());
     const float* const finest = finest_.data();
@@ -64,51 +63,18 @@ void BandRows::expand_row(int y) {
     }
 }
 
-std::array<Image<float>, band_count> compute_band_response(const Image<float>& achromatic) {
-    const LevelSize size{achromatic.width, achromatic.height};
-    const auto width = static_cast<std::size_t>(size.width);
-    const float grey = summarize(size, [&](int y, float* row) { std::copy_n(achromatic.row(y), width, row); }).mean;
-    const RowSource shifted = [&](int y, float* row) {
-        for (std::size_t x = 0; x < width; ++x) row[x] = achromatic.row(y)[x] - grey;
-    };
-    const BandLevels levels =
-        make_band_levels(size, shifted, make_gaussian_pyramid(size, shifted, band_count + 1), grey);
-
-    std::array<Image<float>, band_count> out;
-    for (Image<float>& image : out) image = Image<float>(achromatic.width, achromatic.height);
-    parallel_rows(achromatic.height, rows_per_band, [&](int begin, int end) {
-        BandRows rows(levels);
-        rows.load(begin, end);
-        for (int y = begin; y < end; ++y) {
-            rows.expand_row(y);
-            for (int x = 0; x < achromatic.width; ++x) {
-                double sum = 0.0;
-                for (int i = 0; i < band_count; ++i) sum += std::abs(rows.band(i)[x]);
-                const bool noise = !(sum > rows.noise()[x]);
-                for (int i = 0; i < band_count; ++i) {
-                    const double flat = i == band_count - 1 ? 1.0 : 0.0;
-                    out[i](x, y) = static_cast<float>(noise ? flat : std::abs(rows.band(i)[x]) / sum);
-                }
-            }
-        }
-    });
-    return out;
-}
-
 ChannelSummary summarize(LevelSize size, const RowSource& source) {
-    const auto height = static_cast<std::size_t>(size.height);
-    const auto width = static_cast<std::size_t>(size.width);
-    std::vector<double> sums(height);
-    std::vector<float> largest(height);
-    parallel_for(height, rows_per_band, [&](std::size_t begin, std::size_t end) {
-        std::vector<float> row(width);
-        for (std::size_t y = begin; y < end; ++y) {
-            source(static_cast<int>(y), row.data());
+    std::vector<double> sums(size.height);
+    std::vector<float> largest(size.height);
+    parallel_rows(size.height, rows_per_band, [&](int begin, int end) {
+        std::vector<float> row(size.width);
+        for (int y = begin; y < end; ++y) {
+            source(y, row.data());
             const float* const values = row.data();
             double sum = 0.0;
             float highest = values[0];
 #pragma omp simd reduction(+ : sum) reduction(max : highest)
-            for (std::size_t x = 0; x < width; ++x) {
+            for (int x = 0; x < size.width; ++x) {
                 sum += values[x];
                 highest = values[x] > highest ? values[x] : highest;
             }
@@ -117,7 +83,7 @@ ChannelSummary summarize(LevelSize size, const RowSource& source) {
         }
     });
     const double sum = std::accumulate(sums.begin(), sums.end(), 0.0);
-    return {static_cast<float>(sum / (static_cast<double>(width) * static_cast<double>(height))),
+    return {static_cast<float>(sum / (static_cast<double>(size.width) * size.height)),
             *std::max_element(largest.begin(), largest.end())};
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-// How much of each spatial frequency band a pixel's surroundings hold: thesis 5.2, MODEL 5.2.
+// How much of each spatial frequency band a pixel's surroundings hold: thesis 5.2.
 
 #include <array>
 #include <vector>
@@ -49,9 +49,6 @@ class BandRows {
     std::array<std::vector<float>, band_count> rows_;
     std::vector<float> finest_, noise_;
 };
-
-/// (5.3) R_i at full size; they sum to 1 everywhere. The Aleph pass works row by row and does not store them.
-std::array<Image<float>, band_count> compute_band_response(const Image<float>& achromatic);
 
 /// What perception asks of a whole channel first.
 struct ChannelSummary {

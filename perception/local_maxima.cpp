@@ -4,34 +4,27 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
-#include <optional>
 #include <utility>
 
 namespace aleph {
 
 namespace {
 
-constexpr int reach = Candidate::reach;
 constexpr float outside = -1.0f;  // lower than any value of a map
-constexpr double quantisation_steps = 65535.0;
-constexpr double lowest_maximum = 0.1;  // local maxima below it are dropped (MODEL 5.3)
+constexpr double quantization_steps = 65535.0;
+constexpr double min_height = 0.1;  // local maxima below it are dropped: noise and ringing
 
-/// The last few rows of |map|, in a ring, with a rim of `outside` that is `reach` wide: no pixel is a special case.
-class RowRing {
-  public:
-    static constexpr int rows = 8;  // at least Candidate::side, a power of two
+/// A pixel that is higher than its neighbours before it in raster order and not lower than those after it. Every
+/// plateau that is a local maximum has one; of a flat map only the first pixel is one.
+struct Candidate {
+    int x, y;
+    float value;
+    float neighbor;  ///< the highest of the eight
+};
 
-    explicit RowRing(int width)
-        : width_(width), stride_(width + 2 * reach), values_(static_cast<std::size_t>(stride_ * rows), outside) {}
-
-    /// Pixel 0 of row y >= -rows.
-    float* row(int y) { return values_.data() + ((y + rows) % rows) * stride_ + reach; }
-    void clear_row(int y) { std::fill_n(row(y), width_, outside); }
-
-  private:
-    int width_;
-    std::ptrdiff_t stride_;
-    std::vector<float> values_;
+struct MapScan {
+    float minimum = std::numeric_limits<float>::infinity(), maximum = 0.0f;
+    std::vector<Candidate> candidates;  ///< in raster order; those below min_height may be missing
 };
 
 /// Makes a row absolute; widens the range.
@@ -59,205 +52,178 @@ void max_along_row(const float* row, int width, float* out) {
 /// Walks a map row by row and keeps what may be a local maximum.
 class MapScanner {
   public:
-    explicit MapScanner(const ExpandedMap& map)
-        : width_(map.size().width),
-          height_(map.size().height),
-          expander_(*map.sizes),
-          rows_(width_),
-          row_maxima_(static_cast<std::size_t>(width_) * RowRing::rows, outside) {
-        expander_.load(*map.image, map.level, 0, height_);
-    }
+    MapScanner(LevelSize size, RowExpander& expander, double floor)
+        : size_(size),
+          expander_(expander),
+          stride_(size.width + 2),
+          floor_(static_cast<float>(floor)),
+          rows_(static_cast<std::size_t>(stride_ * ring), outside),
+          row_maxima_(rows_.size(), outside) {}
 
     MapScan run() {
-        scan_.minimum = std::numeric_limits<float>::infinity();
-        // Row y is looked at when the `reach` rows below it are there.
-        for (int y = 0; y < height_ + reach; ++y) {
+        for (int y = 0; y <= size_.height; ++y) {
             add_row(y);
-            if (y >= reach) scan_row(y - reach);
+            if (y > 0) scan_row(y - 1);
         }
         return std::move(scan_);
     }
 
   private:
-    void add_row(int y) {
-        float* const row = rows_.row(y);
-        if (y < height_) {
-            expander_.expand_row(y, row);
-            take_row(row, width_, scan_.minimum, scan_.maximum);
-        } else {
-            rows_.clear_row(y);
-        }
-        max_along_row(row, width_, maxima(y));
-    }
+    static constexpr int ring = 4;  // rows that are kept: at least the three around a pixel
 
-    float* maxima(int y) {
-        return row_maxima_.data() +
-               static_cast<std::ptrdiff_t>((y + RowRing::rows) % RowRing::rows) * static_cast<std::ptrdiff_t>(width_);
+    /// Pixel 0 of row y >= -1; the pixels left and right of the row are `outside`.
+    float* row(int y) { return rows_.data() + (y + ring) % ring * stride_ + 1; }
+    float* maxima(int y) { return row_maxima_.data() + (y + ring) % ring * stride_ + 1; }
+
+    void add_row(int y) {
+        if (y < size_.height) {
+            expander_.expand_row(y, row(y));
+            take_row(row(y), size_.width, scan_.minimum, scan_.maximum);
+        } else {
+            std::fill_n(row(y), size_.width, outside);
+        }
+        max_along_row(row(y), size_.width, maxima(y));
     }
 
     void scan_row(int y) {
         constexpr int block = 64;
-        const float* const row = rows_.row(y);
+        const float* const here = row(y);
         const float* const above = maxima(y - 1);
-        const float* const here = maxima(y);
         const float* const below = maxima(y + 1);
-        const auto highest = [&](int x) {
-            const float higher = above[x] > below[x] ? above[x] : below[x];
-            return higher > here[x] ? higher : here[x];
+        // What is below .1 of the maximum so far, or of the floor, is below .1 of the range in the end, if the range is
+        // above the floor; a little less for rounding.
+        const float threshold = 0.999f * static_cast<float>(min_height) * std::max(scan_.maximum, floor_);
+        const auto is_candidate = [&](int x) {
+            const float v = here[x];
+            return static_cast<int>(v > threshold) & static_cast<int>(v > above[x]) &
+                   static_cast<int>(v > here[x - 1]) & static_cast<int>(v >= here[x + 1]) &
+                   static_cast<int>(v >= below[x]);
         };
-        // What is under .1 of the maximum so far is under .1 of the range in the end; a little less for rounding.
-        const float threshold = 0.999f * static_cast<float>(lowest_maximum) * scan_.maximum;
-        for (int x0 = 0; x0 < width_; x0 += block) {
-            const int x1 = std::min(x0 + block, width_);
+        for (int x0 = 0; x0 < size_.width; x0 += block) {
+            const int x1 = std::min(x0 + block, size_.width);
             int found = 0;
-            for (int x = x0; x < x1; ++x) {
-                found |= static_cast<int>(row[x] >= highest(x)) & static_cast<int>(row[x] > threshold);
-            }
+            for (int x = x0; x < x1; ++x) found |= is_candidate(x);
             if (found == 0) continue;
             for (int x = x0; x < x1; ++x) {
-                if (row[x] > threshold && row[x] >= highest(x)) add_candidate(x, y);
+                if (is_candidate(x) == 0) continue;
+                const float sides = std::max(here[x - 1], here[x + 1]);
+                scan_.candidates.push_back({x, y, here[x], std::max({sides, above[x], below[x]})});
             }
         }
-    }
-
-    void add_candidate(int x, int y) {
-        Candidate& c = scan_.candidates.emplace_back();
-        c.x = x, c.y = y;
-        auto out = c.values.begin();
-        for (int dy = -reach; dy <= reach; ++dy) {
-            out = std::copy_n(rows_.row(y + dy) + (x - reach), Candidate::side, out);
-        }
-    }
-
-    int width_, height_;
-    RowExpander expander_;
-    RowRing rows_;
-    std::vector<float> row_maxima_;
-    MapScan scan_;
-};
-
-struct Quantiser {
-    double minimum, range;
-
-    int operator()(float value) const {
-        return static_cast<int>(std::floor((value - minimum) / range * quantisation_steps + 0.5));
-    }
-};
-
-/// A plateau that is higher than all around it is known by the raster index of its first pixel.
-struct Plateau {
-    bool highest = true;
-    std::int64_t first = std::numeric_limits<std::int64_t>::max();
-};
-
-/// Flood fill from (x, y) over pixels of one quantised value. Quits where `value_at` has no answer.
-/// @param value_at  (x, y) -> optional<int>; visit(x, y) marks a pixel and says whether it is new
-template <class ValueAt, class Visit>
-std::optional<Plateau> fill_plateau(int x, int y, int width, const ValueAt& value_at, const Visit& visit) {
-    struct Position {
-        int x, y;
-    };
-    Plateau plateau;
-    const int level = *value_at(x, y);
-    visit(x, y);
-    std::vector<Position> stack = {{x, y}};
-    while (!stack.empty()) {
-        const Position at = stack.back();
-        stack.pop_back();
-        plateau.first = std::min(plateau.first, static_cast<std::int64_t>(at.y) * width + at.x);
-        for (int ny = at.y - 1; ny <= at.y + 1; ++ny) {
-            for (int nx = at.x - 1; nx <= at.x + 1; ++nx) {
-                const std::optional<int> value = value_at(nx, ny);
-                if (!value) return std::nullopt;
-                if (*value > level) plateau.highest = false;
-                if (*value == level && visit(nx, ny)) stack.push_back({nx, ny});
-            }
-        }
-    }
-    return plateau;
-}
-
-/// The candidate's plateau, if it ends within what was kept around it.
-std::optional<Plateau> find_small_plateau(const Candidate& c, int width, const Quantiser& quantise) {
-    std::array<bool, Candidate::side * Candidate::side> visited{};
-    const auto index = [&](int x, int y) {
-        return static_cast<std::size_t>((y - c.y + reach) * Candidate::side + (x - c.x + reach));
-    };
-    const auto value_at = [&](int x, int y) -> std::optional<int> {
-        if (std::abs(x - c.x) > reach || std::abs(y - c.y) > reach) return std::nullopt;
-        return quantise(c.values[index(x, y)]);
-    };
-    const auto visit = [&](int x, int y) { return !std::exchange(visited[index(x, y)], true); };
-    return fill_plateau(c.x, c.y, width, value_at, visit);
-}
-
-/// Plateaus of any size; expands the whole map.
-class LargePlateaus {
-  public:
-    LargePlateaus(const ExpandedMap& map, const Quantiser& quantise)
-        : size_(map.size()),
-          quantise_(quantise),
-          values_(static_cast<std::size_t>(size_.width) * static_cast<std::size_t>(size_.height)),
-          visited_(values_.size()) {
-        RowExpander expander(*map.sizes);
-        expander.load(*map.image, map.level, 0, size_.height);
-        for (int y = 0; y < size_.height; ++y) expander.expand_row(y, values_.data() + index(0, y));
-    }
-
-    /// Nothing if the plateau was found before.
-    std::optional<Plateau> find(const Candidate& c) {
-        if (visited_[index(c.x, c.y)] != 0) return std::nullopt;
-        const auto value_at = [&](int x, int y) -> std::optional<int> {
-            if (x < 0 || y < 0 || x >= size_.width || y >= size_.height) return -1;
-            return quantise_(std::abs(values_[index(x, y)]));
-        };
-        const auto visit = [&](int x, int y) { return std::exchange(visited_[index(x, y)], 1) == 0; };
-        return fill_plateau(c.x, c.y, size_.width, value_at, visit);
-    }
-
-  private:
-    std::size_t index(int x, int y) const {
-        return static_cast<std::size_t>(y) * static_cast<std::size_t>(size_.width) + static_cast<std::size_t>(x);
     }
 
     LevelSize size_;
-    Quantiser quantise_;
+    RowExpander& expander_;
+    std::ptrdiff_t stride_;
+    float floor_;
+    std::vector<float> rows_, row_maxima_;
+    MapScan scan_;
+};
+
+struct Quantizer {
+    double minimum, range;
+
+    int operator()(float value) const {
+        return static_cast<int>(std::floor((value - minimum) / range * quantization_steps + 0.5));
+    }
+};
+
+/// The map after quantisation, for plateaus of more than one pixel. Rows are made when they are first read.
+class QuantizedMap {
+  public:
+    QuantizedMap(LevelSize size, RowExpander& expander, const Quantizer& quantize)
+        : size_(size), expander_(expander), quantize_(quantize), values_(size.width), rows_(size.height) {}
+
+    struct Plateau {
+        bool is_maximum = true;  ///< higher than all around it, and not found before
+        std::int64_t first = std::numeric_limits<std::int64_t>::max();  ///< raster index of its first pixel
+    };
+
+    /// The plateau of pixel (x, y).
+    Plateau fill(int x, int y) {
+        Plateau plateau;
+        const int level = level_at(x, y);
+        if (!visit(x, y)) return {.is_maximum = false};
+        std::vector<Position> stack = {{x, y}};
+        while (!stack.empty()) {
+            const Position at = stack.back();
+            stack.pop_back();
+            plateau.first = std::min(plateau.first, static_cast<std::int64_t>(at.y) * size_.width + at.x);
+            for (int ny = at.y - 1; ny <= at.y + 1; ++ny) {
+                for (int nx = at.x - 1; nx <= at.x + 1; ++nx) {
+                    const int neighbor = level_at(nx, ny);
+                    if (neighbor > level) plateau.is_maximum = false;
+                    if (neighbor == level && visit(nx, ny)) stack.push_back({nx, ny});
+                }
+            }
+        }
+        return plateau;
+    }
+
+  private:
+    struct Position {
+        int x, y;
+    };
+    struct Row {
+        std::vector<std::uint16_t> levels;
+        std::vector<bool> visited;
+    };
+
+    int level_at(int x, int y) {
+        if (x < 0 || y < 0 || x >= size_.width || y >= size_.height) return -1;
+        Row& row = rows_[y];
+        if (row.levels.empty()) {
+            expander_.expand_row(y, values_.data());
+            for (const float v : values_) row.levels.push_back(static_cast<std::uint16_t>(quantize_(std::abs(v))));
+            row.visited.resize(values_.size());
+        }
+        return row.levels[x];
+    }
+
+    /// Whether the pixel is new.
+    bool visit(int x, int y) {
+        const bool is_new = !rows_[y].visited[x];
+        rows_[y].visited[x] = true;
+        return is_new;
+    }
+
+    LevelSize size_;
+    RowExpander& expander_;
+    Quantizer quantize_;
     std::vector<float> values_;
-    std::vector<std::uint8_t> visited_;
+    std::vector<Row> rows_;
 };
 
 }  // namespace
 
-MapScan scan_map(const ExpandedMap& map) {
-    return MapScanner(map).run();
-}
+LocalMaxima find_local_maxima(const ExpandedMap& map, double floor) {
+    const LevelSize size = map.size();
+    RowExpander expander(*map.sizes);
+    expander.load(*map.image, map.level, 0, size.height);
+    const MapScan scan = MapScanner(size, expander, floor).run();
+    LocalMaxima out{scan.minimum, scan.maximum, {}};
+    const Quantizer quantize{scan.minimum, static_cast<double>(scan.maximum) - scan.minimum};
+    if (!(quantize.range > floor)) return out;
 
-std::vector<double> find_local_maxima(const ExpandedMap& map, const MapScan& scan) {
-    const Quantiser quantise{scan.minimum, static_cast<double>(scan.maximum) - scan.minimum};
     struct Maximum {
-        std::int64_t first;
-        int height;
+        std::int64_t first;  ///< raster index
+        int level;
     };
     std::vector<Maximum> maxima;
-    std::optional<LargePlateaus> large;
+    QuantizedMap quantized(size, expander, quantize);
     for (const Candidate& c : scan.candidates) {
-        const int height = quantise(c.value());
-        if (height < lowest_maximum * quantisation_steps) continue;
-        std::optional<Plateau> plateau = find_small_plateau(c, map.size().width, quantise);
-        if (!plateau) {
-            if (!large) large.emplace(map, quantise);
-            plateau = large->find(c);
+        const int level = quantize(c.value);
+        if (level < min_height * quantization_steps) continue;
+        if (quantize(c.neighbor) < level) {  // a plateau of one pixel
+            maxima.push_back({static_cast<std::int64_t>(c.y) * size.width + c.x, level});
+            continue;
         }
-        if (plateau && plateau->highest) maxima.push_back({plateau->first, height});
+        const QuantizedMap::Plateau plateau = quantized.fill(c.x, c.y);
+        if (plateau.is_maximum) maxima.push_back({plateau.first, level});
     }
-    // A plateau with several candidates was found from each of them.
-    const auto by_first = [](const Maximum& a, const Maximum& b) { return a.first < b.first; };
-    const auto same_first = [](const Maximum& a, const Maximum& b) { return a.first == b.first; };
-    std::sort(maxima.begin(), maxima.end(), by_first);
-    maxima.erase(std::unique(maxima.begin(), maxima.end(), same_first), maxima.end());
-    std::vector<double> heights;
-    for (const Maximum& m : maxima) heights.push_back(m.height / quantisation_steps);
-    return heights;
+    std::sort(maxima.begin(), maxima.end(), [](const Maximum& a, const Maximum& b) { return a.first < b.first; });
+    for (const Maximum& m : maxima) out.heights.push_back(m.level / quantization_steps);
+    return out;
 }
 
 }  // namespace aleph

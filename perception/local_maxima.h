@@ -1,9 +1,8 @@
 #pragma once
-// Finds the local maxima that N(.) counts: 8-connected plateaus of a map quantised to 16 bits that are higher than all
-// their neighbours. The map is |expansion of a small raster|; it is streamed in bands of rows, not stored.
+// The local maxima that N(.) averages: 8-connected plateaus of a map quantised to 16 bits that are higher than all
+// their neighbours. The map is |expansion of a small raster|. It is streamed row by row, never stored: what is kept is
+// one position per possible maximum and the rows of plateaus of more than one pixel.
 
-#include <array>
-#include <cstddef>
 #include <vector>
 
 #include "engine/base/image.h"
@@ -11,7 +10,7 @@
 
 namespace aleph {
 
-/// A map that is only known as a level's raster and the sizes of the levels; level 0: the raster itself.
+/// A map at full size, given as the raster of a level and the sizes of all levels; level 0: the raster itself.
 struct ExpandedMap {
     const Image<float>* image;
     int level;
@@ -20,25 +19,14 @@ struct ExpandedMap {
     LevelSize size() const { return sizes->front(); }
 };
 
-/// A pixel not lower than any neighbour, with what lies around it: most plateaus are decided from that alone.
-struct Candidate {
-    static constexpr int reach = 3;
-    static constexpr int side = 2 * reach + 1;
-
-    int x, y;
-    std::array<float, side * side> values;  ///< row by row; -1 outside the map
-
-    float value() const { return values[side * side / 2]; }
+struct LocalMaxima {
+    float minimum = 0.0f, maximum = 0.0f;  ///< of the map
+    /// Heights in [.1, 1] after min-max of the map to [0,1], lower ones left out; one per plateau, in raster order.
+    /// Empty where the map's range is not above the floor.
+    std::vector<double> heights;
 };
 
-struct MapScan {
-    float minimum = 0.0f, maximum = 0.0f;
-    std::vector<Candidate> candidates;  ///< in raster order; none below .1 of the maximum is needed or sure to be here
-};
-
-MapScan scan_map(const ExpandedMap& map);
-
-/// Heights in (0, 1] of the map's local maxima after min-max to [0,1], those below .1 left out; one per plateau.
-std::vector<double> find_local_maxima(const ExpandedMap& map, const MapScan& scan);
+/// @param floor  smallest range of a map that is not noise, at least 0, in the map's unit
+LocalMaxima find_local_maxima(const ExpandedMap& map, double floor);
 
 }  // namespace aleph

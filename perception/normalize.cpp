@@ -5,14 +5,13 @@
 namespace aleph {
 
 Normalization compute_normalization(const ExpandedMap& map, double floor) {
-    const MapScan scan = scan_map(map);
-    Normalization result{scan.minimum, scan.maximum, 0.0, true};
+    const LocalMaxima maxima = find_local_maxima(map, floor);
+    Normalization result{maxima.minimum, maxima.maximum, 0.0, true};
     if (!(result.maximum - result.minimum > floor)) return result;
     result.empty = false;
-    const std::vector<double> maxima = find_local_maxima(map, scan);
     // One global maximum, of height 1, is not among the others.
-    const auto others = static_cast<double>(maxima.size()) - 1.0;
-    const double sum = std::accumulate(maxima.begin(), maxima.end(), 0.0);
+    const auto others = static_cast<double>(maxima.heights.size()) - 1.0;
+    const double sum = std::accumulate(maxima.heights.begin(), maxima.heights.end(), 0.0);
     const double mean = others > 0.0 ? (sum - 1.0) / others : 0.0;
     result.weight = (1.0 - mean) * (1.0 - mean);
     return result;

@@ -93,7 +93,7 @@ PerceptionMaps compute_perception(const Image<Rgb>& estimate, const Image<float>
     }
     AlephImages images = compute_aleph({.bands = bands,
                                         .velocity = settings.guide == Guide::spatial ? nullptr : &velocity,
-                                        .saliency = salient ? &saliency : nullptr,
+                                        .saliency = salient ? &saliency.map : nullptr,
                                         .rho = band_frequencies(settings.bands, viewing.pixels_per_degree)},
                                        outputs.retinal_velocity);
     maps.aleph = std::move(images.aleph);

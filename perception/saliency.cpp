@@ -13,8 +13,8 @@ namespace aleph {
 namespace {
 
 constexpr int rows_per_band = 32;
-constexpr double feature_floor = 1e-6;  // of max |A| (MODEL 5.3)
-constexpr double motion_floor = 1e-3;   // deg/s (MODEL 5.3)
+constexpr double feature_floor = 1e-6;  // of max |A|
+constexpr double motion_floor = 1e-3;   // deg/s
 constexpr double summed_floor = 1e-6;   // of sums of maps in [0,1]
 
 /// A feature map and what N(.) multiplies its absolute value with.
@@ -53,7 +53,7 @@ void sum_full(const std::vector<WeightedMap>& maps, const std::vector<LevelSize>
     for (Image<float>& c : out.conspicuity) c = Image<float>(size.width, size.height);
     parallel_rows(size.height, rows_per_band, [&](int begin, int end) {
         RowExpander expander(sizes);
-        std::vector<float> row(static_cast<std::size_t>(size.width));
+        std::vector<float> row(size.width);
         for (const WeightedMap& w : maps) {
             Image<float>& sum = out.conspicuity[static_cast<int>(w.map->channel)];
             expander.load(w.map->difference, w.map->level, begin, end);
@@ -98,54 +98,50 @@ Range find_range(const float* values, std::size_t count) {
     return {low, high};
 }
 
-/// map = sum of N(conspicuity); its range.
-void sum_channels(Saliency& out) {
+/// sum = sum of N(conspicuity); returns its range.
+Range sum_channels(const Saliency& saliency, Image<float>& sum) {
     std::array<Normalization, channel_count> normalization;
     parallel_for(normalization.size(), 1, [&](std::size_t begin, std::size_t end) {
         for (std::size_t c = begin; c < end; ++c) {
-            normalization[c] =
-                compute_normalization({&out.conspicuity[c], out.conspicuity_level, &out.sizes}, summed_floor);
+            normalization[c] = compute_normalization(
+                {&saliency.conspicuity[c], saliency.conspicuity_level, &saliency.sizes}, summed_floor);
         }
     });
-    const auto height = static_cast<std::size_t>(out.map.height);
-    std::vector<Range> ranges((height + rows_per_band - 1) / rows_per_band);
-    parallel_for(height, rows_per_band, [&](std::size_t begin, std::size_t end) {
-        RowExpander expander(out.sizes);
-        std::vector<float> row(static_cast<std::size_t>(out.map.width));
-        for (std::size_t c = 0; c < normalization.size(); ++c) {
+    std::vector<Range> ranges((sum.height + rows_per_band - 1) / rows_per_band);
+    parallel_rows(sum.height, rows_per_band, [&](int begin, int end) {
+        RowExpander expander(saliency.sizes);
+        std::vector<float> row(sum.width);
+        for (int c = 0; c < channel_count; ++c) {
             if (normalization[c].scale() == 0.0) continue;
-            expander.load(out.conspicuity[c], out.conspicuity_level, static_cast<int>(begin), static_cast<int>(end));
-            for (int y = static_cast<int>(begin); y < static_cast<int>(end); ++y) {
+            expander.load(saliency.conspicuity[c], saliency.conspicuity_level, begin, end);
+            for (int y = begin; y < end; ++y) {
                 expander.expand_row(y, row.data());
-                add_normalized(row.data(), row.size(), normalization[c], out.map.row(y));
+                add_normalized(row.data(), row.size(), normalization[c], sum.row(y));
             }
         }
-        ranges[begin / rows_per_band] = find_range(out.map.row(static_cast<int>(begin)), (end - begin) * row.size());
+        ranges[begin / rows_per_band] = find_range(sum.row(begin), (end - begin) * row.size());
     });
     Range total;
     for (const Range& r : ranges) total = {std::min(total.minimum, r.minimum), std::max(total.maximum, r.maximum)};
-    out.minimum = total.minimum;
-    out.maximum = total.maximum;
-    out.fallback = !(total.maximum - total.minimum > static_cast<float>(summed_floor));
+    return total;
+}
+
+/// Min-max to exactly [0,1], in place.
+void scale_to_unit_range(Image<float>& image, Range range) {
+    const float minimum = range.minimum;
+    const float width = range.maximum - range.minimum;
+    parallel_rows(image.height, rows_per_band, [&](int begin, int end) {
+        float* const values = image.row(begin);
+        const std::size_t count = image.index(0, end) - image.index(0, begin);
+        for (std::size_t i = 0; i < count; ++i) {
+            const float s = (values[i] - minimum) / width;
+            const float positive = s > 0.0f ? s : 0.0f;
+            values[i] = positive < 1.0f ? positive : 1.0f;
+        }
+    });
 }
 
 }  // namespace
-
-void scale_saliency_row(Saliency& saliency, int y) {
-    const auto width = static_cast<std::size_t>(saliency.map.width);
-    float* const row = saliency.map.row(y);
-    if (saliency.fallback) {
-        std::fill_n(row, width, static_cast<float>(tracking_efficiency));
-        return;
-    }
-    const float minimum = saliency.minimum;
-    const float range = saliency.maximum - saliency.minimum;
-    for (std::size_t x = 0; x < width; ++x) {
-        const float s = (row[x] - minimum) / range;
-        const float positive = s > 0.0f ? s : 0.0f;
-        row[x] = positive < 1.0f ? positive : 1.0f;
-    }
-}
 
 Image<float> full_conspicuity(const Saliency& saliency, FeatureChannel channel) {
     return expand_to_level(saliency.conspicuity[static_cast<int>(channel)], saliency.sizes, saliency.conspicuity_level,
@@ -163,8 +159,15 @@ Saliency compute_saliency(const ChannelPyramids& pyramids, double largest_a, Sal
         sum_center(weighted, out.sizes, out);
         out.conspicuity_level = finest_center;
     }
-    out.map = Image<float>(pyramids.size.width, pyramids.size.height);
-    sum_channels(out);
+    Image<float> sum(pyramids.size.width, pyramids.size.height);
+    const Range range = sum_channels(out, sum);
+    out.fallback = !(range.maximum - range.minimum > static_cast<float>(summed_floor));
+    if (out.fallback) {
+        std::fill(sum.pixels.begin(), sum.pixels.end(), static_cast<float>(tracking_efficiency));
+    } else {
+        scale_to_unit_range(sum, range);
+    }
+    out.map = std::move(sum);
     return out;
 }
 

@@ -14,6 +14,7 @@
 #include "perception/perception.h"
 #include "perception/sanitize.h"
 #include "perception/sensitivity.h"
+#include "tests/support/perception_bands.h"
 
 namespace aleph {
 namespace {

@@ -6,6 +6,7 @@
 
 #include "engine/base/opponent_color.h"
 #include "engine/base/parallel.h"
+#include "tests/support/perception_bands.h"
 #include "tests/support/perception_reference.h"
 #include "tests/support/perception_scene.h"
 

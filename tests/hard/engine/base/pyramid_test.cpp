@@ -13,6 +13,7 @@
 #include "perception/orientation.h"
 #include "perception/perception.h"
 #include "perception/sanitize.h"
+#include "tests/support/perception_bands.h"
 #include "tests/support/perception_scene.h"
 
 namespace aleph {

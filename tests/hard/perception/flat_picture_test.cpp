@@ -1,0 +1,56 @@
+// Flat pictures: every pixel ties with its neighbours, so that a careless search for local maxima keeps them all.
+
+#include <gtest/gtest.h>
+
+#include "engine/base/parallel.h"
+#include "perception/normalize.h"
+#include "perception/perception.h"
+#include "tests/support/child_cost.h"
+
+namespace aleph {
+namespace {
+
+constexpr int width = 3840, height = 2160;
+constexpr double mebibytes_per_float = 4.0 * width * height / (1 << 20);  // of a map at full size: 32
+
+/// Peak memory of `work` on one thread, in MiB, in a process of its own.
+double peak_memory(const std::function<void()>& work) {
+    const ChildCost cost = run_in_child([&] {
+        const ThreadLimit one(1);
+        work();
+    });
+    EXPECT_TRUE(cost.ended_well) << cost.message;
+    return cost.mebibytes;
+}
+
+TEST(FlatPicture, SaliencyOf4KStaysWithin24FloatsPerPixel) {
+    if (!limits_count) GTEST_SKIP() << "memory counts in release builds only";
+    for (const float v : {0.0f, 8.0f}) {
+        const double mebibytes = peak_memory([&] {
+            const Image<Rgb> estimate(width, height, Rgb(0.4f, 0.5f, 0.3f));
+            const Image<float> velocity(width, height, v);
+            const PerceptionMaps maps = compute_perception(estimate, velocity, {}, {}, {});
+            if (!maps.fallback) throw std::runtime_error("something stands out of a flat picture");
+        });
+        EXPECT_LT(mebibytes, 24 * mebibytes_per_float) << v << " deg/s";
+    }
+}
+
+TEST(FlatPicture, NormalizationOf4KStaysWithin6FloatsPerPixel) {
+    if (!limits_count) GTEST_SKIP() << "memory counts in release builds only";
+    // One dark pixel, so that the range is above the floor and the rest is one plateau.
+    const double mebibytes = peak_memory([&] {
+        Image<float> map(width, height, 1.0f);
+        map(width / 2, height / 2) = 0.0f;
+        if (compute_normalization(map, 1e-6).weight != 1.0) throw std::runtime_error("a plateau counts once");
+    });
+    EXPECT_LT(mebibytes, 6 * mebibytes_per_float);
+    const double below_floor = peak_memory([&] {
+        const Image<float> map(width, height, 1.0f);
+        if (!compute_normalization(map, 1e-6).empty) throw std::runtime_error("a flat map has no range");
+    });
+    EXPECT_LT(below_floor, 3 * mebibytes_per_float);
+}
+
+}  // namespace
+}  // namespace aleph
