@@ -32,7 +32,7 @@ ordered_json write_runs(const std::vector<int>& lengths, const std::vector<int>&
 
 template <class Words, class Word>
 void write_word(ordered_json& out, const char* key, const Words& words, Word word, Word absent) {
-    if (word != absent) out[key] = words[word];
+    if (word != absent) out[key] = words[index_of(word)];
 }
 
 }  // namespace
