@@ -13,7 +13,7 @@ source "$here/results.sh"
 kind=${1:-}
 case $kind in
   address)
-    programs=(test_base test_pose test_deform test_image_io test_motion test_scene_file test_gltf
+    programs=(test_base test_pose test_image_io test_motion test_scene_file test_gltf
       test_alembic test_subdivide test_maps_images test_hostile aleph)
     # What tests time, memory and size on large texts is for the Release build; damaged scene files come by test_hostile,
     # and `aleph maps` below runs all of perception.
