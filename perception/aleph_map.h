@@ -1,5 +1,6 @@
 #pragma once
-// The last pass of the model: bands, retinal velocity, elevation and (5.11), row by row; nothing in between is stored.
+// The last pass of the model (Yee 2000, eq. 5.5 to 5.11): from bands, image velocity and saliency to the Aleph map, row
+// by row. No image in between is stored.
 
 #include <array>
 #include <cstdint>
@@ -10,7 +11,7 @@
 
 namespace aleph {
 
-/// f_i of a row of retinal velocities (5.9), in float: within 1e-5 of elevation().
+/// f_i of a row of retinal velocities (5.9), in float: within 2e-5 of elevation() in sensitivity.h.
 class ElevationRow {
   public:
     /// @param rho  band frequencies, cycles per degree
@@ -19,7 +20,7 @@ class ElevationRow {
     /// @param velocity  deg/s, `width` values, each finite and at least the drift
     void load(const float* velocity);
 
-    /// Whether f_band is 1 in the whole row: every rho_peak is above the band.
+    /// True if f_band is 1 in the whole row: every rho_peak is above the band's frequency.
     bool is_one(int band) const;
 
     /// out[x] = f_band
@@ -32,24 +33,26 @@ class ElevationRow {
     std::vector<float> peak_;  ///< CSF_max
 };
 
-/// (5.5) of a row, in float. Velocities that are NaN or negative count as 0, above 1e30 as 1e30.
-/// @param saliency  [0,1], `count` values
+/// v_R (5.5) of a row, deg/s, in float. Velocities that are NaN or negative count as 0, above 1e30 as 1e30.
+/// @param velocity  v_I, deg/s, `count` values
+/// @param saliency  S, [0,1], `count` values
 void retinal_velocity_row(const float* velocity, const float* saliency, int count, float* out);
 
+/// What the Aleph map is made from. All images have the size of level 0 of `bands`.
 struct AlephPass {
     const BandLevels& bands;
-    const Image<float>* velocity;  ///< deg/s; null: nothing moves
-    const Image<float>* saliency;  ///< S, [0,1]; null: S = tracking_efficiency
-    std::array<double, band_count> rho;
+    const Image<float>* velocity;        ///< deg/s; null: nothing moves
+    const Image<float>* saliency;        ///< S, [0,1]; null: S = tracking_efficiency
+    std::array<double, band_count> rho;  ///< band frequencies, cycles per degree
 };
 
 struct AlephImages {
-    Image<float> aleph;
-    Image<float> retinal_velocity;  ///< if asked for
-    std::uint64_t clamped = 0;      ///< values of aleph that left [1, 250.76]
+    Image<float> aleph;             ///< contrast elevation, [1, 250.76]
+    Image<float> retinal_velocity;  ///< v_R, deg/s; empty if not requested
+    std::uint64_t clamped = 0;      ///< values that were outside [1, 250.76] before the final clamp
 };
 
-/// (5.11).
+/// The Aleph map (5.11). The same bits for any number of threads.
 AlephImages compute_aleph(const AlephPass& pass, bool with_retinal_velocity);
 
 }  // namespace aleph

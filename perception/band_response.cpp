@@ -65,7 +65,7 @@ void BandRows::expand_row(int y) {
 
 ChannelSummary summarize(LevelSize size, const RowSource& source) {
     std::vector<double> sums(size.height);
-    std::vector<float> largest(size.height);
+    std::vector<float> maxima(size.height);
     parallel_rows(size.height, rows_per_band, [&](int begin, int end) {
         std::vector<float> row(size.width);
         for (int y = begin; y < end; ++y) {
@@ -79,12 +79,12 @@ ChannelSummary summarize(LevelSize size, const RowSource& source) {
                 highest = values[x] > highest ? values[x] : highest;
             }
             sums[y] = sum;
-            largest[y] = highest;
+            maxima[y] = highest;
         }
     });
     const double sum = std::accumulate(sums.begin(), sums.end(), 0.0);
     return {static_cast<float>(sum / (static_cast<double>(size.width) * size.height)),
-            *std::max_element(largest.begin(), largest.end())};
+            *std::max_element(maxima.begin(), maxima.end())};
 }
 
 }  // namespace aleph

@@ -1,6 +1,6 @@
 #pragma once
-// The 48 feature maps of thesis 5.3: differences of centre and surround levels, kept small at the centre's own size.
-// Expansion is linear, so |expand(difference)| is the difference of both levels expanded to full size.
+// The 48 feature maps (Yee 2000, eq. 5.4): differences of centre and surround levels, stored at the centre's own size.
+// Expansion is linear, so |expand(difference)| is the difference of both levels at full size.
 
 #include <array>
 #include <vector>
@@ -12,7 +12,7 @@ namespace aleph {
 
 inline constexpr int saliency_levels = 9;  ///< Gaussian levels 0..8; a level of 1x1 stays 1x1
 
-/// The four channels whose conspicuity is summed apart.
+/// Each channel has its own conspicuity map.
 enum class FeatureChannel { intensity, color, orientation, motion };
 inline constexpr int channel_count = 4;
 
@@ -22,10 +22,10 @@ struct FeatureMap {
     Image<float> difference;  ///< centre - expanded surround, signed, at the centre's size
 };
 
-inline constexpr int finest_center = 2;  ///< levels 0 and 1 enter no feature map and may be empty
+inline constexpr int finest_center = 2;  ///< no feature map uses levels 0 and 1: they may be empty
 inline constexpr int coarsest_center = 4;
 
-/// Gaussian pyramids of what the channels are made from, levels 0..8 each; C1 and C2 share a channel.
+/// Gaussian pyramids of the feature maps' inputs, levels 0..8 each. C1 and C2 share the colour channel.
 struct ChannelPyramids {
     LevelSize size;  ///< of level 0
     std::vector<Image<float>> a, c1, c2;

@@ -1,5 +1,5 @@
 #pragma once
-// Oriented energy at one level of a Gaussian pyramid: Greenspan et al. 1994 (thesis 5.3, MODEL 5.3).
+// Oriented energy at one level of a Gaussian pyramid: Greenspan et al. 1994 (Yee 2000, section 5.3).
 
 #include <array>
 
@@ -8,8 +8,8 @@
 namespace aleph {
 
 inline constexpr int orientation_count = 4;
-/// Directions of the wave vector, x right and y down: 0 answers to vertical lines, 90 to horizontal ones, 45 to lines
-/// that rise to the right (/), 135 to lines that fall (\).
+/// Directions of the wave vector, x right and y down: 0 responds to vertical lines, 90 to horizontal lines, 45 to lines
+/// that rise to the right (/), 135 to lines that fall to the right (\).
 inline constexpr std::array<double, orientation_count> orientation_degrees = {0, 45, 90, 135};
 
 /// |lowpass(h e^{i k.x})| per orientation with h = level - lowpass(level), |k| = pi/2 per pixel of this level.

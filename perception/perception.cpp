@@ -8,33 +8,30 @@
 #include "engine/base/parallel.h"
 #include "perception/aleph_map.h"
 #include "perception/band_response.h"
+#include "perception/check_viewing.h"
 #include "perception/saliency.h"
 
 namespace aleph {
 
 namespace {
 
-constexpr double smallest_displacement = 1e-3;  // pixels; less is rounding (MODEL 5.1)
+constexpr double min_displacement = 1e-3;  // pixels per frame; less is rounding
 
 void check_input(const Image<Rgb>& estimate, const Image<float>& velocity, const ViewingConditions& viewing,
                  const FrameRate& frame_rate) {
-    const auto positive = [](double v) { return std::isfinite(v) && v > 0.0; };
     if (estimate.empty()) throw InputError("", "estimate", "the image is empty");
     if (!same_size(estimate, velocity)) throw InputError("", "velocity", "not of the estimate's size");
-    if (!positive(viewing.pixels_per_degree)) {
-        throw InputError("", "pixels per degree", "must be positive and finite");
-    }
-    if (!positive(frame_rate.per_second())) {
+    check_viewing(viewing);
+    if (!(std::isfinite(frame_rate.per_second()) && frame_rate.per_second() > 0.0)) {
         throw InputError("", "frames per second", "must be positive and finite");
     }
-    if (!positive(viewing.display_white)) throw InputError("", "display white", "must be positive and finite");
 }
 
-/// The velocity that stands out: rounding counts as rest, and nothing moves further than the image is wide in a frame.
+/// Velocity for the motion channel, deg/s: rounding counts as rest; at most the image diagonal per frame.
 RowSource make_motion_rows(const Image<float>& velocity, const ViewingConditions& viewing,
                            const FrameRate& frame_rate) {
-    const double per_pixel = frame_rate.per_second() / viewing.pixels_per_degree;  // deg/s of 1 px a frame
-    const auto smallest = static_cast<float>(smallest_displacement * per_pixel);
+    const double per_pixel = frame_rate.per_second() / viewing.pixels_per_degree;  // deg/s of 1 pixel per frame
+    const auto smallest = static_cast<float>(min_displacement * per_pixel);
     const auto largest = static_cast<float>(std::min(std::hypot(velocity.width, velocity.height) * per_pixel, 1e15));
     return [&velocity, smallest, largest](int y, float* out) {
         const float* const v = velocity.row(y);
@@ -89,7 +86,7 @@ PerceptionMaps compute_perception(const Image<Rgb>& estimate, const Image<float>
                                        .c1 = feature_pyramid(opponent_rows(OpponentChannel::c1)),
                                        .c2 = feature_pyramid(opponent_rows(OpponentChannel::c2)),
                                        .velocity = feature_pyramid(make_motion_rows(velocity, viewing, frame_rate))};
-        saliency = compute_saliency(pyramids, a_summary.largest, settings.grid);
+        saliency = compute_saliency(pyramids, a_summary.maximum, settings.grid);
     }
     AlephImages images = compute_aleph({.bands = bands,
                                         .velocity = settings.guide == Guide::spatial ? nullptr : &velocity,

@@ -1,5 +1,5 @@
 #pragma once
-// What a user may choose about the model of vision.
+// Settings of the vision model.
 
 namespace aleph {
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "engine/base/index.h"
 #include "engine/base/parallel.h"
 #include "perception/normalize.h"
 #include "perception/sensitivity.h"
@@ -17,25 +18,25 @@ constexpr double feature_floor = 1e-6;  // of max |A|
 constexpr double motion_floor = 1e-3;   // deg/s
 constexpr double summed_floor = 1e-6;   // of sums of maps in [0,1]
 
-/// A feature map and what N(.) multiplies its absolute value with.
+/// A feature map and its N(.).
 struct WeightedMap {
     const FeatureMap* map;
     Normalization normalization;
 };
 
 std::vector<WeightedMap> weigh_maps(const std::vector<FeatureMap>& maps, const std::vector<LevelSize>& sizes,
-                                    double largest_a, SaliencyGrid grid) {
+                                    double max_a, SaliencyGrid grid) {
     std::vector<WeightedMap> weighted(maps.size());
     parallel_for(maps.size(), 1, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
-            const double floor = maps[i].channel == FeatureChannel::motion ? motion_floor : feature_floor * largest_a;
+            const double floor = maps[i].channel == FeatureChannel::motion ? motion_floor : feature_floor * max_a;
             const FeatureMap& map = maps[i];
             weighted[i] = {&map, grid == SaliencyGrid::full
                                      ? compute_normalization({&map.difference, map.level, &sizes}, floor)
                                      : compute_normalization(map.difference, floor)};
         }
     });
-    // A map that N(.) made 0 adds nothing; dropping it here saves its second expansion.
+    // Maps that N(.) makes 0 are dropped: they need no second expansion.
     std::erase_if(weighted, [](const WeightedMap& w) { return w.normalization.scale() == 0.0; });
     return weighted;
 }
@@ -47,7 +48,7 @@ void add_normalized(const float* row, std::size_t count, const Normalization& n,
     for (std::size_t x = 0; x < count; ++x) sum[x] += std::abs(row[x]) * scale - offset;
 }
 
-/// Sums at full size, in bands of rows: every map is expanded again instead of being kept.
+/// Sums at full size, in bands of rows. Every map is expanded again, which needs less memory than storing 48 of them.
 void sum_full(const std::vector<WeightedMap>& maps, const std::vector<LevelSize>& sizes, Saliency& out) {
     const LevelSize size = sizes.front();
     for (Image<float>& c : out.conspicuity) c = Image<float>(size.width, size.height);
@@ -55,7 +56,7 @@ void sum_full(const std::vector<WeightedMap>& maps, const std::vector<LevelSize>
         RowExpander expander(sizes);
         std::vector<float> row(size.width);
         for (const WeightedMap& w : maps) {
-            Image<float>& sum = out.conspicuity[static_cast<int>(w.map->channel)];
+            Image<float>& sum = out.conspicuity[index_of(w.map->channel)];
             expander.load(w.map->difference, w.map->level, begin, end);
             for (int y = begin; y < end; ++y) {
                 expander.expand_row(y, row.data());
@@ -74,7 +75,7 @@ void sum_center(const std::vector<WeightedMap>& maps, const std::vector<LevelSiz
                 const LevelSize size = sizes[level];
                 sum = sum.empty() ? Image<float>(size.width, size.height) : expand(sum, size);
                 for (const WeightedMap& w : maps) {
-                    if (w.map->level != level || static_cast<std::size_t>(w.map->channel) != channel) continue;
+                    if (w.map->level != level || index_of(w.map->channel) != channel) continue;
                     add_normalized(w.map->difference.row(0), sum.size(), w.normalization, sum.row(0));
                 }
             }
@@ -144,15 +145,14 @@ void scale_to_unit_range(Image<float>& image, Range range) {
 }  // namespace
 
 Image<float> full_conspicuity(const Saliency& saliency, FeatureChannel channel) {
-    return expand_to_level(saliency.conspicuity[static_cast<int>(channel)], saliency.sizes, saliency.conspicuity_level,
-                           0);
+    return expand_to_level(saliency.conspicuity[index_of(channel)], saliency.sizes, saliency.conspicuity_level, 0);
 }
 
-Saliency compute_saliency(const ChannelPyramids& pyramids, double largest_a, SaliencyGrid grid) {
+Saliency compute_saliency(const ChannelPyramids& pyramids, double max_a, SaliencyGrid grid) {
     Saliency out;
     out.sizes = pyramid_sizes(pyramids.size.width, pyramids.size.height, saliency_levels);
     const std::vector<FeatureMap> maps = make_feature_maps(pyramids);
-    const std::vector<WeightedMap> weighted = weigh_maps(maps, out.sizes, largest_a, grid);
+    const std::vector<WeightedMap> weighted = weigh_maps(maps, out.sizes, max_a, grid);
     if (grid == SaliencyGrid::full) {
         sum_full(weighted, out.sizes, out);
     } else {

@@ -1,5 +1,5 @@
 #pragma once
-// The saliency map S of thesis 5.3: where the eye is drawn to.
+// The saliency map S (Yee 2000, section 5.3): where the eye is drawn to.
 
 #include <array>
 #include <vector>
@@ -23,7 +23,8 @@ struct Saliency {
 /// A channel's conspicuity at full size.
 Image<float> full_conspicuity(const Saliency& saliency, FeatureChannel channel);
 
-/// @param largest_a  max |A| of the frame: feature maps of A, C1, C2 and orientation with a range of 1e-6 of it are 0
-Saliency compute_saliency(const ChannelPyramids& pyramids, double largest_a, SaliencyGrid grid);
+/// @param max_a  max |A| of the frame: feature maps of A, C1, C2 and orientation with a range of at most 1e-6 of it
+/// become 0
+Saliency compute_saliency(const ChannelPyramids& pyramids, double max_a, SaliencyGrid grid);
 
 }  // namespace aleph

@@ -10,7 +10,7 @@ namespace {
 
 constexpr double firefly_quantile = 0.999;
 constexpr double firefly_factor = 10.0;
-constexpr float largest_component = 1e30f;  // luminance stays finite
+constexpr float max_component = 1e30f;  // luminance stays finite
 
 enum class PixelState : std::uint8_t { valid, invalid, queued };
 
@@ -111,7 +111,7 @@ SanitizeCounts sanitize_estimate(Image<Rgb>& estimate) {
     for (std::size_t i = 0; i < estimate.size(); ++i) {
         Rgb& pixel = estimate.pixels[i];
         if (is_finite(pixel)) {
-            for (int c = 0; c < 3; ++c) pixel[c] = pixel[c] > 0.0f ? std::min(pixel[c], largest_component) : 0.0f;
+            for (int c = 0; c < 3; ++c) pixel[c] = pixel[c] > 0.0f ? std::min(pixel[c], max_component) : 0.0f;
         } else {
             pixel = Rgb(0.0f);  // stays black where no pixel of the frame is valid
             state.pixels[i] = PixelState::invalid;

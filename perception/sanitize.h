@@ -1,5 +1,5 @@
 #pragma once
-// Makes an estimate fit for the model: finite, not negative, without fireflies (HARD_CASES PY-05 to PY-07).
+// Makes an estimate finite, not negative, and free of fireflies: one of them could outweigh the rest of the frame.
 
 #include <cstdint>
 
@@ -9,13 +9,13 @@
 namespace aleph {
 
 struct SanitizeCounts {
-    std::uint64_t replaced = 0;  ///< pixels with NaN or infinity: the median of their valid neighbours instead
-    std::uint64_t clamped = 0;   ///< fireflies: scaled down to 10 x the 99.9 % quantile of luminance
+    std::uint64_t replaced = 0;  ///< pixels with NaN or infinity: they get the median of their valid neighbours
+    std::uint64_t clamped = 0;   ///< fireflies: they are scaled down to 10 times the 99.9 % quantile of luminance
 };
 
-/// In place. Negative values become 0. Holes of more than one pixel fill from their rim inwards; a frame without any
-/// valid pixel becomes black. Where most of the frame is black, so that its 99.9 % quantile is 0, the quantile of the
-/// pixels above 0 stands in; under 1000 pixels the nearest rank is the maximum and nothing is clamped.
+/// Works in place. Negative values become 0. Holes of more than one pixel fill from their rim inwards; a frame without
+/// a valid pixel becomes black. If the 99.9 % quantile is 0 because most of the frame is black, the quantile of the
+/// pixels above 0 is used. In frames of fewer than 1000 pixels the quantile is the maximum: nothing is clamped.
 SanitizeCounts sanitize_estimate(Image<Rgb>& estimate);
 
 }  // namespace aleph

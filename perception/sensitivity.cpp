@@ -9,16 +9,16 @@ namespace aleph {
 
 namespace {
 
-constexpr double largest_input = 1e30;  // its powers in the formulas stay finite
+constexpr double max_input = 1e30;  // its powers in the formulas stay finite
 
-// std::fmax and std::fmin drop a NaN; std::clamp would keep it (HARD_CASES, standing rule 5).
+// std::fmax and std::fmin return the other argument for a NaN; std::clamp would return the NaN.
 double clamp_input(double value, double lowest) {
-    return std::fmin(std::fmax(value, lowest), largest_input);
+    return std::fmin(std::fmax(value, lowest), max_input);
 }
 
 double angular_peak(double v) {
-    return csf_rho_numerator / (csf_c2 * v + csf_rho_offset);
-}  // (5.8)
+    return csf_rho_numerator / (csf_c2 * v + csf_rho_offset);  // (5.8)
+}
 
 double gain(double v) {  // (5.7); "log" is log10: ln would give a peak of 1882
     const double l = std::abs(std::log10(csf_c2 * v / csf_k_velocity));

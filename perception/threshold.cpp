@@ -5,6 +5,7 @@
 
 #include "engine/base/errors.h"
 #include "engine/base/parallel.h"
+#include "perception/check_viewing.h"
 #include "perception/fast_math.h"
 
 namespace aleph {
@@ -12,12 +13,12 @@ namespace aleph {
 namespace {
 
 constexpr int rows_per_band = 32;
-constexpr double lowest_luminance = 1e-6, highest_luminance = 1e12;  // cd/m2
+constexpr double min_luminance = 1e-6, max_luminance = 1e12;  // cd/m2
 
 // Ward-Larson, Rushmeier and Piatko 1997: where one piece ends and the next begins, log10 of cd/m2.
 constexpr double rods_end = -3.94, scotopic_end = -1.44, mesopic_end = -0.0184, photopic_start = 1.9;
 
-/// The pieces of t(l), log10 of cd/m2 to log10 of cd/m2; one table for the exact and the fast form.
+// The pieces of t(l), log10 of cd/m2 to log10 of cd/m2, for tvi() and fast_tvi().
 constexpr double rods_level = -2.86;
 constexpr double scotopic_slope = 0.405, scotopic_offset = 1.6, scotopic_power = 2.18;
 constexpr double mesopic_shift = 0.395;
@@ -32,8 +33,8 @@ float fast_power(float base, float power) {
 /// tvi() in float, without branches; within 1e-5 of it.
 float fast_tvi(float luminance) {
     constexpr float log10_2 = 0.30102999566398120f, log2_10 = 3.3219280948873623f;
-    constexpr auto lowest = static_cast<float>(lowest_luminance), highest = static_cast<float>(highest_luminance);
-    constexpr float smallest_base = 1e-3f;  // where a piece is not in use its base may be negative
+    constexpr auto lowest = static_cast<float>(min_luminance), highest = static_cast<float>(max_luminance);
+    constexpr float min_base = 1e-3f;  // where a piece is not in use its base may be negative
     const float clamped = luminance > lowest ? (luminance < highest ? luminance : highest) : lowest;
     const float l = log10_2 * fast_log2(clamped);
     const float scotopic = static_cast<float>(scotopic_slope) * l + static_cast<float>(scotopic_offset);
@@ -41,12 +42,12 @@ float fast_tvi(float luminance) {
     float t = static_cast<float>(rods_level);
     t = l < static_cast<float>(rods_end)
             ? t
-            : fast_power(scotopic > smallest_base ? scotopic : smallest_base, static_cast<float>(scotopic_power)) +
+            : fast_power(scotopic > min_base ? scotopic : min_base, static_cast<float>(scotopic_power)) +
                   static_cast<float>(rods_level);
     t = l < static_cast<float>(scotopic_end) ? t : l - static_cast<float>(mesopic_shift);
     t = l < static_cast<float>(mesopic_end)
             ? t
-            : fast_power(rising > smallest_base ? rising : smallest_base, static_cast<float>(rising_power)) -
+            : fast_power(rising > min_base ? rising : min_base, static_cast<float>(rising_power)) -
                   static_cast<float>(rising_shift);
     t = l < static_cast<float>(photopic_start) ? t : l - static_cast<float>(photopic_shift);
     return fast_exp2(log2_10 * t);
@@ -57,9 +58,7 @@ float fast_tvi(float luminance) {
 class LuminanceSums {
   public:
     LuminanceSums(const Image<Rgb>& estimate, double white, int reach)
-        : reach_(reach),
-          stride_(static_cast<std::size_t>(estimate.width + 2 * reach + 1)),
-          sums_(stride_ * static_cast<std::size_t>(estimate.height)) {
+        : reach_(reach), stride_(estimate.width + 2 * reach + 1), sums_(stride_ * estimate.height) {
         parallel_rows(estimate.height, rows_per_band, [&](int begin, int end) {
             for (int y = begin; y < end; ++y) {
                 double* out = sums_.data() + y * stride_ + reach + 1;
@@ -72,9 +71,7 @@ class LuminanceSums {
     }
 
     /// Sum over pixels [x - half, x + half] of row y is at(y, half + 1)[x] - at(y, -half)[x].
-    const double* at(int y, int shift) const {
-        return sums_.data() + static_cast<std::size_t>(y) * stride_ + (reach_ + shift);
-    }
+    const double* at(int y, int shift) const { return sums_.data() + y * stride_ + (reach_ + shift); }
 
   private:
     int reach_;
@@ -96,7 +93,7 @@ std::vector<int> disc_half_widths(double radius, const Image<Rgb>& estimate) {
 }  // namespace
 
 double tvi(double luminance) {
-    const double l = std::log10(std::fmin(std::fmax(luminance, lowest_luminance), highest_luminance));
+    const double l = std::log10(std::fmin(std::fmax(luminance, min_luminance), max_luminance));
     double t;
     if (l < rods_end) {
         t = rods_level;
@@ -114,19 +111,13 @@ double tvi(double luminance) {
 
 Image<float> compute_adaptation_luminance(const Image<Rgb>& estimate, const ViewingConditions& viewing) {
     if (estimate.empty()) throw InputError("", "estimate", "the image is empty");
-    if (!(std::isfinite(viewing.pixels_per_degree) && viewing.pixels_per_degree > 0.0)) {
-        throw InputError("", "pixels per degree", "must be positive and finite");
-    }
-    if (!(std::isfinite(viewing.display_white) && viewing.display_white > 0.0)) {
-        throw InputError("", "display white", "must be positive and finite");
-    }
+    check_viewing(viewing);
     const std::vector<int> half = disc_half_widths(viewing.pixels_per_degree / 2, estimate);
     const LuminanceSums sums(estimate, viewing.display_white, half.front());
     const int reach = static_cast<int>(half.size()) - 1;
     Image<float> out(estimate.width, estimate.height);
     parallel_rows(out.height, rows_per_band, [&](int begin, int end) {
-        const auto width = static_cast<std::size_t>(out.width);
-        std::vector<double> total(width), counts(width);
+        std::vector<double> total(out.width), counts(out.width);
         int counted_first = 0, counted_last = 0;  // the rows (dy) that `counts` holds for
         bool counted = false;
         for (int y = begin; y < end; ++y) {
@@ -136,7 +127,7 @@ Image<float> compute_adaptation_luminance(const Image<Rgb>& estimate, const View
                 const int h = half[std::abs(dy)];
                 const double* const right = sums.at(y + dy, h + 1);
                 const double* const left = sums.at(y + dy, -h);
-                for (std::size_t x = 0; x < width; ++x) total[x] += right[x] - left[x];
+                for (int x = 0; x < out.width; ++x) total[x] += right[x] - left[x];
             }
             if (!counted || first != counted_first || last != counted_last) {
                 counted = true, counted_first = first, counted_last = last;
@@ -149,7 +140,7 @@ Image<float> compute_adaptation_luminance(const Image<Rgb>& estimate, const View
                 }
             }
             float* const row = out.row(y);
-            for (std::size_t x = 0; x < width; ++x) row[x] = static_cast<float>(total[x] / counts[x]);
+            for (int x = 0; x < out.width; ++x) row[x] = static_cast<float>(total[x] / counts[x]);
         }
     });
     return out;

@@ -1,4 +1,4 @@
-// The perception stage on one thread, 640x480, beside a copy of what it reads and writes.
+// The vision model on one thread: 640x480, compared with a copy of what it reads and writes, and flat 4K pictures.
 
 #include <benchmark/benchmark.h>
 
@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "engine/base/parallel.h"
+#include "perception/normalize.h"
 #include "perception/perception.h"
 #include "perception/sanitize.h"
 #include "perception/threshold.h"
@@ -26,6 +27,22 @@ void run_stage(benchmark::State& state, const PerceptionSettings& settings) {
         benchmark::DoNotOptimize(
             compute_perception(frame.estimate, frame.velocity, {}, {}, settings).aleph.pixels.data());
     }
+}
+
+void flat_4k(benchmark::State& state) {
+    const ThreadLimit one(1);
+    const Image<Rgb> estimate(3840, 2160, Rgb(0.4f, 0.5f, 0.3f));
+    const Image<float> velocity(3840, 2160, 8.0f);
+    for (auto _ : state) {
+        benchmark::DoNotOptimize(compute_perception(estimate, velocity, {}, {}, {}).aleph.pixels.data());
+    }
+}
+
+/// N(.) of one map with a range above the floor, whose other pixels all tie.
+void normalize_flat_4k(benchmark::State& state) {
+    Image<float> map(3840, 2160, 1.0f);
+    map(1920, 1080) = 0.0f;
+    for (auto _ : state) benchmark::DoNotOptimize(compute_normalization(map, 1e-6).weight);
 }
 
 void memory_copy(benchmark::State& state) {
@@ -71,6 +88,8 @@ BENCHMARK_CAPTURE(run_stage, saliency_center, PerceptionSettings{.grid = Salienc
     ->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(run_stage, full, PerceptionSettings{.guide = Guide::full})->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(run_stage, spatial, PerceptionSettings{.guide = Guide::spatial})->Unit(benchmark::kMillisecond);
+BENCHMARK(flat_4k)->Unit(benchmark::kMillisecond);
+BENCHMARK(normalize_flat_4k)->Unit(benchmark::kMillisecond);
 BENCHMARK(memory_copy)->Unit(benchmark::kMillisecond);
 BENCHMARK(sanitize)->Unit(benchmark::kMillisecond);
 BENCHMARK(adaptation)->Unit(benchmark::kMillisecond);

@@ -1,5 +1,5 @@
 #pragma once
-// The relative energies R_i of (5.3) as images. The library uses each row at once and stores none.
+// R_i of (5.3) as images. The library does not store them: it uses them row by row.
 
 #include <algorithm>
 #include <array>

@@ -103,7 +103,7 @@ DoubleImage reference_reduce(const DoubleImage& image) {
 }
 
 DoubleImage reference_expand(const DoubleImage& image, int width, int height) {
-    // An axis of size 1 is copied, not spread out with zeros.
+    // An axis of size 1 is copied, without inserted zeros.
     const bool copy_x = image.width == 1, copy_y = image.height == 1;
     const DoubleImage spread = from_function(width, height, [&](int x, int y) {
         if ((!copy_x && x % 2 != 0) || (!copy_y && y % 2 != 0)) return 0.0;

@@ -1,6 +1,6 @@
 #pragma once
-// Thesis 5.2 to 5.4 the slow and obvious way, in double, from MODEL.md alone: every level expanded step by step to full
-// size, 48 full maps, a flood fill over every pixel. Shares no code with the library.
+// Sections 5.2 to 5.4 of Yee 2000 (perception/README.md), slow and direct, in double: every level is expanded step by
+// step to full size, 48 maps are stored at full size, a flood fill visits every pixel. Shares no code with the library.
 
 #include <array>
 #include <vector>

@@ -1,6 +1,6 @@
 #pragma once
-// A made-up frame with what a real one has: a shaded, textured room under a slow pan, and objects that move on their
-// own, one of them fast. Any size; the same bits on every call.
+// A synthetic frame: a shaded, textured room under a slow pan, and objects that move, one of them fast. Any size; the
+// same bits on every call.
 
 #include <array>
 #include <cmath>
@@ -19,7 +19,7 @@ struct SyntheticFrame {
 
 inline SyntheticFrame make_synthetic_frame(int width, int height, std::uint32_t seed = 0) {
     struct Ball {
-        double x, y, radius;  ///< parts of the height
+        double x, y, radius;  ///< in units of the height
         Rgb color;
         double speed;  ///< deg/s
     };

@@ -1,4 +1,4 @@
-// HARD_CASES, section 4: N(.) where "the average of all other local maxima" is 0/0 or depends on what counts as one.
+// N(.) where "the average of all other local maxima" is 0/0, or depends on what counts as a local maximum.
 
 #include <gtest/gtest.h>
 
@@ -46,14 +46,14 @@ TEST(NormalizeHard, PY09_PlateausCountOnce) {
     EXPECT_NEAR(compute_normalization(spikes, 0).weight, expected, 1e-4);
     EXPECT_EQ(compute_normalization(plateaus, 0).weight, compute_normalization(spikes, 0).weight);
 
-    // Far larger than what is kept around a candidate, and touching the border.
+    // A large plateau that touches the border.
     for (int y = 12; y < 40; ++y) std::fill_n(plateaus.row(y) + 40, 20, 0.25f);
     EXPECT_EQ(compute_normalization(plateaus, 0).weight, compute_normalization(spikes, 0).weight);
-    // A plateau with something higher at its rim is no maximum.
+    // A plateau with a higher pixel at its rim is no maximum.
     plateaus(45, 11) = 0.5f;
     EXPECT_NEAR(compute_normalization(plateaus, 0).weight, std::pow(1 - 0.5, 2), 1e-4);
 
-    // The bright pixels of a one-pixel checker touch at their corners: 8-connected (MODEL 5.3), they are one plateau.
+    // The bright pixels of a one-pixel checker touch at their corners: 8-connected, they are one plateau.
     EXPECT_EQ(compute_normalization(checker(20, 20), 0).weight, 1.0);
 }
 
@@ -66,6 +66,18 @@ TEST(NormalizeHard, PY09_RandomPlateausAgreeWithTheFullFloodFill) {
         for (float& v : map.pixels) v = std::floor(random.next() * steps) / steps;
         if (seed % 2 == 0) map = low_pass(map);
         DoubleImage exact(width, height);
+        std::copy(map.pixels.begin(), map.pixels.end(), exact.pixels.begin());
+        EXPECT_NEAR(compute_normalization(map, 1e-9).weight, reference_weight(exact, 1e-9), 1e-9) << seed;
+    }
+}
+
+TEST(NormalizeHard, PY09_PlateausAreThoseOfTheQuantizedMap) {
+    for (std::uint32_t seed = 0; seed < 20; ++seed) {
+        RandomStream random({seed, 1, 0, 0});
+        Image<float> map(50, 40);
+        const float step = seed % 2 == 0 ? 1e-6f : 2e-5f;  // below and above one step of 16 bits
+        for (float& v : map.pixels) v = std::floor(4 * random.next()) / 4 + step * random.next();
+        DoubleImage exact(map.width, map.height);
         std::copy(map.pixels.begin(), map.pixels.end(), exact.pixels.begin());
         EXPECT_NEAR(compute_normalization(map, 1e-9).weight, reference_weight(exact, 1e-9), 1e-9) << seed;
     }

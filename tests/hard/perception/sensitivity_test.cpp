@@ -1,4 +1,4 @@
-// HARD_CASES, section 5: CSF, elevation and Aleph under inputs that break the formulas as printed.
+// CSF, elevation and the Aleph map with inputs for which the printed formulas have no finite result.
 
 #include <gtest/gtest.h>
 
@@ -144,7 +144,7 @@ TEST(SensitivityHard, CS07_UniformFrameHasOnlyTheCoarsestBand) {
             }
         }
     }
-    EXPECT_GT(elevation(0.25, retinal_velocity(250, 0.82)), 5.0);  // so the last case is not trivially 1
+    EXPECT_GT(elevation(0.25, retinal_velocity(250, 0.82)), 5.0);  // the last case is not 1 for another reason
 }
 
 TEST(SensitivityHard, CS08_BoundsOnRandomImagesWithBrokenPixelsAndRandomMotion) {
@@ -217,7 +217,7 @@ TEST(SensitivityHard, CS14_AlephDoesNotDependOnTheEstimatesUnit) {
         Image<Rgb> scaled = estimate;
         for (Rgb& c : scaled.pixels) c *= scale;
         const PerceptionMaps same = compute_perception(scaled, velocity, {}, {}, {});
-        EXPECT_EQ(same.aleph, plain.aleph) << scale;  // a power of two moves no bit
+        EXPECT_EQ(same.aleph, plain.aleph) << scale;  // scaling by a power of two is exact
         EXPECT_EQ(same.saliency, plain.saliency) << scale;
     }
 }

@@ -1,4 +1,4 @@
-// The float rows of the last pass against the double scalars, and the stage as a whole.
+// The float rows of the last pass against the double formulas, and compute_perception as a whole.
 
 #include "perception/aleph_map.h"
 

@@ -1,4 +1,4 @@
-// The fast saliency and Aleph maps against the slow and obvious definition (perception_reference.h).
+// Saliency and Aleph maps against a slow, direct implementation of the equations (perception_reference.h).
 
 #include "perception/saliency.h"
 
@@ -33,7 +33,7 @@ TEST_P(AgainstReference, FullGridAgrees) {
     double aleph_error = 0.0;
     for (std::size_t i = 0; i < maps.aleph.size(); ++i) {
         saliency_errors.push_back(std::abs(maps.saliency.pixels[i] - reference.saliency.pixels[i]));
-        // Near the noise threshold of the bands rounding decides.
+        // Near the noise threshold of the bands the result depends on rounding.
         if (std::abs(reference.band_sum.pixels[i] / 1e-5 - 1.0) < 0.1) continue;
         aleph_error = std::max(aleph_error, std::abs(maps.aleph.pixels[i] / reference.aleph.pixels[i] - 1.0));
     }

@@ -64,11 +64,11 @@ TEST(Sanitize, PY07_FirefliesAreScaledToTenTimesTheQuantile) {
     Image<Rgb> image(100, 100);
     for (std::size_t i = 0; i < image.size(); ++i) image.pixels[i] = Rgb(static_cast<float>(i + 1) / 10000.0f);
     image(50, 50) = Rgb(4e5f, 2e5f, 1e5f);
-    // Nearest rank: the 9,990th of the 10,000 luminances in order. The firefly left its place at .5051.
+    // Nearest rank: the 9,990th of the 10,000 luminances in order. The firefly took the place of .5051.
     const double limit = 10.0 * luminance(Rgb(0.9991f));
     EXPECT_EQ(sanitize_estimate(image).clamped, 1u);
     EXPECT_NEAR(luminance(image(50, 50)) / limit, 1.0, 1e-6);
-    EXPECT_NEAR(image(50, 50).x / image(50, 50).y, 2.0, 1e-6);  // its hue stays
+    EXPECT_NEAR(image(50, 50).x / image(50, 50).y, 2.0, 1e-6);  // the hue does not change
     EXPECT_NEAR(image(50, 50).y / image(50, 50).z, 2.0, 1e-6);
 }
 

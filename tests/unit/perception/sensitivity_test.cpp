@@ -1,4 +1,4 @@
-// The scalar functions of thesis 5.4 against MODEL.md's numbers.
+// The formulas of Yee 2000, section 5.4, against known values.
 
 #include "perception/sensitivity.h"
 
@@ -11,7 +11,7 @@
 namespace aleph {
 namespace {
 
-/// Kelly's function typed in again, in long double.
+/// (5.6) to (5.8) written a second time, in long double.
 long double csf_exact(long double rho, long double v) {
     const long double pi = std::numbers::pi_v<long double>;
     const long double k = 6.1L + 7.3L * std::pow(std::abs(std::log10(1.7L * v / 3.0L)), 3.0L);
@@ -41,8 +41,8 @@ TEST(Sensitivity, KnownPeaks) {
 }
 
 TEST(Sensitivity, Eq57_LogarithmIsBaseTen) {
-    EXPECT_NEAR(csf(4.835, 0.15), 245.4, 0.1);
-}  // ln: 1882
+    EXPECT_NEAR(csf(4.835, 0.15), 245.4, 0.1);  // with the natural logarithm: 1882
+}
 
 TEST(Sensitivity, Eq510_PeakIsWhereGoldenSectionFindsIt) {
     const double shrink = (std::sqrt(5.0) - 1) / 2;
@@ -88,11 +88,11 @@ TEST(Elevation, Eq511_BoundedForEveryVelocityThoughNotMonotone) {
             highest = std::max(highest, f);
         }
     }
-    // Where CSF(16) falls to 1 is past the peak of CSF_max: the supremum of the printed set.
+    // The supremum of the printed set: CSF(16) falls to 1 at a velocity above that of the maximum of CSF_max.
     EXPECT_NEAR(highest, 250.60, 0.02);
     EXPECT_GT(elevation(16, 1), elevation(16, 20));
     EXPECT_LT(elevation(16, 0.15), elevation(16, 1));
-    EXPECT_EQ(elevation(16, 2e5), 1.0);  // nothing is seen at all
+    EXPECT_EQ(elevation(16, 2e5), 1.0);  // no contrast is visible
 }
 
 TEST(RetinalVelocity, Eq55_AtLeastTheDriftAndMonotone) {
@@ -113,7 +113,7 @@ TEST(RetinalVelocity, Eq55_AtLeastTheDriftAndMonotone) {
 TEST(RetinalVelocity, Eq55_KnownValues) {
     EXPECT_NEAR(retinal_velocity(10, 0.82), 10 - (8.2 + 0.15), 1e-12);
     EXPECT_NEAR(retinal_velocity(10, 0), 9.85, 1e-12);
-    EXPECT_NEAR(retinal_velocity(200, 1), 120, 1e-12);  // the eye follows 80 deg/s at most
+    EXPECT_NEAR(retinal_velocity(200, 1), 120, 1e-12);  // the eye follows at most 80 deg/s
     EXPECT_EQ(retinal_velocity(79.85, 1), 0.15);        // as printed: -.15
 }
 

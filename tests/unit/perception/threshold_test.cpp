@@ -1,4 +1,4 @@
-// TVI, adaptation luminance and thresholds of thesis 6.2.
+// TVI, adaptation luminance and luminance thresholds (Yee 2000, section 6.2).
 
 #include "perception/threshold.h"
 

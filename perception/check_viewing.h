@@ -1,0 +1,19 @@
+#pragma once
+
+#include <cmath>
+
+#include "engine/base/errors.h"
+#include "engine/base/viewing.h"
+
+namespace aleph {
+
+/// @throws InputError if pixels per degree or the white of the display is not positive and finite
+inline void check_viewing(const ViewingConditions& viewing) {
+    const auto check = [](double value, const char* name) {
+        if (!(std::isfinite(value) && value > 0.0)) throw InputError("", name, "must be positive and finite");
+    };
+    check(viewing.pixels_per_degree, "pixels per degree");
+    check(viewing.display_white, "display white");
+}
+
+}  // namespace aleph
