@@ -11,15 +11,15 @@ namespace {
 
 constexpr float pi = std::numbers::pi_v<float>;
 
-/// Below this a lobe is a mirror to single precision (HARD_CASES MC-07).
-constexpr float smallest_alpha = 1e-3f;
+/// A narrower lobe is a mirror in single precision.
+constexpr float min_alpha = 1e-3f;
 
 float schlick_power(float cosine) {
     const float m = std::clamp(1.0f - cosine, 0.0f, 1.0f);
     return (m * m) * (m * m) * m;
 }
 
-/// sin^2 from |h x n|^2 instead of 1 - cos^2, which cancels for narrow lobes (HARD_CASES MC-07).
+/// Walter et al. 2007, eq. 33. sin^2 comes from |h x n|^2: 1 - cos^2 would cancel for narrow lobes.
 float ggx_d(float alpha, const glm::vec3& h) {
     const float a2 = alpha * alpha;
     const float sin2 = h.x * h.x + h.y * h.y;
@@ -69,7 +69,7 @@ SurfaceMaterial evaluate_material(const ShadingScene& shading, const SurfacePoin
     surface.f0 = dielectric_f0 * (1.0f - metallic) + base * metallic;
     surface.f90 = specular * (1.0f - metallic) + metallic;
     surface.f0_max = std::max({dielectric_f0.x, dielectric_f0.y, dielectric_f0.z});
-    surface.alpha = std::max(roughness * roughness, smallest_alpha);
+    surface.alpha = std::max(roughness * roughness, min_alpha);
     if (entry.emits && (point.front || entry.double_sided)) surface.emission = emission;
     return surface;
 }

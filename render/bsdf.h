@@ -13,39 +13,46 @@
 
 namespace aleph {
 
-/// A material at one surface point, textures looked up.
+/// The material of one surface point, with texture values applied.
 struct SurfaceMaterial {
     Rgb diffuse{0.0f};    ///< albedo of the Lambert layer
     Rgb f0{0.0f};         ///< reflectance of the glossy layer at normal incidence
-    float f90 = 0.0f;     ///< at grazing incidence
-    float f0_max = 0.0f;  ///< what the Lambert layer loses light by
+    float f90 = 0.0f;     ///< reflectance of the glossy layer at grazing incidence
+    float f0_max = 0.0f;  ///< largest channel of the dielectric f0: light that does not reach the Lambert layer
     float alpha = 1.0f;   ///< GGX width, roughness squared, at least 1e-3
-    Rgb emission{0.0f};   ///< radiance leaving the side that is seen
+    Rgb emission{0.0f};   ///< radiance that leaves the visible side
     bool has_diffuse() const { return diffuse != Rgb(0.0f); }
     bool has_glossy() const { return f90 > 0.0f || f0 != Rgb(0.0f); }
 };
 
-/// Textures are averaged over the footprint. An unlit material (KHR_materials_unlit) shows its base colour as radiance,
-/// from both sides, reflects nothing, and is no light: rays other than the camera's find nothing there.
+/// A surface point as it is shaded.
+struct ViewedSurface {
+    SurfacePoint point;
+    SurfaceMaterial material;
+    glm::vec3 view{0.0f};  ///< unit, towards the viewer
+};
+
+/// Textures are averaged over the footprint. An unlit material (KHR_materials_unlit) shows its base colour as radiance
+/// from both sides, reflects nothing and is not a light: only camera rays see it.
 SurfaceMaterial evaluate_material(const ShadingScene& shading, const SurfacePoint& point,
                                   const RayFootprint& footprint);
 
-/// Share of light that passes into the Lambert layer at a cosine: 1 - F (Schlick 1994).
+/// Share of light that enters the Lambert layer at this cosine: 1 - F (Schlick 1994).
 float diffuse_transmission(const SurfaceMaterial& material, float cosine);
 /// Its cosine-weighted mean over the hemisphere: 1 - f0 - (f90 - f0) / 21.
 float mean_diffuse_transmission(const SurfaceMaterial& material);
 
-/// f_diffuse for two cosines with the shading normal.
+/// f_diffuse for the cosines of both directions with the shading normal.
 Rgb evaluate_diffuse(const SurfaceMaterial& material, float cos_view, float cos_light);
 
-/// Radiance that leaves towards `view` for an irradiance E: exact where the incoming light is uniform.
+/// Radiance of the Lambert layer for an irradiance E at this cosine of the view. Exact for uniform incoming light.
 Rgb diffuse_radiance(const SurfaceMaterial& material, float cos_view, const Rgb& irradiance);
 
-/// The glossy lobe in the shading frame (z the normal), view and light unit and above the surface.
+/// f_glossy in the shading frame (z is the normal) for unit directions; 0 if one is below the surface.
 Rgb evaluate_glossy(const SurfaceMaterial& material, const glm::vec3& view, const glm::vec3& light);
-/// Visible-normal sampling (Heitz 2018): a direction for u in [0,1)^2; z may come out negative (no contribution).
+/// Visible-normal sampling (Heitz 2018): a direction for u in [0,1)^2. If its z is negative it contributes nothing.
 glm::vec3 sample_glossy(const SurfaceMaterial& material, const glm::vec3& view, const glm::vec2& u);
-/// Its density per solid angle.
+/// Density of sample_glossy per solid angle.
 float pdf_glossy(const SurfaceMaterial& material, const glm::vec3& view, const glm::vec3& light);
 
 }  // namespace aleph

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <atomic>
-#include <limits>
 #include <mutex>
+#include <optional>
 
 #include "engine/base/parallel.h"
 
@@ -11,18 +11,22 @@ namespace aleph {
 
 namespace {
 
-constexpr int first_stride = 64;         // pixels between the samples of the first tiles
-constexpr int most_reviews = 16;         // looks at all pixels after the last stride
-constexpr std::size_t test_grain = 256;  // look-ups per parallel chunk
+constexpr int first_stride = 64;           // pixels, size of the first tiles
+constexpr int max_reviews = 16;            // passes over all pixels after the last tile size
+constexpr std::size_t lookup_grain = 256;  // look-ups per parallel chunk
 
-/// A pixel whose sample nothing covers yet.
+/// Keeps the random numbers of gathers apart from those of direct light, which have the same frame, pixel and sample:
+/// combined with the seed by exclusive or. Any constant but 0 would do.
+constexpr std::uint32_t gather_seed_mask = 0x67617468u;
+
+/// A pixel whose sample is not covered yet.
 struct Candidate {
     int x = 0, y = 0;
     CacheQuery query;
     RadiusBounds bounds;
 };
 
-/// The samples of a stride that coarser strides have not visited.
+/// Corners of the tiles of this size that larger tiles do not share.
 std::vector<glm::ivec2> list_tiles(int width, int height, int stride, bool first_pass) {
     std::vector<glm::ivec2> tiles;
     for (int y = 0; y < height; y += stride) {
@@ -34,24 +38,24 @@ std::vector<glm::ivec2> list_tiles(int width, int height, int stride, bool first
     return tiles;
 }
 
-/// Which tiles' samples nothing covers, in tile order.
+/// The tiles whose samples no record covers, in tile order.
 std::vector<Candidate> find_uncovered(const IrradianceCache& cache, const IndirectContext& context,
                                       const SampleHits& sample, const std::vector<glm::ivec2>& tiles,
                                       FillStatistics& statistics) {
-    std::vector<std::vector<Candidate>> found((tiles.size() + test_grain - 1) / test_grain);
+    std::vector<std::vector<Candidate>> found((tiles.size() + lookup_grain - 1) / lookup_grain);
     std::atomic<std::uint64_t> lookups{0};
-    parallel_for(tiles.size(), test_grain, [&](std::size_t begin, std::size_t end) {
+    parallel_for(tiles.size(), lookup_grain, [&](std::size_t begin, std::size_t end) {
         std::uint64_t asked = 0;
         for (std::size_t i = begin; i < end; ++i) {
-            const auto [x, y] = std::pair(tiles[i].x, tiles[i].y);
+            const int x = tiles[i].x, y = tiles[i].y;
             if (sample.hits(x, y).instance == no_index) continue;
             const PixelSurface surface = make_pixel_surface(context.lighting.shading, context.view, sample, x, y);
-            if (!needs_irradiance(sample, surface, x, y)) continue;
+            if (!surface.material.has_diffuse()) continue;
             const float accuracy = context.accuracy(x, y);
             const CacheQuery query{surface.point.position, surface.point.normal, accuracy};
             ++asked;
             if (!cache.covers(query)) {
-                found[begin / test_grain].push_back({x, y, query, radius_bounds(context, surface, accuracy)});
+                found[begin / lookup_grain].push_back({x, y, query, radius_bounds(context, surface, accuracy)});
             }
         }
         lookups += asked;
@@ -63,11 +67,12 @@ std::vector<Candidate> find_uncovered(const IrradianceCache& cache, const Indire
     return uncovered;
 }
 
-/// Splits candidates into those gathered now and those that wait, since one before them may come to cover them. A
-/// record's radius is not known before its gather; neighbour clamping bounds it, and that bound is what is expected.
-std::vector<Candidate> accept_proposals(const IrradianceCache& cache, const IndirectContext& context,
-                                        const IrradianceCache& empty, std::vector<Candidate>& waiting) {
-    IrradianceCache expected = empty;
+/// Takes those candidates out of `waiting` whose records are computed in this round. The others wait, because the
+/// record of an accepted candidate may cover them. A record's radius is not known before its gather: the bound that
+/// neighbour clamping sets is expected.
+std::vector<Candidate> accept_candidates(const IrradianceCache& cache, const IndirectContext& context,
+                                         std::vector<Candidate>& waiting) {
+    IrradianceCache expected = make_cache(context.lighting.shading);
     std::vector<Candidate> accepted, later;
     for (const Candidate& candidate : waiting) {
         if (expected.covers(candidate.query)) {
@@ -77,9 +82,9 @@ std::vector<Candidate> accept_proposals(const IrradianceCache& cache, const Indi
         IrradianceRecord record;
         record.position = candidate.query.position;
         record.normal = candidate.query.normal;
-        record.smallest_radius = candidate.bounds.smallest;
-        record.radius = std::max(cache.radius_bound(record.position, record.normal, context.largest_radius),
-                                 candidate.bounds.smallest);
+        record.min_radius = candidate.bounds.min;
+        record.radius =
+            std::max(cache.radius_bound(record.position, record.normal, context.max_radius), record.min_radius);
         expected.insert(record);
         accepted.push_back(candidate);
     }
@@ -87,87 +92,53 @@ std::vector<Candidate> accept_proposals(const IrradianceCache& cache, const Indi
     return accepted;
 }
 
-}  // namespace
-
-IrradianceSample gather_at(const IndirectContext& context, Tracer& tracer, const PixelSurface& surface, int x, int y,
-                           int sample, GatherScratch& scratch, RayCounts& counts) {
-    const std::uint32_t pixel =
-        static_cast<std::uint32_t>(y) * static_cast<std::uint32_t>(context.view.width) + static_cast<std::uint32_t>(x);
-    const RandomKey key{context.settings.seed ^ 0x67617468u, context.frame, pixel, static_cast<std::uint32_t>(sample)};
-    return gather_irradiance(context.lighting, tracer, surface.point, choose_strata(context.settings.gather), key,
-                             scratch, counts);
-}
-
-bool needs_irradiance(const SampleHits& sample, const PixelSurface& surface, int x, int y) {
-    return sample.hits(x, y).instance != no_index && surface.material.has_diffuse();
-}
-
-RadiusBounds radius_bounds(const IndirectContext& context, const PixelSurface& surface, float accuracy) {
-    const float smallest =
-        static_cast<float>(context.settings.min_radius_pixels) * surface.footprint / std::clamp(accuracy, 1e-3f, 1.0f);
-    return {std::min(smallest, context.largest_radius), context.largest_radius};
-}
-
-namespace {
-
-/// Rounds over the tiles until something covers every one. Returns how many records that took.
-std::size_t fill_tiles(IrradianceCache& cache, const IndirectContext& context, const SampleHits& sample,
-                       int sample_index, std::vector<glm::ivec2> tiles, Image<float>& records, RayCounts& counts,
-                       FillStatistics& statistics) {
-    const IrradianceCache empty = make_cache(context.lighting.shading);
-    const std::size_t records_before = cache.records().size();
+/// The candidates' records, computed in parallel; nothing for a gather that is not finite.
+std::vector<std::optional<IrradianceRecord>> gather_records(const IndirectContext& context, const SampleHits& sample,
+                                                            const std::vector<Candidate>& candidates,
+                                                            RayCounts& counts) {
+    std::vector<std::optional<IrradianceRecord>> records(candidates.size());
     std::mutex counts_mutex;
-    while (!tiles.empty()) {
-        std::vector<Candidate> waiting = find_uncovered(cache, context, sample, tiles, statistics);
-        if (waiting.empty()) break;
-        const std::vector<Candidate> accepted = accept_proposals(cache, context, empty, waiting);
-        std::vector<IrradianceRecord> added(accepted.size());
-        parallel_for(accepted.size(), 1, [&](std::size_t begin, std::size_t end) {
-            thread_local GatherScratch scratch;
-            Tracer tracer(context.lighting.rays);
-            RayCounts local;
-            for (std::size_t i = begin; i < end; ++i) {
-                const Candidate& candidate = accepted[i];
-                const PixelSurface surface =
-                    make_pixel_surface(context.lighting.shading, context.view, sample, candidate.x, candidate.y);
-                const IrradianceSample value =
-                    gather_at(context, tracer, surface, candidate.x, candidate.y, sample_index, scratch, local);
-                added[i] = make_record(candidate.query.position, candidate.query.normal, value, candidate.bounds);
-            }
-            const std::lock_guard lock(counts_mutex);
-            counts += local;
-        });
-        for (std::size_t i = 0; i < accepted.size(); ++i) {
-            cache.insert(added[i]);
-            records(accepted[i].x, accepted[i].y) += 1.0f;
+    parallel_for(candidates.size(), 1, [&](std::size_t begin, std::size_t end) {
+        thread_local GatherScratch scratch;
+        RayTask task(context.lighting.rays);
+        for (std::size_t i = begin; i < end; ++i) {
+            const Candidate& candidate = candidates[i];
+            const PixelSurface surface =
+                make_pixel_surface(context.lighting.shading, context.view, sample, candidate.x, candidate.y);
+            const IrradianceSample value = gather_at(context, task, surface, scratch);
+            records[i] = make_record(candidate.query.position, candidate.query.normal, value, candidate.bounds);
         }
-        ++statistics.rounds;
+        const std::lock_guard lock(counts_mutex);
+        counts += task.counts;
+    });
+    return records;
+}
+
+/// Rounds over the tiles until every one is covered or has been tried. Returns the number of records added.
+std::size_t fill_tiles(IrradianceCache& cache, const IndirectContext& context, const SampleHits& sample,
+                       std::vector<glm::ivec2> tiles, FrameTally& tally) {
+    const std::size_t records_before = cache.records().size();
+    while (!tiles.empty()) {
+        std::vector<Candidate> waiting = find_uncovered(cache, context, sample, tiles, tally.counts.cache);
+        if (waiting.empty()) break;
+        const std::vector<Candidate> accepted = accept_candidates(cache, context, waiting);
+        const auto records = gather_records(context, sample, accepted, tally.counts.rays);
+        for (std::size_t i = 0; i < accepted.size(); ++i) {
+            tally.records(accepted[i].x, accepted[i].y) += 1.0f;
+            if (records[i]) {
+                cache.insert(*records[i]);
+            } else {
+                tally.invalid_samples(accepted[i].x, accepted[i].y) += 1.0f;
+                ++tally.counts.invalid_samples;
+            }
+        }
+        tally.counts.records += accepted.size();
+        ++tally.counts.cache.rounds;
         tiles.clear();
         for (const Candidate& candidate : waiting) tiles.push_back({candidate.x, candidate.y});
     }
     return cache.records().size() - records_before;
 }
-
-}  // namespace
-
-void fill_cache(IrradianceCache& cache, const IndirectContext& context, const SampleHits& sample, int sample_index,
-                Image<float>& records, RayCounts& counts, FillStatistics& statistics) {
-    const int width = sample.hits.width, height = sample.hits.height;
-    const bool first_pass = sample_index == 0;
-    for (int stride = first_pass ? first_stride : 1; stride >= 1; stride /= 2) {
-        fill_tiles(cache, context, sample, sample_index, list_tiles(width, height, stride, first_pass), records, counts,
-                   statistics);
-    }
-    // A record that finds a wall near shrinks its neighbours, and what they covered before lies bare: without another
-    // look, shading would gather anew at each such pixel. Later samples look everywhere anyway.
-    for (int again = 0; first_pass && again < most_reviews; ++again) {
-        if (fill_tiles(cache, context, sample, sample_index, list_tiles(width, height, 1, false), records, counts,
-                       statistics) == 0)
-            break;
-    }
-}
-
-namespace {
 
 SceneBounds bounds_or_unit(const ShadingScene& shading) {
     const SceneBounds& bounds = shading.bounds;
@@ -176,6 +147,33 @@ SceneBounds bounds_or_unit(const ShadingScene& shading) {
 }
 
 }  // namespace
+
+IrradianceSample gather_at(const IndirectContext& context, RayTask& task, const PixelSurface& surface,
+                           GatherScratch& scratch) {
+    const RandomKey key{context.settings.seed ^ gather_seed_mask, context.frame, surface.pixel,
+                        static_cast<std::uint32_t>(surface.sample)};
+    return gather_irradiance(context.lighting, task, surface.point, choose_strata(context.settings.gather), key,
+                             scratch);
+}
+
+RadiusBounds radius_bounds(const IndirectContext& context, const PixelSurface& surface, float accuracy) {
+    const float min =
+        static_cast<float>(context.settings.min_radius_pixels) * surface.footprint / std::clamp(accuracy, 1e-3f, 1.0f);
+    return {std::min(min, context.max_radius), context.max_radius};
+}
+
+void fill_cache(IrradianceCache& cache, const IndirectContext& context, const SampleHits& sample, FrameTally& tally) {
+    const int width = sample.hits.width, height = sample.hits.height;
+    const bool first_pass = sample.index == 0;
+    for (int stride = first_pass ? first_stride : 1; stride >= 1; stride /= 2) {
+        fill_tiles(cache, context, sample, list_tiles(width, height, stride, first_pass), tally);
+    }
+    // A new record near a wall shrinks its neighbours' radii, and pixels that they covered before are uncovered again.
+    // Without these reviews, shading would gather at each such pixel. Later samples look at every pixel anyway.
+    for (int review = 0; first_pass && review < max_reviews; ++review) {
+        if (fill_tiles(cache, context, sample, list_tiles(width, height, 1, false), tally) == 0) break;
+    }
+}
 
 IrradianceCache make_cache(const ShadingScene& shading) {
     const SceneBounds bounds = bounds_or_unit(shading);

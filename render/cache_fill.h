@@ -1,8 +1,17 @@
 #pragma once
-// Fills an irradiance cache for a frame, in an order that does not depend on threads (DESIGN "Repeatable").
-// Tiles start large and shrink. In a round the cache is frozen: every tile whose sample nothing covers proposes it; a
-// proposal inside the expected reach of one accepted before it waits for the next round; gathers run in parallel;
-// records are inserted in tile order. So the result is close to a sequential coarse-to-fine fill (PERFORMANCE.md).
+// Fills an irradiance cache for a frame, with the same records for any number of threads.
+//
+// The frame is divided into tiles, each with one pixel sample at its corner. Tiles start at 64 pixels and halve down to
+// single pixels, so that the first records, which are far apart, are placed evenly. A tile needs a record if no record
+// covers its sample. Tiles of one size are filled in rounds; in each round
+//   1. all threads look for tiles that need a record. The cache does not change meanwhile;
+//   2. one thread goes through these tiles in order and accepts a tile unless the expected reach of a tile accepted
+//      before covers it. Tiles that are not accepted wait for the next round;
+//   3. all threads gather irradiance for the accepted tiles. Random numbers depend on seed, frame, pixel and sample
+//   only;
+//   4. one thread inserts the records in the order of their tiles.
+// No step depends on the order in which threads work. The number of records is within a few percent of that of a
+// sequential fill, where each record is inserted before the next pixel is looked at.
 
 #include <functional>
 
@@ -17,7 +26,23 @@ struct FillStatistics {
     std::uint64_t lookups = 0, hits = 0;
 };
 
-/// Told how far a frame is, 0 to 1, and in which stage; may be called from any thread.
+/// Sums over a frame.
+struct FrameCounts {
+    RayCounts rays;
+    FillStatistics cache;
+    std::uint64_t samples = 0;          ///< pixel samples
+    std::uint64_t records = 0;          ///< irradiance values computed
+    std::uint64_t invalid_samples = 0;  ///< pixel samples and irradiance values dropped for a NaN or infinity
+};
+
+/// What filling and shading a frame count: per pixel and in all.
+struct FrameTally {
+    Image<float> records;          ///< irradiance values computed for this pixel
+    Image<float> invalid_samples;  ///< pixel samples and irradiance values dropped for a NaN or infinity
+    FrameCounts counts;
+};
+
+/// Reports the progress of a frame: 0 to 1, and the stage's name. May be called from any thread.
 using FrameProgress = std::function<void(double fraction, const char* stage)>;
 
 /// What a frame's indirect light is computed from.
@@ -26,31 +51,29 @@ struct IndirectContext {
     const CameraView& view;
     const RenderSettings& settings;
     const Image<float>& accuracy;  ///< alpha per pixel
-    std::uint32_t frame = 0;       ///< random numbers depend on it
-    float largest_radius = 1.0f;   ///< m, from the scene's size
+    std::uint32_t frame = 0;       ///< for random numbers
+    float max_radius = 1.0f;       ///< m, of records: scene_radius
     FrameProgress progress;        ///< may be empty
 };
 
-/// The irradiance at one pixel sample, gathered anew.
-IrradianceSample gather_at(const IndirectContext& context, Tracer& tracer, const PixelSurface& surface, int x, int y,
-                           int sample, GatherScratch& scratch, RayCounts& counts);
+/// Gathers the irradiance at one pixel sample.
+IrradianceSample gather_at(const IndirectContext& context, RayTask& task, const PixelSurface& surface,
+                           GatherScratch& scratch);
 
-/// Whether a pixel sample's shading reads indirect irradiance at all.
-bool needs_irradiance(const SampleHits& sample, const PixelSurface& surface, int x, int y);
-
-/// Bounds of R_i for a pixel: at its own accuracy a record reaches at least min_radius_pixels.
+/// Bounds of R_i for a pixel: at its own accuracy, a record reaches at least min_radius_pixels.
 RadiusBounds radius_bounds(const IndirectContext& context, const PixelSurface& surface, float accuracy);
 
-/// Adds records until every sample of the pass is covered.
-/// @param sample_index  which of the pixel's samples; the first starts with large tiles, later ones visit every pixel
-/// @param records  counts per pixel, increased where an irradiance value was computed
-void fill_cache(IrradianceCache& cache, const IndirectContext& context, const SampleHits& sample, int sample_index,
-                Image<float>& records, RayCounts& counts, FillStatistics& statistics);
+/// Adds records until every surface that this sample of the pixels shows is covered. A gather that is not finite makes
+/// no record: it is counted as invalid, and shading computes that sample's irradiance again if no other record covers
+/// it.
+/// @param sample  if it is the pixels' first, tiles start large; later samples are looked at pixel by pixel
+/// @param tally  increased; its images have the frame's size
+void fill_cache(IrradianceCache& cache, const IndirectContext& context, const SampleHits& sample, FrameTally& tally);
 
-/// An empty cache whose index holds the whole scene.
+/// An empty cache whose index spans the whole scene.
 IrradianceCache make_cache(const ShadingScene& shading);
 
-/// Half the diagonal of the visible scene's bounds, m; 1 if it is empty.
+/// Half the diagonal of the visible scene's bounds, m; that of a 2 m cube if nothing is visible.
 float scene_radius(const ShadingScene& shading);
 
 }  // namespace aleph

@@ -10,7 +10,7 @@ namespace aleph {
 
 namespace {
 
-/// Points per light: few where there are many lights, so that the estimate stays quick.
+/// Points per light: fewer if there are several lights, so that the estimate stays quick.
 int points_per_light(const LightSet& lights) {
     return std::max(1, 4 / std::max(1, lights.count()));
 }
@@ -24,8 +24,7 @@ Image<Rgb> compute_estimate(const LightingContext& context, const CameraView& vi
     const int points = points_per_light(context.lights);
     std::mutex counts_mutex;
     parallel_rows(view.height, 4, [&](int begin, int end) {
-        Tracer tracer(context.rays);
-        RayCounts local;
+        RayTask task(context.rays);
         for (int y = begin; y < end; ++y) {
             for (int x = 0; x < view.width; ++x) {
                 Rgb radiance = kind == EstimateKind::flat ? Rgb(1.0f) : context.shading.environment;
@@ -35,14 +34,14 @@ Image<Rgb> compute_estimate(const LightingContext& context, const CameraView& vi
                     if (kind == EstimateKind::flat) {
                         radiance += s.material.diffuse + s.material.f0;
                     } else {
-                        radiance += estimate_direct_light(context, tracer, s.point, s.material, s.view, points, local);
+                        radiance += estimate_direct_light(context, task, s, points);
                     }
                 }
                 estimate(x, y) = radiance * scale;
             }
         }
         const std::lock_guard lock(counts_mutex);
-        counts += local;
+        counts += task.counts;
     });
     return estimate;
 }

@@ -1,5 +1,5 @@
 #pragma once
-// The quick estimate of a frame: the cheap picture that the model of vision looks at, never part of the result.
+// The quick estimate of a frame: a cheap picture for the model of vision. It is not part of the rendered frame.
 
 #include "render/direct_light.h"
 #include "render/pixel_surfaces.h"
@@ -7,13 +7,15 @@
 
 namespace aleph {
 
-/// One sample at every pixel centre, from the frame's own first hits. Not sanitized; exposure applied.
+/// One sample at every pixel centre, from the frame's first hits. Exposure is applied; values that are not finite are
+/// kept (perception/sanitize.h replaces them).
 /// flat: albedo plus emission, as under constant white light; no rays.
 /// direct: emission plus direct light from a fixed pattern of points per light (estimate_direct_light).
+/// @param counts  increased by the rays cast
 Image<Rgb> compute_estimate(const LightingContext& context, const CameraView& view, const SampleHits& centers,
                             EstimateKind kind, double exposure, RayCounts& counts);
 
-/// .18 / exp(mean log Y) over the pixels with Y > 0 of an estimate; 1 where there are none.
+/// 0.18 / exp(mean log Y) over the pixels of an estimate with Y > 0; 1 if there are none.
 double compute_exposure(const Image<Rgb>& estimate);
 
 }  // namespace aleph

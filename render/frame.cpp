@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cmath>
 #include <mutex>
 
 #include "engine/base/parallel.h"
@@ -11,64 +10,150 @@ namespace aleph {
 
 namespace {
 
+constexpr double fill_share = 0.6;  // of a frame's time, for progress only
+
 double seconds_since(std::chrono::steady_clock::time_point start) {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-constexpr double fill_share = 0.6;  // of a frame's time, for progress only
-
-bool is_finite(const Rgb& c) {
-    return std::isfinite(c.x) && std::isfinite(c.y) && std::isfinite(c.z);
-}
-
-/// What one row adds up by itself.
-struct RowCounts {
-    RayCounts rays;
-    std::uint64_t lookups = 0, hits = 0, computed = 0;
+/// The valid samples of a pixel so far. In double, because there may be 65,536: a float sum would be off by up to a
+/// percent.
+struct PixelSum {
+    glm::dvec3 radiance{0.0};
+    int samples = 0, hits = 0;
 };
 
-/// One frame's shading work, pixel by pixel; shared by all rows.
-struct Shading {
-    const IndirectContext& context;
-    const IrradianceCache* cache;  ///< null: gather at every sample
-    int light_samples;
-    ShadedFrame& out;
+/// The work of one task: its rays, and what it counts.
+struct ShadingTask : RayTask {
+    ShadingTask(const RayScene& rays, GatherScratch& buffers) : RayTask(rays), scratch(buffers) {}
 
-    Rgb indirect(Tracer& tracer, const PixelSurface& surface, int x, int y, int sample, GatherScratch& scratch,
-                 RowCounts& counts) {
-        const float accuracy = context.accuracy(x, y);
-        if (cache != nullptr && accuracy > 0.0f) {
-            const CacheQuery query{surface.point.position, surface.point.normal,
-                                   accuracy * static_cast<float>(context.settings.shade_radius)};
-            ++counts.lookups;
-            if (const std::optional<Rgb> found = cache->interpolate(query)) {
-                ++counts.hits;
-                return *found;
-            }
+    GatherScratch& scratch;
+    std::uint64_t lookups = 0, hits = 0, computed = 0, invalid = 0;
+};
+
+class FrameShading {
+  public:
+    FrameShading(const IndirectContext& context, const SampleHits& centers, ShadedFrame& out)
+        : context_(context),
+          centers_(centers),
+          out_(out),
+          cached_(context.settings.bounces > 0 && context.settings.accuracy > 0.0),
+          cache_(make_cache(context.lighting.shading)),
+          sums_(context.view.width, context.view.height) {}
+
+    void fill() {
+        const int spp = context_.settings.spp;
+        for (int i = 0; cached_ && i < spp; ++i) {
+            if (context_.progress) context_.progress(fill_share * i / spp, "fill");
+            fill_cache(cache_, context_, cast(i), out_);
         }
-        // Neighbour clamping may shrink a record after it covered this place: then the value is computed here.
-        ++counts.computed;
-        out.records(x, y) += 1.0f;
-        return gather_at(context, tracer, surface, x, y, sample, scratch, counts.rays).irradiance;
     }
 
-    Rgb shade(Tracer& tracer, const SampleHits& hits_of_sample, int x, int y, int sample, GatherScratch& scratch,
-              RowCounts& counts) {
-        const ShadingScene& shading = context.lighting.shading;
-        const PixelSurface surface = make_pixel_surface(shading, context.view, hits_of_sample, x, y);
-        const std::uint32_t pixel = static_cast<std::uint32_t>(y) * static_cast<std::uint32_t>(context.view.width) +
-                                    static_cast<std::uint32_t>(x);
-        RandomStream random({context.settings.seed, context.frame, pixel, 0});  // one lattice for all samples
+    void shade() {
+        for (int i = 0; i < context_.settings.spp; ++i) add_sample(cast(i));
+    }
+
+    /// Divides the sums by the numbers of valid samples.
+    void resolve(double exposure) {
+        const float scale = static_cast<float>(exposure);
+        for (std::size_t p = 0; p < sums_.size(); ++p) {
+            const PixelSum& sum = sums_.pixels[p];
+            if (sum.samples == 0) continue;
+            const float valid = static_cast<float>(sum.samples);
+            out_.color.pixels[p] = Rgb(sum.radiance) * (scale / valid);
+            out_.coverage.pixels[p] = static_cast<float>(sum.hits) / valid;
+        }
+    }
+
+  private:
+    SampleHits cast(int i) {
+        const int spp = context_.settings.spp;
+        if (spp == 1) return centers_;
+        return cast_sample(context_.lighting.rays, context_.view, i, spp, &out_.counts.rays.primary);
+    }
+
+    /// Shades one sample of every pixel.
+    void add_sample(const SampleHits& sample) {
+        parallel_rows(context_.view.height, 1, [&](int begin, int end) {
+            thread_local GatherScratch scratch;
+            ShadingTask task(context_.lighting.rays, scratch);
+            for (int y = begin; y < end; ++y) {
+                for (int x = 0; x < context_.view.width; ++x) add_pixel(task, sample, x, y);
+            }
+            finish(task);
+        });
+    }
+
+    void add_pixel(ShadingTask& task, const SampleHits& sample, int x, int y) {
+        const bool hit = sample.hits(x, y).instance != no_index;
+        const Rgb radiance = hit ? shade_hit(task, sample, x, y) : context_.lighting.shading.environment;
+        if (!is_finite(radiance)) {
+            out_.invalid_samples(x, y) += 1.0f;
+            ++task.invalid;
+            return;
+        }
+        PixelSum& sum = sums_(x, y);
+        sum.radiance += glm::dvec3(radiance);
+        ++sum.samples;
+        if (hit) ++sum.hits;
+    }
+
+    Rgb shade_hit(ShadingTask& task, const SampleHits& sample, int x, int y) {
+        const RenderSettings& settings = context_.settings;
+        const PixelSurface surface = make_pixel_surface(context_.lighting.shading, context_.view, sample, x, y);
+        RandomStream random({settings.seed, context_.frame, surface.pixel, 0});  // one lattice for all samples
+        const int light_samples = (settings.light_samples + settings.spp - 1) / settings.spp;
         Rgb radiance = surface.material.emission;
-        radiance += compute_direct_light(context.lighting, tracer, surface.point, surface.material, surface.view,
-                                         {light_samples, sample, context.settings.spp}, random, counts.rays);
-        if (context.settings.bounces > 0 && needs_irradiance(hits_of_sample, surface, x, y)) {
+        radiance += compute_direct_light(context_.lighting, task, surface,
+                                         {light_samples, surface.sample, settings.spp}, random);
+        if (settings.bounces > 0 && surface.material.has_diffuse()) {
             const float cos_view = std::max(glm::dot(surface.point.normal, surface.view), 0.0f);
-            radiance +=
-                diffuse_radiance(surface.material, cos_view, indirect(tracer, surface, x, y, sample, scratch, counts));
+            radiance += diffuse_radiance(surface.material, cos_view, find_irradiance(task, surface));
         }
         return radiance;
     }
+
+    /// Indirect irradiance: from the cache, or gathered if it has no record here. The latter happens where neighbour
+    /// clamping shrank a record after it covered this place.
+    Rgb find_irradiance(ShadingTask& task, const PixelSurface& surface) {
+        const float accuracy = context_.accuracy(surface.x, surface.y);
+        if (cached_ && accuracy > 0.0f) {
+            const CacheQuery query{surface.point.position, surface.point.normal,
+                                   accuracy * static_cast<float>(context_.settings.shade_radius)};
+            ++task.lookups;
+            if (const std::optional<Rgb> found = cache_.interpolate(query)) {
+                ++task.hits;
+                return *found;
+            }
+        }
+        ++task.computed;
+        out_.records(surface.x, surface.y) += 1.0f;
+        return gather_at(context_, task, surface, task.scratch).irradiance;
+    }
+
+    /// Adds what a row's task counted.
+    void finish(const ShadingTask& task) {
+        const std::lock_guard lock(mutex_);
+        out_.counts.rays += task.counts;
+        out_.counts.cache.lookups += task.lookups;
+        out_.counts.cache.hits += task.hits;
+        out_.counts.records += task.computed;
+        out_.counts.invalid_samples += task.invalid;
+        ++rows_done_;
+        if (context_.progress && rows_done_ % 16 == 0) {
+            const double rows = static_cast<double>(context_.view.height) * context_.settings.spp;
+            context_.progress(fill_share + (1.0 - fill_share) * static_cast<double>(rows_done_) / rows, "shade");
+        }
+    }
+
+    const IndirectContext& context_;
+    const SampleHits& centers_;
+    ShadedFrame& out_;
+    bool cached_;
+    IrradianceCache cache_;
+    Image<PixelSum> sums_;
+    std::mutex mutex_;
+    std::size_t rows_done_ = 0;
 };
 
 }  // namespace
@@ -80,63 +165,13 @@ ShadedFrame shade_frame(const IndirectContext& context, const SampleHits& center
     out.coverage = out.records = out.invalid_samples = Image<float>(width, height);
     out.samples = Image<float>(width, height, static_cast<float>(spp));
     out.counts.samples = out.color.size() * static_cast<std::uint64_t>(spp);
-    const auto sample_hits = [&](int i) {
-        return spp == 1 ? centers : cast_sample(context.lighting.rays, context.view, i, spp, &out.counts.rays.primary);
-    };
-    const bool cached = context.settings.bounces > 0 && context.settings.accuracy > 0.0;
-    IrradianceCache cache = make_cache(context.lighting.shading);
+    FrameShading shading(context, centers, out);
     const auto fill_start = std::chrono::steady_clock::now();
-    for (int i = 0; cached && i < spp; ++i) {
-        if (context.progress) context.progress(fill_share * i / spp, "fill");
-        fill_cache(cache, context, sample_hits(i), i, out.records, out.counts.rays, out.counts.cache);
-    }
+    shading.fill();
     out.fill_seconds = seconds_since(fill_start);
     const auto shade_start = std::chrono::steady_clock::now();
-    const int light_samples = (context.settings.light_samples + spp - 1) / spp;
-    Shading shading{context, cached ? &cache : nullptr, light_samples, out};
-    std::mutex counts_mutex;
-    std::size_t rows_done = 0;
-    for (int i = 0; i < spp; ++i) {
-        const SampleHits sample = sample_hits(i);
-        parallel_rows(height, 1, [&](int begin, int end) {
-            thread_local GatherScratch scratch;
-            Tracer tracer(context.lighting.rays);
-            RowCounts local;
-            for (int y = begin; y < end; ++y) {
-                for (int x = 0; x < width; ++x) {
-                    const bool hit = sample.hits(x, y).instance != no_index;
-                    const Rgb radiance = hit ? shading.shade(tracer, sample, x, y, i, scratch, local)
-                                             : context.lighting.shading.environment;
-                    if (!is_finite(radiance)) {
-                        out.invalid_samples(x, y) += 1.0f;
-                        continue;
-                    }
-                    out.color(x, y) += radiance;
-                    out.coverage(x, y) += hit ? 1.0f : 0.0f;
-                }
-            }
-            const std::lock_guard lock(counts_mutex);
-            out.counts.rays += local.rays;
-            out.counts.cache.lookups += local.lookups;
-            out.counts.cache.hits += local.hits;
-            out.counts.records += local.computed;
-            ++rows_done;
-            if (context.progress && rows_done % 16 == 0) {
-                const double shaded = static_cast<double>(rows_done) / (static_cast<double>(height) * spp);
-                context.progress(fill_share + (1.0 - fill_share) * shaded, "shade");
-            }
-        });
-    }
-    const float scale = static_cast<float>(exposure);
-    for (std::size_t p = 0; p < out.color.size(); ++p) {
-        const float valid = static_cast<float>(spp) - out.invalid_samples.pixels[p];
-        out.counts.invalid_samples += static_cast<std::uint64_t>(out.invalid_samples.pixels[p]);
-        if (valid > 0.0f) {
-            out.color.pixels[p] *= scale / valid;
-            out.coverage.pixels[p] /= valid;
-        }
-    }
-    out.counts.records += cache.records().size();
+    shading.shade();
+    shading.resolve(exposure);
     out.shade_seconds = seconds_since(shade_start);
     return out;
 }

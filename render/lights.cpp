@@ -15,11 +15,11 @@ namespace aleph {
 
 namespace {
 
-/// Shadow rays stop this share of the distance before the light, so that they do not meet it.
+/// Shadow rays end at this share of the distance to the light, so that they do not hit it.
 constexpr float shadow_end = 1.0f - 1e-4f;
 
-/// Lights of at most so many triangles are sampled by solid angle where they are near.
-constexpr std::size_t most_spherical = 4;
+/// Emitters of at most this many triangles are sampled by solid angle if they are near.
+constexpr std::size_t max_spherical_triangles = 4;
 
 float pdf_by_area(const Emitter& emitter, float cos_at_light, float distance) {
     return distance * distance / (cos_at_light * emitter.area);
@@ -60,21 +60,21 @@ Emitter make_emitter(const PosedInstance& instance, const ShadingMaterial& mater
     return emitter;
 }
 
-/// How much of the sky each triangle of a small light fills, seen from the side that shines.
+/// The solid angle of each triangle of an emitter as seen from a point, sr; 0 from the side that does not emit.
 struct SolidAngles {
-    std::array<float, most_spherical> of{};
-    float total = 0.0f;  ///< 0: too many triangles, or too far away to tell
+    std::array<float, max_spherical_triangles> of{};
+    float total = 0.0f;  ///< 0: too many triangles or too far away, sample by area
 };
 
-/// From this solid angle on, sampling by area is the noisier way, and float angles are fine enough.
-constexpr float smallest_solid_angle = 0.1f;
+/// sr. Above it, sampling by area is the noisier way, and float is accurate enough for the angles.
+constexpr float min_solid_angle = 0.1f;
 
 SolidAngles find_solid_angles(const Emitter& emitter, const glm::vec3& position) {
     SolidAngles angles;
-    if (emitter.triangles.size() > most_spherical) return angles;
+    if (emitter.triangles.size() > max_spherical_triangles) return angles;
     const glm::vec3 away = emitter.center - position;
     const float nearest = std::max(0.0f, glm::length(away) - emitter.radius);
-    if (emitter.area < smallest_solid_angle * nearest * nearest) return angles;
+    if (emitter.area < min_solid_angle * nearest * nearest) return angles;
     for (std::size_t i = 0; i < emitter.triangles.size(); ++i) {
         const Emitter::Triangle& t = emitter.triangles[i];
         const glm::vec3 corner = t.corner - position;
@@ -82,11 +82,11 @@ SolidAngles find_solid_angles(const Emitter& emitter, const glm::vec3& position)
         angles.of[i] = solid_angle(corner, corner + t.edge1, corner + t.edge2);
         angles.total += angles.of[i];
     }
-    if (!(angles.total > smallest_solid_angle)) angles.total = 0.0f;
+    if (!(angles.total > min_solid_angle)) angles.total = 0.0f;
     return angles;
 }
 
-/// Barycentric (b1, b2) of where a direction meets the triangle's plane, clamped into the triangle.
+/// Barycentric (b1, b2) of the point where a ray meets the triangle's plane, clamped into the triangle.
 glm::vec2 meet_triangle(const Emitter::Triangle& t, const glm::vec3& position, const glm::vec3& direction) {
     const glm::vec3 p = glm::cross(direction, t.edge2), s = position - t.corner;
     const float determinant = glm::dot(t.edge1, p);
@@ -96,10 +96,10 @@ glm::vec2 meet_triangle(const Emitter::Triangle& t, const glm::vec3& position, c
     return b.x + b.y > 1.0f ? b / (b.x + b.y) : b;
 }
 
-/// Which of several parts u falls into, given where each ends; u is stretched to [0,1) within it.
+/// The index of the part of [0,1) that u falls into, given where each part ends; u is stretched to [0,1) within it.
 std::size_t choose_part(std::span<const float> ends, float& u) {
     std::size_t i = 0;
-    if (ends.size() > most_spherical) {
+    if (ends.size() > max_spherical_triangles) {
         i = static_cast<std::size_t>(std::upper_bound(ends.begin(), ends.end(), u) - ends.begin());
     } else {
         while (i < ends.size() && ends[i] <= u) ++i;
@@ -117,7 +117,7 @@ LightSample sample_emitter(const ShadingScene& shading, const Emitter& emitter, 
     std::size_t chosen = 0;
     glm::vec2 b;
     if (angles.total > 0.0f) {
-        std::array<float, most_spherical> ends{};
+        std::array<float, max_spherical_triangles> ends{};
         float sum = 0.0f;
         for (std::size_t i = 0; i < emitter.triangles.size(); ++i) ends[i] = (sum += angles.of[i]) / angles.total;
         chosen = choose_part(std::span(ends.data(), emitter.triangles.size()), u.x);
@@ -150,7 +150,7 @@ LightSample sample_emitter(const ShadingScene& shading, const Emitter& emitter, 
     return sample;
 }
 
-/// 1 - cosine between unit vectors, without the cancellation that would coarsen narrow cones.
+/// 1 - cosine between unit vectors, without cancellation in narrow cones.
 float versine_between(const glm::vec3& a, const glm::vec3& b) {
     const glm::vec3 chord = a - b;
     return 0.5f * glm::dot(chord, chord);
@@ -161,8 +161,8 @@ float versine(double angle) {
     return static_cast<float>(2.0 * s * s);
 }
 
-/// KHR_lights_punctual: the square of what rises linearly with the cosine, from the outer cone to the inner one. Equal
-/// cones end sharply.
+/// KHR_lights_punctual: linear in the cosine from the outer cone (0) to the inner one (1), then squared. If the cones
+/// are equal, the edge is sharp.
 float spot_falloff(const PunctualLight& light, const glm::vec3& towards_light) {
     const float inside = light.outer_versine - versine_between(light.direction, -towards_light);
     if (!(inside > 0.0f)) return 0.0f;
@@ -206,12 +206,11 @@ float pdf_emitter(const Emitter& emitter, const glm::vec3& position, float cos_a
 LightSet make_light_set(const ShadingScene& shading) {
     LightSet lights;
     lights.emitter_of_instance.assign(shading.instances.size(), no_index);
-    for (const int index : shading.emitting) {
-        const auto i = static_cast<std::size_t>(index);
+    for (const int i : shading.emitting) {
         const PosedInstance& instance = shading.instances[i];
         const ShadingMaterial& material = shading.materials[instance.material];
         if (!instance.visible || !material.emits) continue;
-        Emitter emitter = make_emitter(instance, material, index);
+        Emitter emitter = make_emitter(instance, material, i);
         if (emitter.triangles.empty()) continue;
         lights.emitter_of_instance[i] = static_cast<int>(lights.emitters.size());
         lights.emitters.push_back(std::move(emitter));
@@ -227,15 +226,15 @@ LightSet make_light_set(const ShadingScene& shading) {
     return lights;
 }
 
-LightSample sample_light(const ShadingScene& shading, const LightSet& lights, int light, const glm::vec3& position,
-                         const glm::vec3& normal, const glm::vec2& u, float share) {
-    std::size_t i = static_cast<std::size_t>(light);
-    if (i < lights.emitters.size()) return sample_emitter(shading, lights.emitters[i], position, u, share);
-    i -= lights.emitters.size();
-    if (i < lights.punctual.size()) return sample_punctual(lights.punctual[i], position);
+LightSample sample_light(const ShadingScene& shading, const LightSet& lights, int light, const Receiver& receiver,
+                         const glm::vec2& u, float share) {
+    const int emitters = static_cast<int>(lights.emitters.size());
+    if (light < emitters) return sample_emitter(shading, lights.emitters[light], receiver.position, u, share);
+    const int punctual = light - emitters;
+    if (punctual < std::ssize(lights.punctual)) return sample_punctual(lights.punctual[punctual], receiver.position);
     LightSample sample;
     const glm::vec3 local = sample_cosine_hemisphere(u);
-    sample.direction = make_basis(normal).to_world(local);
+    sample.direction = make_basis(receiver.normal).to_world(local);
     sample.distance = std::numeric_limits<float>::infinity();
     sample.pdf = pdf_cosine_hemisphere(local.z);
     if (sample.pdf > 0.0f) sample.incoming = lights.environment / sample.pdf;

@@ -1,5 +1,5 @@
 #pragma once
-// Everything that shines, as a list of lights: emissive instances, point, spot and directional lights, the environment.
+// All lights of a posed scene: emissive instances, point, spot and directional lights, the environment.
 
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
@@ -13,7 +13,7 @@ namespace aleph {
 struct Emitter {
     struct Triangle {
         glm::vec3 corner, edge1, edge2;  ///< m, relative to the anchor
-        glm::vec3 normal;                ///< unit, the side that shines
+        glm::vec3 normal;                ///< unit, on the side that emits
         int primitive;
     };
     int instance = no_index;
@@ -21,19 +21,19 @@ struct Emitter {
     bool textured = false;
     Rgb radiance{0.0f};      ///< without texture
     float area = 0.0f;       ///< m2, of all triangles
-    glm::vec3 center{0.0f};  ///< m, of a sphere about all triangles
-    float radius = 0.0f;     ///< m
+    glm::vec3 center{0.0f};  ///< m, of a sphere around all triangles
+    float radius = 0.0f;     ///< m, of that sphere
     std::vector<Triangle> triangles;
-    std::vector<float> cumulative_area;  ///< share of the area up to and with each triangle
+    std::vector<float> cumulative_area;  ///< share of the area up to and including each triangle
 };
 
 struct PunctualLight {
     Light::Kind kind = Light::Kind::point;
     glm::vec3 position{0.0f};   ///< m, relative to the anchor
-    glm::vec3 direction{0.0f};  ///< unit, the way light travels
+    glm::vec3 direction{0.0f};  ///< unit, in which light travels
     Rgb intensity{0.0f};        ///< candela or lux
     float range = 0.0f;         ///< m; 0: unlimited
-    /// Spot: 1 - cosine of the half-angles where full intensity ends and where all light ends.
+    /// Spot: 1 - cosine of the half-angles at which full intensity ends and at which light ends.
     float inner_versine = 0.0f, outer_versine = 0.0f;
 };
 
@@ -54,20 +54,28 @@ struct LightSample {
     glm::vec3 direction{0.0f};  ///< unit, towards the light
     float distance = 0.0f;      ///< m, to just before the light; infinite for directional light and environment
     Rgb incoming{0.0f};  ///< radiance / pdf (area light, environment), or irradiance on a facing surface (punctual)
-    float pdf = 0.0f;    ///< per solid angle; 0 for punctual lights, which no direction can find
+    float pdf = 0.0f;    ///< per solid angle; 0 for punctual lights, which no ray can hit
 };
 
-/// A sample of one light as a point sees it, u in [0,1)^2. `position` is where the shadow ray starts
-/// (SurfacePoint::ray_origin): from the surface itself, `distance` would let an offset ray run into the light.
-/// `incoming` is 0 where the light cannot be seen from there whatever stands between (behind it, zero area, out of
-/// range, outside a spot's cone). The environment is sampled by cosine about `normal`.
-/// @param share  of an area light that the sample stands for: its texture is averaged over so much of it; 0: read at
-///               the sampled point itself
-LightSample sample_light(const ShadingScene& shading, const LightSet& lights, int light, const glm::vec3& position,
-                         const glm::vec3& normal, const glm::vec2& u, float share = 0.0f);
+/// The point that a light illuminates.
+struct Receiver {
+    /// m, where the shadow ray starts (SurfacePoint::ray_origin). If it were the surface point itself, the offset ray
+    /// could reach the light within LightSample::distance.
+    glm::vec3 position{0.0f};
+    glm::vec3 normal{0.0f};  ///< unit
+};
 
-/// Density per solid angle with which sample_light, at `position`, finds an emitter's point at `distance` that faces
-/// back with this cosine. Emitters of few triangles are sampled by solid angle where they are near, else by area.
+/// A sample of one light as a point sees it, u in [0,1)^2. `incoming` is 0 if the light cannot reach the point even
+/// without obstacles (behind an emitter, zero area, out of range, outside a spot's cone). The environment is sampled by
+/// cosine around the receiver's normal.
+/// @param share  of an area light's area that the sample represents: its texture is averaged over that much of it.
+///               0: the texture is read at the sampled point
+LightSample sample_light(const ShadingScene& shading, const LightSet& lights, int light, const Receiver& receiver,
+                         const glm::vec2& u, float share = 0.0f);
+
+/// Density per solid angle of sample_light, for a receiver at `position` and a point of the emitter at this distance
+/// whose normal has this cosine with the ray. Emitters of few triangles are sampled by solid angle if they are near,
+/// all others by area.
 float pdf_emitter(const Emitter& emitter, const glm::vec3& position, float cos_at_light, float distance);
 
 }  // namespace aleph

@@ -17,11 +17,16 @@ PixelSurface make_pixel_surface(const ShadingScene& shading, const CameraView& v
     surface.view = -direction;
     const float distance = view.orthographic ? 1.0f : hit.distance;
     surface.footprint = distance / static_cast<float>(view.pixels_per_unit);
+    surface.x = x;
+    surface.y = y;
+    surface.sample = sample.index;
+    surface.pixel = static_cast<std::uint32_t>(sample.hits.index(x, y));
     return surface;
 }
 
 SampleHits cast_sample(const RayScene& rays, const CameraView& view, int i, int n, std::uint64_t* rays_cast) {
     SampleHits sample;
+    sample.index = i;
     if (n > 1) {
         const glm::vec2 offset = lattice_point(i, n, {0.0f, 0.5f});
         sample.offset_x = offset.x;

@@ -1,5 +1,5 @@
 #pragma once
-// The surface behind each pixel's sample, made ready for shading when it is asked for.
+// The surface that each pixel sample shows, with its material.
 
 #include "engine/pose/camera_view.h"
 #include "engine/rays/first_hits.h"
@@ -11,21 +11,24 @@ namespace aleph {
 struct SampleHits {
     Image<Hit> hits;
     double offset_x = 0.5, offset_y = 0.5;
-    float spacing = 1.0f;  ///< pixels between a pixel's samples: what textures are averaged over
+    float spacing = 1.0f;  ///< pixels between a pixel's samples; textures are averaged over it
+    int index = 0;         ///< which of the pixel's samples
 };
 
-struct PixelSurface {
-    SurfacePoint point;
-    SurfaceMaterial material;
-    glm::vec3 view{0.0f};    ///< unit, towards the camera
-    float footprint = 0.0f;  ///< a pixel's size at that distance, m
+/// The surface of one pixel sample.
+struct PixelSurface : ViewedSurface {
+    float footprint = 0.0f;   ///< size of a pixel at that distance, m
+    int x = 0, y = 0;         ///< of the pixel
+    int sample = 0;           ///< which of the pixel's samples
+    std::uint32_t pixel = 0;  ///< y * width + x, for random numbers
 };
 
-/// Undefined where the pixel hit nothing.
+/// Undefined if the pixel's ray hit nothing.
 PixelSurface make_pixel_surface(const ShadingScene& shading, const CameraView& view, const SampleHits& sample, int x,
                                 int y);
 
-/// Sample i of n within the pixel: the centre for n = 1, else a rank-1 lattice, the same in every pixel.
+/// Sample i of n of every pixel: the centre for n = 1, otherwise point i of a rank-1 lattice, the same in every pixel.
+/// @param rays_cast  increased by the number of rays; may be null
 SampleHits cast_sample(const RayScene& rays, const CameraView& view, int i, int n, std::uint64_t* rays_cast);
 
 }  // namespace aleph

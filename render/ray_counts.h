@@ -1,17 +1,17 @@
 #pragma once
-// Rays by what they were for. Their sum equals what the checked wrapper counted (RayScene::rays_traced).
+// Numbers of rays by purpose. Their sum equals the number that RayScene counted (RayScene::rays_traced).
 
 #include <cstdint>
 
 namespace aleph {
 
 struct RayCounts {
-    std::uint64_t primary = 0;  ///< through pixels
-    std::uint64_t shadow = 0;   ///< towards lights, from pixels and from gather hits
-    std::uint64_t gather = 0;   ///< over hemispheres, for irradiance values
-    std::uint64_t glossy = 0;   ///< by a glossy lobe, towards lights
-    std::uint64_t specular = 0;
-    std::uint64_t path = 0;
+    std::uint64_t primary = 0;   ///< through pixels
+    std::uint64_t shadow = 0;    ///< towards lights, from pixels and from the hits of gather rays
+    std::uint64_t gather = 0;    ///< over hemispheres, for irradiance values
+    std::uint64_t glossy = 0;    ///< sampled from the glossy lobe, to find lights
+    std::uint64_t specular = 0;  ///< 0 in this version
+    std::uint64_t path = 0;      ///< 0 in this version
 
     std::uint64_t total() const { return primary + shadow + gather + glossy + specular + path; }
     RayCounts& operator+=(const RayCounts& o) {

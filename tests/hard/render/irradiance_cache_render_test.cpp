@@ -49,17 +49,16 @@ Scene make_open_tiles() {
 
 TEST(IrradianceCache, IC06_ARecordInTheOpenDoesNotCoverTheNextObject) {
     const Stage stage(make_open_tiles(), 80, 40);
-    Tracer tracer(stage.rays);
+    RayTask task(stage.rays);
     GatherScratch scratch;
-    RayCounts counts;
     const glm::vec3 up(0.0f, 1.0f, 0.0f), anchor(stage.shading.anchor);
     const glm::vec3 first = glm::vec3(-0.4f, 0.0f, 0.0f) - anchor, second = glm::vec3(10.3f, 0.0f, 0.0f) - anchor;
     const auto gather = [&](const glm::vec3& p) {
-        return gather_irradiance(stage.lighting(), tracer, make_point(p, up), choose_strata(1024), {}, scratch, counts);
+        return gather_irradiance(stage.lighting(), task, make_point(p, up), choose_strata(1024), {}, scratch);
     };
     const float largest = scene_radius(stage.shading);
     IrradianceCache cache = make_cache(stage.shading);
-    cache.insert(make_record(first, up, gather(first), {1e-3f, largest}));
+    cache.insert(make_record(first, up, gather(first), {1e-3f, largest}).value());
     EXPECT_LE(cache.records()[0].radius, largest);
     EXPECT_TRUE(std::isfinite(cache.records()[0].radius));
     EXPECT_FALSE(cache.covers({second, up, 1.0f}));
@@ -278,10 +277,8 @@ TEST(IrradianceCache, IC13_TheSameRecordsFromAnyNumberOfThreads) {
     for (const int threads : {1, 2, 4, 8}) {
         const ThreadLimit limit(threads);
         IrradianceCache cache = make_cache(stage.shading);
-        Image<float> records(96, 72);
-        RayCounts counts;
-        FillStatistics statistics;
-        fill_cache(cache, context, centers, 0, records, counts, statistics);
+        FrameTally tally{Image<float>(96, 72), Image<float>(96, 72), {}};
+        fill_cache(cache, context, centers, tally);
         const Image<Rgb> picture = shade_frame(context, centers, 1.0).color;
         if (threads == 1) {
             first = cache.records();

@@ -1,4 +1,5 @@
-// HARD_CASES.md section 6: records that are queried at themselves, in corners, behind thin walls, in the open.
+// Irradiance records and their index: queries at a record, small angles, corners, walls, opposite normals, large
+// caches.
 
 #include <gtest/gtest.h>
 
@@ -41,7 +42,7 @@ IrradianceRecord make_plain_record(const glm::vec3& position, const glm::vec3& n
     return record;
 }
 
-/// (6.6) and the rules of HARD_CASES over all records, one after another.
+/// IrradianceCache::interpolate by a search through all records, in double.
 std::optional<glm::dvec3> search_all(const IrradianceCache& cache, const CacheQuery& query) {
     const float accuracy = std::min(query.accuracy, 1.0f);
     glm::dvec3 sum(0.0);
@@ -95,16 +96,16 @@ TEST(IrradianceCache, IC04_RadiiStayWithinTheirBounds) {
     IrradianceSample corner;
     corner.irradiance = Rgb(1.0f);
     corner.harmonic_mean_distance = 0.0f;
-    EXPECT_EQ(make_record(glm::vec3(0.0f), up, corner, {0.01f, 5.0f}).radius, 0.01f);
+    EXPECT_EQ(make_record(glm::vec3(0.0f), up, corner, {0.01f, 5.0f})->radius, 0.01f);
     corner.harmonic_mean_distance = infinite;
-    EXPECT_EQ(make_record(glm::vec3(0.0f), up, corner, {0.01f, 5.0f}).radius, 5.0f);
+    EXPECT_EQ(make_record(glm::vec3(0.0f), up, corner, {0.01f, 5.0f})->radius, 5.0f);
     corner.harmonic_mean_distance = 1.0f;
-    EXPECT_EQ(make_record(glm::vec3(0.0f), up, corner, {0.01f, 5.0f}).radius, 1.0f);
+    EXPECT_EQ(make_record(glm::vec3(0.0f), up, corner, {0.01f, 5.0f})->radius, 1.0f);
     // Neighbour clamping stops at the smallest radius too.
     IrradianceCache cache(glm::vec3(-1.0f), glm::vec3(1.0f));
     corner.harmonic_mean_distance = 0.0f;
-    cache.insert(make_record(glm::vec3(0.0f), up, corner, {1e-6f, 5.0f}));
-    cache.insert(make_record(glm::vec3(0.0f), up, corner, {0.02f, 5.0f}));
+    cache.insert(make_record(glm::vec3(0.0f), up, corner, {1e-6f, 5.0f}).value());
+    cache.insert(make_record(glm::vec3(0.0f), up, corner, {0.02f, 5.0f}).value());
     EXPECT_EQ(cache.records()[1].radius, 0.02f);
 }
 
@@ -118,11 +119,10 @@ TEST(IrradianceCache, IC05_SelfHitsDoNotShrinkTheRadius) {
             add_mesh(scene, make_quad(1e-6, 1e-6, white), {0.0, 1.2e-5, 0.0}, z_to_down);
         }
         const Stage stage(std::move(scene));
-        Tracer tracer(stage.rays);
+        RayTask task(stage.rays);
         GatherScratch scratch;
-        RayCounts counts;
-        return gather_irradiance(stage.lighting(), tracer, make_point(glm::vec3(0.0f), {0.0f, 1.0f, 0.0f}, 1e-5f),
-                                 choose_strata(2048), {1, 2, 3, 4}, scratch, counts);
+        return gather_irradiance(stage.lighting(), task, make_point(glm::vec3(0.0f), {0.0f, 1.0f, 0.0f}, 1e-5f),
+                                 choose_strata(2048), {1, 2, 3, 4}, scratch);
     };
     const IrradianceSample clean = mean_distance(false), disturbed = mean_distance(true);
     EXPECT_EQ(clean.ignored_distances, 0);
@@ -139,14 +139,13 @@ TEST(IrradianceCache, IC07_GradientsNextToAWallStayBounded) {
         add_mesh(scene, make_quad(2.0, 2.0, white), {0.0, 1.0, 0.0}, z_to_down);
         add_light(scene, Light::Kind::point, glm::dvec3(5.0), {0.1, 0.3, 0.5});
         const Stage stage(std::move(scene));
-        Tracer tracer(stage.rays);
+        RayTask task(stage.rays);
         GatherScratch scratch;
-        RayCounts counts;
         const glm::vec3 up(0.0f, 1.0f, 0.0f);
-        const IrradianceSample sample = gather_irradiance(stage.lighting(), tracer, make_point(glm::vec3(0.0f), up),
-                                                          choose_strata(1024), {}, scratch, counts);
+        const IrradianceSample sample = gather_irradiance(stage.lighting(), task, make_point(glm::vec3(0.0f), up),
+                                                          choose_strata(1024), {}, scratch);
         ASSERT_GT(sample.irradiance.x, 0.0f) << distance;
-        const IrradianceRecord record = make_record(glm::vec3(0.0f), up, sample, any_radius);
+        const IrradianceRecord record = make_record(glm::vec3(0.0f), up, sample, any_radius).value();
         for (std::size_t c = 0; c < 3; ++c) {
             const float e = record.irradiance[static_cast<int>(c)] * 1.0001f;
             ASSERT_LE(glm::length(record.translation_gradient[c]) * record.radius, e) << distance;
@@ -165,8 +164,23 @@ TEST(IrradianceCache, IC07_GradientsNextToAWallStayBounded) {
     broken.harmonic_mean_distance = 1.0f;
     broken.translation_gradient.fill(glm::vec3(infinite, 0.0f, 0.0f));
     broken.rotation_gradient.fill(glm::vec3(std::nanf(""), 0.0f, 0.0f));
-    const IrradianceRecord record = make_record(glm::vec3(0.0f), {0.0f, 1.0f, 0.0f}, broken, any_radius);
+    const IrradianceRecord record = make_record(glm::vec3(0.0f), {0.0f, 1.0f, 0.0f}, broken, any_radius).value();
     EXPECT_EQ(extrapolate(record, glm::vec3(0.1f), {1.0f, 0.0f, 0.0f}), Rgb(1.0f));
+}
+
+TEST(IrradianceCache, IrradianceThatIsNotFiniteMakesNoRecord) {
+    const glm::vec3 up(0.0f, 1.0f, 0.0f);
+    IrradianceSample sample;
+    sample.harmonic_mean_distance = 1.0f;
+    for (const float bad : {std::nanf(""), infinite, -infinite}) {
+        for (int c = 0; c < 3; ++c) {
+            sample.irradiance = Rgb(1.0f);
+            sample.irradiance[c] = bad;
+            EXPECT_FALSE(make_record(glm::vec3(0.0f), up, sample, any_radius).has_value()) << bad << ' ' << c;
+        }
+    }
+    sample.irradiance = Rgb(1.0f);
+    EXPECT_TRUE(make_record(glm::vec3(0.0f), up, sample, any_radius).has_value());
 }
 
 TEST(IrradianceCache, IC08_RecordsInFrontOfThePointAreRefused) {
@@ -199,7 +213,7 @@ TEST(IrradianceCache, IC11_TheIndexFindsWhatALinearSearchFinds) {
         const float radius = std::exp(random.uniform(std::log(0.01f), std::log(1.0f)));
         IrradianceRecord record =
             make_plain_record(random.in_cube(1.0f), random.mostly_up(), radius, random.uniform(0.0f, 5.0f));
-        record.smallest_radius = 0.6f * radius;  // else the smallest of 10,000 would shrink all
+        record.min_radius = 0.6f * radius;  // without it, the smallest of 10,000 radii would shrink all others
         for (std::size_t c = 0; c < 3; ++c) {
             record.translation_gradient[c] = random.in_cube(1.0f);
             record.rotation_gradient[c] = random.in_cube(1.0f);
@@ -248,32 +262,23 @@ TEST(IrradianceCache, IC15_EmptyAndOneRecord) {
     EXPECT_FALSE(cache.covers({glm::vec3(0.5f), up, 0.0f}));  // accuracy 0 accepts nothing
 }
 
-/// Cells and records touched per look-up in a cache of so many records on a square, each reaching a few of its
-/// neighbours. Counted, not timed: machines are noisy.
-double mean_look_up_cost(int side) {
+/// Not timed: with a search that visits every record, this would take an hour, longer than ctest lets a program run.
+TEST(IrradianceCache, IC15_LookUpsInAMillionRecords) {
+    constexpr int side = 1000, look_ups = 1'000'000;
     IrradianceCache cache(glm::vec3(0.0f), glm::vec3(1.0f));
     Randoms random;
     const glm::vec3 up(0.0f, 1.0f, 0.0f);
     const float spacing = 1.0f / static_cast<float>(side);
-    for (int i = 0; i < side * side; ++i) {
+    for (int i = 0; i < side * side; ++i) {  // on a square, each reaching a few of its neighbours
         const glm::vec3 corner(static_cast<float>(i % side), 0.0f, static_cast<float>(i / side));
         cache.insert(make_plain_record((corner + glm::vec3(0.5f, 0.0f, 0.5f)) * spacing, up, 2.0f * spacing));
     }
-    double touched = 0.0;
-    for (int i = 0; i < 20'000; ++i) {
+    for (int i = 0; i < look_ups; ++i) {
         const CacheQuery query{{random.uniform(0.0f, 1.0f), 0.0f, random.uniform(0.0f, 1.0f)}, up, 0.75f};
         const std::optional<Rgb> found = cache.interpolate(query);
-        EXPECT_TRUE(found.has_value());
-        EXPECT_NEAR(found->x, 1.0f, 1e-4f);
-        touched += static_cast<double>(cache.look_up_cost(query));
+        ASSERT_TRUE(found.has_value());
+        ASSERT_NEAR(found->x, 1.0f, 1e-4f);
     }
-    return touched / 20'000.0;
-}
-
-TEST(IrradianceCache, IC15_LookUpsInAMillionRecords) {
-    const double thousand = mean_look_up_cost(32), million = mean_look_up_cost(1000);
-    EXPECT_GT(thousand, 4.0);
-    EXPECT_LT(million, 4.0 * thousand);  // the logarithms of their numbers are as 2 to 1
 }
 
 }  // namespace

@@ -8,8 +8,8 @@
 #include <cstdio>
 
 #include "engine/load/load_scene.h"
-#include "tests/support/render_scenes.h"
 #include "tests/support/paths.h"
+#include "tests/support/render_scenes.h"
 
 namespace aleph {
 namespace {
@@ -27,6 +27,11 @@ struct Fill {
           centers(cast_sample(stage.rays, stage.view, 0, 1, nullptr)),
           context{lighting, stage.view, settings, alpha, 0, scene_radius(stage.shading), {}} {}
 
+    FrameTally make_tally() const {
+        const Image<float> zero(stage.view.width, stage.view.height);
+        return {zero, zero, {}};
+    }
+
     Stage stage;
     LightingContext lighting;
     RenderSettings settings;
@@ -37,20 +42,17 @@ struct Fill {
 
 std::size_t count_in_rounds(const Fill& fill) {
     IrradianceCache cache = make_cache(fill.stage.shading);
-    Image<float> records(fill.stage.view.width, fill.stage.view.height);
-    RayCounts counts;
-    FillStatistics statistics;
-    fill_cache(cache, fill.context, fill.centers, 0, records, counts, statistics);
+    FrameTally tally = fill.make_tally();
+    fill_cache(cache, fill.context, fill.centers, tally);
     return cache.records().size();
 }
 
-/// One after another, each record there for the next pixel; the same pixels in the same order, and everything once more
-/// until nothing lies bare.
+/// A sequential fill: each record is inserted before the next pixel is looked at. The order of pixels is that of
+/// fill_cache, and all pixels are looked at again until all are covered.
 std::size_t count_sequentially(const Fill& fill) {
     IrradianceCache cache = make_cache(fill.stage.shading);
     GatherScratch scratch;
-    RayCounts counts;
-    Tracer tracer(fill.stage.rays);
+    RayTask task(fill.stage.rays);
     const auto visit = [&](int stride, bool all) {
         for (int y = 0; y < fill.stage.view.height; y += stride) {
             for (int x = 0; x < fill.stage.view.width; x += stride) {
@@ -58,11 +60,11 @@ std::size_t count_sequentially(const Fill& fill) {
                 if (fill.centers.hits(x, y).instance == no_index) continue;
                 const PixelSurface s = make_pixel_surface(fill.stage.shading, fill.stage.view, fill.centers, x, y);
                 const float accuracy = fill.alpha(x, y);
-                if (!needs_irradiance(fill.centers, s, x, y)) continue;
+                if (!s.material.has_diffuse()) continue;
                 if (cache.covers({s.point.position, s.point.normal, accuracy})) continue;
-                const IrradianceSample value = gather_at(fill.context, tracer, s, x, y, 0, scratch, counts);
-                cache.insert(
-                    make_record(s.point.position, s.point.normal, value, radius_bounds(fill.context, s, accuracy)));
+                const IrradianceSample value = gather_at(fill.context, task, s, scratch);
+                const RadiusBounds bounds = radius_bounds(fill.context, s, accuracy);
+                cache.insert(make_record(s.point.position, s.point.normal, value, bounds).value());
             }
         }
     };
@@ -107,31 +109,57 @@ TEST(CacheFill, GuidedAccuracyToo) {
     EXPECT_LE(rounds, 1.03 * sequential) << rounds << " against " << sequential;
 }
 
-/// Neighbour clamping may shrink a record after it covered a place: filling looks again, or shading would gather at
-/// every pixel that lies bare.
+/// Neighbour clamping may shrink a record after it covered a place. Filling reviews all pixels for that; otherwise,
+/// shading would gather at each uncovered pixel.
 TEST(CacheFill, EverySampleIsCoveredAfterwards) {
     for (const auto& [name, accuracy] : {std::pair("cornell", 0.3), std::pair("pool", 0.5)}) {
         const Fill fill(load(name), 160, 120, accuracy);
         IrradianceCache cache = make_cache(fill.stage.shading);
-        Image<float> records(160, 120);
-        RayCounts counts;
-        FillStatistics statistics;
-        fill_cache(cache, fill.context, fill.centers, 0, records, counts, statistics);
+        FrameTally tally = fill.make_tally();
+        fill_cache(cache, fill.context, fill.centers, tally);
         std::size_t uncovered = 0, asked = 0;
         for (int y = 0; y < 120; ++y) {
             for (int x = 0; x < 160; ++x) {
                 if (fill.centers.hits(x, y).instance == no_index) continue;
                 const PixelSurface s = make_pixel_surface(fill.stage.shading, fill.stage.view, fill.centers, x, y);
-                if (!needs_irradiance(fill.centers, s, x, y)) continue;
+                if (!s.material.has_diffuse()) continue;
                 ++asked;
                 if (!cache.covers({s.point.position, s.point.normal, fill.alpha(x, y)})) ++uncovered;
             }
         }
         EXPECT_GT(asked, 5000u);
         EXPECT_LE(uncovered, asked / 1000) << name;
-        EXPECT_EQ(counts.gather, 64 * cache.records().size());
-        EXPECT_GE(statistics.lookups, statistics.hits + cache.records().size());
+        EXPECT_EQ(tally.counts.rays.gather, 64 * cache.records().size());
+        EXPECT_GE(tally.counts.cache.lookups, tally.counts.cache.hits + cache.records().size());
     }
+}
+
+/// Two rooms without a roof. The light in the right one is brighter on the nearest wall than a float can hold.
+Scene make_overexposed_room() {
+    Scene scene;
+    const int white = add_lambert(scene, glm::dvec3(0.5), glm::dvec3(0.0), true);
+    add_mesh(scene, make_quad(4.0, 2.0, white), glm::dvec3(0.0), z_to_up);
+    for (const double x : {-2.0, 0.0, 2.0}) add_mesh(scene, make_box({0.1, 1.0, 2.0}, white), {x, 0.5, 0.0});
+    add_light(scene, Light::Kind::point, glm::dvec3(1e38), {1.7, 0.5, 0.0});
+    add_camera(scene, {0.0, 4.0, 0.0}, glm::dvec3(0.0), 0.9);
+    return scene;
+}
+
+TEST(CacheFill, GathersThatAreNotFiniteMakeNoRecords) {
+    const Fill fill(make_overexposed_room(), 64, 48, 0.15);
+    IrradianceCache cache = make_cache(fill.stage.shading);
+    FrameTally tally = fill.make_tally();
+    fill_cache(cache, fill.context, fill.centers, tally);
+    for (const IrradianceRecord& record : cache.records()) ASSERT_TRUE(is_finite(record.irradiance));
+    EXPECT_GT(cache.records().size(), 10u);
+    EXPECT_GT(tally.counts.invalid_samples, 10u);
+    // Every gather is either a record or invalid, and the sums over pixels agree.
+    EXPECT_EQ(tally.counts.records, cache.records().size() + tally.counts.invalid_samples);
+    double records = 0.0, invalid = 0.0;
+    for (const float n : tally.records.pixels) records += n;
+    for (const float n : tally.invalid_samples.pixels) invalid += n;
+    EXPECT_EQ(records, static_cast<double>(tally.counts.records));
+    EXPECT_EQ(invalid, static_cast<double>(tally.counts.invalid_samples));
 }
 
 TEST(CacheFill, ErrorFallsAsAccuracyTightens) {

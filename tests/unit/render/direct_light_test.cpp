@@ -15,12 +15,15 @@ constexpr double pi = std::numbers::pi;
 const glm::vec3 up(0.0f, 1.0f, 0.0f);
 
 struct Lighting {
-    explicit Lighting(Scene scene) : stage(std::move(scene)), tracer(stage.rays) {}
+    explicit Lighting(Scene scene) : stage(std::move(scene)), task(stage.rays) {}
     Rgb at(const glm::vec3& position, const SurfaceMaterial& material, const glm::vec3& view, int samples = 1,
            std::uint32_t seed = 0) {
         RandomStream random({seed, 1, 2, 3});
-        return compute_direct_light(stage.lighting(), tracer, make_point(position, up), material, view, {samples},
-                                    random, counts);
+        return compute_direct_light(stage.lighting(), task, {make_point(position, up), material, view}, {samples},
+                                    random);
+    }
+    Rgb quick_at(const SurfacePoint& point, const SurfaceMaterial& material, int samples) {
+        return estimate_direct_light(stage.lighting(), task, {point, material, up}, samples);
     }
     Mean mean_at(const glm::vec3& position, const SurfaceMaterial& material, const glm::vec3& view, int samples,
                  int runs) {
@@ -29,8 +32,7 @@ struct Lighting {
         return mean;
     }
     Stage stage;
-    Tracer tracer;
-    RayCounts counts;
+    RayTask task;
 };
 
 TEST(DirectLight, PointLightIsCandelaOverSquaredDistance) {
@@ -40,10 +42,9 @@ TEST(DirectLight, PointLightIsCandelaOverSquaredDistance) {
     const Rgb found = lighting.at(glm::vec3(0.0f), make_lambert(0.5f), up);
     const double expected = 0.5 / pi * 0.8 / 25.0;  // cos = 4/5, d = 5
     for (int c = 0; c < 3; ++c) EXPECT_NEAR(found[c], expected * (30.0 - 10.0 * c), 1e-5 * expected * 30.0);
-    EXPECT_EQ(lighting.counts.shadow, 1u);
+    EXPECT_EQ(lighting.task.counts.shadow, 1u);
     // The quick estimate gives the same where no area is sampled.
-    const Rgb quick = estimate_direct_light(lighting.stage.lighting(), lighting.tracer, make_point(glm::vec3(0.0f), up),
-                                            make_lambert(0.5f), up, {4}, lighting.counts);
+    const Rgb quick = lighting.quick_at(make_point(glm::vec3(0.0f), up), make_lambert(0.5f), 4);
     EXPECT_NEAR(quick.x, found.x, 1e-6f);
 }
 
@@ -99,9 +100,7 @@ TEST(DirectLight, SquareLampOverhead) {
         EXPECT_NEAR(mean.mean(), expected, 3.0 * mean.error());
         EXPECT_NEAR(mean.mean(), expected, 0.01 * expected);
         // The fixed pattern of the quick estimate: biased, but near.
-        const Rgb quick =
-            estimate_direct_light(lighting.stage.lighting(), lighting.tracer, make_point(glm::vec3(0.0f), up),
-                                  make_lambert(0.6f), up, {16}, lighting.counts);
+        const Rgb quick = lighting.quick_at(make_point(glm::vec3(0.0f), up), make_lambert(0.6f), 16);
         EXPECT_NEAR(quick.x, expected, 0.1 * expected);
     }
 }
@@ -113,14 +112,13 @@ TEST(DirectLight, OffsetRaysEndBeforeTheLamp) {
     Mean mean;
     for (std::uint32_t seed = 0; seed < 100; ++seed) {
         RandomStream random({seed, 1, 2, 3});
-        mean.add(compute_direct_light(lighting.stage.lighting(), lighting.tracer, point, make_lambert(0.6f), up, {16},
-                                      random, lighting.counts)
+        mean.add(compute_direct_light(lighting.stage.lighting(), lighting.task, {point, make_lambert(0.6f), up}, {16},
+                                      random)
                      .x);
     }
     const double expected = 0.6 * 5.0 * square_factor(2.0, 0.5);
     EXPECT_NEAR(mean.mean(), expected, 3.0 * mean.error() + 1e-3 * expected);
-    const Rgb quick = estimate_direct_light(lighting.stage.lighting(), lighting.tracer, point, make_lambert(0.6f), up,
-                                            16, lighting.counts);
+    const Rgb quick = lighting.quick_at(point, make_lambert(0.6f), 16);
     EXPECT_NEAR(quick.x, expected, 0.1 * expected);
 }
 
@@ -195,8 +193,8 @@ TEST(DirectLight, LightAndLobeSamplingAgreeWithTheirCombination) {
         std::uniform_real_distribution<float> unit(0.0f, 0x1.fffffep-1f);
         Mean lamp_only, lobe_only;
         for (int i = 0; i < 100'000; ++i) {
-            const LightSample sample = sample_light(lighting.stage.shading, lighting.stage.lights, 0, point.position,
-                                                    up, {unit(engine), unit(engine)});
+            const LightSample sample = sample_light(lighting.stage.shading, lighting.stage.lights, 0,
+                                                    {point.position, up}, {unit(engine), unit(engine)});
             const float cosine = glm::dot(up, sample.direction);
             lamp_only.add(cosine > 0.0f ? (evaluate_glossy(metal, local_view, basis.to_local(sample.direction)) *
                                            sample.incoming * cosine)
@@ -205,7 +203,7 @@ TEST(DirectLight, LightAndLobeSamplingAgreeWithTheirCombination) {
             const glm::vec3 local = sample_glossy(metal, local_view, {unit(engine), unit(engine)});
             double found = 0.0;
             if (local.z > 0.0f &&
-                lighting.tracer.intersect({point.ray_origin(), basis.to_world(local)}).instance == 0) {
+                lighting.task.tracer.intersect({point.ray_origin(), basis.to_world(local)}).instance == 0) {
                 found =
                     evaluate_glossy(metal, local_view, local).x * 5.0 * local.z / pdf_glossy(metal, local_view, local);
             }
@@ -226,8 +224,8 @@ TEST(DirectLight, UsesAFixedNumberOfRandomDimensions) {
     Lighting lighting(make_square_lamp(z_to_down, false));
     const auto next_after = [&](const SurfaceMaterial& material, const glm::vec3& position) {
         RandomStream random({1, 2, 3, 4});
-        compute_direct_light(lighting.stage.lighting(), lighting.tracer, make_point(position, up), material, up, {4},
-                             random, lighting.counts);
+        compute_direct_light(lighting.stage.lighting(), lighting.task, {make_point(position, up), material, up}, {4},
+                             random);
         return random.next();
     };
     const float expected = next_after(make_lambert(0.5f), glm::vec3(0.0f));
@@ -244,7 +242,7 @@ TEST(DirectLight, LatticePointsAreEven) {
             const glm::vec2 p = lattice_point(i, n, {0.0f, 0.3f});
             ASSERT_GE(std::min(p.x, p.y), 0.0f);
             ASSERT_LT(std::max(p.x, p.y), 1.0f);
-            ++strata[static_cast<std::size_t>(p.x * static_cast<float>(n))];
+            ++strata[static_cast<int>(p.x * static_cast<float>(n))];
             ys.push_back(p.y);
         }
         for (const int count : strata) EXPECT_EQ(count, 1);

@@ -27,15 +27,14 @@ Scene make_lit_ceiling(Mesh (*make_ceiling)(int material), const glm::dvec3& pos
 }
 
 struct Gathering {
-    explicit Gathering(Scene scene) : stage(std::move(scene)), tracer(stage.rays) {}
+    explicit Gathering(Scene scene) : stage(std::move(scene)), task(stage.rays) {}
     IrradianceSample at(const glm::vec3& position, const glm::vec3& normal, int samples, std::uint32_t seed = 0) {
-        return gather_irradiance(stage.lighting(), tracer, make_point(position, normal), choose_strata(samples),
-                                 {seed, 0, 0, 0}, scratch, counts);
+        return gather_irradiance(stage.lighting(), task, make_point(position, normal), choose_strata(samples),
+                                 {seed, 0, 0, 0}, scratch);
     }
     Stage stage;
-    Tracer tracer;
+    RayTask task;
     GatherScratch scratch;
-    RayCounts counts;
 };
 
 /// Mean over independent gathers within 3 standard errors of the truth, and within this share of it.
@@ -158,8 +157,8 @@ TEST(Gather, InTheOpenTheDistanceIsInfinite) {
     EXPECT_EQ(sample.harmonic_mean_distance, std::numeric_limits<float>::infinity());
     EXPECT_EQ(sample.irradiance, Rgb(0.0f));
     EXPECT_EQ(sample.translation_gradient[0], glm::vec3(0.0f));
-    EXPECT_EQ(gathering.counts.gather, 64u);
-    EXPECT_EQ(gathering.counts.shadow, 0u);
+    EXPECT_EQ(gathering.task.counts.gather, 64u);
+    EXPECT_EQ(gathering.task.counts.shadow, 0u);
 }
 
 TEST(Gather, DependsOnTheKeyAlone) {
@@ -256,7 +255,7 @@ TEST(Gather, RecordsExtrapolateTowardsTheTruth) {
     for (std::uint32_t seed = 0; seed < 16; ++seed) {
         const IrradianceSample sample = gathering.at(glm::vec3(0.0f), up, 4096, seed);
         // A radius at which the limit on gradients (|gradient| R <= E) leaves this steep one alone.
-        const IrradianceRecord record = make_record(glm::vec3(0.0f), up, sample, {1e-3f, 0.5f});
+        const IrradianceRecord record = make_record(glm::vec3(0.0f), up, sample, {1e-3f, 0.5f}).value();
         moved.add(std::abs(extrapolate(record, place, normal).x - truth));
         kept.add(std::abs(record.irradiance.x - truth));
     }

@@ -35,7 +35,7 @@ TEST(Lights, NumberedEmittersThenPunctualThenEnvironment) {
     EXPECT_TRUE(stage.lights.has_environment);
     EXPECT_EQ(stage.lights.count(), 3);
     EXPECT_EQ(stage.lights.emitter_of_instance, (std::vector<int>{0, no_index}));
-    const LightSample sky = sample_light(stage.shading, stage.lights, 2, glm::vec3(0.0f), up, {0.3f, 0.6f});
+    const LightSample sky = sample_light(stage.shading, stage.lights, 2, {glm::vec3(0.0f), up}, {0.3f, 0.6f});
     EXPECT_EQ(sky.distance, std::numeric_limits<float>::infinity());
     EXPECT_NEAR(sky.pdf, glm::dot(sky.direction, up) / pi, 1e-6);
     EXPECT_NEAR(sky.incoming.x * sky.pdf, 0.5f, 1e-6f);
@@ -68,7 +68,7 @@ TEST(Lights, DensityMeasuresTheSolidAngle) {
     Mean solid_angle, side;
     for (int i = 0; i < 100'000; ++i) {
         const LightSample sample =
-            sample_light(stage.shading, stage.lights, 0, glm::vec3(0.0f), up, {unit(engine), unit(engine)});
+            sample_light(stage.shading, stage.lights, 0, {glm::vec3(0.0f), up}, {unit(engine), unit(engine)});
         ASSERT_GT(sample.pdf, 0.0f);
         ASSERT_NEAR(sample.incoming.x * sample.pdf, 4.0f, 1e-4f);
         ASSERT_NEAR(sample.distance, 1.5f / sample.direction.y, 1e-3f);
@@ -90,7 +90,8 @@ TEST(Lights, FarLampsAreSampledByAreaWithTheSameMean) {
     Mean solid_angle;
     for (int i = 0; i < 100'000; ++i) {
         solid_angle.add(
-            1.0 / sample_light(stage.shading, stage.lights, 0, glm::vec3(0.0f), up, {unit(engine), unit(engine)}).pdf);
+            1.0 /
+            sample_light(stage.shading, stage.lights, 0, {glm::vec3(0.0f), up}, {unit(engine), unit(engine)}).pdf);
     }
     EXPECT_GT(solid_angle.error(), 0.0);
     EXPECT_NEAR(solid_angle.mean(), 4.0 * std::asin(a * a / (1.0 + a * a)), 3.0 * solid_angle.error());
@@ -140,7 +141,7 @@ TEST(Lights, TexturedLampHasTheTexturesMeanPower) {
     const Stage stage(std::move(scene));
     int dark = 0, lit = 0;
     for (int i = 0; i < 1000; ++i) {
-        const LightSample s = sample_light(stage.shading, stage.lights, 0, glm::vec3(0.0f), up,
+        const LightSample s = sample_light(stage.shading, stage.lights, 0, {glm::vec3(0.0f), up},
                                            {(static_cast<float>(i) + 0.5f) / 1000.0f, 0.5f});
         const float found = s.incoming.x * s.pdf;
         if (found == 0.0f) ++dark;
@@ -164,7 +165,7 @@ TEST(Lights, ASharesTextureIsAveraged) {
     const Stage stage(std::move(scene));
     for (int i = 0; i < 20; ++i) {
         const glm::vec2 u((static_cast<float>(i) + 0.5f) / 20.0f, 0.37f);
-        const LightSample s = sample_light(stage.shading, stage.lights, 0, glm::vec3(0.0f), up, u, 0.25f);
+        const LightSample s = sample_light(stage.shading, stage.lights, 0, {glm::vec3(0.0f), up}, u, 0.25f);
         EXPECT_NEAR(s.incoming.x * s.pdf, 2.0f, 1e-4f);
     }
 }
@@ -188,7 +189,7 @@ TEST(Lights, SpotFallsOffAsTheExtensionSays) {
             const double angle = outer * 1.2 * i / 40.0;
             if (angle > 1.5) break;
             const glm::vec3 at(static_cast<float>(2.0 * std::tan(angle)), 0.0f, 0.0f);
-            const LightSample s = sample_light(stage.shading, stage.lights, 0, at, up, {0.5f, 0.5f});
+            const LightSample s = sample_light(stage.shading, stage.lights, 0, {at, up}, {0.5f, 0.5f});
             const double share =
                 std::clamp((std::cos(angle) - std::cos(outer)) / (std::cos(inner) - std::cos(outer)), 0.0, 1.0);
             const double distance2 = 4.0 / (std::cos(angle) * std::cos(angle));
@@ -203,13 +204,13 @@ TEST(Lights, SpotsEndSharplyWhereConesMeetAndAtTheirRange) {
     const Stage sharp = make_spot(0.4, 0.4);
     const auto at_angle = [](const Stage& stage, double angle) {
         const glm::vec3 at(static_cast<float>(2.0 * std::tan(angle)), 0.0f, 0.0f);
-        return sample_light(stage.shading, stage.lights, 0, at, up, {0.5f, 0.5f}).incoming.x;
+        return sample_light(stage.shading, stage.lights, 0, {at, up}, {0.5f, 0.5f}).incoming.x;
     };
     EXPECT_NEAR(at_angle(sharp, 0.39), 8.0 * std::pow(std::cos(0.39), 2) / 4.0, 1e-5);
     EXPECT_EQ(at_angle(sharp, 0.41), 0.0f);
     // Behind the lamp nothing, even at the widest cone.
     const Stage wide = make_spot(0.0, pi / 2.0);
-    EXPECT_EQ(sample_light(wide.shading, wide.lights, 0, {0.1f, 4.0f, 0.0f}, up, {0.5f, 0.5f}).incoming, Rgb(0.0f));
+    EXPECT_EQ(sample_light(wide.shading, wide.lights, 0, {{0.1f, 4.0f, 0.0f}, up}, {0.5f, 0.5f}).incoming, Rgb(0.0f));
     EXPECT_EQ(at_angle(make_spot(0.1, 0.5, 1.5), 0.0), 0.0f);  // 2 m away
     EXPECT_NEAR(at_angle(make_spot(0.1, 0.5, 3.0), 0.0), 8.0 / 4.0 * (1.0 - std::pow(2.0 / 3.0, 4)), 1e-5);
 }
@@ -240,14 +241,14 @@ TEST(Lights, UnlitSurfacesAreSeenAsTheyAreAndLightNothing) {
 
 TEST(Lights, WhatCannotBeSeenBringsNothing) {
     const Stage stage(make_lamp_scene(2.0, 1.5));
-    EXPECT_EQ(sample_light(stage.shading, stage.lights, 0, {0.0f, 3.0f, 0.0f}, up, {0.3f, 0.4f}).incoming, Rgb(0.0f));
+    EXPECT_EQ(sample_light(stage.shading, stage.lights, 0, {{0.0f, 3.0f, 0.0f}, up}, {0.3f, 0.4f}).incoming, Rgb(0.0f));
     EXPECT_EQ(pdf_emitter(stage.lights.emitters[0], {}, 0.0f, 1.0f), 0.0f);
     EXPECT_EQ(pdf_emitter(stage.lights.emitters[0], {}, -1.0f, 1.0f), 0.0f);
     Scene scene;
     add_light(scene, Light::Kind::point, glm::dvec3(1.0), {0.0, 0.0, 0.0});
     const Stage at_light(std::move(scene));
     const LightSample same_place =
-        sample_light(at_light.shading, at_light.lights, 0, glm::vec3(0.0f), up, {0.5f, 0.5f});
+        sample_light(at_light.shading, at_light.lights, 0, {glm::vec3(0.0f), up}, {0.5f, 0.5f});
     EXPECT_EQ(same_place.incoming, Rgb(0.0f));  // no direction, and not infinite
 }
 

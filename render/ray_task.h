@@ -1,0 +1,17 @@
+#pragma once
+// The rays of one task of a parallel loop.
+
+#include "engine/rays/ray_scene.h"
+#include "render/ray_counts.h"
+
+namespace aleph {
+
+/// Make one per task: it is cheap, and nothing in it is shared with other threads.
+struct RayTask {
+    explicit RayTask(const RayScene& rays) : tracer(rays) {}
+
+    Tracer tracer;
+    RayCounts counts;  ///< of the rays that `tracer` cast, by purpose
+};
+
+}  // namespace aleph
