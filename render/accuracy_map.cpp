@@ -7,7 +7,7 @@ namespace aleph {
 
 double compress_accuracy(double accuracy, double aleph) {
     if (!(accuracy > 0.0)) return 0.0;
-    const double n = std::max(1.0, aleph);  // in this order 1 for NaN too
+    const double n = std::max(1.0, aleph);  // with the arguments in this order, 1 for NaN too
     if (std::isinf(n)) return 1.0;
     return std::min(1.0, accuracy * n / (1.0 + accuracy * (n - 1.0)));
 }

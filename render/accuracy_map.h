@@ -1,18 +1,19 @@
 #pragma once
-// From the Aleph map to the ambient accuracy of every pixel, thesis 6.1.
+// The ambient accuracy of every pixel from the Aleph map (Yee 2000, section 6.1).
 
 #include "engine/base/image.h"
 #include "render/settings.h"
 
 namespace aleph {
 
-/// (6.7) as a N / (1 + a (N - 1)): `accuracy` at aleph = 1, towards 1 at infinity, 0 at accuracy = 0.
+/// Yee 2000, eq. 6.7, as a N / (1 + a (N - 1)) for the accuracy a and aleph N: a at N = 1, 1 at infinity; 0 if a is 0.
+/// Values of aleph below 1, and NaN, count as 1.
 double compress_accuracy(double accuracy, double aleph);
 
-/// (6.8): accuracy + aleph / k, at most 1.
+/// Yee 2000, eq. 6.8: accuracy + aleph / k, at most 1; 0 if the accuracy is 0.
 double scale_add_accuracy(double accuracy, double aleph, double k);
 
-/// alpha per pixel. Without a guide it is `accuracy` everywhere, whatever the adapter (MODEL 6.1).
+/// alpha per pixel. With Guide::none it is settings.accuracy everywhere, for both adapters.
 Image<float> compute_accuracy_map(const Image<float>& aleph, const RenderSettings& settings);
 
 }  // namespace aleph

@@ -215,7 +215,7 @@ LightSet make_light_set(const ShadingScene& shading) {
         lights.emitter_of_instance[i] = static_cast<int>(lights.emitters.size());
         lights.emitters.push_back(std::move(emitter));
     }
-    for (const LightValues& light : shading.frame->lights) {
+    for (const LightValues& light : shading.pose->lights) {
         if (light.intensity == Rgb(0.0f)) continue;
         lights.punctual.push_back({light.kind, glm::vec3(light.position - shading.anchor), glm::vec3(light.direction),
                                    light.intensity, static_cast<float>(light.range), versine(light.inner_cone),

@@ -11,7 +11,7 @@ namespace {
 
 /// Relative size of the rounding of a float position and of Embree's own: 2^-16 is 256 half-ulps, after
 /// Waechter and Binder 2019, "A Fast and Robust Method for Avoiding Self-Intersection", but scaled by the triangle's
-/// coordinates, so that it stays small in small scenes (HARD_CASES RC-05).
+/// coordinates, so that it stays small in small scenes.
 constexpr float offset_scale = 0x1p-16f;
 
 float largest_component(const glm::vec3& v) {
@@ -39,78 +39,78 @@ bool can_emit(const Material& material) {
     return !material.unlit && is_on(material.emission, glm::dvec3(0.0)) && is_on(material.emission_strength, 0.0);
 }
 
-ShadingMaterial make_material(const Scene& scene, const ScenePose& frame, std::size_t i) {
-    const MaterialValues& values = frame.materials[i];
+ShadingMaterial make_material(const Scene& scene, const ScenePose& pose, int i) {
+    const MaterialValues& values = pose.materials[i];
     return {values, &scene.materials[i], scene.materials[i].double_sided,
             values.emission != Rgb(0.0f) && !scene.materials[i].unlit};
 }
 
-PosedInstance make_instance(const ShadingScene& shading, std::size_t i) {
-    const ScenePose& frame = *shading.frame;
-    const Instance& instance = frame.instances[i];
-    const auto m = static_cast<std::size_t>(instance.mesh);
-    const Mesh& mesh = shading.scene->meshes[m];
-    const glm::dmat4& world = frame.world[instance.node];
+PosedInstance make_instance(const ShadingScene& shading, int i) {
+    const ScenePose& pose = *shading.pose;
+    const Instance& instance = pose.instances[i];
+    const Mesh& mesh = shading.scene->meshes[instance.mesh];
+    const glm::dmat4& world = pose.world[instance.node];
     PosedInstance posed;
     posed.mesh = &mesh;
     posed.material = mesh.material == no_index ? static_cast<int>(shading.scene->materials.size()) : mesh.material;
     posed.linear = glm::mat3(glm::dmat3(world));
     posed.translation = glm::vec3(glm::dvec3(world[3]) - shading.anchor);
     posed.normals = glm::mat3(normal_matrix(world));
-    // What rays leave out for want of volume (HARD_CASES RC-02) must not shine, nor count for the scene's size.
-    posed.visible = frame.shown[i] != 0 && is_traceable(world, shading.anchor);
-    if (!frame.meshes[m].positions.empty()) posed.deformed = &frame.meshes[m];
+    // Rays leave out instances without volume, so these must not emit light or count for the scene's size.
+    posed.visible = pose.shown[i] != 0 && is_traceable(world, shading.anchor);
+    const PosedMesh& deformed = pose.meshes[instance.mesh];
+    if (!deformed.positions.empty()) posed.deformed = &deformed;
     return posed;
 }
 
 }  // namespace
 
-ShadingScene make_shading_scene(const Scene& scene, const ScenePose& frame, const glm::dvec3& anchor,
+ShadingScene make_shading_scene(const Scene& scene, const ScenePose& pose, const glm::dvec3& anchor,
                                 const TextureSet& textures) {
     ShadingScene shading;
     shading.scene = &scene;
-    shading.frame = &frame;
+    shading.pose = &pose;
     shading.textures = &textures;
     shading.anchor = anchor;
-    shading.environment = frame.environment;
-    for (std::size_t i = 0; i < scene.materials.size(); ++i)
-        shading.materials.push_back(make_material(scene, frame, i));
+    shading.environment = pose.environment;
+    std::vector<bool> can_shine;
+    for (int i = 0; i < std::ssize(scene.materials); ++i) {
+        shading.materials.push_back(make_material(scene, pose, i));
+        can_shine.push_back(can_emit(scene.materials[i]));
+    }
     shading.materials.push_back({});
-    std::vector<std::uint8_t> can_shine(shading.materials.size(), 0);
-    for (std::size_t i = 0; i < scene.materials.size(); ++i) can_shine[i] = can_emit(scene.materials[i]);
-    shading.instances.reserve(frame.instances.size());
-    for (std::size_t i = 0; i < frame.instances.size(); ++i) {
+    can_shine.push_back(false);
+    shading.instances.reserve(pose.instances.size());
+    for (int i = 0; i < std::ssize(pose.instances); ++i) {
         shading.instances.push_back(make_instance(shading, i));
         const PosedInstance& instance = shading.instances.back();
-        if (can_shine[instance.material] != 0) shading.emitting.push_back(static_cast<int>(i));
+        if (can_shine[instance.material]) shading.emitting.push_back(i);
         add(shading.bounds, instance);
     }
     return shading;
 }
 
 void update_shading_scene(ShadingScene& shading, const PosePlan& plan, const glm::dvec3& anchor) {
-    const ScenePose& frame = *shading.frame;
+    const ScenePose& pose = *shading.pose;
     if (anchor != shading.anchor) {
-        shading = make_shading_scene(*shading.scene, frame, anchor, *shading.textures);
+        shading = make_shading_scene(*shading.scene, pose, anchor, *shading.textures);
         return;
     }
     if (!shading.still_bounds) {
         SceneBounds still;
-        std::vector<std::uint8_t> changes(shading.instances.size(), 0);
-        for (const int i : plan.instances) changes[i] = 1;
-        for (std::size_t i = 0; i < changes.size(); ++i)
-            if (changes[i] == 0) add(still, shading.instances[i]);
+        std::vector<bool> changes(shading.instances.size());
+        for (const int i : plan.instances) changes[i] = true;
+        for (std::size_t i = 0; i < changes.size(); ++i) {
+            if (!changes[i]) add(still, shading.instances[i]);
+        }
         shading.still_bounds = still;
     }
-    shading.environment = frame.environment;
-    for (const int i : plan.materials) {
-        const auto m = static_cast<std::size_t>(i);
-        shading.materials[m] = make_material(*shading.scene, frame, m);
-    }
+    shading.environment = pose.environment;
+    for (const int i : plan.materials) shading.materials[i] = make_material(*shading.scene, pose, i);
     shading.bounds = *shading.still_bounds;
     for (const int i : plan.instances) {
         PosedInstance& instance = shading.instances[i];
-        instance = make_instance(shading, static_cast<std::size_t>(i));
+        instance = make_instance(shading, i);
         add(shading.bounds, instance);
     }
 }
@@ -119,7 +119,7 @@ SurfacePoint make_surface_point(const ShadingScene& shading, const Hit& hit, con
     const PosedInstance& instance = shading.instances[hit.instance];
     const Mesh& mesh = *instance.mesh;
     const glm::uvec3 t = mesh.triangles[hit.primitive];
-    // Robust hits may lie a rounding outside their triangle (HARD_CASES RP-18).
+    // Rounding can place a hit slightly outside its triangle.
     float u = std::max(hit.u, 0.0f), v = std::max(hit.v, 0.0f);
     if (const float sum = u + v; sum > 1.0f) {
         u /= sum;
@@ -134,7 +134,7 @@ SurfacePoint make_surface_point(const ShadingScene& shading, const Hit& hit, con
     point.offset =
         offset_scale * std::max({largest_component(w0), largest_component(w1), largest_component(w2),
                                  largest_component(instance.translation), largest_component(point.position)});
-    // normal_matrix keeps outward outward, under reflections too.
+    // normal_matrix keeps outward normals outward, under reflections too.
     glm::vec3 geometric = instance.normals * glm::cross(e1, e2);
     const float length = glm::length(geometric);
     geometric = length > 0.0f ? geometric / length : -direction / glm::length(direction);
@@ -147,7 +147,7 @@ SurfacePoint make_surface_point(const ShadingScene& shading, const Hit& hit, con
         if (n_length > 0.0f && std::isfinite(n_length)) {
             glm::vec3 shading_normal = n / n_length;
             if (!point.front) shading_normal = -shading_normal;
-            // An interpolated normal on the other side of the surface would leak: take the geometric one (RC-11).
+            // With an interpolated normal on the other side of the surface, light would leak through it.
             if (glm::dot(shading_normal, point.geometric) > 0.0f) point.normal = shading_normal;
         }
     }

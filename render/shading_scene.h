@@ -24,7 +24,7 @@ struct PosedInstance {
     bool visible = false;
     const PosedMesh* deformed = nullptr;  ///< in place of the mesh's own points and normals; null: rigid
 
-    /// Object space, m: as rays meet it.
+    /// Object space, m: the position that rays meet.
     glm::vec3 corner(std::uint32_t vertex) const {
         return deformed == nullptr ? mesh->positions[vertex] : glm::vec3(deformed->positions[vertex]);
     }
@@ -33,7 +33,7 @@ struct PosedInstance {
     }
 };
 
-/// Material numbers of this frame beside its textures.
+/// The values of a material at this time, without its textures.
 struct ShadingMaterial {
     MaterialValues values;
     const Material* material = nullptr;  ///< null: glTF's default
@@ -41,52 +41,54 @@ struct ShadingMaterial {
     bool emits = false;
 };
 
-/// m, relative to the anchor. Of nothing: low is infinite.
+/// m, relative to the anchor. If empty, `low` is infinite.
 struct SceneBounds {
     glm::vec3 low{std::numeric_limits<float>::infinity()}, high{-std::numeric_limits<float>::infinity()};
 };
 
 struct ShadingScene {
     const Scene* scene = nullptr;
-    const ScenePose* frame = nullptr;
+    const ScenePose* pose = nullptr;
     const TextureSet* textures = nullptr;
     glm::dvec3 anchor{0.0};
     std::vector<PosedInstance> instances;  ///< as ScenePose::instances
     std::vector<ShadingMaterial> materials;
     Rgb environment{0.0f};
     std::vector<int> emitting;  ///< instances whose material emits at some time
-    SceneBounds bounds;         ///< of what is visible
+    SceneBounds bounds;         ///< of the visible instances
 
-    std::optional<SceneBounds> still_bounds;  ///< of what no update touches, once one has asked
+    std::optional<SceneBounds> still_bounds;  ///< of visible instances that updates do not change; set by the first one
 };
 
-/// Keeps pointers to scene, frame and textures: they must outlive it.
+/// Keeps pointers to scene, pose and textures, which must outlive it.
 /// @param textures  make_texture_set(scene)
-ShadingScene make_shading_scene(const Scene& scene, const ScenePose& frame, const glm::dvec3& anchor,
+ShadingScene make_shading_scene(const Scene& scene, const ScenePose& pose, const glm::dvec3& anchor,
                                 const TextureSet& textures);
 
-/// Brings it to what shading.frame holds now, after update_pose of the same plan: equal to a fresh one, but only what
-/// can have changed is touched (everything where the anchor moved).
+/// Updates it after update_pose(plan) changed *shading.pose. The result equals that of make_shading_scene, but only the
+/// instances and materials that the plan names are computed again; if the anchor moved, everything is.
 void update_shading_scene(ShadingScene& shading, const PosePlan& plan, const glm::dvec3& anchor);
 
 /// A point of a surface, seen from a direction.
 struct SurfacePoint {
-    glm::vec3 position{0.0f};   ///< m, relative to the anchor; from barycentrics (HARD_CASES RP-19)
+    /// m, relative to the anchor. Computed from barycentrics: at grazing incidence, origin + t direction can be metres
+    /// off.
+    glm::vec3 position{0.0f};
     glm::vec3 geometric{0.0f};  ///< unit, towards the viewer
     glm::vec3 normal{0.0f};     ///< shading normal, unit, never facing away from the viewer's side of `geometric`
     glm::vec2 uv[2]{};
     glm::vec3 edges[2]{};        ///< m, of the triangle, from its first corner
-    glm::vec2 uv_edges[2][2]{};  ///< per set of texture coordinates: how it changes along each edge
+    glm::vec2 uv_edges[2][2]{};  ///< per set of texture coordinates: its difference along each edge
     glm::vec4 color{1.0f};       ///< vertex colour
     int material = no_index;
-    float offset = 0.0f;  ///< m along `geometric` that clears rounding of the position (HARD_CASES RC-04)
-    bool front = true;    ///< seen from the side its winding faces
+    float offset = 0.0f;  ///< m along `geometric`, larger than the rounding error of `position`
+    bool front = true;    ///< seen from the front side of its winding
 
-    /// Where rays that leave on the viewer's side start.
+    /// Origin of rays that leave on the viewer's side.
     glm::vec3 ray_origin() const { return position + geometric * offset; }
 };
 
-/// @param direction  of the ray that met it; need not be unit
+/// @param direction  of the ray that hit it; need not be unit
 SurfacePoint make_surface_point(const ShadingScene& shading, const Hit& hit, const glm::vec3& direction);
 
 }  // namespace aleph

@@ -9,7 +9,7 @@ namespace aleph {
 
 namespace {
 
-/// Angle between two vectors of any length; accurate where they are nearly parallel too.
+/// Angle between two vectors of any length; accurate also if they are nearly parallel.
 float angle_between(const glm::vec3& v, const glm::vec3& w) {
     return std::atan2(glm::length(glm::cross(v, w)), glm::dot(v, w));
 }
@@ -36,7 +36,8 @@ glm::vec3 sample_spherical_triangle(const glm::vec3& a, const glm::vec3& b, cons
     const glm::vec3 ua = glm::normalize(a), ub = glm::normalize(b), uc = glm::normalize(c);
     const glm::vec3 ab = glm::cross(ua, ub), bc = glm::cross(ub, uc), ca = glm::cross(uc, ua);
     const float alpha = angle_between(ab, -ca), beta = angle_between(bc, -ab), gamma = angle_between(ca, -bc);
-    // The part of the triangle with this share of the area has its third corner on the arc from a to c.
+    // Cuts off a part of the triangle with the share u.x of its area; the part's third corner is on the arc from a to
+    // c.
     const float area = u.x * (alpha + beta + gamma - pi);
     const float sin_alpha = std::sin(alpha), cos_alpha = std::cos(alpha);
     const float s = std::sin(area - alpha), t = std::cos(area - alpha);

@@ -10,12 +10,12 @@ namespace aleph {
 
 namespace {
 
-/// Beyond this a float holds no fraction of a texel.
-constexpr float largest_coordinate = 1e6f;
-/// Footprints longer than this are blurred across as well: what a look-up may cost is bounded.
-constexpr int most_probes = 16;
+/// Beyond this, a float cannot hold fractions of a texel.
+constexpr float max_coordinate = 1e6f;
+/// Limits the cost of a look-up. Longer footprints are blurred across as well.
+constexpr int max_probes = 16;
 
-/// A coordinate brought into [0,1]: mirroring folds it, so that texels are then clamped at both ends.
+/// A coordinate brought into [0,1]. Mirrored coordinates are folded, and their texels are then clamped at both ends.
 float wrap_coordinate(float u, Wrap wrap) {
     if (wrap == Wrap::clamp) return std::clamp(u, 0.0f, 1.0f);
     if (wrap == Wrap::repeat) return u - std::floor(u);
@@ -30,7 +30,7 @@ int wrap_index(int i, int n, Wrap wrap) {
     return i;
 }
 
-/// One level's four texels around a place, blended. Reading is a parameter so that level 0 decodes in place.
+/// Blends the four texels of one level around a place. `read` decodes them: level 0 is stored as the image's bytes.
 template <class Read>
 glm::vec4 blend_texels(int width, int height, const glm::vec2& place, Wrap wrap_u, Wrap wrap_v, const Read& read) {
     const float cx = place.x * static_cast<float>(width) - 0.5f, cy = place.y * static_cast<float>(height) - 0.5f;
@@ -58,29 +58,29 @@ glm::vec4 sample_level(const Texture& texture, const TextureUse& use, int level,
     return from(texture.image->bytes, [](const glm::u8vec4& t) { return decode_texel(t, TextureSpace::linear); });
 }
 
-/// Where and how coarsely a footprint reads a texture.
+/// The look-ups that average a texture over a footprint.
 struct Probes {
     int count = 1;
     glm::vec2 step{0.0f};    ///< uv from one probe to the next
     float level = 0.0f;      ///< 0: magnified
-    bool magnified = false;  ///< smaller than a texel all over
+    bool magnified = false;  ///< the footprint is smaller than a texel
 };
 
-/// log2 of how many texels one probe covers, within the pyramid.
+/// The level whose texels are this many texels of level 0 wide, within the pyramid.
 float find_level(const Texture& texture, float texels) {
     const float level = std::log2(texels), coarsest = static_cast<float>(texture.coarse.size());
-    return level < coarsest ? level : coarsest;  // so is what is no number
+    return level < coarsest ? level : coarsest;  // also for NaN
 }
 
-/// A bilinear probe spreads (its variance) like a box of sqrt(2) texels: a footprint's axes are divided by this to say
-/// how large its probe's texels should be. Without it, pictures are blurred half as much again as pixels ask for.
+/// Texels. A bilinear probe has the variance of a box of this width, so a footprint's axes are divided by it to get the
+/// width of its probe's texels. Without it, textures would be blurred by half as much again.
 constexpr float box_of_a_texel = std::numbers::sqrt2_v<float>;
 
-/// Probes as wide as the footprint, in a row as long as it, that spread exactly as a box of that width and length.
+/// A row of probes with the variance of a box of the footprint's width and length.
 Probes place_probes(const Texture& texture, const UvFootprint& footprint) {
     const glm::vec2 size(static_cast<float>(texture.width) / box_of_a_texel,
                          static_cast<float>(texture.height) / box_of_a_texel);
-    const glm::vec2 dx = footprint.dx * size, dy = footprint.dy * size;  // in such texels
+    const glm::vec2 dx = footprint.dx * size, dy = footprint.dy * size;  // in units of box_of_a_texel
     const float area = std::abs(dx.x * dy.y - dx.y * dy.x);
     Probes probes;
     if (footprint.round) {
@@ -98,14 +98,14 @@ Probes place_probes(const Texture& texture, const UvFootprint& footprint) {
         return probes;
     }
     const float major = std::sqrt(major2);
-    if (!(major < 1e18f)) {  // not a number, or nearly infinite
+    if (!(major < 1e18f)) {  // NaN, or too large to square
         probes.level = static_cast<float>(texture.coarse.size());
         return probes;
     }
     const float minor = area / major;
-    const float texel = std::max({minor, 1.0f, major / static_cast<float>(most_probes)});
+    const float texel = std::max({minor, 1.0f, major / static_cast<float>(max_probes)});
     probes.level = find_level(texture, texel);
-    probes.count = std::clamp(static_cast<int>(major / texel + 0.75f), 1, most_probes);
+    probes.count = std::clamp(static_cast<int>(major / texel + 0.75f), 1, max_probes);
     if (probes.count > 1) {
         const glm::vec2 along =
             half_difference >= 0.0f ? glm::vec2(root + half_difference, xy) : glm::vec2(xy, root - half_difference);
@@ -117,7 +117,7 @@ Probes place_probes(const Texture& texture, const UvFootprint& footprint) {
 }
 
 bool is_place(float u) {
-    return std::abs(u) < largest_coordinate;
+    return std::abs(u) < max_coordinate;
 }
 
 }  // namespace

@@ -1,6 +1,6 @@
 #pragma once
-// Texture look-up filtered by footprint: bilinear where the picture is magnified, else probes into a pyramid of coarser
-// levels along the longer axis of what the ray covers.
+// Texture look-up filtered by footprint. Magnified textures are bilinear. Minified ones are averaged over probes into a
+// pyramid of coarser levels, placed along the longer axis of the footprint.
 
 #include <array>
 #include <glm/mat2x2.hpp>
@@ -17,10 +17,10 @@ enum class TextureSpace {
     srgb,  ///< colour channels of 8-bit images are decoded; float images are linear already
 };
 
-/// One picture as one use reads it: linear values. Level 0 stays in the scene's image, decoded texel by texel; each
-/// coarser one is half as large, rounded down, to 1 x 1. All cover uv in [0,1]^2 and have the same mean.
+/// One image with its pyramid, in linear values. Level 0 is the scene's image, decoded at each look-up. Each coarser
+/// level is half as large, rounded down, to 1 x 1. All cover uv in [0,1]^2 and have the same mean.
 struct Texture {
-    const SceneImage* image = nullptr;  ///< must outlive this
+    const SceneImage* image = nullptr;  ///< must outlive the texture
     TextureSpace space = TextureSpace::linear;
     int width = 0, height = 0;             ///< texels of level 0
     std::vector<Image<glm::vec4>> coarse;  ///< level 1 and up
@@ -28,7 +28,7 @@ struct Texture {
 
 /// A material's reference to a texture, ready for look-ups.
 struct TextureUse {
-    int texture = no_index;  ///< into TextureSet::textures; no_index reads as white
+    int texture = no_index;  ///< into TextureSet::textures; no_index is white
     int uv_set = 0;
     Wrap wrap_u = Wrap::repeat, wrap_v = Wrap::repeat;
     bool nearest = false;
@@ -42,9 +42,9 @@ struct MaterialTextures {
     bool any = false;
 };
 
-/// Every texture of a scene. Made once (make_texture_set); look-ups only read it.
+/// All textures of a scene. Made once (make_texture_set); look-ups only read it.
 struct TextureSet {
-    std::vector<Texture> textures;            ///< one for each image and space in use
+    std::vector<Texture> textures;            ///< one for each image and space that materials use
     std::vector<MaterialTextures> materials;  ///< as Scene::materials, and one without textures at the end
 };
 
@@ -55,17 +55,17 @@ Texture make_texture(const SceneImage& image, TextureSpace space);
 /// @param texture  into TextureSet::textures
 TextureUse make_texture_use(const TextureRef& reference, int texture);
 
-/// What a look-up stands for, in uv before the reference's own transform.
+/// The area that a look-up averages over, in uv before the reference's own transform.
 struct UvFootprint {
-    /// How uv changes from this ray to its neighbours: the footprint is the parallelogram that they span.
+    /// Change of uv from this ray to its neighbours. The footprint is the parallelogram that they span.
     glm::vec2 dx{0.0f}, dy{0.0f};
-    /// Only the parallelogram's area counts: one probe, for wide cones that need not be sharp.
+    /// Use one probe of the parallelogram's area: for wide cones, which need not be sharp.
     bool round = false;
 };
 
-/// The texture at uv (v downwards from the image's top row), averaged over the footprint; the plain bilinear value (or
-/// the nearest texel, where the reference asks for that) if the footprint is smaller than a texel.
-/// A uv that is not finite, or beyond 1e6, reads as (0, 0); a footprint that is not finite as the mean of the picture.
+/// The texture at uv (v downwards from the image's top row), averaged over the footprint. If the footprint is smaller
+/// than a texel: the bilinear value, or the nearest texel if the reference says so.
+/// A coordinate that is not finite, or beyond 1e6, counts as 0. A footprint that is not finite gives the image's mean.
 glm::vec4 sample_texture(const TextureSet& set, const TextureUse& use, const glm::vec2& uv,
                          const UvFootprint& footprint);
 

@@ -8,27 +8,30 @@ namespace aleph {
 
 namespace {
 
-/// Cosine below which a footprint grows no further: beyond it, even probes along its length blur it to its mean.
-constexpr float smallest_cosine = 1e-4f;
+/// At smaller cosines a footprint grows no further: its texture is already blurred to the mean.
+constexpr float min_cosine = 1e-4f;
+
+/// The same for cones, whose texture need not be sharp.
+constexpr float min_cone_cosine = 0.05f;
 
 }  // namespace
 
 RayFootprint make_pixel_footprint(const CameraView& view, const SurfacePoint& point, const glm::vec3& direction,
                                   float distance, float spacing) {
     const glm::vec3 right(view.axes[0]), up(view.axes[1]), back(view.axes[2]);
-    // Neighbours differ by (1 / pixels_per_unit) of an axis on the plane one unit in front of the camera, and so by
-    // that times the depth here; sliding along the ray then brings the difference into the tangent plane.
+    // On the plane one unit in front of the camera, neighbours differ by 1 / pixels_per_unit along an axis; at this
+    // depth, by that times the depth. Moving the difference along the ray brings it into the tangent plane.
     const float depth = view.orthographic ? 1.0f : -distance * glm::dot(direction, back);
     const float size = depth * spacing / static_cast<float>(view.pixels_per_unit);
     const float cosine = -glm::dot(point.geometric, direction);
-    const glm::vec3 slide = direction / std::max(cosine, smallest_cosine);
+    const glm::vec3 slide = direction / std::max(cosine, min_cosine);
     return {size * (right + slide * glm::dot(point.geometric, right)),
             -size * (up + slide * glm::dot(point.geometric, up)), 0.0f};
 }
 
 RayFootprint make_cone_footprint(const SurfacePoint& point, const glm::vec3& direction, float distance,
                                  float solid_angle) {
-    const float cosine = std::max(-glm::dot(point.geometric, direction), 0.05f);
+    const float cosine = std::max(-glm::dot(point.geometric, direction), min_cone_cosine);
     return {{}, {}, distance * std::sqrt(solid_angle / cosine)};
 }
 
@@ -41,7 +44,8 @@ UvFootprint make_uv_footprint(const SurfacePoint& point, const RayFootprint& foo
         return {{scale, 0.0f}, {0.0f, scale}, true};
     }
     if (footprint.dx == glm::vec3(0.0f) && footprint.dy == glm::vec3(0.0f)) return {};
-    // Coordinates along the edges by their duals within the triangle's plane; point.geometric may point either way.
+    // Coordinates along the edges, by the edges' dual vectors in the triangle's plane. The sign of point.geometric
+    // cancels.
     const glm::vec3 across1 = glm::cross(e2, point.geometric), across2 = glm::cross(point.geometric, e1);
     const float scale1 = 1.0f / glm::dot(e1, across1), scale2 = 1.0f / glm::dot(e2, across2);
     const auto to_uv = [&](const glm::vec3& d) {

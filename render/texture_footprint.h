@@ -1,5 +1,5 @@
 #pragma once
-// How much of a surface one ray stands for, so that textures are averaged over it instead of met at a point.
+// The part of a surface that one ray represents. Textures are averaged over it.
 
 #include "engine/pose/camera_view.h"
 #include "render/shading_scene.h"
@@ -7,20 +7,23 @@
 
 namespace aleph {
 
-/// Part of a surface around a point. With all zero, textures are read at the point itself.
+/// Part of a surface around a point. If all values are zero, textures are read at the point itself.
 struct RayFootprint {
-    /// m, world: how the point moves from one camera ray to its neighbours. The part is the parallelogram they span.
+    /// m, world: from this camera ray's point to its neighbours' points. The part is the parallelogram that they span.
     glm::vec3 dx{0.0f}, dy{0.0f};
-    float width = 0.0f;  ///< m; of a ray that is one of many: the side of a square of its share's area
+    float width = 0.0f;  ///< m; for rays over a hemisphere or a light: side of a square of the ray's share of the area
 };
 
-/// The footprint of a camera ray: exact derivatives of where the rays of neighbouring samples meet the tangent plane.
+/// The footprint of a camera ray, from the points where the rays of neighbouring samples meet the tangent plane
+/// (exact).
 /// @param distance  along the ray, m
 /// @param spacing  of the samples, pixels: 1 / sqrt(samples per pixel)
 RayFootprint make_pixel_footprint(const CameraView& view, const SurfacePoint& point, const glm::vec3& direction,
                                   float distance, float spacing);
 
-/// The footprint of a ray that stands for `solid_angle`, where it meets a surface.
+/// The footprint, where it meets a surface, of a ray that represents a solid angle.
+/// @param distance  along the ray, m
+/// @param solid_angle  sr
 RayFootprint make_cone_footprint(const SurfacePoint& point, const glm::vec3& direction, float distance,
                                  float solid_angle);
 

@@ -1,4 +1,4 @@
-// Pyramids of textures: each level the mean of the one below over exactly the texels' own areas.
+// Texture pyramids: each texel is the mean of the finer level over exactly the texel's area.
 
 #include <cmath>
 #include <glm/vec4.hpp>
@@ -11,13 +11,13 @@ namespace aleph {
 
 namespace {
 
-/// Which inputs, and how much of each, make up output i of `to` when `from` values are reduced by area.
+/// The inputs of one output, with their weights, when a row of values is reduced by area.
 struct Span {
     int first = 0, count = 0;
     double weights[4] = {};
 };
 
-/// from / to lies in [2, 3], so that at most four inputs overlap an output (odd sizes shift their borders).
+/// For output i when `from` values become `to`. from / to is in [2, 3], so at most four inputs overlap an output.
 Span find_span(int i, int from, int to) {
     const double scale = static_cast<double>(from) / to;
     const double begin = i * scale, end = begin + scale;
@@ -48,8 +48,8 @@ std::vector<Span> find_spans(int from, int to) {
     return spans;
 }
 
-/// In double, so that a constant picture stays exactly that. A texel that is not finite would spoil every level: it
-/// counts as 0.
+/// The next coarser level. In double, so that a constant image stays exactly constant. A texel that is not finite
+/// counts as 0, because it would spoil all coarser levels.
 template <class Read>
 Image<glm::vec4> reduce(int width, int height, const Read& read) {
     Image<glm::vec4> out(std::max(1, width / 2), std::max(1, height / 2));
@@ -101,7 +101,8 @@ TextureUse make_texture_use(const TextureRef& reference, int texture) {
     use.transformed =
         reference.uv_offset != glm::dvec2(0.0) || reference.uv_scale != glm::dvec2(1.0) || reference.uv_rotation != 0.0;
     if (use.transformed) {
-        // Counter-clockwise where v points down; the extension's own listing turns the other way (glTF issue 1563).
+        // Counter-clockwise with v pointing down. The code in the extension's text turns the other way (glTF issue
+        // 1563).
         const double c = std::cos(reference.uv_rotation), s = std::sin(reference.uv_rotation);
         use.matrix =
             glm::mat2(glm::dmat2(c, -s, s, c) * glm::dmat2(reference.uv_scale.x, 0.0, 0.0, reference.uv_scale.y));

@@ -1,5 +1,5 @@
 #pragma once
-// Texels of a scene's image as linear values. Only texture*.cpp needs this.
+// Texels of a scene's image as linear values. Internal to texture*.cpp.
 
 #include <array>
 #include <glm/vec4.hpp>
@@ -16,7 +16,7 @@ inline const std::array<float, 256> srgb_decoded = [] {
     return table;
 }();
 
-/// 8-bit values of channels that are not encoded.
+/// The value in [0,1] of an 8-bit channel without an encoding.
 inline float decode_linear(std::uint8_t value) {
     return static_cast<float>(value) * (1.0f / 255.0f);
 }

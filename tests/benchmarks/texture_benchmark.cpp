@@ -1,4 +1,4 @@
-// A texture look-up, one thread: at a point, and over footprints of growing length; and what a footprint itself costs.
+// Time of a texture look-up in one thread, at a point and over footprints of growing length, and of making a footprint.
 
 #include <benchmark/benchmark.h>
 

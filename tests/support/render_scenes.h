@@ -1,5 +1,5 @@
 #pragma once
-// Small scenes made in code for the tests of rendering, posed and made ready for questions.
+// Small scenes made in code for the tests of rendering.
 
 #include <cmath>
 #include <glm/gtc/quaternion.hpp>
@@ -39,7 +39,7 @@ inline Mesh make_box(const glm::dvec3& size, int material) {
     return make_shape_mesh(shape, material);
 }
 
-/// With flat facets, so that its closed form is that of a polyhedron.
+/// With flat facets: a polyhedron, for closed forms.
 inline Mesh make_faceted_sphere(double radius, int segments, int material) {
     Shape shape;
     shape.kind = Shape::Kind::sphere;
@@ -63,7 +63,7 @@ inline Mesh make_disc_facing_down(float radius, unsigned segments, int material)
     return mesh;
 }
 
-/// The same triangles with their other side in front.
+/// The same triangles with the opposite winding.
 inline Mesh flip_winding(Mesh mesh) {
     for (glm::uvec3& t : mesh.triangles) std::swap(t.y, t.z);
     for (glm::vec3& n : mesh.normals) n = -n;
@@ -71,7 +71,7 @@ inline Mesh flip_winding(Mesh mesh) {
 }
 
 inline const glm::dquat no_turn{1.0, 0.0, 0.0, 0.0};
-/// What turns a quad that faces +z, or a light that shines along -z.
+/// Rotations of a quad that faces +z, or of a light that shines along -z.
 inline const glm::dquat z_to_up = glm::angleAxis(-std::numbers::pi / 2, glm::dvec3(1.0, 0.0, 0.0));
 inline const glm::dquat z_to_down = glm::angleAxis(std::numbers::pi / 2, glm::dvec3(1.0, 0.0, 0.0));
 
@@ -116,7 +116,7 @@ inline int add_camera(Scene& scene, const glm::dvec3& eye, const glm::dvec3& tar
     return node;
 }
 
-/// A scene at a time, seen by its first camera (or by one at the origin), with everything that shading needs.
+/// A scene at one time, seen by its first camera (or by one at the origin), with everything that shading needs.
 struct Stage {
     explicit Stage(Scene s, int width = 32, int height = 24, double seconds = 0.0)
         : scene(std::move(s)),
@@ -145,7 +145,7 @@ struct Stage {
     LightSet lights;
 };
 
-/// A point of a surface that need not be there.
+/// A surface point that need not be on a surface of the scene.
 inline SurfacePoint make_point(const glm::vec3& position, const glm::vec3& normal, float offset = 1e-6f) {
     SurfacePoint point;
     point.position = position;

@@ -1,4 +1,4 @@
-// HARD_CASES.md section 6 in pictures: corners, the open, walls, winding, tiny accuracies, threads.
+// The irradiance cache in pictures: corners, open scenes, walls, winding, tiny accuracies, threads.
 
 #include <gtest/gtest.h>
 
@@ -64,7 +64,7 @@ TEST(IrradianceCache, IC06_ARecordInTheOpenDoesNotCoverTheNextObject) {
     EXPECT_FALSE(cache.covers({second, up, 1.0f}));
     EXPECT_LT(gather(first).irradiance.x, 0.01f);
     EXPECT_GT(gather(second).irradiance.x, 0.1f);
-    // In the picture too: the second tile is red next to the wall, the first is black (no light meets it at all).
+    // The same in the picture: the second tile is red next to the wall, the first is black (no light reaches it).
     const ShadedFrame out = shade(stage, plain_settings(1.0, 256));
     float first_tile = 0.0f, second_tile = 0.0f;
     const Image<Hit> hits = cast_first_hits(stage.rays, stage.view);
@@ -93,7 +93,7 @@ Scene make_two_rooms(double thickness) {
     return scene;
 }
 
-/// Floor and side walls run on from the lit room into the dark one: nothing but distance keeps records apart there.
+/// Floor and side walls continue from the lit room into the dark one: only distance separates their records.
 struct DarkRoom {
     int dark = 0, lit = 0;      ///< pixels
     int leaking = 0;            ///< dark room's pixels that are not 0
@@ -134,8 +134,8 @@ void expect_dark(const DarkRoom& found) {
     EXPECT_GT(found.darkest_lit, 0.01f);
 }
 
-// Ward's criterion and the smallest radius alone leak here: a record knows by sectors where a wall stands. Sectors
-// are coarse: at loose accuracies a wall met aslant may let single pixels through.
+// With Ward's criterion alone, light would leak here; the records' clearance prevents it. Its sectors are coarse: at
+// loose accuracies, single pixels beside a slanted wall may still be lit.
 void expect_nearly_dark(const DarkRoom& found) {
     EXPECT_LE(50 * found.leaking, found.dark);
     EXPECT_GT(found.darkest_lit, 0.01f);
@@ -157,7 +157,7 @@ TEST(IrradianceCache, IC09_BehindAThinWallStaysDark) {
     for (const double accuracy : {0.3, 0.5, 1.0}) expect_nearly_dark(render_two_rooms(1e-4, accuracy, 4.0));
 }
 
-/// Window bars before a shining pane: what lies on the pane sees their bright backs, their fronts see nothing at all.
+/// Window bars in front of an emitting pane: points on the pane see the bars' lit backs; the bars' fronts get no light.
 TEST(IrradianceCache, IC08_BarsBeforeAShiningPaneStayDark) {
     Scene scene;
     const int pane = add_lambert(scene, glm::dvec3(0.8), glm::dvec3(5.0));
@@ -257,7 +257,7 @@ TEST(IrradianceCache, IC12_AccuracyOneRendersWithFewRecords) {
     const Stage stage(make_room(), 64, 48);
     const ShadedFrame coarse = shade(stage, plain_settings(1.0, 64)), fine = shade(stage, plain_settings(0.1, 64));
     EXPECT_GT(coarse.counts.records, 5u);
-    EXPECT_LT(2 * coarse.counts.records, fine.counts.records);  // walls near by limit a record at any accuracy
+    EXPECT_LT(2 * coarse.counts.records, fine.counts.records);  // nearby walls limit records at any accuracy
     EXPECT_EQ(coarse.counts.invalid_samples, 0u);
 }
 

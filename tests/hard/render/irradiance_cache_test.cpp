@@ -68,7 +68,7 @@ TEST(IrradianceCache, IC01_ErrorAtTheRecordsOwnNormalIsZeroNeverNan) {
 
 TEST(IrradianceCache, IC02_SmallAnglesKeepTheirSize) {
     for (const double angle : {1.0, 0.1, 1e-2, 1e-3, 1e-4}) {
-        // Off the axes, where components round.
+        // Not along an axis, so that components are rounded.
         const glm::dvec3 n = glm::normalize(glm::dvec3(1.0, 2.0, 3.0)),
                          across = glm::normalize(glm::dvec3(3.0, 0.0, -1.0));
         const glm::dvec3 turned = n * std::cos(angle) + across * std::sin(angle);
@@ -86,7 +86,7 @@ TEST(IrradianceCache, IC03_AtTheRecordItsOwnValueComesBack) {
     const std::optional<Rgb> found = cache.interpolate({glm::vec3(0.0f), up, 0.1f});
     ASSERT_TRUE(found.has_value());
     EXPECT_NEAR(found->x, 7.0f, 7e-5f);
-    // Others far enough for their error to reach nearly alpha weigh 1 / .9 against 1000.
+    // A record whose error is nearly alpha has the weight 1 / .9, against 1000.
     cache.insert(make_plain_record({0.9f, 0.0f, 0.0f}, up, 1.0f, 0.0f));
     EXPECT_NEAR(cache.interpolate({glm::vec3(0.0f), up, 1.0f})->x, 7.0 * 1000.0 / (1000.0 + 1.0 / 0.9), 1e-4);
 }
@@ -115,7 +115,7 @@ TEST(IrradianceCache, IC05_SelfHitsDoNotShrinkTheRadius) {
         const int white = add_lambert(scene, glm::dvec3(0.5));
         add_mesh(scene, make_faceted_sphere(2.0, 96, white));
         if (speck) {
-            // 1e-5 m over the point, under 1e-4 of the radius, and small: what a rounding of the position looks like.
+            // 1e-5 m above the point, less than 1e-4 of the radius, and small: like a self-hit by rounding.
             add_mesh(scene, make_quad(1e-6, 1e-6, white), {0.0, 1.2e-5, 0.0}, z_to_down);
         }
         const Stage stage(std::move(scene));
@@ -158,7 +158,7 @@ TEST(IrradianceCache, IC07_GradientsNextToAWallStayBounded) {
             ASSERT_LE(value.x, 2.0f * record.irradiance.x);
         }
     }
-    // An infinite gradient, as a distance of 0 would give, is none.
+    // An infinite gradient, as from a distance of 0, counts as 0.
     IrradianceSample broken;
     broken.irradiance = Rgb(1.0f);
     broken.harmonic_mean_distance = 1.0f;
@@ -186,7 +186,7 @@ TEST(IrradianceCache, IrradianceThatIsNotFiniteMakesNoRecord) {
 TEST(IrradianceCache, IC08_RecordsInFrontOfThePointAreRefused) {
     const glm::vec3 up(0.0f, 1.0f, 0.0f);
     const IrradianceRecord above = make_plain_record({0.0f, 0.1f, 0.0f}, up, 1.0f);
-    EXPECT_EQ(interpolation_error(above, glm::vec3(0.0f), up), infinite);  // the record lies on a step over the point
+    EXPECT_EQ(interpolation_error(above, glm::vec3(0.0f), up), infinite);  // the record is on a step above the point
     EXPECT_NEAR(interpolation_error(above, {0.0f, 0.2f, 0.0f}, up), 0.1f, 1e-6f);
     EXPECT_NEAR(interpolation_error(above, {0.0f, 0.06f, 0.0f}, up), 0.04f, 1e-6f);  // within .05 R_i
 }
@@ -201,13 +201,13 @@ TEST(IrradianceCache, IC09_OppositeNormalsNeverMatch) {
         EXPECT_FALSE(cache.interpolate({glm::vec3(0.0f), -front, accuracy}).has_value());
         EXPECT_TRUE(cache.covers({glm::vec3(0.0f), front, accuracy}));
     }
-    // Accuracy above 1 counts as 1: a record more than its radius away does not hold.
+    // An accuracy above 1 counts as 1: a record more than its radius away is not used.
     EXPECT_FALSE(cache.covers({{100.5f, 0.0f, 0.0f}, front, 1.42f}));
 }
 
 TEST(IrradianceCache, IC11_TheIndexFindsWhatALinearSearchFinds) {
     Randoms random;
-    // Bounds smaller than the records' spread: some lie outside.
+    // The bounds are too small: some records lie outside.
     IrradianceCache cache(glm::vec3(-0.9f), glm::vec3(0.9f));
     for (int i = 0; i < 10'000; ++i) {
         const float radius = std::exp(random.uniform(std::log(0.01f), std::log(1.0f)));
@@ -222,7 +222,7 @@ TEST(IrradianceCache, IC11_TheIndexFindsWhatALinearSearchFinds) {
     }
     int covered = 0;
     for (int i = 0; i < 10'000; ++i) {
-        // The creation's accuracy is not known to a record: queries ask with their own, up to beyond 1.
+        // Queries have their own accuracy, which may be above that for which the records were made, and above 1.
         const float accuracy = i % 10 == 0 ? 1.2f : random.uniform(0.05f, 1.0f);
         const CacheQuery query{random.in_cube(1.1f), random.mostly_up(), accuracy};
         const std::optional<glm::dvec3> expected = search_all(cache, query);

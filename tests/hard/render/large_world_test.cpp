@@ -1,4 +1,4 @@
-// KF-25, IC-16: the same scene at the origin and 1000 km away.
+// The same scene at the origin and 1000 km away (KF-25, IC-16).
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@ namespace {
 
 constexpr int width = 64, height = 48;
 
-/// Everything under one node, camera included.
+/// Everything, with the camera, under one node.
 Scene make_room_at(const glm::dvec3& place) {
     Scene scene;
     const int root = add_node(scene, place, no_turn);
@@ -34,7 +34,7 @@ struct Compared {
 
 Compared compare_with_origin(const glm::dvec3& place) {
     const Stage near(make_room_at(glm::dvec3(0.0)), width, height), far(make_room_at(place), width, height);
-    const RenderSettings settings = plain_settings(0.2, 2048);  // records may differ by their noise only
+    const RenderSettings settings = plain_settings(0.2, 2048);  // records may differ by noise only
     const Image<Rgb> a = shade(near, settings).color, b = shade(far, settings).color;
     const SampleHits near_hits = cast_sample(near.rays, near.view, 0, 1, nullptr);
     const SampleHits far_hits = cast_sample(far.rays, far.view, 0, 1, nullptr);
@@ -73,7 +73,7 @@ void expect_the_same(const glm::dvec3& place) {
 }
 
 TEST(LargeWorld, KF25_IC16_AThousandKilometresAway) {
-    // A multiple of the anchor's grid: nothing at all changes.
+    // A multiple of the anchor's grid: the picture is the same.
     const Compared found = compare_with_origin({1e6, 1e6, -1e6});
     EXPECT_EQ(found.other_hits, 0);
     EXPECT_LT(found.largest_px, 1e-6);

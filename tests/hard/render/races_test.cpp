@@ -1,5 +1,5 @@
-// HARD_CASES DT-08: what several threads do at once. tests/sanitizers.sh thread runs these under ThreadSanitizer; here
-// they compare what came out with what one thread makes.
+// Work of several threads at once (DT-08). tests/sanitizers.sh thread runs these tests under ThreadSanitizer; otherwise
+// they compare the results with those of one thread.
 
 #include <gtest/gtest.h>
 
@@ -45,7 +45,7 @@ TEST(Races, DT08_SequencesSideBySide) {
     EXPECT_TRUE(together[1] == alone[1]);
 }
 
-/// A picture of its own for every index.
+/// A different picture for every index.
 ChannelImage make_picture(std::size_t index) {
     ChannelImage image;
     for (const char* name : {"R", "G", "B"}) {

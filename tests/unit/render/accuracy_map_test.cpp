@@ -1,4 +1,5 @@
-// (6.7) and (6.8): known answers, ends of their ranges, and the baseline that no adapter touches.
+// Yee 2000, eqs. 6.7 and 6.8: known values, the ends of their ranges, and the unguided accuracy, which no adapter
+// changes.
 
 #include "render/accuracy_map.h"
 
@@ -52,7 +53,7 @@ TEST(AccuracyMap, ScaleAddKnownAnswers) {
     EXPECT_DOUBLE_EQ(scale_add_accuracy(0.1, 1.0, 100.0), 0.11);
     EXPECT_DOUBLE_EQ(scale_add_accuracy(0.1, 50.0, 100.0), 0.6);
     EXPECT_DOUBLE_EQ(scale_add_accuracy(0.1, 50.0, 200.0), 0.35);
-    EXPECT_EQ(scale_add_accuracy(0.1, 250.0, 100.0), 1.0);  // 2.6 as printed: clamped
+    EXPECT_EQ(scale_add_accuracy(0.1, 250.0, 100.0), 1.0);  // the equation gives 2.6
     EXPECT_EQ(scale_add_accuracy(0.1, infinite, 100.0), 1.0);
     EXPECT_EQ(scale_add_accuracy(1.0, 1.0, 100.0), 1.0);
     for (const double n : {0.0, -3.0, nan_value}) EXPECT_DOUBLE_EQ(scale_add_accuracy(0.1, n, 100.0), 0.11);

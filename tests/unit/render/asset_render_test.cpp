@@ -1,5 +1,5 @@
-// Scenes that other programs wrote, through the whole path: they load, move and render. Read from the asset folder
-// beside the project; skipped where that is absent.
+// Scenes written by other programs load, move and render. They are read from the asset folder beside the project;
+// without it, the tests are skipped.
 
 #include <gtest/gtest.h>
 
@@ -49,7 +49,8 @@ TEST(AssetRender, TruckRollsItsWheelsAndNothingElse) {
     }
     EXPECT_GT(wheel_pixels, 20);
     EXPECT_GT(body_pixels, 200);
-    // A rim of .428 m turns by the animation's step in a frame; its chord cannot look longer than it is up close.
+    // A rim of .428 m turns by the animation's step per frame. In the picture, its chord is at most as long as at the
+    // nearest distance.
     const double turn = glm::angle(glm::inverse(evaluate(scene.nodes.back().rotation, scene.frame_rate.seconds_of(3))) *
                                    evaluate(scene.nodes.back().rotation, scene.frame_rate.seconds_of(4)));
     const double step = std::min(turn, 2.0 * 3.14159265358979 - turn);
@@ -62,7 +63,7 @@ TEST(AssetRender, TruckRollsItsWheelsAndNothingElse) {
     EXPECT_EQ(statistics.nan_count, 0u);
     EXPECT_EQ(statistics.rays.total(), statistics.traced_rays);
     EXPECT_GT(statistics.records, 0u);
-    // Lit by the white environment that stands in for missing lights: paint has its texture's colour.
+    // The scene has no lights and gets a white environment, so the paint shows its texture's colour.
     double blueness = 0.0;
     for (std::size_t i = 0; i < output.shaded.color.size(); ++i) {
         const Rgb& c = output.shaded.color.pixels[i];
@@ -85,7 +86,7 @@ TEST(AssetRender, CornellBoxBleedsColour) {
     };
     const FrameOutput direct = render(0), full = render(1);
     EXPECT_EQ(direct.statistics.rays.gather, 0u);
-    // What the bounce adds, by the side of the picture: reddish on one, greenish on the other, as the walls are.
+    // The light that the bounce adds has the walls' colours: reddish on one side of the picture, greenish on the other.
     Rgb left(0.0f), right(0.0f);
     for (int y = 0; y < 72; ++y) {
         for (int x = 0; x < 96; ++x) {
@@ -99,7 +100,7 @@ TEST(AssetRender, CornellBoxBleedsColour) {
     const float left_tint = (left.x - left.y) / luminance(left), right_tint = (right.x - right.y) / luminance(right);
     EXPECT_GT(std::abs(left_tint - right_tint), 0.1f);
     EXPECT_LT(left_tint * right_tint, 0.0f) << left_tint << " " << right_tint;
-    // Nothing in it moves, nor does the camera that frames it.
+    // Neither the scene nor the camera moves.
     const FrameOutput maps = Sequence(scene, settings).render(0, {.frame = false, .maps = true, .progress = {}});
     for (const glm::dvec2& d : maps.motion.displacement.pixels) EXPECT_EQ(d, glm::dvec2(0.0));
 }

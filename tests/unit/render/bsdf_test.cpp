@@ -1,4 +1,4 @@
-// The surface model: reciprocity, densities, weights, energy, and what glTF's numbers turn into.
+// The surface model: reciprocity, densities, weights, energy, and the parameters from glTF materials.
 
 #include "render/bsdf.h"
 
@@ -86,7 +86,7 @@ TEST(Bsdf, DensityIntegratesToWhatSamplesDo) {
     for (const float alpha : widths) {
         const SurfaceMaterial material = make_metal(alpha);
         for (const float cosine : cosines) {
-            if (cosine < 0.1f) continue;  // the grid of half vectors is too coarse there: the chi-square test's is not
+            if (cosine < 0.1f) continue;  // the grid of half vectors is too coarse there; the chi-square test covers it
             const glm::vec3 view = direction_of(cosine);
             Mean above, x, z;
             for (int i = 0; i < n; ++i) {
@@ -205,7 +205,7 @@ TEST(Bsdf, EnergyIsNotCreated) {
             };
             EXPECT_LE(albedo(make_metal(alpha)), 1.002) << alpha << ' ' << cosine;
             const SurfaceMaterial plastic = make_plastic(alpha);
-            // Under uniform light of radiance 1 irradiance is pi: the Lambert layer's share in closed form.
+            // Under uniform light of radiance 1, irradiance is pi. The Lambert layer's share has a closed form.
             const double diffuse = diffuse_radiance(plastic, cosine, Rgb(static_cast<float>(pi))).x;
             EXPECT_LE(albedo(plastic) + diffuse, 1.002) << alpha << ' ' << cosine;
         }
@@ -231,7 +231,7 @@ SurfaceMaterial evaluate(Material material, bool front = true, const glm::vec4& 
     return evaluate_material(stage.shading, point, {});
 }
 
-/// KHR_materials_unlit: the base colour, constant, whatever the material says besides.
+/// KHR_materials_unlit: a constant base colour; all other properties are ignored.
 TEST(Bsdf, UnlitShowsItsBaseColourAndReflectsNothing) {
     Material material;
     material.unlit = true;

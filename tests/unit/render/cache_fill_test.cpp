@@ -1,5 +1,5 @@
-// What filling in rounds costs against a sequential coarse-to-fine fill: at most 3 % more records. What the cache's
-// error does as accuracy tightens: it falls.
+// Filling in rounds needs at most 3 % more records than a sequential fill. The cache's error falls as accuracy
+// tightens. Gathers that are not finite make no records.
 
 #include "render/cache_fill.h"
 
@@ -165,11 +165,11 @@ TEST(CacheFill, GathersThatAreNotFiniteMakeNoRecords) {
 TEST(CacheFill, ErrorFallsAsAccuracyTightens) {
     const Stage stage(load("cornell"), 64, 48);
     RenderSettings settings = plain_settings(0.0, 16384);
-    settings.light_samples = 4;  // direct light is the same in all, and cancels
+    settings.light_samples = 4;  // direct light is equal in all renders and cancels
     const Image<Rgb> dense = shade(stage, settings).color;
     settings.gather = 1024;
     settings.min_radius_pixels =
-        0.25;  // else 4 pixels, not accuracy, say how far a record reaches in so small a picture
+        0.25;  // with 4 pixels, in so small a picture, accuracy would not limit how far a record reaches
     double before = 1e30;
     for (const double accuracy : {0.5, 0.3, 0.2, 0.1, 0.05}) {
         settings.accuracy = accuracy;

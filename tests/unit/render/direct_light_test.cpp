@@ -43,7 +43,7 @@ TEST(DirectLight, PointLightIsCandelaOverSquaredDistance) {
     const double expected = 0.5 / pi * 0.8 / 25.0;  // cos = 4/5, d = 5
     for (int c = 0; c < 3; ++c) EXPECT_NEAR(found[c], expected * (30.0 - 10.0 * c), 1e-5 * expected * 30.0);
     EXPECT_EQ(lighting.task.counts.shadow, 1u);
-    // The quick estimate gives the same where no area is sampled.
+    // Without area lights, the quick estimate gives the same value.
     const Rgb quick = lighting.quick_at(make_point(glm::vec3(0.0f), up), make_lambert(0.5f), 4);
     EXPECT_NEAR(quick.x, found.x, 1e-6f);
 }
@@ -99,14 +99,14 @@ TEST(DirectLight, SquareLampOverhead) {
         const double expected = 0.6 * 5.0 * square_factor(2.0, height);
         EXPECT_NEAR(mean.mean(), expected, 3.0 * mean.error());
         EXPECT_NEAR(mean.mean(), expected, 0.01 * expected);
-        // The fixed pattern of the quick estimate: biased, but near.
+        // The quick estimate's fixed pattern is biased, but close.
         const Rgb quick = lighting.quick_at(make_point(glm::vec3(0.0f), up), make_lambert(0.6f), 16);
         EXPECT_NEAR(quick.x, expected, 0.1 * expected);
     }
 }
 
 TEST(DirectLight, OffsetRaysEndBeforeTheLamp) {
-    // Far from the anchor rays start half a millimetre off the surface; they must not run into the lamp for that.
+    // Far from the anchor, rays start half a millimetre off the surface. They must not reach the lamp because of that.
     Lighting lighting(make_square_lamp(z_to_down, false, 2.0, 0.5));
     SurfacePoint point = make_point(glm::vec3(0.0f), up, 5e-4f);
     Mean mean;
@@ -181,7 +181,7 @@ TEST(DirectLight, WhiteMetalInAWhiteFurnace) {
 }
 
 TEST(DirectLight, LightAndLobeSamplingAgreeWithTheirCombination) {
-    // A lamp in the mirror direction: for broad lobes lamp samples are the better ones, for narrow ones the lobe's.
+    // A lamp in the mirror direction: lamp samples are better for broad lobes, lobe samples for narrow ones.
     for (const float alpha : {0.05f, 0.3f, 1.0f}) {
         Lighting lighting(make_square_lamp(z_to_down, false));
         const SurfaceMaterial metal = make_metal(alpha);
@@ -213,7 +213,7 @@ TEST(DirectLight, LightAndLobeSamplingAgreeWithTheirCombination) {
         EXPECT_GT(both.mean(), 0.1);
         EXPECT_NEAR(both.mean(), lamp_only.mean(), 3.0 * std::hypot(both.error(), lamp_only.error())) << alpha;
         EXPECT_NEAR(both.mean(), lobe_only.mean(), 3.0 * std::hypot(both.error(), lobe_only.error())) << alpha;
-        // The point of combining: never much worse than the better of the two, per ray (16 + 16 per run).
+        // Per ray (16 + 16 per run), the combination is never much worse than the better of the two.
         const double rays_both = 2000.0 * 32.0, rays_one = 100'000.0;
         const double better = std::min(lamp_only.error(), lobe_only.error()) * std::sqrt(rays_one);
         EXPECT_LT(both.error() * std::sqrt(rays_both), 2.0 * better) << alpha;

@@ -1,5 +1,5 @@
-// A frame end to end: coverage, exposure, counts of rays and records, samples thrown away, mirrored and flattened
-// scenes.
+// Whole frames: coverage, exposure, counts of rays and records, invalid samples, sums of many samples, mirrored and
+// flattened scenes.
 
 #include "render/frame.h"
 
@@ -11,7 +11,7 @@
 namespace aleph {
 namespace {
 
-/// A ball and a box on a floor, with everything that can cast a ray: lamp, point light, sky, glossy surfaces.
+/// A ball and a box on a floor, with everything that causes rays: lamp, point light, sky, glossy surfaces.
 Scene make_everything(bool mirrored = false) {
     Scene scene;
     scene.exposure = 1.0;
@@ -114,7 +114,7 @@ TEST(Frame, EmissionCoverageAndBackground) {
 }
 
 TEST(Frame, SamplesOfAPixelFollowItsArea) {
-    // An edge at .3 of a pixel: with 64 samples the share on one side is right within the lattice's discrepancy.
+    // An edge at .3 of a pixel: with 64 samples, the share on one side is exact up to the lattice's discrepancy.
     Scene scene;
     const double pixel = 2.0 * std::tan(0.45) * 2.0 / 12.0;  // m per pixel at the lamp
     add_mesh(scene, make_quad(2.0, 20.0, add_lambert(scene, glm::dvec3(0.0), glm::dvec3(1.0))),
@@ -134,7 +134,7 @@ TEST(Frame, SamplesOfAPixelFollowItsArea) {
 TEST(Frame, MC03_SamplesThatAreNotFiniteAreThrownAwayAndCounted) {
     Scene scene;
     add_mesh(scene, make_quad(1.0, 20.0, add_lambert(scene, glm::dvec3(0.0), glm::dvec3(3e38))), {0.5, 0.0, -2.0});
-    scene.materials[0].emission_strength = 10.0;  // over what a float holds
+    scene.materials[0].emission_strength = 10.0;  // more than a float can hold
     add_camera(scene, glm::dvec3(0.0), {0.0, 0.0, -1.0}, 0.9);
     const Stage stage(std::move(scene), 16, 12);
     const ShadedFrame out = shade(stage, plain_settings(0.15, 16));

@@ -1,4 +1,4 @@
-// White furnaces: closed emissive bodies seen from inside, whose radiance is a geometric series on paper.
+// White furnaces: closed emissive bodies seen from inside. Their radiance is a geometric series.
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@ namespace {
 
 const glm::vec3 box_size(3.0f, 2.0f, 4.0f);
 
-/// Whether a point of the box lies away from its edges.
+/// Whether a point of the box is not next to an edge.
 bool is_off_edges(const glm::vec3& p) {
     const glm::vec3 to_faces = 0.5f * box_size - glm::abs(p);
     int near = 0;
@@ -21,11 +21,11 @@ bool is_anywhere(const glm::vec3&) {
     return true;
 }
 
-/// Every pixel's mean over independent renders against one number: within 3 standard errors, but for the few that 3
-/// sigma allow; the picture's mean within 1 %.
-/// @param counts  which surface points are judged one by one. Next to an edge of a lamp that covers all walls, samples
-///                rarely meet the strip across the edge that brings a fifth of the light: no number of them that a test
-///                can afford has normal statistics. These pixels count in the picture's mean only.
+/// Compares every pixel's mean over independent renders with one number: within 3 standard errors, except for the few
+/// pixels that 3 sigma allow. The picture's mean is within 1 %.
+/// @param counts  the surface points that are compared one by one. Next to an edge of a lamp that covers all walls, a
+///                fifth of the light comes from a narrow strip across the edge, which samples rarely hit: their
+///                statistics are not normal. Such pixels count in the picture's mean only.
 void expect_everywhere(Scene scene, const RenderSettings& settings, double expected,
                        bool (*counts)(const glm::vec3& point) = is_anywhere) {
     constexpr int width = 20, height = 15, runs = 16;
@@ -55,7 +55,7 @@ void expect_everywhere(Scene scene, const RenderSettings& settings, double expec
         if (!counts(s.point.position + glm::vec3(stage.shading.anchor))) continue;
         ++judged;
         const Mean& pixel = pixels[i];
-        // Float rounding and rays that start a little off the surface, where a closed form leaves no noise.
+        // Without noise, float rounding and the offset of ray origins remain.
         const double difference = std::abs(pixel.mean() - expected), rounding = 2e-4 * expected;
         if (difference > 3.0 * pixel.error() + rounding) ++beyond;
         EXPECT_LT(difference, 8.0 * pixel.error() + rounding);
@@ -68,7 +68,7 @@ void expect_everywhere(Scene scene, const RenderSettings& settings, double expec
 Scene make_furnace(Mesh (*body)(int material), double albedo, double emission, bool double_sided) {
     Scene scene;
     const int material = add_lambert(scene, glm::dvec3(albedo), glm::dvec3(emission), double_sided);
-    // One-sided emitters shine from the front: it must face inwards.
+    // One-sided emitters emit from the front, which must face inwards.
     add_mesh(scene, double_sided ? body(material) : flip_winding(body(material)));
     add_camera(scene, {0.3, 0.2, 0.4}, {1.0, -0.3, -1.0}, 1.2);
     return scene;
@@ -113,7 +113,7 @@ TEST(Furnace, BoxOneBounce) {
 }
 
 TEST(Furnace, EnvironmentAroundAConvexBody) {
-    // A white Lambert ball under a white sky vanishes; whatever the bounces, none of its light comes back to it.
+    // A white Lambert ball under a white sky cannot be seen. It reflects no light to itself, so bounces change nothing.
     for (const int bounces : {0, 1}) {
         Scene scene;
         scene.environment = Track<glm::dvec3>(glm::dvec3(1.0));

@@ -1,5 +1,5 @@
-// Irradiance gathered over the hemisphere against closed forms: discs, rectangles, plates, spheres; its gradients
-// against differences of the closed form.
+// Irradiance gathered over the hemisphere against closed forms (discs, rectangles, plates, spheres), and its gradients
+// against differences of closed forms.
 
 #include "render/gather.h"
 
@@ -16,7 +16,7 @@ constexpr double pi = std::numbers::pi;
 const glm::vec3 up(0.0f, 1.0f, 0.0f);
 
 /// A ceiling lit from below by directional light, so that all of it reflects the same known radiance without noise.
-/// No floor: points ask from where one would be.
+/// There is no floor: irradiance is gathered at points where it would be.
 Scene make_lit_ceiling(Mesh (*make_ceiling)(int material), const glm::dvec3& position, double albedo, double lux) {
     Scene scene;
     const int white = add_lambert(scene, glm::dvec3(albedo));
@@ -75,13 +75,14 @@ TEST(Gather, EndlessCeilingGivesItsRadiosity) {
         make_lit_ceiling([](int m) { return make_disc_facing_down(5000.0f, 64, m); }, {0.0, 1.0, 0.0}, 0.6, 5.0));
     const IrradianceSample sample = gathering.at(glm::vec3(0.0f), up, 1024);
     EXPECT_NEAR(sample.irradiance.x, 3.0, 1e-3);
-    // A uniform field does not change with place; it does with rotation about the horizon, which is dark below.
+    // Irradiance is the same everywhere. It changes with rotation only in second order, because below the horizon it is
+    // dark.
     EXPECT_LT(glm::length(sample.translation_gradient[0]), 0.02 * 3.0);
     EXPECT_LT(glm::length(sample.rotation_gradient[0]), 0.02 * 3.0);
 }
 
 TEST(Gather, BackOfTheCeilingIsLitByWhatMeetsIt) {
-    // The light comes from below: over the ceiling, facing down, only its unlit back is seen.
+    // The light comes from below. Above the ceiling, facing down, only its unlit back is visible.
     Gathering gathering(
         make_lit_ceiling([](int m) { return make_disc_facing_down(5.0f, 64, m); }, {0.0, 1.0, 0.0}, 0.6, 5.0));
     EXPECT_EQ(gathering.at({0.0f, 2.0f, 0.0f}, -up, 256).irradiance, Rgb(0.0f));
@@ -110,8 +111,8 @@ TEST(Gather, ParallelRectangle) {
 }
 
 TEST(Gather, ShadowsOfTheLightAreSeen) {
-    // A blind below half of the ceiling, beside the hemisphere's point: one half is not lit, and the blind itself
-    // reflects its lit underside nowhere near the point's view, being below it.
+    // A blind below the point keeps the light off half of the ceiling. The blind's lit underside is not visible from
+    // the point, which is above it.
     Scene scene = make_lit_ceiling(make_ceiling_two_by_one, {0.0, 0.8, 0.0}, 0.5, 2.0);
     add_mesh(scene, flip_winding(make_ceiling_two_by_one(0)), {1.0, -0.5, 0.0});
     Gathering gathering(std::move(scene));
@@ -119,7 +120,7 @@ TEST(Gather, ShadowsOfTheLightAreSeen) {
 }
 
 TEST(Gather, ManyLightsAddUp) {
-    // More lights than are compared at a hit: the choice among them must not lose any.
+    // More lights than are compared at a hit. The choice among them must not lose energy.
     Scene scene = make_lit_ceiling(make_ceiling_two_by_one, {0.0, 0.8, 0.0}, 0.5, 0.1);
     for (int i = 1; i < 40; ++i) {
         add_light(scene, Light::Kind::directional, glm::dvec3(i % 3 == 0 ? 0.0 : 0.1), glm::dvec3(0.0),
@@ -141,7 +142,8 @@ TEST(Gather, MeanDistanceInASphereIsItsRadius) {
 }
 
 TEST(Gather, MeanDistanceUnderACeilingCountsMissesAsFar) {
-    // Under an endless ceiling at h the cosine-weighted mean of 1 / r = cos / h is 2 / (3 h); half of it, half that.
+    // Under an endless ceiling at h, the cosine-weighted mean of 1 / r = cos / h is 2 / (3 h); under half a ceiling,
+    // half of that.
     Gathering whole(
         make_lit_ceiling([](int m) { return make_disc_facing_down(3000.0f, 64, m); }, {0.0, 2.0, 0.0}, 0.6, 5.0));
     EXPECT_NEAR(whole.at(glm::vec3(0.0f), up, 4096).harmonic_mean_distance, 3.0, 0.01);
@@ -166,14 +168,14 @@ TEST(Gather, DependsOnTheKeyAlone) {
     add_mesh(scene, make_faceted_sphere(2.0, 32, add_lambert(scene, glm::dvec3(0.5), glm::dvec3(0.0), true)));
     add_light(scene, Light::Kind::point, glm::dvec3(1.0), {0.5, 1.0, 0.2});
     Gathering one(scene), other(scene);
-    other.at({0.1f, 0.1f, 0.1f}, up, 1024, 9);  // leaves other buffers behind
+    other.at({0.1f, 0.1f, 0.1f}, up, 1024, 9);  // leaves its values in the buffers
     const IrradianceSample a = one.at(glm::vec3(0.0f), up, 256, 5), b = other.at(glm::vec3(0.0f), up, 256, 5);
     EXPECT_EQ(a.irradiance, b.irradiance);
     EXPECT_EQ(a.translation_gradient, b.translation_gradient);
     EXPECT_NE(one.at(glm::vec3(0.0f), up, 256, 6).irradiance, b.irradiance);
 }
 
-/// A dark ceiling at height 1 with a small bright patch off the axis: what the gradients' derivation assumes.
+/// A dark ceiling at height 1 with a small bright patch off the axis, as the derivation of the gradients assumes.
 /// Irradiance of a small patch: radiance area cos cos' / d^2.
 struct Patch {
     static constexpr double x = 0.7, size = 0.2, height = 1.0, radiosity = 6.0;
@@ -207,7 +209,7 @@ struct Patch {
     }
 };
 
-/// Mean of a component over gathers, beside the central difference of the closed form along the same move.
+/// Compares the mean of a component over gathers with the central difference of the closed form.
 void expect_gradient(const std::function<double(const IrradianceSample&)>& predicted,
                      const std::function<double(double)>& truth, double share) {
     Gathering gathering(Patch::make_scene());
@@ -229,7 +231,7 @@ TEST(Gather, TranslationGradientAgainstDifferences) {
                         return Patch::irradiance({d, 0.0, 0.0}, {0.0, 1.0, 0.0});
                     },
                     0.1);
-    // Across, the patch lies symmetrically: no change.
+    // Across, the patch is symmetric: the gradient is 0.
     Gathering gathering(Patch::make_scene());
     const IrradianceSample sample = gathering.at(glm::vec3(0.0f), up, 16384);
     EXPECT_LT(std::abs(sample.translation_gradient[0].z), 0.2f * std::abs(sample.translation_gradient[0].x));
@@ -237,7 +239,7 @@ TEST(Gather, TranslationGradientAgainstDifferences) {
 }
 
 TEST(Gather, RotationGradientAgainstDifferences) {
-    // As records use it: dE = dot(cross(N_i, N), gradient).
+    // Records use it as dE = dot(cross(N_i, N), gradient).
     const auto turned = [](double angle) { return glm::dvec3(std::sin(angle), std::cos(angle), 0.0); };
     expect_gradient(
         [&](const IrradianceSample& s) {
@@ -254,7 +256,7 @@ TEST(Gather, RecordsExtrapolateTowardsTheTruth) {
     const double truth = Patch::irradiance(glm::dvec3(place), glm::dvec3(normal));
     for (std::uint32_t seed = 0; seed < 16; ++seed) {
         const IrradianceSample sample = gathering.at(glm::vec3(0.0f), up, 4096, seed);
-        // A radius at which the limit on gradients (|gradient| R <= E) leaves this steep one alone.
+        // At this radius, the limit on gradients (|gradient| R <= E) does not change this steep one.
         const IrradianceRecord record = make_record(glm::vec3(0.0f), up, sample, {1e-3f, 0.5f}).value();
         moved.add(std::abs(extrapolate(record, place, normal).x - truth));
         kept.add(std::abs(record.irradiance.x - truth));

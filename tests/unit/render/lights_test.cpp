@@ -1,4 +1,4 @@
-// What shines: emissive instances as lists of triangles, their densities, punctual lights, the environment.
+// Lights: emissive instances as lists of triangles, their densities, punctual lights, the environment.
 
 #include "render/lights.h"
 #include "render/spherical_triangle.h"
@@ -27,7 +27,7 @@ TEST(Lights, NumberedEmittersThenPunctualThenEnvironment) {
     Scene scene = make_lamp_scene(1.0, 2.0);
     add_mesh(scene, make_quad(1.0, 1.0, add_lambert(scene, glm::dvec3(0.5))));
     add_light(scene, Light::Kind::point, glm::dvec3(1.0), {0.0, 1.0, 0.0});
-    add_light(scene, Light::Kind::directional, glm::dvec3(0.0), glm::dvec3(0.0));  // dark: not a light
+    add_light(scene, Light::Kind::directional, glm::dvec3(0.0), glm::dvec3(0.0));  // dark, so not a light
     scene.environment = Track<glm::dvec3>(glm::dvec3(0.5));
     const Stage stage(std::move(scene));
     EXPECT_EQ(stage.lights.emitters.size(), 1u);
@@ -55,13 +55,13 @@ TEST(Lights, AreaAndNormalsFollowTheInstance) {
     EXPECT_NEAR(emitter.area, 16.0 * pi, 0.01 * 16.0 * pi);
     for (const Emitter::Triangle& t : emitter.triangles) {
         const glm::vec3 middle = t.corner + (t.edge1 + t.edge2) / 3.0f - glm::vec3(-stage.shading.anchor);
-        EXPECT_GT(glm::dot(t.normal, middle), 1.5f);  // outwards, mirrored as it is
+        EXPECT_GT(glm::dot(t.normal, middle), 1.5f);  // outwards, although mirrored
     }
     EXPECT_EQ(emitter.cumulative_area.back(), 1.0f);
 }
 
 TEST(Lights, DensityMeasuresTheSolidAngle) {
-    // E[1 / pdf] over light samples is the solid angle of what is seen: a square overhead has a closed form.
+    // E[1 / pdf] over light samples is the visible solid angle. For a square overhead it has a closed form.
     const Stage stage(make_lamp_scene(2.0, 1.5));
     std::mt19937 engine(6);
     std::uniform_real_distribution<float> unit(0.0f, 0x1.fffffep-1f);
@@ -76,7 +76,7 @@ TEST(Lights, DensityMeasuresTheSolidAngle) {
         side.add(sample.direction.x * sample.distance);
     }
     const double a = 1.0 / 1.5;  // half size over height
-    // So near a lamp is sampled by solid angle: 1 / pdf does not vary at all.
+    // A lamp this near is sampled by solid angle: 1 / pdf is constant.
     EXPECT_NEAR(solid_angle.mean(), 4.0 * std::asin(a * a / (1.0 + a * a)), 1e-6);
     EXPECT_LT(solid_angle.error(), 1e-6);
     EXPECT_NEAR(side.mean(), 0.0, 3.0 * side.error());
@@ -98,7 +98,7 @@ TEST(Lights, FarLampsAreSampledByAreaWithTheSameMean) {
 }
 
 TEST(Lights, SphericalTriangleIsUniformInSolidAngle) {
-    // Moments of the direction against a fine grid over the triangle, each cell weighted by its solid angle.
+    // Moments of the direction against those of a fine grid over the triangle, weighted by solid angle.
     const glm::vec3 corners[3] = {{-1.0f, 0.3f, 0.6f}, {1.2f, -0.4f, 0.9f}, {0.1f, 1.5f, 0.5f}};
     glm::dvec3 truth(0.0);
     double total = 0.0;
@@ -152,7 +152,7 @@ TEST(Lights, TexturedLampHasTheTexturesMeanPower) {
     EXPECT_GT(lit, 200);
 }
 
-/// The quick estimate's few points stand for the whole lamp: its texture is averaged over their shares.
+/// The quick estimate's few points represent the whole lamp: its texture is averaged over their shares.
 TEST(Lights, ASharesTextureIsAveraged) {
     Scene scene = make_lamp_scene(2.0, 1.5);
     SceneImage image;
@@ -170,7 +170,7 @@ TEST(Lights, ASharesTextureIsAveraged) {
     }
 }
 
-/// A spot light straight down, as LightValues of a frame give it.
+/// A spot light that shines straight down.
 Stage make_spot(double inner, double outer, double range = 0.0) {
     Scene scene;
     add_light(scene, Light::Kind::spot, {8.0, 4.0, 2.0}, {0.0, 2.0, 0.0}, z_to_up);
@@ -208,7 +208,7 @@ TEST(Lights, SpotsEndSharplyWhereConesMeetAndAtTheirRange) {
     };
     EXPECT_NEAR(at_angle(sharp, 0.39), 8.0 * std::pow(std::cos(0.39), 2) / 4.0, 1e-5);
     EXPECT_EQ(at_angle(sharp, 0.41), 0.0f);
-    // Behind the lamp nothing, even at the widest cone.
+    // No light behind the spot, even with the widest cone.
     const Stage wide = make_spot(0.0, pi / 2.0);
     EXPECT_EQ(sample_light(wide.shading, wide.lights, 0, {{0.1f, 4.0f, 0.0f}, up}, {0.5f, 0.5f}).incoming, Rgb(0.0f));
     EXPECT_EQ(at_angle(make_spot(0.1, 0.5, 1.5), 0.0), 0.0f);  // 2 m away
@@ -222,7 +222,7 @@ TEST(Lights, UnlitSurfacesAreNoLights) {
 }
 
 TEST(Lights, UnlitSurfacesAreSeenAsTheyAreAndLightNothing) {
-    // The left half unlit, facing away; the right half white; no light anywhere, then a lamp.
+    // The left half is unlit and faces away, the right half is white. First without any light, then with a lamp.
     for (const bool lamp : {false, true}) {
         Scene scene;
         const int unlit = add_lambert(scene, {0.3, 0.6, 0.9});
@@ -256,7 +256,7 @@ TEST(Lights, HiddenAndFlattenedEmittersAreNoLights) {
     Scene scene = make_lamp_scene(1.0, 2.0);
     scene.nodes[0].visible = 0.0;
     EXPECT_EQ(Stage(scene).lights.count(), 0);
-    // A box flattened to a sheet is left out of the scene that rays see (RC-02): then it must not shine either.
+    // Rays leave out a box that is flattened to a sheet, so it must not emit light either (RC-02).
     Scene flat;
     const int node = add_mesh(flat, make_box({1.0, 1.0, 1.0}, add_lambert(flat, glm::dvec3(0.0), glm::dvec3(4.0))));
     flat.nodes[node].scale = glm::dvec3(1.0, 0.0, 1.0);

@@ -1,4 +1,4 @@
-// Texture look-up over a footprint: pyramids, anisotropy, wrapping at every level; a checker seen at a grazing angle.
+// Texture look-up over a footprint: pyramids, anisotropy, wrapping at every level, a checker at a grazing angle.
 
 #include <gtest/gtest.h>
 
@@ -79,7 +79,7 @@ TEST(TextureFilter, EveryLevelHasTheSameMean) {
 }
 
 TEST(TextureFilter, OddSizesKeepEveryTexelsPlace) {
-    // A ramp stays a ramp: the coarse texel at a place has the mean of the ramp over its own extent.
+    // A ramp stays a ramp: a coarse texel has the mean of the ramp over its own extent.
     SceneImage image;
     image.floats = Image<glm::vec4>(7, 1);
     for (int x = 0; x < 7; ++x) image.floats(x, 0) = glm::vec4(static_cast<float>(x) + 0.5f);
@@ -124,7 +124,7 @@ TEST(TextureFilter, MagnificationIsBilinearWhateverTheFootprint) {
         EXPECT_EQ(sample_texture(set, use, uv, {along, {0.0f, 0.0f}}), sample_texture(set, use, uv, {}));
         EXPECT_EQ(sample_texture(set, nearest, uv, {along, {0.0f, 0.0f}}), sample_texture(set, nearest, uv, {}));
     }
-    // From there on, `nearest` filters as well.
+    // Above that, `nearest` filters too.
     const UvFootprint wide{{0.25f, 0.0f}, {0.0f, 0.25f}};
     EXPECT_EQ(sample_texture(set, use, {0.3f, 0.6f}, wide), sample_texture(set, nearest, {0.3f, 0.6f}, wide));
 }
@@ -143,7 +143,7 @@ TEST(TextureFilter, TheWholePictureIsItsMean) {
     }
 }
 
-/// What lies across a long footprint must stay sharp: stripes along it are kept, stripes across it average out.
+/// A long footprint must not blur across its length: stripes along it are kept, stripes across it average out.
 TEST(TextureFilter, LongFootprintsBlurOnlyAlongThemselves) {
     SceneImage image;
     image.bytes = Image<glm::u8vec4>(64, 64);
@@ -159,7 +159,7 @@ TEST(TextureFilter, LongFootprintsBlurOnlyAlongThemselves) {
         EXPECT_NEAR(sample_texture(set, use, uv, {{16.0f * texel, 0.0f}, {0.0f, texel}}).x, stripe, 1e-6f);
         EXPECT_NEAR(sample_texture(set, use, uv, {{0.0f, texel}, {-16.0f * texel, 0.0f}}).x, stripe, 1e-6f);
         EXPECT_NEAR(sample_texture(set, use, uv, {{texel, 0.0f}, {0.0f, 16.0f * texel}}).x, 0.5f, 0.04f);
-        // Rounded off to its area, 64 texels, it covers most of a stripe's period each way and keeps half of it.
+        // As a round footprint of the same area, 64 texels, it covers most of a stripe's period and keeps half of it.
         EXPECT_NEAR(sample_texture(set, use, uv, {{64.0f * texel, 0.0f}, {0.0f, texel}, true}).x, 0.5f, 0.26f);
     }
 }
@@ -189,7 +189,7 @@ TEST(TextureFilter, DiagonalAxesAreFound) {
 }
 
 TEST(TextureFilter, WrapModesAtEveryLevelsBorders) {
-    // Left half black, right half white: at u = 0 repeat sees both, clamp and mirror black alone.
+    // Left half black, right half white. At u = 0, repeat averages both; clamp and mirror find black only.
     SceneImage image;
     image.bytes = Image<glm::u8vec4>(64, 64, glm::u8vec4(0));
     for (int y = 0; y < 64; ++y) {
@@ -244,7 +244,7 @@ TEST(TextureFilter, TexelsThatAreNoNumbersDoNotSpread) {
     EXPECT_EQ(texture.coarse.back()(0, 0), glm::vec4(15.0f / 16.0f, 15.0f / 16.0f, 1.0f, 1.0f));
 }
 
-/// A floor under a checker, seen from low above it: what the picture shows of its albedo (no light, `flat` estimate).
+/// A floor with a checker texture, seen from a low camera. Only its albedo is rendered (no light, `flat` estimate).
 struct Checker {
     static Scene make() {
         Scene scene;
@@ -287,7 +287,7 @@ struct Checker {
         return sum;
     }
 
-    /// Over the pixels that the floor fills, from the horizon's row + 2 down.
+    /// Over the pixels of the floor, from two rows below the horizon down.
     double rms(const Image<Rgb>& a, const Image<Rgb>& b) const {
         double sum = 0.0;
         int count = 0;
@@ -318,7 +318,7 @@ TEST(TextureFilter, GrazingCheckerConvergesAtOnce) {
     const double pointwise = checker.rms(checker.render(1, false), truth);
     EXPECT_LT(filtered, 0.04);
     EXPECT_GT(pointwise, 10.0 * filtered);
-    // More samples, smaller footprints: nearer still.
+    // More samples and smaller footprints come closer.
     EXPECT_LT(checker.rms(checker.render(4, true), truth), 0.6 * filtered);
     RecordProperty("filtered", std::to_string(filtered));
     RecordProperty("pointwise", std::to_string(pointwise));

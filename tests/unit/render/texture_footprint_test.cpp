@@ -1,4 +1,4 @@
-// Footprints of rays against finite differences of where neighbouring rays land, and against closed forms.
+// Footprints of rays against finite differences between the hits of neighbouring rays, and against closed forms.
 
 #include "render/texture_footprint.h"
 
@@ -16,7 +16,7 @@ struct Case {
     std::function<Scene()> make;
     double step;       ///< pixels between the rays that are compared
     double tolerance;  ///< relative to the footprint's length
-    int least;         ///< pixels that must have been compared
+    int least;         ///< least number of pixels to compare
 };
 void PrintTo(const Case& c, std::ostream* out) {
     *out << c.name;
@@ -139,7 +139,7 @@ TEST(Footprint, FacingPlaneIsAPixelAcross) {
         const SurfacePoint point = make_surface_point(stage.shading, sample.hits(20, 10), direction);
         const RayFootprint found =
             make_pixel_footprint(stage.view, point, direction, sample.hits(20, 10).distance, sample.spacing);
-        // Nine samples a pixel stand a third of a pixel apart.
+        // Nine samples per pixel are a third of a pixel apart.
         const float pixel = 5.0f / static_cast<float>(stage.view.pixels_per_unit) / (i == 0 ? 1.0f : 3.0f);
         EXPECT_NEAR(found.dx.x, pixel, 1e-5f * pixel);
         EXPECT_NEAR(found.dy.y, -pixel, 1e-5f * pixel);
@@ -162,7 +162,7 @@ TEST(Footprint, ConesGrowWithDistanceAndSlant) {
         const UvFootprint oblique = make_uv_footprint(point, make_cone_footprint(point, slanted, distance, 0.01f), 0);
         EXPECT_NEAR(oblique.dx.x * oblique.dy.y, 0.01f * distance * distance / 0.6f, 1e-6f);
     }
-    // Grazing cones end somewhere.
+    // Footprints of grazing cones are limited.
     const RayFootprint edge_on = make_cone_footprint(point, {1.0f, 0.0f, 0.0f}, 1.0f, 0.01f);
     EXPECT_TRUE(std::isfinite(edge_on.width));
 }
@@ -177,7 +177,7 @@ TEST(Footprint, WithoutCoordinatesThereIsNone) {
         EXPECT_EQ(found.dx, glm::vec2(0.0f));
         EXPECT_EQ(found.dy, glm::vec2(0.0f));
     }
-    // The zero footprint reads at the point, even where the triangle has no extent.
+    // A zero footprint stays zero, even if the triangle has no extent.
     const UvFootprint none = make_uv_footprint(make_point(glm::vec3(0.0f), {0.0f, 1.0f, 0.0f}), {}, 0);
     EXPECT_EQ(none.dx, glm::vec2(0.0f));
 }

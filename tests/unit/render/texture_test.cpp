@@ -1,5 +1,5 @@
 // Texture look-up at a point: texel centres, interpolation, wrapping, colour spaces, the reference's transform,
-// coordinates that are no numbers. texture_filter_test.cpp has what a footprint changes.
+// coordinates that are not finite. texture_filter_test.cpp tests footprints.
 
 #include "render/texture.h"
 
@@ -25,7 +25,7 @@ Scene make_ramp(int width, int height = 1) {
     return scene;
 }
 
-/// At a point, through a set that holds this texture alone.
+/// Look-up at a point, in a set with this texture only.
 glm::vec4 sample(const Scene& scene, const TextureRef& reference, const glm::vec2& uv,
                  TextureSpace space = TextureSpace::linear) {
     TextureSet set;
@@ -130,7 +130,7 @@ TEST(Texture, NoImageIsWhite) {
     scene.materials.resize(2);
     scene.materials[1].base_color_texture.image = 0;
     const TextureSet set = make_texture_set(scene);
-    ASSERT_EQ(set.materials.size(), 3u);  // and that of meshes without a material
+    ASSERT_EQ(set.materials.size(), 3u);  // one more for meshes without a material
     for (const MaterialTextures& textures : set.materials) {
         EXPECT_FALSE(textures.any);
         EXPECT_EQ(sample_texture(set, textures.base_color, {0.5f, 0.5f}, {}), glm::vec4(1.0f));
@@ -142,9 +142,10 @@ TEST(Texture, OnePyramidForEachPictureAndSpace) {
     scene.images.emplace_back();
     scene.images[1].bytes = Image<glm::u8vec4>(8, 2, glm::u8vec4(10));
     Material material;
-    material.base_color_texture.image = material.metallic_roughness_texture.image = 0;  // float: one for both
-    material.emission_texture.image = material.specular_color_texture.image = 1;        // both sRGB
-    material.specular_texture.image = 1;                                                // linear
+    material.base_color_texture.image = material.metallic_roughness_texture.image =
+        0;                                                                        // float: one texture for both spaces
+    material.emission_texture.image = material.specular_color_texture.image = 1;  // both sRGB
+    material.specular_texture.image = 1;                                          // linear
     scene.materials = {material, material};
     const TextureSet set = make_texture_set(scene);
     EXPECT_EQ(set.textures.size(), 3u);
