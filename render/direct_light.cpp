@@ -11,10 +11,6 @@ namespace {
 constexpr float min_estimate_alpha = 0.1f;  // GGX width of the quick estimate's lobes
 constexpr int batch_size = 16;              // shadow rays from one point, in one packet
 
-float fraction(float x) {
-    return x - std::floor(x);
-}
-
 /// Shadow rays collected until a packet is full. The contributions of those that are not blocked are added in order.
 class ShadowBatch {
   public:
@@ -165,12 +161,6 @@ Rgb sample_lobe(const LightingContext& context, RayTask& task, const LitSurface&
 }
 
 }  // namespace
-
-glm::vec2 lattice_point(int i, int n, const glm::vec2& shift) {
-    constexpr float golden = 0.61803398875f;
-    return {std::min(fraction((static_cast<float>(i) + 0.5f) / static_cast<float>(n) + shift.x), 0x1.fffffep-1f),
-            std::min(fraction(static_cast<float>(i) * golden + shift.y), 0x1.fffffep-1f)};
-}
 
 Rgb compute_direct_light(const LightingContext& context, RayTask& task, const ViewedSurface& surface,
                          const LightPoints& points, RandomStream& random) {

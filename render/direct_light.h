@@ -3,6 +3,7 @@
 
 #include "engine/base/sampling.h"
 #include "render/bsdf.h"
+#include "render/lattice.h"
 #include "render/lights.h"
 #include "render/ray_task.h"
 
@@ -14,9 +15,6 @@ struct LightingContext {
     const LightSet& lights;
     const RayScene& rays;
 };
-
-/// Point i of n of a rank-1 lattice (golden ratio), shifted by `shift` modulo 1: even in both coordinates for any n.
-glm::vec2 lattice_point(int i, int n, const glm::vec2& shift);
 
 /// The points on each light: part `part` of `parts`. With the same shift, all parts together are one lattice of
 /// count * parts points, and each part is even by itself.

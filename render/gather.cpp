@@ -6,6 +6,8 @@
 #include <limits>
 #include <numbers>
 
+#include "render/lattice.h"
+
 namespace aleph {
 
 namespace {
@@ -57,10 +59,6 @@ Reflected choose_light(const LightingContext& context, const SurfacePoint& point
     if (!(weight > 0.0f)) return {};
     picked.radiance *= total / weight;
     return picked;
-}
-
-float fraction(float x) {
-    return x - std::floor(x);
 }
 
 /// Angles of a row of strata, measured from the normal.

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "render/direct_light.h"
+#include "render/lattice.h"
 
 namespace aleph {
 
