@@ -13,37 +13,12 @@
 // No step depends on the order in which threads work. The number of records is within a few percent of that of a
 // sequential fill, where each record is inserted before the next pixel is looked at.
 
-#include <functional>
-
 #include "render/irradiance_cache.h"
 #include "render/pixel_surfaces.h"
 #include "render/settings.h"
+#include "render/shaded_frame.h"
 
 namespace aleph {
-
-struct FillStatistics {
-    std::uint64_t rounds = 0;
-    std::uint64_t lookups = 0, hits = 0;
-};
-
-/// Sums over a frame.
-struct FrameCounts {
-    RayCounts rays;
-    FillStatistics cache;
-    std::uint64_t samples = 0;          ///< pixel samples
-    std::uint64_t records = 0;          ///< irradiance values computed
-    std::uint64_t invalid_samples = 0;  ///< pixel samples and irradiance values dropped for a NaN or infinity
-};
-
-/// What filling and shading a frame count: per pixel and in all.
-struct FrameTally {
-    Image<float> records;          ///< irradiance values computed for this pixel
-    Image<float> invalid_samples;  ///< pixel samples and irradiance values dropped for a NaN or infinity
-    FrameCounts counts;
-};
-
-/// Reports the progress of a frame: 0 to 1, and the stage's name. May be called from any thread.
-using FrameProgress = std::function<void(double fraction, const char* stage)>;
 
 /// What a frame's indirect light is computed from.
 struct IndirectContext {

@@ -14,6 +14,7 @@
 #include "perception/threshold.h"
 #include "render/accuracy_map.h"
 #include "render/estimate.h"
+#include "render/frame.h"
 #include "render/measure.h"
 #include "render/texture.h"
 

@@ -6,10 +6,12 @@
 #include <memory>
 #include <string>
 
+#include "engine/pose/camera_view.h"
+#include "engine/rays/first_hits.h"
 #include "motion/motion_field.h"
 #include "perception/perception.h"
-#include "render/frame.h"
 #include "render/settings.h"
+#include "render/shaded_frame.h"
 
 namespace aleph {
 

@@ -1,0 +1,46 @@
+#pragma once
+// A rendered picture with its counts.
+
+#include <cstdint>
+#include <functional>
+
+#include "engine/base/color.h"
+#include "engine/base/image.h"
+#include "render/ray_counts.h"
+
+namespace aleph {
+
+/// Work of the irradiance cache.
+struct FillStatistics {
+    std::uint64_t rounds = 0;   ///< of filling (cache_fill.h)
+    std::uint64_t lookups = 0;  ///< by filling and by shading
+    std::uint64_t hits = 0;     ///< look-ups that found a record
+};
+
+/// Sums over a frame.
+struct FrameCounts {
+    RayCounts rays;
+    FillStatistics cache;
+    std::uint64_t samples = 0;          ///< pixel samples
+    std::uint64_t records = 0;          ///< irradiance values computed
+    std::uint64_t invalid_samples = 0;  ///< pixel samples and irradiance values dropped for a NaN or infinity
+};
+
+/// What filling and shading a frame count: per pixel and in all.
+struct FrameTally {
+    Image<float> records;          ///< irradiance values computed for this pixel
+    Image<float> invalid_samples;  ///< pixel samples and irradiance values dropped for a NaN or infinity
+    FrameCounts counts;
+};
+
+struct ShadedFrame : FrameTally {
+    Image<Rgb> color;       ///< mean of the valid samples, linear, exposure applied; 0 if no sample is valid
+    Image<float> coverage;  ///< share of the valid samples that hit a surface
+    Image<float> samples;   ///< pixel samples taken
+    double fill_seconds = 0.0, shade_seconds = 0.0;
+};
+
+/// Reports the progress of a frame: 0 to 1, and the stage's name. May be called from any thread.
+using FrameProgress = std::function<void(double fraction, const char* stage)>;
+
+}  // namespace aleph
