@@ -16,8 +16,7 @@ double seconds_since(std::chrono::steady_clock::time_point start) {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-/// The valid samples of a pixel so far. In double, because there may be 65,536: a float sum would be off by up to a
-/// percent.
+/// The valid samples of a pixel so far. In double: a float sum of 65,536 samples can be off by 0.2 %.
 struct PixelSum {
     glm::dvec3 radiance{0.0};
     int samples = 0, hits = 0;
