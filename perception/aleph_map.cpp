@@ -15,11 +15,11 @@ namespace {
 constexpr int rows_per_band = 32;
 constexpr float max_aleph = 250.76f;        // the supremum of CSF_max is 250.751
 constexpr float max_velocity = 1e30f;       // deg/s
-constexpr float max_model_velocity = 1e6f;  // deg/s; beyond 1.8e5 no contrast is seen and every f is 1
+constexpr float max_model_velocity = 1e6f;  // deg/s; above 1.8e5 no contrast is visible and every f is 1
 constexpr float log2_e = static_cast<float>(std::numbers::log2e);
 constexpr float log10_2 = 0.30102999566398120f;
 
-/// What one row of the pass works on.
+/// Buffers for one row.
 struct RowBuffers {
     explicit RowBuffers(int width) : velocity(width), elevation(width), sum(width), above(width) {}
     std::vector<float> velocity;   ///< v_R, deg/s
@@ -117,7 +117,7 @@ bool ElevationRow::is_one(int band) const {
 }
 
 void ElevationRow::elevations(int band, float* out) const {
-    // k, c0 and c2 v cancel: CSF_max / CSF = e^(2x-2) / x^2 with x = rho / rho_peak, and CSF < 1 means CSF_max.
+    // k, c0 and c2 v cancel: CSF_max / CSF = e^(2x-2) / x^2 with x = rho / rho_peak. Where CSF < 1, f is CSF_max.
     const float slope = slope_[band];
     const std::size_t width = spread_.size();
     const float* const spread = spread_.data();

@@ -12,7 +12,7 @@ struct LevelPair {
 };
 constexpr std::array<LevelPair, 6> level_pairs = {{{2, 5}, {2, 6}, {3, 6}, {3, 7}, {4, 7}, {4, 8}}};
 
-/// One of the pyramids that feature maps are taken from.
+/// A pyramid from which feature maps are made.
 struct Source {
     FeatureChannel channel;
     const std::vector<Image<float>>* levels;

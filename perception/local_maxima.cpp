@@ -27,7 +27,7 @@ struct MapScan {
     std::vector<Candidate> candidates;  ///< in raster order; those below min_height may be missing
 };
 
-/// Makes a row absolute; widens the range.
+/// Takes the absolute value of a row; extends the range to hold it.
 void take_row(float* row, int width, float& minimum, float& maximum) {
     float low = minimum, high = maximum;
 #pragma omp simd reduction(min : low) reduction(max : high)
@@ -49,7 +49,7 @@ void max_along_row(const float* row, int width, float* out) {
     }
 }
 
-/// Walks a map row by row and keeps what may be a local maximum.
+/// Reads a map row by row and collects the candidates.
 class MapScanner {
   public:
     MapScanner(LevelSize size, RowExpander& expander, double floor)
@@ -90,8 +90,8 @@ class MapScanner {
         const float* const here = row(y);
         const float* const above = maxima(y - 1);
         const float* const below = maxima(y + 1);
-        // What is below .1 of the maximum so far, or of the floor, is below .1 of the range in the end, if the range is
-        // above the floor; a little less for rounding.
+        // A value below .1 of the maximum so far, or of the floor, is below .1 of the final range if that is above the
+        // floor. The factor .999 allows for rounding.
         const float threshold = 0.999f * static_cast<float>(min_height) * std::max(scan_.maximum, floor_);
         const auto is_candidate = [&](int x) {
             // & instead of &&: without branches the loop over a block vectorises.
@@ -180,7 +180,7 @@ class QuantizedMap {
         return row.levels[x];
     }
 
-    /// Whether the pixel is new.
+    /// Marks a pixel as visited; true if it was not.
     bool visit(int x, int y) {
         const bool is_new = !rows_[y].visited[x];
         rows_[y].visited[x] = true;

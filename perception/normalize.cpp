@@ -9,7 +9,7 @@ Normalization compute_normalization(const ExpandedMap& map, double floor) {
     Normalization result{maxima.minimum, maxima.maximum, 0.0, true};
     if (!(result.maximum - result.minimum > floor)) return result;
     result.empty = false;
-    // One global maximum, of height 1, is not among the others.
+    // Leaves out one global maximum, whose height is 1.
     const auto others = static_cast<double>(maxima.heights.size()) - 1.0;
     const double sum = std::accumulate(maxima.heights.begin(), maxima.heights.end(), 0.0);
     const double mean = others > 0.0 ? (sum - 1.0) / others : 0.0;

@@ -42,7 +42,7 @@ RowSource make_motion_rows(const Image<float>& velocity, const ViewingConditions
     };
 }
 
-/// A channel of the estimate, less a constant.
+/// A channel of the estimate minus a constant.
 RowSource make_opponent_rows(const Image<Rgb>& estimate, OpponentChannel channel, bool neutral, float less) {
     return [&estimate, weights = opponent_weights(channel, neutral), less](int y, float* out) {
         opponent_row(estimate.row(y), estimate.width, weights, out);

@@ -43,7 +43,7 @@ struct Replacement {
     Rgb value;
 };
 
-/// Fills invalid pixels from the rim inwards: each ring from what was valid before it.
+/// Fills invalid pixels from the rim inwards: each ring from the pixels that were valid before it.
 void fill_invalid(Image<Rgb>& image, Image<PixelState>& state) {
     std::vector<Replacement> ring;
     for (int y = 0; y < image.height; ++y) {
@@ -113,7 +113,7 @@ SanitizeCounts sanitize_estimate(Image<Rgb>& estimate) {
         if (is_finite(pixel)) {
             for (int c = 0; c < 3; ++c) pixel[c] = pixel[c] > 0.0f ? std::min(pixel[c], max_component) : 0.0f;
         } else {
-            pixel = Rgb(0.0f);  // stays black where no pixel of the frame is valid
+            pixel = Rgb(0.0f);  // the result if no pixel of the frame is valid
             state.pixels[i] = PixelState::invalid;
             ++counts.replaced;
         }

@@ -20,7 +20,7 @@ double angular_peak(double v) {
     return csf_rho_numerator / (csf_c2 * v + csf_rho_offset);  // (5.8)
 }
 
-double gain(double v) {  // (5.7); "log" is log10: ln would give a peak of 1882
+double gain(double v) {  // (5.7); log is log10: with ln the peak at rest would be 1882 instead of 245
     const double l = std::abs(std::log10(csf_c2 * v / csf_k_velocity));
     return csf_k_offset + csf_k_slope * l * l * l;
 }
@@ -58,7 +58,7 @@ double elevation(double rho, double v) {
 }
 
 std::array<double, band_count> band_frequencies(Bands bands, double pixels_per_degree) {
-    constexpr double printed_density = 31.0;  // pixels per degree that both sets hold for
+    constexpr double printed_density = 31.0;  // pixels per degree of both sets
     std::array<double, band_count> rho = bands == Bands::printed
                                              ? std::array<double, band_count>{16, 8, 4, 2, 1, 0.5, 0.25}
                                              : std::array<double, band_count>{15.5, 3.27, 1.57, 0.79, 0.36, 0.18, 0.12};

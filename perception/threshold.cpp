@@ -34,7 +34,7 @@ float fast_power(float base, float power) {
 float fast_tvi(float luminance) {
     constexpr float log10_2 = 0.30102999566398120f, log2_10 = 3.3219280948873623f;
     constexpr auto lowest = static_cast<float>(min_luminance), highest = static_cast<float>(max_luminance);
-    constexpr float min_base = 1e-3f;  // where a piece is not in use its base may be negative
+    constexpr float min_base = 1e-3f;  // the base of a piece that is not in use may be negative
     const float clamped = luminance > lowest ? (luminance < highest ? luminance : highest) : lowest;
     const float l = log10_2 * fast_log2(clamped);
     const float scotopic = static_cast<float>(scotopic_slope) * l + static_cast<float>(scotopic_offset);
@@ -54,7 +54,7 @@ float fast_tvi(float luminance) {
 }
 
 /// Prefix sums of luminance along every row: `reach` zeros on the left, `reach` times the total on the right, so that
-/// windows need no clamping.
+/// windows may reach past the image.
 class LuminanceSums {
   public:
     LuminanceSums(const Image<Rgb>& estimate, double white, int reach)
@@ -118,7 +118,7 @@ Image<float> compute_adaptation_luminance(const Image<Rgb>& estimate, const View
     Image<float> out(estimate.width, estimate.height);
     parallel_rows(out.height, rows_per_band, [&](int begin, int end) {
         std::vector<double> total(out.width), counts(out.width);
-        int counted_first = 0, counted_last = 0;  // the rows (dy) that `counts` holds for
+        int counted_first = 0, counted_last = 0;  // the rows (dy) that `counts` was computed for
         bool counted = false;
         for (int y = begin; y < end; ++y) {
             const int first = std::max(-reach, -y), last = std::min(reach, out.height - 1 - y);
