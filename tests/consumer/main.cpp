@@ -1,19 +1,17 @@
-// A small outside program: a keyframed scene made in code, one frame of it rendered, and three numbers that have an
-// answer on paper: a pixel, a motion vector, an Aleph value.
+// A small program outside the repository. It makes an animated scene, renders one frame and checks three values that
+// can be computed by hand: a pixel, a motion vector and an Aleph value.
 
+#include <aleph/aleph.h>
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <numbers>
 
-#include "engine/base/color.h"
-#include "engine/scene/scene.h"
-#include "engine/surface/shapes.h"
-#include "render/sequence.h"
+#include "engine/scene/scene.h"  // own/engine/scene/scene.h: this program's, not aleph's
 
 namespace {
 
-constexpr int width = 128, height = 96;
+constexpr int width = own_picture.width, height = own_picture.height;
 constexpr double distance = 2.0;  // m, from the camera to the wall
 constexpr double step = 5.0;      // m a frame, to the right and half of it up
 
@@ -54,7 +52,8 @@ aleph::Scene make_scene() {
     return scene;
 }
 
-/// Least contrast that is seen of a grating (cycles per degree) that drifts over the retina (deg/s): thesis (5.7).
+/// Contrast sensitivity, 1 / (least contrast that is seen), for a grating of `frequency` cycles per degree that drifts
+/// over the retina at `velocity` deg/s: Yee 2000, eq. 5.7.
 double contrast_sensitivity(double frequency, double velocity) {
     constexpr double c0 = 1.14, c1 = 0.67, c2 = 1.7, pi = std::numbers::pi;
     const double k = 6.1 + 7.3 * std::pow(std::abs(std::log10(c2 * velocity / 3.0)), 3.0);
@@ -95,8 +94,8 @@ int main() {
     expect_near("motion to the right, px", motion.x, step * pixels_per_metre, 1e-9);
     expect_near("motion down, px", motion.y, -0.5 * step * pixels_per_metre, 1e-9);
 
-    // One colour everywhere: all energy lies in the lowest band, .25 cycles per degree. The eye follows at up to 80
-    // deg/s; the sensitivity left is compared with the best at that speed (thesis 5.5 to 5.11).
+    // One colour everywhere: all energy lies in the lowest band, .25 cycles per degree. The eye follows motion of up to
+    // 80 deg/s. The elevation is the best sensitivity at the remaining speed over that at .25 (Yee 2000, 5.5 to 5.11).
     const double speed =
         std::hypot(motion.x, motion.y) * scene.frame_rate.per_second() / scene.viewing.pixels_per_degree;
     const double velocity = speed - std::min(0.82 * speed + 0.15, 80.0);

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Installs the build in BUILD (build/) into a folder, moves it (a package must not remember where it was made), builds
-# the program of this folder against it and runs it.
+# Installs the build in BUILD (build/) into a folder and moves that folder, because a package must not depend on where it
+# was made. Then builds the program of this folder with the package and runs it.
 set -euo pipefail
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 root=$(cd "$here/../.." && pwd)
