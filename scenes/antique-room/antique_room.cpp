@@ -7,7 +7,7 @@
 namespace aleph {
 
 void add_antique_camera(Scene& scene) {
-    // It walks along the back of the room, and its gaze passes from the window to the bookcase.
+    // The camera walks along the back of the room and pans from the window to the bookcase.
     add_walking_camera(scene,
                        {{0, {1.75, 1.55, 2.05}, {-0.75, 0.92, -0.8}},
                         {40, {1.1, 1.52, 2.0}, {-0.6, 0.94, -0.9}},
@@ -17,8 +17,7 @@ void add_antique_camera(Scene& scene) {
 }
 
 Scene make_antique_room(const std::string& textures) {
-    // Exposure by eye: the automatic one goes by direct light alone, and half of this room lies in the shade of the
-    // window.
+    // Exposure chosen by eye: the automatic one uses direct light only, which does not reach half of the room.
     Scene scene = begin_scene("antique-room", antique_last_frame, 3.0, textures, make_antique_textures());
 
     AntiqueMaterials materials{};

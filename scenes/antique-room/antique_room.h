@@ -1,5 +1,5 @@
 #pragma once
-// The scene `antique-room`, part by part. Metres; the floor is y = 0; the window is in the wall at low x, the fireplace
+// The parts of the scene `antique-room`. Metres; the floor is y = 0; the window is in the wall at low x, the fireplace
 // in the wall at low z.
 
 #include <vector>
@@ -9,17 +9,17 @@
 
 namespace aleph {
 
-inline constexpr int antique_last_frame = 119;  ///< the first is 0; 30 a second
+inline constexpr int antique_last_frame = 119;  ///< the first is 0; 30 frames per second
 inline constexpr glm::dvec3 antique_low{-2.7, 0.0, -2.4}, antique_high{2.7, 2.95, 2.5};
 
-/// Drawn by formulas, always the same bytes: "boards", "walnut", "damask", "rug", "dial", "globe", "spine", "stone",
+/// Drawn from formulas, deterministic: "boards", "walnut", "damask", "rug", "dial", "globe", "spine", "stone",
 /// "velvet", the view "garden", and the paintings "ship", "valley", "iris".
 std::vector<DrawnTexture> make_antique_textures();
 
-/// @param textures  folder of the textures as the scene file is to name it
+/// @param textures  folder of the textures, relative to the scene file
 Scene make_antique_room(const std::string& textures);
 
-/// Materials that several parts use.
+/// Materials shared by several parts.
 struct AntiqueMaterials {
     int paper, panel, walnut, mahogany, boards, ceiling, stone, brass, gilt, cloth, leather, ivory, black, green,
         porcelain;

@@ -12,34 +12,38 @@ namespace aleph {
 
 namespace {
 
-/// Books side by side on a shelf, some leaning, until it is full.
-void add_books(Scene& scene, int shelf, const std::string& name, double from, double to, double height,
-               const std::vector<int>& bindings, std::uint32_t seed) {
-    double x = from;
+struct BookRow {
+    double from, to;  ///< m, along the shelf
+    double height;    ///< m, of the tallest books
+    std::uint32_t seed;
+};
+
+/// Fills a shelf with books, some leaning.
+void add_books(Scene& scene, int shelf, const std::string& name, const BookRow& row, const std::vector<int>& bindings) {
+    double x = row.from;
     for (int i = 0;; ++i) {
-        const auto value = [&](int k) { return lattice_value(i, k, seed); };
-        const double thick = 0.022 + 0.03 * value(0), tall = height * (0.72 + 0.22 * value(1)),
+        const auto value = [&](int k) { return lattice_value(i, k, row.seed); };
+        const double thick = 0.022 + 0.03 * value(0), tall = row.height * (0.72 + 0.22 * value(1)),
                      deep = 0.15 + 0.05 * value(2);
-        if (x + thick + 0.05 > to) break;
+        if (x + thick + 0.05 > row.to) break;
         const bool leans = value(3) < 0.08 && i > 2;
         const auto binding = static_cast<std::size_t>(value(4) * static_cast<double>(bindings.size()));
         const glm::dvec3 size = to_millionth(glm::dvec3(thick, tall, deep));
         const double lean = leans ? 9.0 : 0.0;
         add_shape(scene, fmt::format("{}_{}", name, i), shelf, box(size), bindings[binding],
-                  to_millionth(glm::dvec3(x + 0.5 * thick + (leans ? 0.5 * tall * 0.16 : 0.0),
-                                          0.5 * tall * (leans ? 1.0 : 1.0), 0.14 - 0.5 * deep + 0.02)),
+                  to_millionth(glm::dvec3(x + 0.5 * thick + (leans ? 0.5 * tall * 0.16 : 0.0), 0.5 * tall,
+                                          0.14 - 0.5 * deep + 0.02)),
                   turn({0.0, 0.0, 1.0}, lean));
         x += thick + 0.001 + (leans ? tall * 0.17 : 0.0);
         if (value(5) < 0.07) x += 0.09;
     }
 }
 
-}  // namespace
+constexpr glm::dvec3 bookcase_size(1.5, 2.2, 0.36);  // m
 
-void add_bookcase(Scene& scene, const AntiqueMaterials& materials) {
+void add_bookcase_body(Scene& scene, int bookcase, const AntiqueMaterials& materials) {
     const int wood = materials.walnut;
-    const double width = 1.5, height = 2.2, depth = 0.36;
-    const int bookcase = add_node(scene, "bookcase", no_index, {1.55, 0.0, antique_low.z + 0.05 + 0.5 * depth});
+    const double width = bookcase_size.x, height = bookcase_size.y, depth = bookcase_size.z;
     add_shape(scene, "bookcase_back", bookcase, box({width, height, 0.02}, {2.0, 3.0}), wood,
               {0.0, 0.5 * height, -0.5 * depth});
     add_shape(scene, "bookcase_base", bookcase, box({width + 0.08, 0.12, depth + 0.06}, {2.0, 0.3}), wood,
@@ -74,16 +78,18 @@ void add_bookcase(Scene& scene, const AntiqueMaterials& materials) {
         add_shape(scene, fmt::format("bookcase_knob_{}", which), bookcase, sphere(0.018), materials.brass,
                   {side * 0.05, 0.4, 0.5 * depth + 0.002});
     }
-    const glm::dvec2 h(0.27, 0.19);
+}
+
+/// Panels on the doors, and a cornice on three sides.
+void add_bookcase_mouldings(Scene& scene, int bookcase, const AntiqueMaterials& materials) {
+    const double width = bookcase_size.x, height = bookcase_size.y, depth = bookcase_size.z;
+    const std::vector<glm::dvec2> profile = {{0.0, 0.0},     {0.0, 0.01},    {0.0, 0.01},
+                                             {0.012, 0.017}, {0.026, 0.012}, {0.034, 0.0}};
     const int panel =
-        add_cage(scene, "bookcase_panel",
-                 make_moulding({{-h.x, -h.y}, {h.x, -h.y}, {h.x, h.y}, {-h.x, h.y}}, true,
-                               {{0.0, 0.0}, {0.0, 0.01}, {0.0, 0.01}, {0.012, 0.017}, {0.026, 0.012}, {0.034, 0.0}}),
-                 materials.mahogany);
+        add_cage(scene, "bookcase_panel", make_rectangle_moulding({0.54, 0.38}, profile, false), materials.mahogany);
     for (const double side : {-1.0, 1.0})
         add_mesh_node(scene, side < 0.0 ? "bookcase_panel_a" : "bookcase_panel_b", bookcase, panel,
                       {side * 0.35, 0.38, 0.5 * depth - 0.015});
-    // Three sides of a cornice.
     const double x = 0.5 * width + 0.02, z = 0.5 * depth;
     const int crown = add_cage(scene, "bookcase_crown",
                                make_moulding({{x, z + 0.1}, {x, -z - 0.02}, {-x, -z - 0.02}, {-x, z + 0.1}}, false,
@@ -98,27 +104,25 @@ void add_bookcase(Scene& scene, const AntiqueMaterials& materials) {
                                               {-0.1, 0.03}}),
                                materials.mahogany);
     add_mesh_node(scene, "bookcase_crown", bookcase, crown, {0.0, height, 0.0}, z_to_up);
-    add_shape(scene, "bookcase_top", bookcase, box({width, 0.03, depth}), wood, {0.0, height + 0.005, 0.0});
+    add_shape(scene, "bookcase_top", bookcase, box({width, 0.03, depth}), materials.walnut, {0.0, height + 0.005, 0.0});
+}
 
+/// Leather in seven colours.
+std::vector<int> add_bindings(Scene& scene) {
     std::vector<int> bindings;
     const glm::dvec3 tints[] = {{0.42, 0.06, 0.05}, {0.07, 0.16, 0.1}, {0.08, 0.1, 0.26}, {0.5, 0.28, 0.1},
                                 {0.22, 0.1, 0.06},  {0.55, 0.46, 0.3}, {0.3, 0.05, 0.16}};
     for (int i = 0; i < 7; ++i) {
         bindings.push_back(add_textured(scene, fmt::format("binding_{}", i), "spine"));
         scene.materials.back().base_color = tints[i] * 1.6;
-        // Worn leather: a sheen that does not hide the colours where a window is mirrored.
+        // Worn leather: a weak highlight that does not hide the colour.
         add_gloss(scene, 0.5);
         scene.materials.back().specular = 0.5;
     }
-    const double levels[] = {0.66, 1.05, 1.43, 1.81};
-    for (int i = 0; i < 4; ++i) {
-        add_shape(scene, fmt::format("bookcase_shelf_{}", i), bookcase,
-                  box({width - 0.08, 0.025, depth - 0.02}, {2.0, 0.4}), wood, {0.0, levels[i], -0.01});
-        const int shelf = add_node(scene, fmt::format("shelf_{}", i), bookcase, {0.0, levels[i] + 0.0125, 0.0});
-        const double stop = i == 1 ? 0.26 : i == 3 ? 0.42 : 0.7;
-        add_books(scene, shelf, fmt::format("book_{}", i), -0.69, stop, 0.33, bindings,
-                  401u + static_cast<std::uint32_t>(i));
-    }
+    return bindings;
+}
+
+void add_bookcase_ornaments(Scene& scene, int bookcase, const AntiqueMaterials& materials) {
     add_shape(scene, "bookcase_jar", bookcase,
               lathe({{0.0, 0.0},
                      {0.06, 0.0},
@@ -146,6 +150,27 @@ void add_bookcase(Scene& scene, const AntiqueMaterials& materials) {
                      {0.0, 0.03}},
                     48),
               materials.brass, {0.57, 1.8225, 0.03});
+}
+
+}  // namespace
+
+void add_bookcase(Scene& scene, const AntiqueMaterials& materials) {
+    const int bookcase =
+        add_node(scene, "bookcase", no_index, {1.55, 0.0, antique_low.z + 0.05 + 0.5 * bookcase_size.z});
+    add_bookcase_body(scene, bookcase, materials);
+    add_bookcase_mouldings(scene, bookcase, materials);
+    const std::vector<int> bindings = add_bindings(scene);
+    const double levels[] = {0.66, 1.05, 1.43, 1.81};
+    for (int i = 0; i < 4; ++i) {
+        add_shape(scene, fmt::format("bookcase_shelf_{}", i), bookcase,
+                  box({bookcase_size.x - 0.08, 0.025, bookcase_size.z - 0.02}, {2.0, 0.4}), materials.walnut,
+                  {0.0, levels[i], -0.01});
+        const int shelf = add_node(scene, fmt::format("shelf_{}", i), bookcase, {0.0, levels[i] + 0.0125, 0.0});
+        const double stop = i == 1 ? 0.26 : i == 3 ? 0.42 : 0.7;
+        add_books(scene, shelf, fmt::format("book_{}", i), {-0.69, stop, 0.33, 401u + static_cast<std::uint32_t>(i)},
+                  bindings);
+    }
+    add_bookcase_ornaments(scene, bookcase, materials);
 }
 
 void add_tall_clock(Scene& scene, const AntiqueMaterials& materials) {
@@ -186,7 +211,7 @@ void add_tall_clock(Scene& scene, const AntiqueMaterials& materials) {
                         28),
                   materials.brass, {side * 0.2, 2.09, 0.06});
     }
-    // The pendulum hangs still: the clock has stopped.
+    // The pendulum does not move: the clock has stopped.
     add_rod(scene, "clock_pendulum_rod", clock, {0.0, 0.86, -0.03}, {0.0, 1.46, -0.03}, 0.006, materials.brass);
     add_shape(scene, "clock_pendulum", clock,
               lathe({{0.0, -0.012}, {0.05, -0.009}, {0.075, 0.0}, {0.05, 0.009}, {0.0, 0.012}}, 48), materials.brass,

@@ -16,7 +16,7 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 
-/// A turned leg: rings, a baluster and a bun foot, in steps of its height.
+/// A turned leg: rings, a baluster and a bun foot.
 Shape turned_leg(double height, double radius) {
     std::vector<glm::dvec2> profile = {{0.0, 0.0},  {0.55, 0.0},  {0.55, 0.0},  {0.8, 0.03},   {0.75, 0.07},
                                        {0.45, 0.1}, {0.6, 0.12},  {0.42, 0.14}, {0.5, 0.25},   {0.85, 0.5},
@@ -54,11 +54,7 @@ void add_chair(Scene& scene, const std::string& name, const glm::dvec3& place, d
               turn({1.0, 0.0, 0.0}, lean));
 }
 
-}  // namespace
-
-void add_table_and_chairs(Scene& scene, const AntiqueMaterials& materials) {
-    const glm::dvec3 place(-0.35, 0.012, 0.15);
-    const int table = add_node(scene, "table", no_index, place);
+void add_table(Scene& scene, int table, const AntiqueMaterials& materials) {
     add_shape(scene, "table_top", table,
               lathe({{0.0, 0.71},
                      {0.5, 0.71},
@@ -98,8 +94,10 @@ void add_table_and_chairs(Scene& scene, const AntiqueMaterials& materials) {
                       to_millionth(glm::dvec3(0.25 * std::sin(a), 0.125, 0.25 * std::cos(a))),
                       turn({0.0, 1.0, 0.0}, angle) * turn({1.0, 0.0, 0.0}, 20.0));
     }
+}
 
-    // A vase of irises, tea for two, an open place for books.
+/// A vase with seven irises.
+void add_irises(Scene& scene, int table, const AntiqueMaterials& materials) {
     add_shape(scene, "vase", table,
               lathe({{0.0, 0.0},
                      {0.06, 0.0},
@@ -134,6 +132,10 @@ void add_table_and_chairs(Scene& scene, const AntiqueMaterials& materials) {
             scene, fmt::format("iris_blade_{}", i), table, blade, root,
             turn({0.0, 1.0, 0.0}, std::fmod(around + 60.0, 360.0)) * turn({1.0, 0.0, 0.0}, 18.0 + 4.0 * (i % 4)));
     }
+}
+
+/// Two cups on saucers.
+void add_tea(Scene& scene, int table, const AntiqueMaterials& materials) {
     const Shape cup = lathe({{0.0, 0.006},
                              {0.02, 0.006},
                              {0.024, 0.0},
@@ -154,6 +156,16 @@ void add_table_and_chairs(Scene& scene, const AntiqueMaterials& materials) {
         add_shape(scene, fmt::format("cup_handle_{}", i), table, torus(0.016, 0.004, 32), materials.porcelain,
                   cups[i] + glm::dvec3(0.05, 0.037, 0.0), turn({1.0, 0.0, 0.0}, 90.0));
     }
+}
+
+}  // namespace
+
+void add_table_and_chairs(Scene& scene, const AntiqueMaterials& materials) {
+    const glm::dvec3 place(-0.35, 0.012, 0.15);
+    const int table = add_node(scene, "table", no_index, place);
+    add_table(scene, table, materials);
+    add_irises(scene, table, materials);
+    add_tea(scene, table, materials);
     add_shape(scene, "table_book_a", table, box({0.19, 0.035, 0.26}), materials.leather, {0.12, 0.768, 0.34},
               turn({0.0, 1.0, 0.0}, 24.0));
     add_shape(scene, "table_book_b", table, box({0.15, 0.028, 0.21}), materials.cloth, {0.125, 0.8, 0.335},

@@ -1,4 +1,4 @@
-// Walls with panels and paper, floor, ceiling, window, fireplace and pictures.
+// Walls with panels and paper, floor, ceiling, fireplace and pictures.
 
 #include <fmt/format.h>
 
@@ -26,17 +26,17 @@ const std::vector<glm::dvec2> frame_profile = {
     {0.0, 0.006},  {0.0, 0.016},   {0.0, 0.016},  {0.01, 0.02}, {0.02, 0.03},   {0.035, 0.03}, {0.05, 0.05},
     {0.07, 0.058}, {0.085, 0.045}, {0.092, 0.03}, {0.1, 0.025}, {0.105, 0.012}, {0.105, 0.0}};
 
-/// A closed moulding around a rectangle, its profile inwards.
-CageShape make_rectangle(const glm::dvec2& size, const std::vector<glm::dvec2>& profile, bool outwards) {
-    const glm::dvec2 h = 0.5 * size;
-    std::vector<glm::dvec2> path = {{-h.x, -h.y}, {h.x, -h.y}, {h.x, h.y}, {-h.x, h.y}};
-    if (outwards) std::swap(path[1], path[3]);
-    return make_moulding(path, true, profile);
-}
+struct Wall {
+    std::string name;
+    glm::dvec3 middle;  ///< of its foot
+    double length;      ///< m
+    glm::dquat facing;  ///< x along the wall, z into the room
+    int panels;
+};
 
-/// Paper above, panelled wood below; x along the wall, z into the room.
-void add_wall(Scene& scene, int room, const std::string& name, const glm::dvec3& middle, double length,
-              const glm::dquat& facing, int panels, int panel_mesh, const AntiqueMaterials& materials) {
+/// Paper above, panelled wood below.
+void add_wall(Scene& scene, int room, const Wall& where, int panel_mesh, const AntiqueMaterials& materials) {
+    const auto& [name, middle, length, facing, panels] = where;
     const int wall = add_node(scene, name, room, middle, facing);
     const double paper = antique_high.y - dado;
     add_shape(scene, name + "_paper", wall, quad(length, paper, {length / paper_tile, paper / paper_tile}),
@@ -49,20 +49,115 @@ void add_wall(Scene& scene, int room, const std::string& name, const glm::dvec3&
     }
 }
 
-/// A window, its panes between posts and bars before what shines outside; a sill below.
-void add_casement(Scene& scene, int window, const std::string& name, const glm::dvec2& size, int outside, int paint) {
-    add_shape(scene, name + "_sky", window, quad(size.x, size.y), outside, {0.0, 0.0, 0.012});
-    const std::vector<glm::dvec2> casing = {{-0.02, 0.0},  {-0.02, 0.09}, {-0.02, 0.09}, {0.0, 0.1},   {0.06, 0.1},
-                                            {0.08, 0.085}, {0.1, 0.09},   {0.12, 0.07},  {0.12, 0.07}, {0.12, 0.0}};
-    add_mesh_node(scene, name + "_casing", window,
-                  add_cage(scene, name + "_casing", make_rectangle(size, casing, true), paint), glm::dvec3(0.0));
-    for (int i = -1; i <= 1; ++i)
-        add_shape(scene, fmt::format("{}_post_{}", name, i + 1), window, box({i == 0 ? 0.06 : 0.025, size.y, 0.035}),
-                  paint, {0.25 * size.x * i, 0.0, 0.07});
-    for (int i = -1; i <= 1; ++i)
-        add_shape(scene, fmt::format("{}_bar_{}", name, i + 1), window, box({size.x, 0.025, 0.03}), paint,
-                  {0.0, 0.25 * size.y * i, 0.07});
-    add_shape(scene, name + "_sill", window, box({size.x + 0.36, 0.04, 0.2}), paint, {0.0, -0.5 * size.y - 0.1, 0.1});
+constexpr double fire_height = 0.78;                  // m, of the opening
+constexpr double mantel_height = fire_height + 0.37;  // m
+
+void add_fire_surround(Scene& scene, int place, int soot, const AntiqueMaterials& materials) {
+    const double half = 0.46, top = fire_height;
+    add_shape(scene, "fire_back", place, quad(2.0 * half, top), soot, {0.0, 0.5 * top, 0.03});
+    add_shape(scene, "hearth", place, box({1.7, 0.04, 0.5}), materials.stone, {0.0, 0.02, 0.42});
+    for (const double side : {-1.0, 1.0}) {
+        const char* which = side < 0.0 ? "a" : "b";
+        add_shape(scene, fmt::format("fire_cheek_{}", which), place, box({0.02, top, 0.2}), soot,
+                  {side * (half - 0.01), 0.5 * top, 0.13});
+        add_shape(scene, fmt::format("fire_pier_{}", which), place, box({0.2, top, 0.24}, {0.4, 1.2}), materials.stone,
+                  {side * (half + 0.1), 0.5 * top, 0.12});
+        add_shape(scene, fmt::format("fire_column_{}", which), place,
+                  lathe({{0.0, 0.0},
+                         {0.075, 0.0},
+                         {0.075, 0.0},
+                         {0.075, 0.03},
+                         {0.06, 0.05},
+                         {0.068, 0.07},
+                         {0.052, 0.09},
+                         {0.056, 0.3},
+                         {0.048, 0.62},
+                         {0.05, 0.64},
+                         {0.066, 0.66},
+                         {0.052, 0.68},
+                         {0.078, 0.71},
+                         {0.078, 0.74},
+                         {0.078, 0.74},
+                         {0.0, 0.74}},
+                        40),
+                  materials.stone, {side * (half + 0.1), 0.04, 0.29});
+    }
+    add_shape(scene, "fire_lintel", place, box({2.0 * half + 0.4, 0.3, 0.26}, {2.0, 0.5}), materials.stone,
+              {0.0, top + 0.15, 0.13});
+    add_mesh_node(
+        scene, "fire_tablet", place,
+        add_cage(scene, "fire_tablet", make_rectangle_moulding({0.7, 0.2}, panel_profile, false), materials.stone),
+        {0.0, top + 0.15, 0.26});
+    add_shape(scene, "mantel_shelf", place, box({1.75, 0.05, 0.42}, {2.0, 0.5}), materials.stone,
+              {0.0, top + 0.345, 0.21});
+    add_shape(scene, "mantel_under", place, box({1.6, 0.04, 0.36}, {2.0, 0.5}), materials.stone,
+              {0.0, top + 0.3, 0.18});
+}
+
+/// Embers that shine up, logs, and the grate.
+void add_fire(Scene& scene, int place, int embers, int bark, const AntiqueMaterials& materials) {
+    add_shape(scene, "embers", place, quad(0.46, 0.14), embers, {0.0, 0.13, 0.17}, z_to_up);
+    for (int i = 0; i < 3; ++i)
+        add_rod(scene, fmt::format("log_{}", i), place, {-0.27 + 0.03 * i, 0.16 + 0.05 * (i % 2), 0.1 + 0.07 * i},
+                {0.25 + 0.02 * i, 0.19 + 0.04 * (i % 2), 0.12 + 0.06 * i}, 0.04, bark, 16);
+    add_shape(scene, "grate", place, box({0.56, 0.02, 0.2}), materials.black, {0.0, 0.11, 0.17});
+    for (int i = 0; i < 7; ++i)
+        add_rod(scene, fmt::format("grate_bar_{}", i), place, {-0.27 + 0.09 * i, 0.04, 0.28},
+                {-0.27 + 0.09 * i, 0.24, 0.3}, 0.008, materials.black, 10);
+}
+
+void add_mantel_clock(Scene& scene, int place, const AntiqueMaterials& materials) {
+    const int clock = add_node(scene, "mantel_clock", place, {0.0, mantel_height, 0.2});
+    add_shape(scene, "mantel_clock_base", clock, box({0.3, 0.05, 0.15}), materials.mahogany, {0.0, 0.025, 0.0});
+    add_shape(scene, "mantel_clock_body", clock, box({0.23, 0.22, 0.12}), materials.mahogany, {0.0, 0.16, 0.0});
+    const int dial = add_textured(scene, "dial", "dial");
+    add_shape(scene, "mantel_clock_face", clock, quad(0.15, 0.15), dial, {0.0, 0.165, 0.062});
+    add_shape(scene, "mantel_clock_ring", clock, torus(0.078, 0.009, 48), materials.brass, {0.0, 0.165, 0.062},
+              turn({1.0, 0.0, 0.0}, 90.0));
+    add_shape(scene, "mantel_clock_top", clock,
+              lathe({{0.12, 0.0}, {0.1, 0.03}, {0.05, 0.05}, {0.02, 0.06}, {0.025, 0.08}, {0.0, 0.1}}, 40),
+              materials.mahogany, {0.0, 0.27, 0.0});
+}
+
+/// Candlesticks beside the clock, and two urns.
+void add_mantel_ornaments(Scene& scene, int place, const AntiqueMaterials& materials) {
+    const Shape stick = lathe({{0.0, 0.0},
+                               {0.06, 0.0},
+                               {0.06, 0.0},
+                               {0.058, 0.012},
+                               {0.03, 0.025},
+                               {0.015, 0.05},
+                               {0.024, 0.075},
+                               {0.012, 0.1},
+                               {0.012, 0.17},
+                               {0.022, 0.19},
+                               {0.014, 0.205},
+                               {0.035, 0.215},
+                               {0.035, 0.22},
+                               {0.0, 0.222}},
+                              36);
+    const Shape urn = lathe({{0.0, 0.0},
+                             {0.06, 0.0},
+                             {0.06, 0.0},
+                             {0.05, 0.02},
+                             {0.025, 0.045},
+                             {0.07, 0.1},
+                             {0.1, 0.17},
+                             {0.095, 0.22},
+                             {0.06, 0.26},
+                             {0.075, 0.29},
+                             {0.065, 0.292},
+                             {0.05, 0.26}},
+                            48);
+    for (const double side : {-1.0, 1.0}) {
+        const char* which = side < 0.0 ? "a" : "b";
+        add_shape(scene, fmt::format("candlestick_{}", which), place, stick, materials.brass,
+                  {side * 0.36, mantel_height, 0.2});
+        add_shape(scene, fmt::format("candle_{}", which), place, cylinder(0.014, 0.2, 20), materials.ivory,
+                  {side * 0.36, mantel_height + 0.32, 0.2});
+        add_shape(scene, fmt::format("mantel_urn_{}", which), place, urn, materials.porcelain,
+                  {side * 0.68, mantel_height, 0.2});
+    }
 }
 
 }  // namespace
@@ -74,12 +169,14 @@ void add_antique_shell(Scene& scene, const AntiqueMaterials& materials) {
               {middle.x, 0.0, middle.z}, z_to_up);
     add_shape(scene, "ceiling", room, quad(size.x, size.z), materials.ceiling, {middle.x, antique_high.y, middle.z},
               z_to_down);
-    const int panel = add_cage(scene, "panel", make_rectangle({0.66, 0.58}, panel_profile, false), materials.walnut);
-    add_wall(scene, room, "wall_fire", {middle.x, 0.0, antique_low.z}, size.x, {1.0, 0.0, 0.0, 0.0}, 7, panel,
-             materials);
-    add_wall(scene, room, "wall_back", {middle.x, 0.0, antique_high.z}, size.x, z_to_minus_z, 7, panel, materials);
-    add_wall(scene, room, "wall_window", {antique_low.x, 0.0, middle.z}, size.z, z_to_plus_x, 6, panel, materials);
-    add_wall(scene, room, "wall_right", {antique_high.x, 0.0, middle.z}, size.z, z_to_minus_x, 6, panel, materials);
+    const int panel =
+        add_cage(scene, "panel", make_rectangle_moulding({0.66, 0.58}, panel_profile, false), materials.walnut);
+    const glm::dquat z_to_plus_z(1.0, 0.0, 0.0, 0.0);
+    for (const Wall& wall : {Wall{"wall_fire", {middle.x, 0.0, antique_low.z}, size.x, z_to_plus_z, 7},
+                             Wall{"wall_back", {middle.x, 0.0, antique_high.z}, size.x, z_to_minus_z, 7},
+                             Wall{"wall_window", {antique_low.x, 0.0, middle.z}, size.z, z_to_plus_x, 6},
+                             Wall{"wall_right", {antique_high.x, 0.0, middle.z}, size.z, z_to_minus_x, 6}})
+        add_wall(scene, room, wall, panel, materials);
 
     const std::vector<glm::dvec2> around = {{antique_low.x, -antique_high.z},
                                             {antique_high.x, -antique_high.z},
@@ -116,139 +213,15 @@ void add_antique_shell(Scene& scene, const AntiqueMaterials& materials) {
     add_shape(scene, "rug", room, box({3.0, 0.012, 2.0}), rug, {-0.1, 0.006, 0.1});
 }
 
-void add_antique_window(Scene& scene, const AntiqueMaterials& materials) {
-    // What is seen outside keeps within what a picture can show; the room's light comes from a window behind the
-    // camera's shoulder, as bright as the sky is.
-    const int view = add_emitter(scene, "garden", glm::dvec3(1.0), 0.5);
-    for (std::size_t i = 0; i < scene.images.size(); ++i)
-        if (scene.images[i].name == "garden") scene.materials.back().emission_texture.image = static_cast<int>(i);
-    const int sky = add_emitter(scene, "daylight", {0.92, 0.96, 1.0}, 13.0);
-    const int white = add_lambert(scene, "window_paint", {222, 216, 202});
-    const int curtain = add_lambert(scene, "curtain", {128, 34, 40});
-    scene.materials.back().double_sided = true;
-    const double height = 1.75, middle = 0.98 + 0.5 * height;
-    const int window = add_node(scene, "window", no_index, {antique_low.x, middle, -0.35}, z_to_plus_x);
-    add_casement(scene, window, "window", {1.5, height}, view, white);
-    const int unseen = add_node(scene, "window_b", no_index, {antique_high.x, middle, 1.5}, z_to_minus_x);
-    add_casement(scene, unseen, "window_b", {1.2, height}, sky, white);
-
-    // Curtains: a wavy line, lifted; a profile of two points is a sheet.
-    for (const double side : {-1.0, 1.0}) {
-        std::vector<glm::dvec2> path;
-        for (int i = 0; i <= 28; ++i)
-            path.emplace_back(side * 0.95 + (i - 14) * 0.0135, -0.17 + (i % 2 == 0 ? 0.035 : -0.035));
-        const std::string name = side < 0.0 ? "curtain_a" : "curtain_b";
-        const CageShape sheet = make_moulding(path, false, {{0.0, -1.86}, {0.004, -0.8}, {0.0, 1.01}}, 2);
-        add_mesh_node(scene, name, window, add_cage(scene, name, sheet, curtain), glm::dvec3(0.0), z_to_up);
-    }
-    add_rod(scene, "curtain_rod", window, {-1.3, 1.01, 0.17}, {1.3, 1.01, 0.17}, 0.018, materials.brass, 24);
-    for (const double side : {-1.0, 1.0})
-        add_shape(scene, side < 0.0 ? "curtain_knob_a" : "curtain_knob_b", window, sphere(0.04), materials.brass,
-                  {side * 1.32, 1.01, 0.17});
-}
-
 void add_fireplace(Scene& scene, const AntiqueMaterials& materials) {
     const int place = add_node(scene, "fireplace", no_index, {-0.15, 0.0, antique_low.z});
     const int soot = add_lambert(scene, "soot", {36, 30, 28});
     const int embers = add_emitter(scene, "embers", {1.0, 0.36, 0.1}, 5.0);
     const int bark = add_lambert(scene, "bark", {74, 52, 38});
-    const double half = 0.46, top = 0.78;
-    add_shape(scene, "fire_back", place, quad(2.0 * half, top), soot, {0.0, 0.5 * top, 0.03});
-    add_shape(scene, "hearth", place, box({1.7, 0.04, 0.5}), materials.stone, {0.0, 0.02, 0.42});
-    for (const double side : {-1.0, 1.0}) {
-        const char* which = side < 0.0 ? "a" : "b";
-        add_shape(scene, fmt::format("fire_cheek_{}", which), place, box({0.02, top, 0.2}), soot,
-                  {side * (half - 0.01), 0.5 * top, 0.13});
-        add_shape(scene, fmt::format("fire_pier_{}", which), place, box({0.2, top, 0.24}, {0.4, 1.2}), materials.stone,
-                  {side * (half + 0.1), 0.5 * top, 0.12});
-        add_shape(scene, fmt::format("fire_column_{}", which), place,
-                  lathe({{0.0, 0.0},
-                         {0.075, 0.0},
-                         {0.075, 0.0},
-                         {0.075, 0.03},
-                         {0.06, 0.05},
-                         {0.068, 0.07},
-                         {0.052, 0.09},
-                         {0.056, 0.3},
-                         {0.048, 0.62},
-                         {0.05, 0.64},
-                         {0.066, 0.66},
-                         {0.052, 0.68},
-                         {0.078, 0.71},
-                         {0.078, 0.74},
-                         {0.078, 0.74},
-                         {0.0, 0.74}},
-                        40),
-                  materials.stone, {side * (half + 0.1), 0.04, 0.29});
-    }
-    add_shape(scene, "fire_lintel", place, box({2.0 * half + 0.4, 0.3, 0.26}, {2.0, 0.5}), materials.stone,
-              {0.0, top + 0.15, 0.13});
-    add_mesh_node(scene, "fire_tablet", place,
-                  add_cage(scene, "fire_tablet", make_rectangle({0.7, 0.2}, panel_profile, false), materials.stone),
-                  {0.0, top + 0.15, 0.26});
-    add_shape(scene, "mantel_shelf", place, box({1.75, 0.05, 0.42}, {2.0, 0.5}), materials.stone,
-              {0.0, top + 0.345, 0.21});
-    add_shape(scene, "mantel_under", place, box({1.6, 0.04, 0.36}, {2.0, 0.5}), materials.stone,
-              {0.0, top + 0.3, 0.18});
-    // Embers shine up from the grate.
-    add_shape(scene, "embers", place, quad(0.46, 0.14), embers, {0.0, 0.13, 0.17}, z_to_up);
-    for (int i = 0; i < 3; ++i)
-        add_rod(scene, fmt::format("log_{}", i), place, {-0.27 + 0.03 * i, 0.16 + 0.05 * (i % 2), 0.1 + 0.07 * i},
-                {0.25 + 0.02 * i, 0.19 + 0.04 * (i % 2), 0.12 + 0.06 * i}, 0.04, bark, 16);
-    add_shape(scene, "grate", place, box({0.56, 0.02, 0.2}), materials.black, {0.0, 0.11, 0.17});
-    for (int i = 0; i < 7; ++i)
-        add_rod(scene, fmt::format("grate_bar_{}", i), place, {-0.27 + 0.09 * i, 0.04, 0.28},
-                {-0.27 + 0.09 * i, 0.24, 0.3}, 0.008, materials.black, 10);
-
-    // On the shelf: a clock between candlesticks, two urns.
-    const double shelf = top + 0.37;
-    const int clock = add_node(scene, "mantel_clock", place, {0.0, shelf, 0.2});
-    add_shape(scene, "mantel_clock_base", clock, box({0.3, 0.05, 0.15}), materials.mahogany, {0.0, 0.025, 0.0});
-    add_shape(scene, "mantel_clock_body", clock, box({0.23, 0.22, 0.12}), materials.mahogany, {0.0, 0.16, 0.0});
-    const int dial = add_textured(scene, "dial", "dial");
-    add_shape(scene, "mantel_clock_face", clock, quad(0.15, 0.15), dial, {0.0, 0.165, 0.062});
-    add_shape(scene, "mantel_clock_ring", clock, torus(0.078, 0.009, 48), materials.brass, {0.0, 0.165, 0.062},
-              turn({1.0, 0.0, 0.0}, 90.0));
-    add_shape(scene, "mantel_clock_top", clock,
-              lathe({{0.12, 0.0}, {0.1, 0.03}, {0.05, 0.05}, {0.02, 0.06}, {0.025, 0.08}, {0.0, 0.1}}, 40),
-              materials.mahogany, {0.0, 0.27, 0.0});
-    const Shape stick = lathe({{0.0, 0.0},
-                               {0.06, 0.0},
-                               {0.06, 0.0},
-                               {0.058, 0.012},
-                               {0.03, 0.025},
-                               {0.015, 0.05},
-                               {0.024, 0.075},
-                               {0.012, 0.1},
-                               {0.012, 0.17},
-                               {0.022, 0.19},
-                               {0.014, 0.205},
-                               {0.035, 0.215},
-                               {0.035, 0.22},
-                               {0.0, 0.222}},
-                              36);
-    const Shape urn = lathe({{0.0, 0.0},
-                             {0.06, 0.0},
-                             {0.06, 0.0},
-                             {0.05, 0.02},
-                             {0.025, 0.045},
-                             {0.07, 0.1},
-                             {0.1, 0.17},
-                             {0.095, 0.22},
-                             {0.06, 0.26},
-                             {0.075, 0.29},
-                             {0.065, 0.292},
-                             {0.05, 0.26}},
-                            48);
-    for (const double side : {-1.0, 1.0}) {
-        const char* which = side < 0.0 ? "a" : "b";
-        add_shape(scene, fmt::format("candlestick_{}", which), place, stick, materials.brass,
-                  {side * 0.36, shelf, 0.2});
-        add_shape(scene, fmt::format("candle_{}", which), place, cylinder(0.014, 0.2, 20), materials.ivory,
-                  {side * 0.36, shelf + 0.32, 0.2});
-        add_shape(scene, fmt::format("mantel_urn_{}", which), place, urn, materials.porcelain,
-                  {side * 0.68, shelf, 0.2});
-    }
+    add_fire_surround(scene, place, soot, materials);
+    add_fire(scene, place, embers, bark, materials);
+    add_mantel_clock(scene, place, materials);
+    add_mantel_ornaments(scene, place, materials);
 }
 
 void add_antique_pictures(Scene& scene, const AntiqueMaterials& materials) {
@@ -266,10 +239,10 @@ void add_antique_pictures(Scene& scene, const AntiqueMaterials& materials) {
         const int paint = add_textured(scene, name, name);
         const int node = add_node(scene, "picture_" + name, pictures, hanging.middle, hanging.facing);
         add_shape(scene, name + "_canvas", node, quad(hanging.size.x, hanging.size.y), paint, {0.0, 0.0, 0.01});
-        add_mesh_node(
-            scene, name + "_frame", node,
-            add_cage(scene, name + "_frame", make_rectangle(hanging.size, frame_profile, true), materials.gilt),
-            glm::dvec3(0.0));
+        add_mesh_node(scene, name + "_frame", node,
+                      add_cage(scene, name + "_frame", make_rectangle_moulding(hanging.size, frame_profile, true),
+                               materials.gilt),
+                      glm::dvec3(0.0));
     }
 }
 

@@ -50,7 +50,7 @@ glm::dvec3 color_damask(const glm::dvec2& uv) {
     return glm::mix(ground, figure, cover) + 9.0 * silk;
 }
 
-/// Border, guard stripes, a field of small flowers and a medallion: folded twice, as such rugs are.
+/// Border, guard stripes, a field of small flowers and a medallion, with two axes of symmetry.
 glm::dvec3 color_rug(const glm::dvec2& uv) {
     const glm::dvec2 size(3.0, 2.0);
     const glm::dvec2 at = glm::abs(uv - 0.5) * size;
@@ -137,7 +137,7 @@ glm::dvec3 color_globe(const glm::dvec2& uv) {
     return net ? color * 0.72 : color;
 }
 
-/// The back of a book: raised bands and a label, to be tinted.
+/// A book spine: raised bands and a label, tinted by the base colour.
 glm::dvec3 color_spine(const glm::dvec2& uv) {
     const double wear = fractal_noise(uv, {6, 24}, 3, 251) - 0.5;
     const double band = std::abs(glm::fract(uv.y * 6.0) - 0.5);
@@ -158,7 +158,7 @@ glm::dvec3 color_velvet(const glm::dvec2& uv) {
     return (glm::dvec3(190.0) + 60.0 * nap) * stripe;
 }
 
-/// A ship under full sail before weather.
+/// A ship under full sail in front of dark clouds.
 glm::dvec3 color_ship(const glm::dvec2& uv) {
     const double cloud = fractal_noise(uv, {3, 5}, 5, 281);
     glm::dvec3 color = glm::mix(hex(0x6f8fa3), hex(0xf0d9b0), std::clamp(1.5 * uv.y + 1.4 * (cloud - 0.5), 0.0, 1.0));

@@ -16,7 +16,7 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 
-// The work under the ring: nine balls hang in a circle and fall one after the other.
+// Nine balls hang from a ring and fall one after the other.
 const glm::dvec3 ring_place(-3.55, 0.0, 1.75);
 constexpr double ring_radius = 0.95, ring_height = 2.62, ring_base = 0.08;
 constexpr int ring_balls = 9;
@@ -35,7 +35,7 @@ std::vector<BallDrop> make_ball_drops() {
         BallDrop drop;
         drop.release = releases[i];
         drop.radius = 0.1 + 0.015 * (i % 3);
-        // Neighbours in time stand apart.
+        // Balls that fall one after the other are not neighbours.
         drop.position =
             to_millionth(ring_point(i * 4 % ring_balls)) + glm::dvec3(0.0, ring_height - 0.12 - drop.radius, 0.0);
         drop.ground = ring_base;
@@ -108,7 +108,7 @@ void add_ball_work(Scene& scene, const GalleryMaterials& materials) {
             turn_about(scene, index, glm::normalize(glm::cross(glm::dvec3(0.0, 1.0, 0.0), v)),
                        cubic_track(simulate_spin(drops[i], path)));
         } else {
-            // A spin about the upright survives impacts; it dies with the bouncing.
+            // Spin about the vertical axis is not changed by impacts; it ends with the bouncing.
             const double spin = (i % 2 == 0 ? 1.0 : -1.0) * (2.2 + 0.4 * static_cast<double>(i));
             const double from = path.front().seconds, time = path.back().seconds - from;
             turn_about(

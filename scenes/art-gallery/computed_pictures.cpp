@@ -1,4 +1,4 @@
-// Paintings that give every point its colour.
+// Paintings computed point by point.
 
 #include <array>
 #include <complex>
@@ -13,7 +13,7 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 
-/// A filled Julia set's outside, coloured by how slowly points leave it.
+/// The outside of a filled Julia set, coloured by escape time.
 glm::dvec3 color_julia(const glm::dvec2& uv) {
     static const std::array colors = {hex(0x0d1b2a), hex(0x1b3a5c), hex(0x3f7cac), hex(0x95d0c5),
                                       hex(0xfaf3dd), hex(0xf4a259), hex(0xbc4b51), hex(0x3a0f2b)};
@@ -62,7 +62,7 @@ glm::dvec3 color_fields(const glm::dvec2& uv) {
     return color;
 }
 
-/// Noise that bends noise that bends noise: veins of poured paint.
+/// Noise warped twice by noise: veins of poured paint.
 glm::dvec3 color_pour(const glm::dvec2& uv) {
     static const std::array colors = {hex(0x0b0c2a), hex(0x27187e), hex(0x6a4c93), hex(0xf06292),
                                       hex(0xffd6c0), hex(0xffffff), hex(0x48bfe3), hex(0x064789)};
@@ -74,7 +74,7 @@ glm::dvec3 color_pour(const glm::dvec2& uv) {
     return gradient(colors, glm::fract(2.2 * value + 0.6 * once.x));
 }
 
-/// Leaded glass: the nearest of scattered points gives the pane.
+/// Leaded glass: the panes are the cells of scattered points.
 glm::dvec3 color_panes(const glm::dvec2& uv) {
     static const std::array colors = {hex(0x1d3557), hex(0x457b9d), hex(0xa8dadc), hex(0xe63946),
                                       hex(0xf4a261), hex(0xffe066), hex(0x2a9d8f), hex(0x8338ec)};
@@ -109,7 +109,7 @@ glm::dvec3 color_panes(const glm::dvec2& uv) {
     return colors[index] * (0.82 + 0.3 * pick(84, pane.x, pane.y)) + 26.0 * (0.5 - nearest);
 }
 
-/// Black and white stripes whose widths swell: the plane seems to fold.
+/// Black and white stripes of varying width, so that the plane seems to fold.
 glm::dvec3 color_waves(const glm::dvec2& uv) {
     const double bend = 0.055 * std::sin(2.0 * pi * (1.5 * uv.y + 0.12 * std::sin(4.0 * pi * uv.x)));
     const double along = uv.x + bend;
@@ -160,7 +160,7 @@ glm::dvec3 color_seigaiha(const glm::dvec2& uv) {
         if (moon < 0.13) return hex(0xfff7e6);
         return glm::mix(sky, hex(0xfbe9cf), glm::smoothstep(0.52, 0.62, cloud));
     }
-    // Rows of fans overlap downwards; the lowest that covers the point wins.
+    // Rows of fans overlap downwards; the lowest one that covers the point is visible.
     const double size = 0.085;
     for (int row = static_cast<int>((uv.y - horizon) / (0.5 * size)) + 2; row >= -1; --row) {
         const double y = horizon + 0.5 * size * row;

@@ -1,4 +1,4 @@
-// What stands and hangs still: paintings in their frames, furniture, sculptures, vases, plants.
+// Paintings in their frames, furniture and plants.
 
 #include <fmt/format.h>
 
@@ -15,7 +15,7 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 
-// From the picture's edge outwards, and away from the wall.
+// Profiles: outwards from the edge of the picture, and away from the wall.
 const std::vector<glm::dvec2> gilt_profile = {
     {0.0, 0.008},   {0.0, 0.018},  {0.0, 0.018}, {0.012, 0.022}, {0.02, 0.03},   {0.034, 0.03}, {0.05, 0.05},
     {0.075, 0.062}, {0.095, 0.05}, {0.1, 0.035}, {0.11, 0.03},   {0.115, 0.015}, {0.115, 0.0},  {0.115, 0.0}};
@@ -47,21 +47,14 @@ const Hanging hangings[] = {
     {"flow", {cabinet_low.x, 1.75, 0.0}, {2.0, 2.0}, 2, 0},
 };
 
-/// A plinth of a square plan with foot and cap.
-double add_plinth(Scene& scene, int parent, const std::string& name, const glm::dvec3& place, double width,
-                  double height, int material) {
-    add_shape(scene, name + "_foot", parent, box({width + 0.06, 0.08, width + 0.06}), material,
-              place + glm::dvec3(0.0, 0.04, 0.0));
-    add_shape(scene, name + "_shaft", parent, box({width, height - 0.12, width}), material,
-              place + glm::dvec3(0.0, 0.02 + 0.5 * height, 0.0));
-    add_shape(scene, name + "_cap", parent, box({width + 0.05, 0.04, width + 0.05}), material,
-              place + glm::dvec3(0.0, height - 0.02, 0.0));
-    return height;
-}
+struct PlantParts {
+    int leaf;              ///< mesh
+    int pot, earth, stem;  ///< materials
+};
 
-/// Long leaves on thin stems that fan out of a pot.
-void add_plant(Scene& scene, int parent, const std::string& name, const glm::dvec3& place, int leaf, int pot, int earth,
-               int stem, std::uint32_t seed) {
+/// Long leaves on thin stems in a pot.
+void add_plant(Scene& scene, int parent, const std::string& name, const glm::dvec3& place, const PlantParts& parts,
+               std::uint32_t seed) {
     const int plant = add_node(scene, name, parent, place);
     add_shape(scene, name + "_pot", plant,
               lathe({{0.0, 0.0},
@@ -76,17 +69,17 @@ void add_plant(Scene& scene, int parent, const std::string& name, const glm::dve
                      {0.235, 0.4},
                      {0.23, 0.36}},
                     48),
-              pot, glm::dvec3(0.0));
-    add_shape(scene, name + "_earth", plant, cylinder(0.231, 0.02, 32), earth, {0.0, 0.37, 0.0});
+              parts.pot, glm::dvec3(0.0));
+    add_shape(scene, name + "_earth", plant, cylinder(0.231, 0.02, 32), parts.earth, {0.0, 0.37, 0.0});
     for (int i = 0; i < 34; ++i) {
         const double around = i * 137.508, high = lattice_value(i, 0, seed), wide = lattice_value(i, 1, seed);
         const double reach = 0.05 + 0.2 * wide, top = 0.62 + 0.75 * high;
         const glm::dvec3 out(std::sin(around * pi / 180.0), 0.0, std::cos(around * pi / 180.0));
         const glm::dvec3 foot = glm::dvec3(0.0, 0.38, 0.0) + 0.06 * out;
         const glm::dvec3 tip = to_millionth(glm::dvec3(0.0, top, 0.0) + (0.06 + reach) * out);
-        add_rod(scene, fmt::format("{}_stem_{}", name, i), plant, foot, tip, 0.006, stem, 6);
+        add_rod(scene, fmt::format("{}_stem_{}", name, i), plant, foot, tip, 0.006, parts.stem, 6);
         const double lean = 38.0 + 55.0 * wide * (1.2 - 0.5 * high);
-        add_mesh_node(scene, fmt::format("{}_leaf_{}", name, i), plant, leaf, tip,
+        add_mesh_node(scene, fmt::format("{}_leaf_{}", name, i), plant, parts.leaf, tip,
                       turn({0.0, 1.0, 0.0}, std::fmod(around, 360.0)) * turn({1.0, 0.0, 0.0}, lean));
     }
 }
@@ -158,15 +151,12 @@ void add_pictures(Scene& scene, const GalleryMaterials& materials) {
         const int paint = add_textured(scene, name, name);
         const int node = add_node(scene, "picture_" + name, pictures, hanging.middle, facing[hanging.wall]);
         add_shape(scene, name + "_canvas", node, quad(hanging.size.x, hanging.size.y), paint, {0.0, 0.0, 0.012});
-        // Clockwise, so that the left, where the profile goes, is outside.
-        const glm::dvec2 h = 0.5 * hanging.size;
-        const int frame = add_cage(scene, name + "_frame",
-                                   make_moulding({{-h.x, -h.y}, {-h.x, h.y}, {h.x, h.y}, {h.x, -h.y}}, true,
-                                                 hanging.frame == 0 ? gilt_profile : plain_profile),
-                                   frames[hanging.frame]);
+        const CageShape moulding =
+            make_rectangle_moulding(hanging.size, hanging.frame == 0 ? gilt_profile : plain_profile, true);
+        const int frame = add_cage(scene, name + "_frame", moulding, frames[hanging.frame]);
         add_mesh_node(scene, name + "_frame", node, frame, glm::dvec3(0.0));
         add_shape(scene, name + "_label", node, box({0.12, 0.08, 0.006}), materials.white_frame,
-                  {h.x + 0.24, -h.y + 0.04, 0.003});
+                  {0.5 * hanging.size.x + 0.24, -0.5 * hanging.size.y + 0.04, 0.003});
     }
 }
 
@@ -183,113 +173,11 @@ void add_furniture(Scene& scene, const GalleryMaterials& materials) {
     const int earth = add_lambert(scene, "earth", {58, 42, 32});
     const int stem = add_lambert(scene, "stem", {92, 118, 60});
     const int leaf = add_cage(scene, "leaf", make_leaf(0.44, 0.15, 0.42), leaf_green);
+    const PlantParts parts{leaf, pot, earth, stem};
     const int plants = add_node(scene, "plants");
-    add_plant(scene, plants, "plant_a", {-5.2, 0.0, -1.8}, leaf, pot, earth, stem, 301);
-    add_plant(scene, plants, "plant_b", {2.95, 0.0, 3.0}, leaf, pot, earth, stem, 302);
-    add_plant(scene, plants, "plant_c", {-9.4, 0.0, -1.8}, leaf, pot, earth, stem, 303);
-}
-
-void add_sculptures(Scene& scene, const GalleryMaterials& materials) {
-    const int sculptures = add_node(scene, "sculptures");
-    const int red = add_lambert(scene, "ring_red", {196, 52, 38});
-    add_gloss(scene, 0.3);
-    const int ivory = add_lambert(scene, "ring_ivory", {236, 226, 204});
-    add_gloss(scene, 0.3);
-    const int ink = add_lambert(scene, "ring_ink", {38, 50, 84});
-    add_gloss(scene, 0.3);
-
-    // Three rings through one another.
-    const glm::dvec3 rings(4.1, 0.0, -2.55);
-    const double top = add_plinth(scene, sculptures, "rings_plinth", rings, 0.5, 0.95, materials.plinth);
-    const int group =
-        add_node(scene, "rings", sculptures, rings + glm::dvec3(0.0, top + 0.36, 0.0), turn({0.0, 1.0, 0.0}, 25.0));
-    add_shape(scene, "ring_a", group, torus(0.28, 0.06, 64), red, {-0.13, 0.0, 0.0}, z_to_up);
-    add_shape(scene, "ring_b", group, torus(0.28, 0.06, 64), ivory, {0.13, 0.0, 0.0}, turn({1.0, 0.0, 0.0}, 25.0));
-    add_shape(scene, "ring_c", group, torus(0.19, 0.045, 64), ink, {0.0, 0.2, 0.0}, turn({0.0, 0.0, 1.0}, 70.0));
-
-    // Vases.
-    const int clay = add_textured(scene, "terracotta", "terracotta");
-    const int celadon = add_lambert(scene, "celadon", {142, 180, 160});
-    add_gloss(scene, 0.2);
-    const int cobalt = add_lambert(scene, "cobalt", {30, 62, 150});
-    add_gloss(scene, 0.15);
-    const Shape amphora = lathe({{0.0, 0.0},
-                                 {0.09, 0.0},
-                                 {0.09, 0.0},
-                                 {0.095, 0.02},
-                                 {0.06, 0.045},
-                                 {0.075, 0.08},
-                                 {0.17, 0.26},
-                                 {0.2, 0.4},
-                                 {0.17, 0.52},
-                                 {0.085, 0.6},
-                                 {0.07, 0.66},
-                                 {0.075, 0.7},
-                                 {0.12, 0.73},
-                                 {0.12, 0.745},
-                                 {0.1, 0.745},
-                                 {0.06, 0.7},
-                                 {0.055, 0.64}},
-                                72);
-    const Shape bottle = lathe({{0.0, 0.0},
-                                {0.08, 0.0},
-                                {0.08, 0.0},
-                                {0.13, 0.05},
-                                {0.165, 0.15},
-                                {0.14, 0.26},
-                                {0.06, 0.36},
-                                {0.035, 0.46},
-                                {0.034, 0.56},
-                                {0.05, 0.62},
-                                {0.042, 0.62},
-                                {0.026, 0.55}},
-                               64);
-    const Shape bowl = lathe({{0.0, 0.0},
-                              {0.09, 0.0},
-                              {0.09, 0.0},
-                              {0.085, 0.02},
-                              {0.1, 0.035},
-                              {0.2, 0.1},
-                              {0.26, 0.2},
-                              {0.27, 0.24},
-                              {0.262, 0.245},
-                              {0.245, 0.2},
-                              {0.18, 0.11},
-                              {0.06, 0.06},
-                              {0.0, 0.055}},
-                             64);
-    const glm::dvec3 places[] = {{-5.45, 0.0, 3.2}, {5.3, 0.0, 3.1}, {-1.1, 0.0, -3.2 + 0.0}};
-    const Shape shapes[] = {amphora, amphora, bottle};
-    const int glazes[] = {clay, cobalt, celadon};
-    for (int i = 0; i < 3; ++i) {
-        const std::string name = fmt::format("vase_{}", i);
-        const double h =
-            add_plinth(scene, sculptures, name + "_plinth", places[i], 0.42, 0.85 + 0.1 * (i % 2), materials.plinth);
-        add_shape(scene, name, sculptures, shapes[i], glazes[i], places[i] + glm::dvec3(0.0, h, 0.0));
-    }
-    const double h = add_plinth(scene, sculptures, "bowl_plinth", {0.75, 0.0, -3.1}, 0.46, 0.8, materials.plinth);
-    add_shape(scene, "bowl", sculptures, bowl, cobalt, {0.75, h, -3.1});
-    const double low =
-        add_plinth(scene, sculptures, "cabinet_vase_plinth", {-9.7, 0.0, 2.1}, 0.42, 0.9, materials.plinth);
-    add_shape(scene, "cabinet_vase", sculptures, amphora, celadon, {-9.7, low, 2.1});
-
-    // A knot of a flat band that turns slowly in the cabinet.
-    const glm::dvec3 place(-8.1, 0.0, 0.0);
-    const double height = add_plinth(scene, sculptures, "knot_plinth", place, 0.7, 0.72, materials.plinth);
-    const int bronze = add_lambert(scene, "knot_bronze", {214, 148, 70});
-    add_gloss(scene, 0.33);
-    const CageShape knot = make_closed_tube(
-        [](double t) {
-            const double a = 2.0 * pi * t;
-            return 0.21 * glm::dvec3(std::sin(a) + 2.0 * std::sin(2.0 * a), std::cos(a) - 2.0 * std::cos(2.0 * a),
-                                     -1.5 * std::sin(3.0 * a));
-        },
-        60, 8, {0.13, 0.06}, 3);
-    const int mesh = add_cage(scene, "knot", knot, bronze);
-    const int node = add_mesh_node(scene, "knot", sculptures, mesh, place + glm::dvec3(0.0, height + 0.72, 0.0));
-    AxisRotation spin;
-    spin.angle = even_track(0.0, gallery_seconds, 0.0, 2.0 * pi * 1.25);
-    scene.nodes[node].axis_rotation = spin;
+    add_plant(scene, plants, "plant_a", {-5.2, 0.0, -1.8}, parts, 301);
+    add_plant(scene, plants, "plant_b", {2.95, 0.0, 3.0}, parts, 302);
+    add_plant(scene, plants, "plant_c", {-9.4, 0.0, -1.8}, parts, 303);
 }
 
 }  // namespace aleph

@@ -11,7 +11,7 @@ std::vector<DrawnTexture> make_gallery_textures() {
 }
 
 Scene make_art_gallery(const std::string& textures) {
-    // Exposure by eye: the automatic one goes by direct light alone, of which ceiling and corners get little.
+    // Exposure chosen by eye: the automatic one uses direct light only, which is weak on ceiling and corners.
     Scene scene = begin_scene("art-gallery", gallery_last_frame, 2.2, textures, make_gallery_textures());
 
     GalleryMaterials materials{};

@@ -1,5 +1,5 @@
 #pragma once
-// The scene `art-gallery`, part by part. Metres; the floor is y = 0; the hall lies along x, a cabinet beyond its far
+// The parts of the scene `art-gallery`. Metres; the floor is y = 0; the hall is along x, the cabinet behind its far
 // wall.
 
 #include "engine/scene/scene.h"
@@ -7,7 +7,7 @@
 
 namespace aleph {
 
-inline constexpr int gallery_last_frame = 749;  ///< the first is 0; 30 a second
+inline constexpr int gallery_last_frame = 749;  ///< the first is 0; 30 frames per second
 inline constexpr double gallery_seconds = 749.0 / 30.0;
 
 /// Inner faces of the hall and of the cabinet.
@@ -15,13 +15,13 @@ inline constexpr glm::dvec3 hall_low{-6.0, 0.0, -3.8}, hall_high{6.0, 4.2, 3.8};
 inline constexpr glm::dvec3 cabinet_low{-10.2, 0.0, -2.6}, cabinet_high{-6.25, 3.6, 2.6};
 inline constexpr double door_half_width = 1.1, door_height = 2.9;
 
-/// @param textures  folder of the textures as the scene file is to name it
+/// @param textures  folder of the textures, relative to the scene file
 Scene make_art_gallery(const std::string& textures);
 
-/// Balls of the work under the ring, then those that come through the door.
+/// The balls under the ring, then the two that roll off their plinths.
 std::vector<BallDrop> make_ball_drops();
 
-/// Materials that several parts use.
+/// Materials shared by several parts.
 struct GalleryMaterials {
     int wall, blue_wall, ceiling, parquet, trim, plinth, marble, oak, dark, steel, gilt, black_frame, white_frame;
 };

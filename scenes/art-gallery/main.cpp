@@ -1,5 +1,5 @@
 // Writes the scene `art-gallery` and its textures: make_art_gallery OUTPUT_FOLDER (usually scenes).
-// The same bytes every time; tests/unit/scenes/gallery_scenes_test.cpp holds it to that.
+// Deterministic: tests/unit/scenes/art_gallery_test.cpp compares the bytes.
 
 #include "scenes/art-gallery/gallery.h"
 #include "scenes/art-gallery/pictures.h"

@@ -1,4 +1,4 @@
-// What moves: the top, the kinetic work, the mobile, and the camera; the balls are in ball_work.cpp.
+// The moving exhibits except the balls (ball_work.cpp): the top, the kinetic work, the mobile; and the camera.
 
 #include <fmt/format.h>
 
@@ -17,10 +17,32 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 
-}  // namespace
+// The top slows down: its spin falls evenly, its precession rate is inversely proportional to the spin.
+constexpr double first_spin = 2.0 * pi * 2.3, last_spin = 2.0 * pi * 1.25;  // rad/s
+constexpr double slowing = (first_spin - last_spin) / gallery_seconds;      // rad/s2
 
-void add_top(Scene& scene, const GalleryMaterials& materials) {
-    const int work = add_node(scene, "top_work", no_index, {2.15, 0.0, -0.95});
+std::vector<MotionKey<double>> make_precession() {
+    const double strength = 2.0 * pi * 0.2 * first_spin;
+    std::vector<MotionKey<double>> keys;
+    for (int i = 0; i <= 30; ++i) {
+        const double t = gallery_seconds * i / 30.0, spin = first_spin - slowing * t;
+        keys.push_back({t, strength / spin, strength / slowing * std::log(first_spin / spin), strength / spin});
+    }
+    return keys;
+}
+
+/// The top leans farther as it slows down, and nods a little.
+std::vector<MotionKey<double>> make_lean() {
+    std::vector<MotionKey<double>> keys;
+    for (int i = 0; i <= 100; ++i) {
+        const double t = gallery_seconds * i / 100.0, grown = t / gallery_seconds, nod = 2.0 * pi * 0.9;
+        const double rate = glm::radians(9.0) / gallery_seconds + glm::radians(0.9) * nod * std::cos(nod * t);
+        keys.push_back({t, rate, glm::radians(10.0 + 9.0 * grown + 0.9 * std::sin(nod * t)), rate});
+    }
+    return keys;
+}
+
+void add_top_stand(Scene& scene, int work, const GalleryMaterials& materials) {
     add_shape(scene, "top_stand", work,
               lathe({{0.0, 0.0},
                      {0.34, 0.0},
@@ -43,27 +65,120 @@ void add_top(Scene& scene, const GalleryMaterials& materials) {
                      {0.0, 0.85}},
                     80),
               materials.marble, glm::dvec3(0.0));
+}
+
+struct Vane {
+    const char* name;
+    glm::dvec3 color;  ///< sRGB, 0..255
+};
+
+constexpr double kinetic_floor = 0.015, kinetic_roof = 1.9;  // m above the table's node
+
+double panel_height(int i) {
+    return 1.3 + 0.1 * ((i * 2) % 5);
+}
+
+/// The foot of rods and spindles.
+Shape make_socket() {
+    return lathe({{0.0, 0.0},
+                  {0.05, 0.0},
+                  {0.05, 0.0},
+                  {0.05, 0.008},
+                  {0.042, 0.016},
+                  {0.026, 0.02},
+                  {0.022, 0.045},
+                  {0.0, 0.05}},
+                 24);
+}
+
+/// Plinth, turntable, roof and axle. Returns the turntable's node.
+int add_turntable(Scene& scene, const GalleryMaterials& materials) {
+    const int work = add_node(scene, "kinetic", no_index, {-2.75, 0.0, -2.35});
+    add_shape(scene, "kinetic_plinth", work,
+              lathe({{0.0, 0.0},
+                     {1.12, 0.0},
+                     {1.12, 0.0},
+                     {1.12, 0.34},
+                     {1.11, 0.355},
+                     {1.09, 0.36},
+                     {1.09, 0.36},
+                     {0.0, 0.36}},
+                    96),
+              materials.plinth, glm::dvec3(0.0));
+    const int table = add_node(scene, "kinetic_table", work, {0.0, 0.375, 0.0});
+    turn_about(scene, table, {0.0, 1.0, 0.0}, even_track(0.0, gallery_seconds, 0.0, 2.0 * pi * 2.5));
+    // Wider than the plinth and with a round edge, to avoid a narrow corner, where irradiance records would crowd.
+    add_shape(scene, "kinetic_disc", table,
+              lathe({{0.0, -0.015},
+                     {1.1, -0.015},
+                     {1.15, -0.012},
+                     {1.165, 0.0},
+                     {1.15, 0.012},
+                     {1.1, 0.015},
+                     {1.1, 0.015},
+                     {0.0, 0.015}},
+                    96),
+              materials.plinth, glm::dvec3(0.0));
+    // The roof blocks the lamps: the light below it comes from the vanes.
+    add_shape(scene, "kinetic_roof", table,
+              lathe({{0.0, 1.9}, {1.08, 1.9}, {1.08, 1.9}, {1.1, 1.915}, {1.08, 1.93}, {1.08, 1.93}, {0.0, 1.97}}, 96),
+              materials.plinth, glm::dvec3(0.0));
+    add_rod(scene, "kinetic_axle", table, {0.0, 0.0, 0.0}, {0.0, 2.0, 0.0}, 0.03, materials.steel, 24);
+    return table;
+}
+
+/// A coloured panel on a spindle.
+void add_vane(Scene& scene, int table, int i, const Vane& vane, const GalleryMaterials& materials) {
+    const int paint = add_lambert(scene, fmt::format("vane_{}", vane.name), vane.color);
+    const int arm =
+        add_node(scene, fmt::format("vane_arm_{}", vane.name), table, glm::dvec3(0.0), turn({0.0, 1.0, 0.0}, 72.0 * i));
+    // Each vane also swings about its own vertical axis.
+    const int pivot = add_node(scene, fmt::format("vane_{}", vane.name), arm, {0.0, 0.0, 0.62});
+    std::vector<double> times, angles;
+    for (int k = 0; k <= 10; ++k) {
+        times.push_back(gallery_seconds * k / 10.0);
+        angles.push_back(glm::radians((k + i) % 2 == 0 ? 14.0 : -14.0));
+    }
+    turn_about(scene, pivot, {0.0, 1.0, 0.0}, eased_track(times, angles));
+    const double height = panel_height(i);
+    add_rod(scene, fmt::format("vane_spindle_{}", vane.name), arm, {0.0, kinetic_floor, 0.62},
+            {0.0, kinetic_roof, 0.62}, 0.017, materials.steel, 16);
+    add_shape(scene, fmt::format("vane_socket_{}", vane.name), arm, make_socket(), materials.steel,
+              {0.0, kinetic_floor, 0.62});
+    add_shape(scene, fmt::format("vane_panel_{}", vane.name), pivot, box({0.025, height, 0.7}), paint,
+              {0.0, 0.06 + 0.5 * height, 0.0});
+}
+
+/// A white ball that moves up and down a rod.
+void add_rider(Scene& scene, int table, int i, int white, const GalleryMaterials& materials) {
+    const int rider =
+        add_node(scene, fmt::format("rider_{}", i), table, glm::dvec3(0.0), turn({0.0, 1.0, 0.0}, 72.0 * i + 50.0));
+    const int lift = add_shape(scene, fmt::format("rider_ball_{}", i), rider, sphere(0.12), white, {0.0, 0.6, 0.8});
+    std::vector<double> times;
+    std::vector<glm::dvec3> places;
+    for (int k = 0; k <= 12; ++k) {
+        times.push_back(gallery_seconds * k / 12.0);
+        places.emplace_back(0.0, (k + i) % 2 == 0 ? 0.32 : 1.1, 0.8);
+    }
+    node_at(scene, lift).translation = eased_track(times, places);
+    add_rod(scene, fmt::format("rider_rod_{}", i), rider, {0.0, kinetic_floor, 0.8}, {0.0, kinetic_roof, 0.8}, 0.01,
+            materials.steel, 12);
+    add_shape(scene, fmt::format("rider_socket_{}", i), rider, make_socket(), materials.steel,
+              {0.0, kinetic_floor, 0.8});
+}
+
+}  // namespace
+
+void add_top(Scene& scene, const GalleryMaterials& materials) {
+    const int work = add_node(scene, "top_work", no_index, {2.15, 0.0, -0.95});
+    add_top_stand(scene, work, materials);
     const int skin = add_textured(scene, "top", "top");
     add_gloss(scene, 0.25);
 
-    // A top that slows down: the spin falls evenly, precession runs at a rate that goes as one over the spin, and it
-    // leans farther as it tires, nodding a little.
-    const double first = 2.0 * pi * 2.3, last = 2.0 * pi * 1.25, slowing = (first - last) / gallery_seconds;
-    const double strength = 2.0 * pi * 0.2 * first;
-    std::vector<MotionKey<double>> precession, lean;
-    for (int i = 0; i <= 30; ++i) {
-        const double t = gallery_seconds * i / 30.0, spin = first - slowing * t;
-        precession.push_back({t, strength / spin, strength / slowing * std::log(first / spin), strength / spin});
-    }
-    for (int i = 0; i <= 100; ++i) {
-        const double t = gallery_seconds * i / 100.0, grown = t / gallery_seconds, nod = 2.0 * pi * 0.9;
-        const double rate = glm::radians(9.0) / gallery_seconds + glm::radians(0.9) * nod * std::cos(nod * t);
-        lean.push_back({t, rate, glm::radians(10.0 + 9.0 * grown + 0.9 * std::sin(nod * t)), rate});
-    }
     const int turning = add_node(scene, "top_precession", work, {0.0, 0.85, 0.0});
-    turn_about(scene, turning, {0.0, 1.0, 0.0}, cubic_track(precession));
+    turn_about(scene, turning, {0.0, 1.0, 0.0}, cubic_track(make_precession()));
     const int leaning = add_node(scene, "top_lean", turning);
-    turn_about(scene, leaning, {1.0, 0.0, 0.0}, cubic_track(lean));
+    turn_about(scene, leaning, {1.0, 0.0, 0.0}, cubic_track(make_lean()));
     const int top = add_shape(scene, "top", leaning,
                               lathe({{0.0, 0.0},
                                      {0.012, 0.012},
@@ -81,114 +196,38 @@ void add_top(Scene& scene, const GalleryMaterials& materials) {
                                      {0.0, 0.447}},
                                     96),
                               skin, glm::dvec3(0.0));
-    const double angle = first * gallery_seconds - 0.5 * slowing * gallery_seconds * gallery_seconds;
-    turn_about(scene, top, {0.0, 1.0, 0.0},
-               cubic_track<double>({{0.0, first, 0.0, first}, {gallery_seconds, last, angle, last}}));
+    const double angle = first_spin * gallery_seconds - 0.5 * slowing * gallery_seconds * gallery_seconds;
+    turn_about(
+        scene, top, {0.0, 1.0, 0.0},
+        cubic_track<double>({{0.0, first_spin, 0.0, first_spin}, {gallery_seconds, last_spin, angle, last_spin}}));
 }
 
 void add_kinetic_work(Scene& scene, const GalleryMaterials& materials) {
-    // Saturated vanes turn before a white wall. White vanes stand beside them like the other page of an open book,
-    // white balls ride between the books, and both take their colours.
-    const int work = add_node(scene, "kinetic", no_index, {-2.75, 0.0, -2.35});
-    add_shape(scene, "kinetic_plinth", work,
-              lathe({{0.0, 0.0},
-                     {1.12, 0.0},
-                     {1.12, 0.0},
-                     {1.12, 0.34},
-                     {1.11, 0.355},
-                     {1.09, 0.36},
-                     {1.09, 0.36},
-                     {0.0, 0.36}},
-                    96),
-              materials.plinth, glm::dvec3(0.0));
-    const int table = add_node(scene, "kinetic_table", work, {0.0, 0.375, 0.0});
-    turn_about(scene, table, {0.0, 1.0, 0.0}, even_track(0.0, gallery_seconds, 0.0, 2.0 * pi * 2.5));
-    // Wider than the drum, its edge round: no corner in which light would have to be found a hair's breadth apart.
-    add_shape(scene, "kinetic_disc", table,
-              lathe({{0.0, -0.015},
-                     {1.1, -0.015},
-                     {1.15, -0.012},
-                     {1.165, 0.0},
-                     {1.15, 0.012},
-                     {1.1, 0.015},
-                     {1.1, 0.015},
-                     {0.0, 0.015}},
-                    96),
-              materials.plinth, glm::dvec3(0.0));
-    // Under the roof light comes from the vanes alone.
-    add_shape(scene, "kinetic_roof", table,
-              lathe({{0.0, 1.9}, {1.08, 1.9}, {1.08, 1.9}, {1.1, 1.915}, {1.08, 1.93}, {1.08, 1.93}, {0.0, 1.97}}, 96),
-              materials.plinth, glm::dvec3(0.0));
-    add_rod(scene, "kinetic_axle", table, {0.0, 0.0, 0.0}, {0.0, 2.0, 0.0}, 0.03, materials.steel, 24);
-
-    struct Vane {
-        const char* name;
-        glm::dvec3 color;
-    };
+    // Saturated vanes turn in front of a white wall. Each has a white panel beside it, like the two pages of an open
+    // book, and white balls move between the books: both take the colours of the vanes.
+    const int table = add_turntable(scene, materials);
     const Vane vanes[] = {{"red", {242, 40, 24}},
                           {"yellow", {254, 200, 12}},
                           {"green", {46, 192, 66}},
                           {"blue", {30, 116, 240}},
                           {"magenta", {240, 40, 150}}};
     const int white = add_lambert(scene, "kinetic_white", {242, 240, 234});
-    // What rods and spindles stand in.
-    const Shape socket = lathe({{0.0, 0.0},
-                                {0.05, 0.0},
-                                {0.05, 0.0},
-                                {0.05, 0.008},
-                                {0.042, 0.016},
-                                {0.026, 0.02},
-                                {0.022, 0.045},
-                                {0.0, 0.05}},
-                               24);
-    const double floor = 0.015, roof = 1.9;  // m above the table's node
     for (int i = 0; i < 5; ++i) {
-        const int paint = add_lambert(scene, fmt::format("vane_{}", vanes[i].name), vanes[i].color);
-        const int arm = add_node(scene, fmt::format("vane_arm_{}", vanes[i].name), table, glm::dvec3(0.0),
-                                 turn({0.0, 1.0, 0.0}, 72.0 * i));
-        // Each vane also swings about its own upright.
-        const int pivot = add_node(scene, fmt::format("vane_{}", vanes[i].name), arm, {0.0, 0.0, 0.62});
-        std::vector<double> times, angles;
-        for (int k = 0; k <= 10; ++k) {
-            times.push_back(gallery_seconds * k / 10.0);
-            angles.push_back(glm::radians((k + i) % 2 == 0 ? 14.0 : -14.0));
-        }
-        turn_about(scene, pivot, {0.0, 1.0, 0.0}, eased_track(times, angles));
-        const double height = 1.3 + 0.1 * ((i * 2) % 5);
-        add_rod(scene, fmt::format("vane_spindle_{}", vanes[i].name), arm, {0.0, floor, 0.62}, {0.0, roof, 0.62}, 0.017,
-                materials.steel, 16);
-        add_shape(scene, fmt::format("vane_socket_{}", vanes[i].name), arm, socket, materials.steel,
-                  {0.0, floor, 0.62});
-        add_shape(scene, fmt::format("vane_panel_{}", vanes[i].name), pivot, box({0.025, height, 0.7}), paint,
-                  {0.0, 0.06 + 0.5 * height, 0.0});
-
+        add_vane(scene, table, i, vanes[i], materials);
         const int page =
             add_node(scene, fmt::format("page_{}", i), table, glm::dvec3(0.0), turn({0.0, 1.0, 0.0}, 72.0 * i + 27.0));
-        add_shape(scene, fmt::format("page_panel_{}", i), page, box({0.025, height, 0.7}), white,
-                  {0.0, 0.5 * height, 0.62});
-
-        const int rider =
-            add_node(scene, fmt::format("rider_{}", i), table, glm::dvec3(0.0), turn({0.0, 1.0, 0.0}, 72.0 * i + 50.0));
-        const int lift = add_shape(scene, fmt::format("rider_ball_{}", i), rider, sphere(0.12), white, {0.0, 0.6, 0.8});
-        std::vector<glm::dvec3> places;
-        times.clear();
-        for (int k = 0; k <= 12; ++k) {
-            times.push_back(gallery_seconds * k / 12.0);
-            places.emplace_back(0.0, (k + i) % 2 == 0 ? 0.32 : 1.1, 0.8);
-        }
-        node_at(scene, lift).translation = eased_track(times, places);
-        add_rod(scene, fmt::format("rider_rod_{}", i), rider, {0.0, floor, 0.8}, {0.0, roof, 0.8}, 0.01,
-                materials.steel, 12);
-        add_shape(scene, fmt::format("rider_socket_{}", i), rider, socket, materials.steel, {0.0, floor, 0.8});
+        add_shape(scene, fmt::format("page_panel_{}", i), page, box({0.025, panel_height(i), 0.7}), white,
+                  {0.0, 0.5 * panel_height(i), 0.62});
+        add_rider(scene, table, i, white, materials);
     }
 }
 
 void add_mobile(Scene& scene, const GalleryMaterials& materials) {
-    // Arms that hang from one another, each turning at its own pace.
+    // Each arm hangs from the one above and turns at its own rate.
     struct Arm {
-        double left, right, drop;  ///< m: lengths to both sides, wire below the point it hangs from
-        double first;              ///< turn at the start: stretched out, it would reach beyond the picture
-        double turns;              ///< over the whole shot
+        double left, right, drop;  ///< m: lengths to both sides; length of the wire
+        double first;              ///< turns at the start, so that the mobile stays within the picture
+        double turns;              ///< during the shot
         glm::dvec3 color;
         double size;
     };
@@ -208,7 +247,7 @@ void add_mobile(Scene& scene, const GalleryMaterials& materials) {
         turn_about(scene, node, {0.0, 1.0, 0.0},
                    even_track(0.0, gallery_seconds, 2.0 * pi * arm.first, 2.0 * pi * (arm.first + arm.turns)));
         add_rod(scene, fmt::format("mobile_wire_{}", i), node, glm::dvec3(0.0), {0.0, arm.drop, 0.0}, 0.004, black, 8);
-        // Rods end in the middle of the paddles they carry.
+        // Rods end in the middle of their paddles.
         const double left_end = -arm.left - 0.8 * arm.size, right_end = arm.right + (i == 3 ? 0.12 : 0.0);
         add_rod(scene, fmt::format("mobile_rod_{}", i), node, {left_end, -0.07, 0.0}, {right_end, 0.03, 0.0}, 0.008,
                 black);
@@ -228,7 +267,7 @@ void add_mobile(Scene& scene, const GalleryMaterials& materials) {
 }
 
 void add_gallery_camera(Scene& scene) {
-    // Where it is and what it looks at, on these frames; eased in between.
+    // Frame, position, target; eased in between.
     add_walking_camera(scene,
                        {{0, {5.1, 1.6, -0.75}, {0.6, 1.62, 2.3}},
                         {120, {5.0, 1.6, 0.95}, {-1.4, 1.4, -0.1}},

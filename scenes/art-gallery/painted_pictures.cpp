@@ -1,4 +1,4 @@
-// Paintings made of marks that overlap.
+// Paintings made of overlapping strokes and marks.
 
 #include <array>
 #include <numbers>
@@ -33,7 +33,7 @@ DrawnTexture paint_flow() {
     return canvas.finish("flow");
 }
 
-/// Discs that never touch, large ones first, each with a ring or a half in a second colour.
+/// Discs that do not touch, large ones first, each with a ring or a half in a second colour.
 DrawnTexture paint_packing() {
     Canvas canvas(300, 380, hex(0xf1e8d6));
     const std::array colors = {hex(0xd1495b), hex(0xedae49), hex(0x00798c), hex(0x30638e),
@@ -87,7 +87,7 @@ DrawnTexture paint_ridges() {
     return canvas.finish("ridges");
 }
 
-/// A curve of two pendulums that swing at 3 : 2 and slowly die away.
+/// The curve of two damped pendulums with frequencies 3 : 2.
 DrawnTexture paint_harmonograph() {
     Canvas canvas(320, 320, hex(0x1b1725));
     const std::array colors = {hex(0xff5d8f), hex(0xffb86b), hex(0xfff1a8), hex(0x7bdff2), hex(0xb388eb)};

@@ -1,5 +1,5 @@
 #pragma once
-// The gallery's paintings and surfaces, drawn by formulas: always the same bytes.
+// The paintings and surfaces of the gallery, drawn from formulas. Deterministic.
 
 #include <vector>
 
@@ -7,7 +7,7 @@
 
 namespace aleph {
 
-/// Fourteen paintings, each of the shape that it hangs in.
+/// Fourteen paintings, with the aspect ratios of their frames.
 std::vector<DrawnTexture> make_painted_pictures();   ///< strokes and marks on a ground
 std::vector<DrawnTexture> make_computed_pictures();  ///< a colour for every point
 

@@ -23,9 +23,17 @@ const std::vector<glm::dvec2> architrave_profile = {{0.0, 0.0},   {0.0, 0.03},  
                                                     {0.06, 0.04}, {0.08, 0.025}, {0.1, 0.03},  {0.13, 0.05},
                                                     {0.15, 0.05}, {0.15, 0.05},  {0.155, 0.0}, {0.155, 0.0}};
 
-/// Skirting and cornice of a room; both start and end at its doorway. Seen from above, x to the right and -z up.
-void add_trim(Scene& scene, int parent, const std::string& name, const glm::dvec3& low, const glm::dvec3& high,
-              double door_x, int trim, int cornice) {
+struct Room {
+    std::string name;
+    glm::dvec3 low, high;  ///< inner faces
+    double door_x;         ///< of the wall with the doorway
+    int wall;              ///< material
+};
+
+/// Skirting and cornice of a room; the skirting starts and ends at the doorway. Seen from above, x to the right and -z
+/// up.
+void add_trim(Scene& scene, int parent, const Room& room, int trim, int cornice) {
+    const auto& [name, low, high, door_x, wall] = room;
     const double far = door_x == low.x ? high.x : low.x, turn_sign = door_x == low.x ? 1.0 : -1.0;
     const glm::dvec2 half(door_half_width + 0.15, high.z);
     const std::vector<glm::dvec2> around = {{door_x, -turn_sign * half.x}, {door_x, -turn_sign * half.y},
@@ -38,9 +46,9 @@ void add_trim(Scene& scene, int parent, const std::string& name, const glm::dvec
     add_mesh_node(scene, name + "_cornice", parent, top, {0.0, high.y, 0.0}, z_to_up);
 }
 
-/// Walls of a room but the one with the doorway, floor and ceiling.
-void add_shell(Scene& scene, int parent, const std::string& name, const glm::dvec3& low, const glm::dvec3& high,
-               double door_x, int wall, const GalleryMaterials& materials) {
+/// Floor, ceiling and walls of a room, without the wall with the doorway.
+void add_shell(Scene& scene, int parent, const Room& room, const GalleryMaterials& materials) {
+    const auto& [name, low, high, door_x, wall] = room;
     const glm::dvec3 size = high - low, middle = 0.5 * (low + high);
     const double tile = 1.1;  // m, one repeat of the parquet
     add_shape(scene, name + "_floor", parent, quad(size.x, size.z, {size.x / tile, size.z / tile}), materials.parquet,
@@ -85,11 +93,20 @@ void add_doorway(Scene& scene, int parent, const GalleryMaterials& materials) {
     add_mesh_node(scene, "architrave_cabinet", parent, mesh, {back, 0.0, 0.0}, z_to_minus_x);
 }
 
-/// A lamp that hangs from the ceiling: a flat one that shines down, or leans towards a wall, or a pyramid on its tip
-/// that shines to all sides but up.
-/// @param depth  of the pyramid, m; 0: flat
-void add_lamp(Scene& scene, int parent, const std::string& name, const glm::dvec3& place, const glm::dvec2& size,
-              double depth, double lean_degrees, double ceiling, int glow, const GalleryMaterials& materials) {
+/// A hanging lamp: flat, shining down or tilted towards a wall; or a pyramid on its tip that shines to all sides but
+/// up.
+struct Lamp {
+    std::string name;
+    glm::dvec3 place;
+    glm::dvec2 size;
+    double depth;         ///< of the pyramid, m; 0: flat
+    double lean_degrees;  ///< about x
+    double ceiling;       ///< height, m
+    int glow;             ///< material
+};
+
+void add_lamp(Scene& scene, int parent, const Lamp& look, const GalleryMaterials& materials) {
+    const auto& [name, place, size, depth, lean_degrees, ceiling, glow] = look;
     const int lamp = add_node(scene, name, parent, place, turn({1.0, 0.0, 0.0}, lean_degrees));
     add_shape(scene, name + "_box", lamp, box({size.x + 0.06, 0.06, size.y + 0.06}), materials.steel,
               {0.0, 0.031, 0.0});
@@ -112,11 +129,13 @@ void add_lamp(Scene& scene, int parent, const std::string& name, const glm::dvec
 
 void add_rooms(Scene& scene, const GalleryMaterials& materials) {
     const int rooms = add_node(scene, "rooms");
-    add_shell(scene, rooms, "hall", hall_low, hall_high, hall_low.x, materials.wall, materials);
-    add_shell(scene, rooms, "cabinet", cabinet_low, cabinet_high, cabinet_high.x, materials.blue_wall, materials);
+    const Room hall{"hall", hall_low, hall_high, hall_low.x, materials.wall};
+    const Room cabinet{"cabinet", cabinet_low, cabinet_high, cabinet_high.x, materials.blue_wall};
+    add_shell(scene, rooms, hall, materials);
+    add_shell(scene, rooms, cabinet, materials);
     add_doorway(scene, rooms, materials);
-    add_trim(scene, rooms, "hall", hall_low, hall_high, hall_low.x, materials.trim, materials.ceiling);
-    add_trim(scene, rooms, "cabinet", cabinet_low, cabinet_high, cabinet_high.x, materials.trim, materials.ceiling);
+    add_trim(scene, rooms, hall, materials.trim, materials.ceiling);
+    add_trim(scene, rooms, cabinet, materials.trim, materials.ceiling);
 
     // Beams: four across, two along.
     for (int i = 0; i < 4; ++i) {
@@ -134,16 +153,17 @@ void add_lamps(Scene& scene, const GalleryMaterials& materials) {
     const int day = add_emitter(scene, "day_glow", {0.86, 0.94, 1.0}, 8.0);
     const int cabinet = add_emitter(scene, "cabinet_glow", {1.0, 0.8, 0.58}, 14.0);
     const int lamps = add_node(scene, "lamps");
-    // Six wash the long walls, one stands for a skylight, one hangs in the cabinet.
+    // Six light the long walls, one is a skylight, one is in the cabinet.
     for (int i = 0; i < 3; ++i) {
         const double x = -3.9 + 3.9 * i;
-        add_lamp(scene, lamps, fmt::format("lamp_north_{}", i), {x, 3.62, hall_low.z + 1.35}, {1.5, 0.28}, 0.0, 28.0,
-                 hall_high.y, warm, materials);
-        add_lamp(scene, lamps, fmt::format("lamp_south_{}", i), {x, 3.62, hall_high.z - 1.35}, {1.5, 0.28}, 0.0, -28.0,
-                 hall_high.y, warm, materials);
+        const std::string north = fmt::format("lamp_north_{}", i), south = fmt::format("lamp_south_{}", i);
+        const glm::dvec2 size(1.5, 0.28);
+        add_lamp(scene, lamps, {north, {x, 3.62, hall_low.z + 1.35}, size, 0.0, 28.0, hall_high.y, warm}, materials);
+        add_lamp(scene, lamps, {south, {x, 3.62, hall_high.z - 1.35}, size, 0.0, -28.0, hall_high.y, warm}, materials);
     }
-    add_lamp(scene, lamps, "lamp_skylight", {0.0, 3.85, 0.0}, {3.2, 1.1}, 0.0, 0.0, hall_high.y, day, materials);
-    add_lamp(scene, lamps, "lamp_cabinet", {-8.1, 3.3, 0.0}, {0.9, 0.9}, 0.36, 0.0, cabinet_high.y, cabinet, materials);
+    add_lamp(scene, lamps, {"lamp_skylight", {0.0, 3.85, 0.0}, {3.2, 1.1}, 0.0, 0.0, hall_high.y, day}, materials);
+    add_lamp(scene, lamps, {"lamp_cabinet", {-8.1, 3.3, 0.0}, {0.9, 0.9}, 0.36, 0.0, cabinet_high.y, cabinet},
+             materials);
 }
 
 }  // namespace aleph

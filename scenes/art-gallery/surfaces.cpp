@@ -1,4 +1,4 @@
-// What floors, furniture, balls and the top are covered with.
+// Textures of floors, furniture, balls and the top.
 
 #include <fmt/format.h>
 
@@ -36,7 +36,7 @@ glm::dvec3 color_parquet(const glm::dvec2& uv) {
     return wood * (edge < 0.04 ? 0.55 : 1.0);
 }
 
-/// White marble: thin grey veins where bent noise crosses its middle.
+/// White marble: thin grey veins where warped noise crosses its middle.
 glm::dvec3 color_marble(const glm::dvec2& uv) {
     const double bend = fractal_noise(uv, {2, 2}, 4, 121);
     const double wave = std::abs(std::sin(2.0 * pi * (uv.x + 2.0 * uv.y) + 7.0 * bend));
@@ -51,7 +51,7 @@ glm::dvec3 color_oak(const glm::dvec2& uv) {
     return glm::mix(hex(0x7a4e2b), hex(0xb07a48), 0.45 * rings + 0.35 * pores + 0.2 * bend);
 }
 
-/// Threads over and under; light enough that the base colour tints it.
+/// Woven threads, nearly white, so that the base colour tints them.
 glm::dvec3 color_weave(const glm::dvec2& uv) {
     const glm::dvec2 at = uv * 24.0;
     const glm::i64vec2 cell(glm::floor(at));
@@ -81,7 +81,7 @@ glm::dvec3 color_terracotta(const glm::dvec2& uv) {
     return uv.y < 0.14 || uv.y > 0.96 ? black : clay;
 }
 
-/// Spiral sectors, so that spin and precession both show.
+/// Spiral sectors, so that spin and precession are both visible.
 glm::dvec3 color_top(const glm::dvec2& uv) {
     static const std::array colors = {hex(0xe4332b), hex(0xf7f2e4), hex(0x1d4e9e), hex(0xf6c02c)};
     if (uv.y < 0.12) return hex(0x2a1a12);

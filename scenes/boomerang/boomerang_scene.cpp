@@ -17,7 +17,7 @@ namespace {
 /// Inner faces of the room.
 constexpr glm::dvec3 low{-2.6, 0.0, -2.4}, high{2.6, 3.0, 3.6};
 
-/// An angle that was keyed in degrees.
+/// A track in degrees to radians.
 Track<double> in_radians(Track<double> degrees) {
     for (double& value : degrees.values) value = glm::radians(value);
     return degrees;
@@ -84,7 +84,7 @@ void add_furniture(Scene& scene) {
 }
 
 void add_lights(Scene& scene) {
-    // Between the beams: two skylights; and a low sun's glow from the window beside the viewer.
+    // Two skylights between the beams, and evening light from a window beside the camera.
     const int day = add_emitter(scene, "daylight", {1.0, 0.95, 0.86}, 9.0);
     const int evening = add_emitter(scene, "evening", {1.0, 0.78, 0.5}, 7.0);
     add_shape(scene, "skylight_far", no_index, quad(2.2, 1.0), day, {0.0, high.y - 0.001, -0.9}, z_to_down);
@@ -92,7 +92,7 @@ void add_lights(Scene& scene) {
     add_shape(scene, "window", no_index, quad(1.1, 1.5), evening, {high.x - 0.001, 1.7, 2.2}, z_to_minus_x);
 }
 
-/// The flight: most of a loop, seen from outside it; keys every tenth of a second.
+/// The flight: most of a loop, seen from outside; keys every tenth of a second.
 void add_boomerang(Scene& scene) {
     const int material = add_textured(scene, "lacquer", "paint");
     add_gloss(scene, 0.32);
@@ -123,8 +123,8 @@ void add_boomerang(Scene& scene) {
     node_at(scene, spin).meshes = {static_cast<int>(scene.meshes.size()) - 1};
 }
 
-/// Still for the first half, as in the thesis's figure; then a slow dolly to the right that turns after the boomerang:
-/// the wall moves by about a pixel a frame at 640x480.
+/// Static in the first half, as in the figure of the thesis; then a slow move to the right that follows the boomerang:
+/// the wall moves by about one pixel per frame at 640x480.
 void add_camera(Scene& scene) {
     const std::vector<double> times = {0.0, boomerang_still_until / 30.0, to_millionth(boomerang_last_frame / 30.0)};
     const auto hold_and_go = [&](auto from, auto to) {
@@ -145,7 +145,7 @@ void add_camera(Scene& scene) {
 }  // namespace
 
 Scene make_boomerang_scene(const std::string& textures) {
-    // Exposure by eye.
+    // Exposure chosen by eye.
     Scene scene = begin_scene("boomerang", boomerang_last_frame, 1.3, textures, make_boomerang_textures());
     add_room(scene);
     add_furniture(scene);

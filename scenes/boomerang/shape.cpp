@@ -13,21 +13,21 @@ namespace aleph {
 namespace {
 
 constexpr double pi = std::numbers::pi;
-constexpr double reach = 0.33;           // m: of an arm, sideways
+constexpr double reach = 0.33;           // m, of an arm along x
 constexpr double slope = 0.72;           // of the arms: they open by 108 degrees
-constexpr double elbow = 0.075;          // m: the larger, the rounder
+constexpr double elbow = 0.075;          // m; larger values give a rounder elbow
 constexpr double chord = 0.092;          // m: width of the blade
 constexpr double top = 0.0095;           // m: height of the arched side
 constexpr double bottom = 0.0025;        // m: depth of the flat side
 constexpr double tip = 0.08;             // share of the blade's length over which a tip is rounded
 constexpr int stations = 56, sides = 9;  // along the blade; across each of its two faces
 
-/// The middle line by its sideways place: a branch of a hyperbola in x and z.
+/// The middle line at an x: a branch of a hyperbola in x and z.
 glm::dvec2 middle_line(double x) {
     return {x, std::sqrt(elbow * elbow + slope * slope * x * x)};
 }
 
-/// Points of the middle line at equal steps of length, from -1 to 1, and where its centre lies.
+/// The middle line by arc length.
 class MiddleLine {
   public:
     MiddleLine() {
@@ -55,7 +55,7 @@ class MiddleLine {
         const double t = (wanted - lengths_[i - 1]) / (lengths_[i] - lengths_[i - 1]);
         return glm::mix(points_[i - 1], points_[i], t) - glm::dvec2(0.0, centre_);
     }
-    /// To the left of the way from tip to tip, in the plane.
+    /// The unit normal in the plane, to the left of the direction from tip to tip.
     glm::dvec2 across(double s) const {
         const glm::dvec2 along = glm::normalize(at(std::min(s + 1e-3, 1.0)) - at(std::max(s - 1e-3, -1.0)));
         return {-along.y, along.x};
@@ -67,17 +67,18 @@ class MiddleLine {
     double centre_ = 0.0;
 };
 
-/// 1 along the blade, round at the tips; also the elbow is a little wider.
+/// Relative width: about 1 along the blade, a little more at the elbow, round at the tips.
 double width_at(double s) {
     const double left = std::max(0.0, 1.0 - std::abs(s));
     const double rounding = left < tip ? std::sqrt(std::max(0.0, 1.0 - (1.0 - left / tip) * (1.0 - left / tip))) : 1.0;
     return rounding * (1.0 + 0.16 * std::exp(-12.0 * s * s) - 0.1 * s * s);
 }
 
-/// The surface: around the section, `turn` 0 is the leading edge, pi the trailing one, above in between.
+/// A point of the surface. `turn` goes around the section: 0 is the leading edge, pi the trailing one, the upper side
+/// is between.
 glm::dvec3 surface(const MiddleLine& line, double s, double turn) {
     const double width = width_at(s), side = std::sin(turn);
-    // The highest place lies towards the leading edge, as on a wing.
+    // The highest point is near the leading edge, as on a wing.
     const double lead = std::cos(turn) + (side > 0.0 ? 0.22 * side * side : 0.0);
     const glm::dvec2 at = line.at(s) + 0.5 * chord * width * lead * line.across(s);
     return {at.x, width * side * (side > 0.0 ? top : bottom), at.y};
@@ -92,7 +93,7 @@ glm::vec3 normal_at(const MiddleLine& line, double s, double turn) {
     return glm::vec3(glm::floor(n * 1e4 + 0.5) / 1e4);
 }
 
-/// Equal turns at the tips would waste stations in the middle: closer together where the tips are round.
+/// Stations along the blade are closer together at the round tips.
 double station_at(int i) {
     const double t = static_cast<double>(i) / stations;
     return -std::cos(pi * t) * 0.35 + (2.0 * t - 1.0) * 0.65;
@@ -105,7 +106,7 @@ Mesh make_boomerang_mesh(int material) {
     Mesh mesh;
     mesh.name = "boomerang";
     mesh.material = material;
-    // Two faces, each a grid; where they meet at the edges both have the same points and normals.
+    // Two faces, each a grid; along the edges both have the same points and normals.
     for (const double face : {0.0, 1.0}) {
         const auto first = static_cast<std::uint32_t>(mesh.positions.size());
         for (int i = 0; i <= stations; ++i) {
@@ -120,7 +121,7 @@ Mesh make_boomerang_mesh(int material) {
         const auto at = [&](int i, int k) { return first + static_cast<std::uint32_t>(i * (sides + 1) + k); };
         for (int i = 0; i < stations; ++i) {
             for (int k = 0; k < sides; ++k) {
-                // A tip is one point: half of its quads' triangles have no area.
+                // A tip is one point: half of the triangles at a tip have no area and are left out.
                 if (i > 0) mesh.triangles.emplace_back(at(i, k), at(i + 1, k), at(i, k + 1));
                 if (i + 1 < stations) mesh.triangles.emplace_back(at(i, k + 1), at(i + 1, k), at(i + 1, k + 1));
             }

@@ -1,4 +1,4 @@
-// The scene's pictures, made by formulas. Nothing is noise alone: every picture has something to follow at every scale.
+// The textures of the scene, drawn from formulas. All have features at every scale that image-based motion can follow.
 
 #include <array>
 #include <cmath>
@@ -18,7 +18,7 @@ const glm::dvec3 ivory(248, 240, 222), cobalt(26, 58, 150), vermilion(214, 50, 2
 const glm::dvec3 night(24, 40, 62), teal(28, 112, 118), sand(226, 190, 132), ochre(206, 134, 52), rust(168, 66, 36),
     cream(244, 230, 200), leaf(98, 128, 62), coal(32, 26, 28), sky(148, 196, 204), gold(240, 184, 62);
 
-/// 1 inside a disc of the lattice, 0 outside; rows are shifted against each other. Lengths in the units of `at`.
+/// 1 inside a disc of a lattice with shifted rows, 0 outside. Lengths in the units of `at`.
 double dots(glm::dvec2 at, double spacing, double radius) {
     const double row = std::floor(at.y / spacing);
     at.x += std::fmod(std::abs(row), 2.0) * 0.5 * spacing;
@@ -26,7 +26,7 @@ double dots(glm::dvec2 at, double spacing, double radius) {
     return glm::distance(at, cell * spacing) < radius ? 1.0 : 0.0;
 }
 
-/// Height of the top of a range of hills; the sum of two waves.
+/// Height of the top of a range of hills: the sum of two waves.
 double hill(double x, double base, double height, double length, double phase) {
     return base + height * std::sin(2.0 * pi * x / length + phase) +
            0.35 * height * std::sin(2.0 * pi * x / (0.37 * length) + 2.3 * phase);
@@ -70,7 +70,7 @@ glm::dvec3 color_mural(const glm::dvec2& uv) {
     return glm::mix(sky, night, std::clamp((0.5 - at.y) * 0.9, 0.0, 0.6)) * (1.0 - 0.25 * dots(at, 0.11, 0.026));
 }
 
-/// Four cement tiles: quarter circles that make rings where four tiles meet, a star in the middle of each.
+/// Four cement tiles: quarter circles that form rings where four tiles meet, and a star in the middle of each tile.
 glm::dvec3 color_tiles(const glm::dvec2& uv) {
     const glm::dvec2 tile = glm::fract(2.0 * uv);
     const glm::dvec2 corner = glm::min(tile, 1.0 - tile), middle = glm::abs(tile - 0.5);
@@ -123,7 +123,7 @@ glm::dvec3 color_top(double s, double c) {
     return ivory;
 }
 
-/// Below: bare wood with its grain along the blade, and a band at each tip.
+/// The lower side: bare wood with its grain along the blade, and a band at each tip.
 glm::dvec3 color_bottom(const glm::dvec2& uv) {
     const double from_tip = 8.9 * (0.5 - std::abs(uv.x - 0.5));
     if (from_tip < 0.6) return vermilion;

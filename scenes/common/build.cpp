@@ -46,7 +46,7 @@ int add_rod(Scene& scene, const std::string& name, int parent, const glm::dvec3&
 int add_lambert(Scene& scene, const std::string& name, const glm::dvec3& srgb) {
     Material material = make_lambert(name);
     glm::dvec3 linear;
-    // Four digits are more than eight bits of sRGB hold, and read well in a file.
+    // Four decimals are more precise than eight bits of sRGB, and short in a file.
     for (int i = 0; i < 3; ++i)
         linear[i] = std::round(1e4 * srgb_to_linear(static_cast<float>(srgb[i]) / 255.0f)) / 1e4;
     material.base_color = linear;
@@ -63,7 +63,7 @@ int add_textured(Scene& scene, const std::string& name, const std::string& image
 
 int add_emitter(Scene& scene, const std::string& name, const glm::dvec3& color, double radiance) {
     Material material = make_lambert(name);
-    // Black: what a lamp reflects is lost in its glow, and a cache would spend records on it.
+    // Black: reflected light would be invisible beside the emission, and the cache would spend records on it.
     material.base_color = glm::dvec3(0.0);
     material.emission = color;
     material.emission_strength = radiance;

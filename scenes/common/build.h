@@ -1,5 +1,5 @@
 #pragma once
-// Short ways to say what a scene consists of. Everything goes through the public structures of engine/scene/scene.h.
+// Short functions that add elements to a scene (engine/scene/scene.h).
 
 #include <string>
 
@@ -24,12 +24,12 @@ inline Node& node_at(Scene& scene, int index) {
     return scene.nodes[index];
 }
 
-/// Turns a node about an axis. @param angle  radians
+/// Rotates a node about an axis. @param angle  radians
 inline void turn_about(Scene& scene, int node, const glm::dvec3& axis, const Track<double>& angle) {
     node_at(scene, node).axis_rotation = AxisRotation{axis, angle};
 }
 
-/// A node that shows one shape.
+/// Adds a node that shows one shape. Returns its index.
 inline int add_shape(Scene& scene, const std::string& name, int parent, const Shape& shape, int material,
                      const glm::dvec3& translation, const glm::dquat& rotation = glm::dquat(1.0, 0.0, 0.0, 0.0)) {
     scene.meshes.push_back(make_shape_mesh(shape, material, name));
@@ -55,22 +55,22 @@ inline Shape cylinder(double radius, double height, int segments = 24) {
 inline Shape torus(double radius, double tube_radius, int segments = 48) {
     return {.kind = Shape::Kind::torus, .radius = radius, .tube_radius = tube_radius, .segments = segments};
 }
-/// The outline of (distance from the axis, height); a repeated point is a sharp edge.
+/// A profile of (distance from the axis, height); a repeated point is a sharp edge.
 inline Shape lathe(const std::vector<glm::dvec2>& profile, int segments = 48,
                    const glm::dvec2& uv_scale = glm::dvec2(1.0)) {
     return {.kind = Shape::Kind::lathe, .segments = segments, .profile = profile, .uv_scale = uv_scale};
 }
 
-/// A turn as a quaternion of six digits.
+/// A rotation as a quaternion, rounded to six decimals.
 glm::dquat turn(const glm::dvec3& axis, double degrees);
-/// The turn that sends +y to a direction, of six digits.
+/// The rotation that takes +y to a direction, rounded to six decimals.
 glm::dquat y_towards(const glm::dvec3& direction);
 
 /// A straight round bar between two points.
 int add_rod(Scene& scene, const std::string& name, int parent, const glm::dvec3& from, const glm::dvec3& to,
             double radius, int material, int segments = 12);
 
-/// Turns that send a quad's +z, or a cylinder's y, where its name says. Constants, so that no rounding of sines shows.
+/// Rotations that take +z (the front of a quad) to the direction in the name; exact, without rounded sines.
 inline constexpr double half_root = 0.70710678118654752440;
 inline const glm::dquat z_to_up(half_root, -half_root, 0.0, 0.0);
 inline const glm::dquat z_to_down(half_root, half_root, 0.0, 0.0);
@@ -78,9 +78,9 @@ inline const glm::dquat z_to_plus_x(half_root, 0.0, half_root, 0.0);
 inline const glm::dquat z_to_minus_x(half_root, 0.0, -half_root, 0.0);
 inline const glm::dquat z_to_minus_z(0.0, 0.0, 1.0, 0.0);
 
-/// A Lambert surface; sRGB colours 0..255 are what one picks by eye.
+/// A Lambert surface. @param srgb  0..255
 int add_lambert(Scene& scene, const std::string& name, const glm::dvec3& srgb);
-/// Base colour from one of the scene's images, by its name.
+/// A Lambert surface with a texture. @param image  name of an image of the scene
 int add_textured(Scene& scene, const std::string& name, const std::string& image);
 int add_emitter(Scene& scene, const std::string& name, const glm::dvec3& color, double radiance);
 /// Gives the last material a highlight.

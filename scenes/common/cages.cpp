@@ -25,7 +25,7 @@ void add_face(Cage& cage, const std::vector<int>& points, const std::vector<glm:
     for (const int point : points) cage.face_points.push_back(point);
     for (const glm::dvec2& at : uv) {
         const glm::vec2 value(rounded(at.x, 1e3), rounded(at.y, 1e3));
-        // Faces that meet share their texture coordinates, so that these stay smooth across them.
+        // Adjacent faces share texture coordinates, so that these are smooth across edges.
         const auto found = std::find(cage.uv.begin(), cage.uv.end(), value);
         cage.face_uv.push_back(static_cast<int>(found - cage.uv.begin()));
         if (found == cage.uv.end()) cage.uv.push_back(value);
@@ -43,7 +43,7 @@ glm::dvec2 left_of(const glm::dvec2& direction) {
     return {-direction.y, direction.x};
 }
 
-/// The offset that keeps both neighbouring sides of a path at distance 1.
+/// The offset of a corner that is at distance 1 from both sides of the path.
 glm::dvec2 mitre(const std::vector<glm::dvec2>& path, std::size_t i, bool closed) {
     const std::size_t n = path.size();
     const glm::dvec2 before = closed || i > 0 ? path[i] - path[(i + n - 1) % n] : path[1] - path[0];
@@ -130,6 +130,13 @@ CageShape make_moulding(const std::vector<glm::dvec2>& path, bool closed, const 
     return result;
 }
 
+CageShape make_rectangle_moulding(const glm::dvec2& size, const std::vector<glm::dvec2>& profile, bool outwards) {
+    const glm::dvec2 h = 0.5 * size;
+    std::vector<glm::dvec2> path = {{-h.x, -h.y}, {h.x, -h.y}, {h.x, h.y}, {-h.x, h.y}};
+    if (outwards) std::swap(path[1], path[3]);
+    return make_moulding(path, true, profile);
+}
+
 CageShape make_cushion(const glm::dvec3& size, double rounding, const glm::dvec3& swell, int level) {
     CageShape result;
     result.cage.level = level;
@@ -194,7 +201,7 @@ CageShape make_closed_tube(const std::function<glm::dvec3(double)>& curve, int s
         const double at = static_cast<double>(i) / steps, d = 1e-4;
         return glm::normalize(curve(at + d) - curve(at - d));
     };
-    // A normal carried along without turning about the curve; what is missing after one round is spread over it.
+    // A normal transported along the curve without twist; the angle left after one round is distributed over the curve.
     std::vector<glm::dvec3> normals;
     const glm::dvec3 first = tangent(0);
     normals.push_back(
@@ -220,7 +227,7 @@ CageShape make_closed_tube(const std::function<glm::dvec3(double)>& curve, int s
         length += glm::distance(middle, curve(static_cast<double>(i + 1) / steps));
         u.push_back(length);
     }
-    // After an odd number of half turns the last section meets the first half way around.
+    // After an odd number of half turns the last section joins the first one rotated by 180 degrees.
     const int shift = half_turns % 2 == 0 ? 0 : sides / 2;
     for (int i = 0; i < steps; ++i) {
         for (int j = 0; j < sides; ++j) {

@@ -1,5 +1,5 @@
 #pragma once
-// Control meshes of subdivision surfaces that furniture, mouldings and sculptures are made of. Metres.
+// Control meshes of subdivision surfaces for furniture, mouldings and sculptures. Metres.
 
 #include <functional>
 #include <glm/vec2.hpp>
@@ -12,7 +12,7 @@
 
 namespace aleph {
 
-/// A cage with its points at rest.
+/// A cage and its points.
 struct CageShape {
     Cage cage;
     std::vector<glm::dvec3> points;
@@ -28,20 +28,24 @@ int add_mesh_node(Scene& scene, const std::string& name, int parent, int mesh, c
                   const glm::dquat& rotation = glm::dquat(1.0, 0.0, 0.0, 0.0));
 
 /// A profile swept along a path in the plane z = 0, with mitred corners: picture frames, skirtings, cornices.
-/// Profile: x away from the path to its left, y along z; a repeated point is a sharp edge. Seen along the path, the
-/// outside lies to the right of the profile's own direction turned from left to up: up on the right side, across the
-/// top to the left, down on the left. Texture: u along the path, v along the profile, in metres.
+/// Profile: x is the distance from the path to its left, y is along z; a repeated point is a sharp edge. List the
+/// profile, seen along the path, up on the right side, across the top to the left, and down on the left: then the
+/// outside is outside. Texture: u along the path, v along the profile, in metres.
 CageShape make_moulding(const std::vector<glm::dvec2>& path, bool closed, const std::vector<glm::dvec2>& profile,
                         int level = 2);
 
-/// A box with rounded edges whose faces swell, as cushions do. Centred. Texture: metres over each face.
-/// @param rounding  about the radius of the edges
-/// @param swell  how far the middles of the faces stand out, along x, y and z
+/// A closed moulding around a centred rectangle.
+/// @param outwards  the profile extends away from the rectangle, as in a picture frame; else into it
+CageShape make_rectangle_moulding(const glm::dvec2& size, const std::vector<glm::dvec2>& profile, bool outwards);
+
+/// A box with rounded edges and convex faces, like a cushion. Centred. Texture: metres on each face.
+/// @param rounding  approximate radius of the edges, m
+/// @param swell  height of the middle of the faces above their edges, along x, y and z, m
 CageShape make_cushion(const glm::dvec3& size, double rounding, const glm::dvec3& swell, int level = 1);
 
-/// A closed band along a curve: sections are ellipses of two radii that turn with it.
-/// @param curve  point at a parameter in [0, 1), closed
-/// @param half_turns  of the section over the whole length, beyond what the curve itself does; whole
+/// A closed band along a curve, with elliptical sections.
+/// @param curve  point at a parameter in [0, 1]; closed
+/// @param half_turns  twist of the section over the whole length, in half turns
 CageShape make_closed_tube(const std::function<glm::dvec3(double)>& curve, int steps, int sides,
                            const glm::dvec2& radii, int half_turns, int level = 2);
 

@@ -1,5 +1,5 @@
 #pragma once
-// The scenes' cameras. Each is called "camera", as is the node it hangs on; it looks along that node's -z.
+// The cameras of the scenes. Camera and node are both called "camera"; the camera looks along the -z of its node.
 
 #include <vector>
 
@@ -7,18 +7,18 @@
 
 namespace aleph {
 
-/// Hangs a camera on the last node.
+/// Adds a camera to the last node.
 /// @param fov_degrees  vertical
 void hang_camera(Scene& scene, double fov_degrees);
 
-/// Where a camera stands on a frame, and what it looks at.
+/// Position and target of the camera on a frame.
 struct CameraStop {
-    double frame;  ///< 30 a second
+    double frame;  ///< 30 frames per second
     glm::dvec3 eye, target;
 };
 
-/// A camera that walks from stop to stop, eased in between: "camera_rig" carries it and turns about y, the node below
-/// it about x.
+/// A camera that moves from stop to stop, eased in between. The node "camera_rig" moves and rotates about y, the node
+/// below it rotates about x.
 void add_walking_camera(Scene& scene, const std::vector<CameraStop>& stops, double fov_degrees);
 
 }  // namespace aleph

@@ -1,5 +1,5 @@
 #pragma once
-// Drawing with overlapping strokes, and colours by name of their hexadecimal code. sRGB, 0..255, as doubles.
+// Drawing with overlapping strokes, and colours by hexadecimal code. sRGB, 0..255, as doubles.
 
 #include <algorithm>
 #include <cmath>
@@ -16,19 +16,19 @@ inline glm::dvec3 hex(std::uint32_t code) {
     return {code >> 16 & 255u, code >> 8 & 255u, code & 255u};
 }
 
-/// Colours at equal steps of t in [0, 1], mixed in between.
+/// Colours at equal steps of t in [0, 1], interpolated linearly.
 inline glm::dvec3 gradient(std::span<const glm::dvec3> colors, double t) {
     const double place = std::clamp(t, 0.0, 1.0) * static_cast<double>(colors.size() - 1);
     const auto i = std::min(static_cast<std::size_t>(place), colors.size() - 2);
     return glm::mix(colors[i], colors[i + 1], place - static_cast<double>(i));
 }
 
-/// A fixed number in [0, 1): the i-th of a stream.
+/// The i-th number of a random stream, in [0, 1).
 inline double pick(std::uint32_t seed, std::int64_t i, std::int64_t j = 0) {
     return lattice_value(i, j, seed);
 }
 
-/// A picture that marks are painted on; x to the right, y down, in pixels.
+/// A picture to paint on; x to the right, y down, in pixels.
 class Canvas {
   public:
     Canvas(int width, int height, const glm::dvec3& ground) : pixels_(width, height) {
@@ -52,7 +52,7 @@ class Canvas {
         }
     }
 
-    /// A line of discs: one even stroke, where it is opaque.
+    /// A line of discs; an even stroke if opaque.
     void line(const glm::dvec2& from, const glm::dvec2& to, double radius, const glm::dvec3& color,
               double opacity = 1.0) {
         const int steps =

@@ -8,7 +8,7 @@
 
 namespace aleph {
 
-/// To a millionth: a micrometre, or what a viewer could see of a turn, in few characters.
+/// Rounds to a millionth, for example to a micrometre: precise enough, and short in a file.
 inline double to_millionth(double value) {
     return std::round(value * 1e6) / 1e6;
 }
@@ -20,13 +20,13 @@ inline glm::dquat to_millionth(const glm::dquat& q) {
     return {to_millionth(q.w), to_millionth(q.x), to_millionth(q.y), to_millionth(q.z)};
 }
 
-/// A key of a track that is a cubic between keys. Velocities are per second; before and after differ at an impact.
+/// A key of a cubic track. Velocities are per second; at an impact those before and after the key differ.
 template <class T>
 struct MotionKey {
     double seconds = 0.0;
-    T before{};  ///< velocity as the key is reached
+    T before{};  ///< velocity before the key
     T value{};
-    T after{};  ///< velocity as it is left
+    T after{};  ///< velocity after the key
 };
 
 template <class T>
@@ -41,8 +41,8 @@ Track<T> cubic_track(const std::vector<MotionKey<T>>& keys) {
     return track;
 }
 
-/// A smooth course through values: it starts and ends at rest, and passes each key with the mean velocity of the two
-/// stretches beside it.
+/// A smooth track through values: at rest at both ends; at every other key, the mean of the velocities before and
+/// after.
 template <class T>
 Track<T> eased_track(const std::vector<double>& seconds, const std::vector<T>& values) {
     std::vector<MotionKey<T>> keys;
@@ -57,7 +57,7 @@ Track<T> eased_track(const std::vector<double>& seconds, const std::vector<T>& v
     return cubic_track(keys);
 }
 
-/// An even turn or drift: two keys.
+/// Constant velocity: two keys.
 template <class T>
 Track<T> even_track(double from, double to, const T& first, const T& last) {
     Track<T> track;

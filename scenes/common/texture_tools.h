@@ -1,5 +1,5 @@
 #pragma once
-// Noise and small helpers for drawing textures. Colours are sRGB, 0..255, as doubles.
+// Noise and helpers for drawing textures. Colours are sRGB, 0..255, as doubles.
 
 #include <algorithm>
 #include <cmath>
@@ -13,7 +13,7 @@
 
 namespace aleph {
 
-/// A fixed number in [0, 1) for a lattice point.
+/// A random number in [0, 1) that depends on the lattice point and the seed only.
 inline double lattice_value(std::int64_t x, std::int64_t y, std::uint32_t seed) {
     return RandomStream(RandomKey{seed, 0, static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y)}).at(0);
 }
@@ -41,7 +41,7 @@ inline double fractal_noise(const glm::dvec2& uv, glm::i64vec2 cells, int octave
     return sum / total;
 }
 
-/// Calls color(uv) for `samples` x `samples` points of every pixel and rounds their mean; uv in [0, 1).
+/// Evaluates color(uv), uv in [0, 1), at `samples` x `samples` points of every pixel, and rounds their mean.
 template <class Color>
 DrawnTexture draw_texture(const char* name, int width, int height, int samples, const Color& color) {
     DrawnTexture texture{name, Image<glm::u8vec3>(width, height)};

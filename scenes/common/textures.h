@@ -1,5 +1,5 @@
 #pragma once
-// Pictures that programs draw for their scenes.
+// Textures drawn by the scene generators.
 
 #include <filesystem>
 #include <glm/gtc/type_precision.hpp>
@@ -11,18 +11,18 @@
 
 namespace aleph {
 
-/// Eight-bit sRGB.
+/// An 8-bit sRGB picture.
 struct DrawnTexture {
-    std::string name;  ///< without folder and ending
+    std::string name;  ///< without folder and extension
     Image<glm::u8vec3> srgb;
 };
 
 std::vector<DrawnTexture> join(const std::vector<std::vector<DrawnTexture>>& lists);
 
-/// One PNG each, the same bytes every time. The folder has to exist.
+/// Writes one PNG per texture. The folder must exist.
 void write_textures(const std::filesystem::path& folder, const std::vector<DrawnTexture>& textures);
 
-/// @param folder  as the scene file is to name it, "textures/"
+/// @param folder  relative to the scene file: "textures/"
 void add_images(Scene& scene, const std::string& folder, const std::vector<DrawnTexture>& textures);
 
 }  // namespace aleph

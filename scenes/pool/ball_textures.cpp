@@ -82,8 +82,8 @@ double distance_to_strokes(const std::vector<Stroke>& strokes, const glm::dvec2&
     return nearest;
 }
 
-/// Is there ink at a place? The number is centred; x to the right, y down, a digit about 1 high. A 6 and a 9 on their
-/// own are underlined.
+/// Is there ink at a point? The number is centred; x to the right, y down, a digit is about 1 high. A single 6 or 9 is
+/// underlined.
 bool is_number_ink(int number, const glm::dvec2& at) {
     static const std::array<Digit, 10> digits = make_digits();
     if ((number == 6 || number == 9) && distance_to_segment(at, {-0.2, 0.64}, {0.2, 0.64}) < 0.8 * half_stroke)
@@ -106,7 +106,7 @@ const std::array<glm::dvec3, 8> solid_colors = {{{240, 190, 36},
 const glm::dvec3 ivory(240, 233, 216);
 const glm::dvec3 ink(20, 20, 22);
 
-/// The cue ball has six spots, so that its spin shows.
+/// The cue ball has six spots, so that its spin is visible.
 glm::dvec3 color_cue_ball(const glm::dvec2& uv) {
     const double polar = pi * uv.y, turn = 2.0 * pi * uv.x;
     const glm::dvec3 p(std::sin(polar) * std::cos(turn), std::cos(polar), std::sin(polar) * std::sin(turn));
@@ -116,7 +116,7 @@ glm::dvec3 color_cue_ball(const glm::dvec2& uv) {
 
 glm::dvec3 color_numbered_ball(int number, const glm::dvec2& uv) {
     const glm::dvec3& color = solid_colors[(number - 1) % 8];
-    // The nearer number's circle as seen from straight above it, in radii of the ball.
+    // The circle of the nearer number, seen from above, in radii of the ball.
     const double across = (uv.x < 0.5 ? uv.x - 0.25 : uv.x - 0.75) * 2.0 * pi, down = (uv.y - 0.5) * pi;
     const glm::dvec2 at(std::cos(down) * std::sin(across), std::sin(down));
     const double spot = 0.5;

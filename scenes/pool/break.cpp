@@ -13,15 +13,16 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 
-/// By row from the apex. The eight in the middle of the third row, a solid and a stripe in the back corners.
+/// Ball numbers by row from the apex: the eight in the middle of the third row, a solid and a stripe in the back
+/// corners.
 constexpr std::array<int, 15> rack_order = {1, 9, 2, 10, 8, 3, 11, 4, 12, 5, 6, 13, 7, 14, 15};
 
-/// m, at most: how far the balls of a rack stand apart.
+/// Largest gap between the balls of the rack, m.
 constexpr double widest_gap = 1.2e-4;
 
-/// Turns the number (on the ball's +x) to a direction near `towards`, then any way about it.
+/// Rotates the number (on the ball's +x) to a direction near `towards`, and randomly about it.
 glm::dquat make_orientation(const glm::dvec3& towards, RandomStream& random) {
-    // Braces: evaluated in order.
+    // In braces, arguments are evaluated in order.
     const glm::dvec3 wobble{random.next() - 0.5, random.next() - 0.5, random.next() - 0.5};
     const glm::dvec3 direction = glm::normalize(glm::normalize(towards) + 1.1 * wobble);
     const glm::dvec3 x(1.0, 0.0, 0.0);
@@ -38,7 +39,7 @@ std::vector<PoolBall> make_rack(const PoolSettings& settings) {
     std::vector<PoolBall> balls(16);
     PoolBall& cue = balls[cue_ball];
     cue.position = {-0.25 * settings.length, settings.radius, 0.035};
-    // A little off the centre line and with some side: a break that is not symmetric.
+    // Slightly off the centre line and with some side spin, so that the break is not symmetric.
     cue.velocity = break_speed * glm::normalize(glm::dvec3(0.5 * settings.length, 0.0, -0.038));
     cue.angular_velocity = {0.0, 12.0, -0.15 * break_speed / settings.radius};
     cue.orientation = make_orientation(towards_foot, random);
@@ -48,7 +49,7 @@ std::vector<PoolBall> make_rack(const PoolSettings& settings) {
     for (int row = 0; row < 5; ++row) {
         for (int k = 0; k <= row; ++k) {
             PoolBall& ball = balls[rack_order[next++]];
-            // Each ball is off its place by less than half the gap, so that none overlaps.
+            // Each ball is moved by less than half the gap, so that no two overlap.
             const double x = 0.25 * settings.length + row * pitch * std::sqrt(0.75) + 0.45 * widest_gap * random.next();
             const double z = (k - 0.5 * row) * pitch + 0.45 * widest_gap * random.next();
             ball.position = {x, settings.radius, z};

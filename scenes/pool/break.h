@@ -1,5 +1,5 @@
 #pragma once
-// The break that the scene shows: fifteen balls in a rack, and the cue ball as the cue leaves it.
+// The start of the break shot: fifteen balls in a rack, and the cue ball as it leaves the cue.
 
 #include <vector>
 
@@ -7,13 +7,14 @@
 
 namespace aleph {
 
-inline constexpr int cue_ball = 0;  ///< index; balls 1 to 15 carry their number
+inline constexpr int cue_ball = 0;  ///< index; balls 1 to 15 have their number as index
 
-/// m/s, that the cue gives the cue ball: a firm break.
+/// Speed that the cue gives to the cue ball, m/s.
 inline constexpr double break_speed = 6.8;
 
-/// Ball i at index i. The rack's apex stands on the foot spot (x > 0), its balls apart by hundredths of a millimetre
-/// that differ as they do in a real rack; the numbers look roughly up and towards the foot end. Always the same.
+/// Ball i is at index i. The apex of the rack is on the foot spot (x > 0). The gaps between the balls are some
+/// hundredths of a millimetre and differ, as in a real rack. The numbers face roughly up and towards the foot end.
+/// Deterministic.
 std::vector<PoolBall> make_rack(const PoolSettings& settings);
 
 }  // namespace aleph

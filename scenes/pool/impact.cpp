@@ -65,7 +65,7 @@ std::vector<Link> find_links(const std::vector<PoolBall>& balls, const std::vect
             const double distance = glm::length(apart);
             if (distance > 2.0 * settings.radius + settings.touching_gap) continue;
             link.normal = apart / distance;
-            // Rounding must not look like a gap to the two that have just met.
+            // Rounding must not look like a gap between two balls that have just met.
             const double depth = 2.0 * settings.radius - distance;
             link.depth = std::abs(depth) < 1e-12 ? 0.0 : depth;
             links.push_back(link);
@@ -80,14 +80,14 @@ double largest_approach(const std::vector<PoolBall>& balls, const std::vector<Li
     return approach;
 }
 
-/// One impulse: the restitution is that of the settings.
+/// Impact of one pair, with the restitution of the settings.
 void collide_pair(Link& link, double approach, const PoolSettings& settings) {
     link.push = 0.5 * (1.0 + bounce(approach, settings.ball_restitution, settings)) * approach;
 }
 
-/// Several balls pressing on each other for a fraction of a millisecond, in which they do not move: Hertz's contact,
+/// Several balls press on each other for a fraction of a millisecond, during which they do not move: Hertzian contact,
 /// force = stiffness * depth^1.5 (1 + damping * closing speed), the damping such that a pair would part with the
-/// restitution of the settings (Hunt and Crossley 1975). Ends when no two are pressed.
+/// restitution of the settings (Hunt and Crossley 1975). Ends when no two balls are compressed.
 void collide_cluster(std::vector<PoolBall> balls, std::vector<Link>& links, double approach,
                      const PoolSettings& settings) {
     const double stiffness = settings.contact_stiffness / settings.mass;

@@ -1,5 +1,5 @@
 #pragma once
-// What happens to billiard balls: impacts among balls and with cushions, and the cloth's friction from sliding to
+// The physics of billiard balls: impacts between balls and with cushions, and the friction of the cloth from sliding to
 // rolling. Metres, seconds, kilograms. Origin: the middle of the cloth; y up; a ball's centre stays at y = radius.
 // Sources: Marlow, The Physics of Pocket Billiards, 1995; Hunt and Crossley, Coefficient of Restitution Interpreted as
 // Damping in Vibroimpact, J. Applied Mechanics 42, 1975. Balls do not leave the cloth.
@@ -23,8 +23,8 @@ struct PoolSettings {
     double cushion_restitution = 0.82;
     double cushion_friction = 0.14;
     double contact_stiffness = 5.2e8;  ///< N/m^1.5, Hertz: phenolic resin, 5.8 GPa, Poisson ratio .34
-    double touching_gap = 5e-4;        ///< m; as deep as a hard impact presses: balls nearer than this share it
-    double soft_speed = 1e-4;          ///< m/s; slower impacts do not bounce, so that contacts come to an end
+    double touching_gap = 5e-4;        ///< m; compression in a hard impact: balls nearer than this share it
+    double soft_speed = 1e-4;          ///< m/s; slower impacts do not bounce, so that contacts end
     double step = 1.0 / 9600.0;        ///< s, between changes of velocity by friction
 };
 
@@ -35,24 +35,24 @@ struct PoolBall {
     glm::dquat orientation{1.0, 0.0, 0.0, 0.0};
 };
 
-/// Velocity over the cloth of the point that touches it, m/s; 0 where the ball rolls.
+/// Velocity of the contact point relative to the cloth, m/s; 0 for a rolling ball.
 glm::dvec3 cloth_slip(const PoolBall& ball, const PoolSettings& settings);
 
-/// J: translation and rotation.
+/// Kinetic energy of translation and rotation, J.
 double kinetic_energy(const PoolBall& ball, const PoolSettings& settings);
 double kinetic_energy(const std::vector<PoolBall>& balls, const PoolSettings& settings);
 
-/// Impact among balls that touch (nearer than `touching_gap`), all at once: a pair is the usual case, a rack the other.
-/// Friction may turn them about any axis; the vertical part of its impulse is taken by the cloth, so that horizontal
-/// momentum is conserved and energy is not gained.
+/// Simultaneous impact of balls that touch (nearer than `touching_gap`): usually a pair, in the rack more. Friction can
+/// spin them about any axis; the cloth takes the vertical part of the impulse, so that horizontal momentum is conserved
+/// and energy is not gained.
 /// @param members  indices of the balls
 void collide_balls(std::vector<PoolBall>& balls, const std::vector<int>& members, const PoolSettings& settings);
 
 /// @param normal  unit, horizontal, from the cushion into the table
 void collide_cushion(PoolBall& ball, const glm::dvec3& normal, const PoolSettings& settings);
 
-/// What the cloth does to a ball in a time: sliding friction until it rolls, then rolling friction; spin about y dies
-/// away.
+/// Friction of the cloth during a time: sliding friction until the ball rolls, then rolling friction; spin about y
+/// decreases.
 void apply_cloth_friction(PoolBall& ball, double seconds, const PoolSettings& settings);
 
 }  // namespace aleph

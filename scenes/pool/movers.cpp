@@ -16,7 +16,7 @@ double smooth(double from, double to, double t) {
     return f * f * (3.0 - 2.0 * f);
 }
 
-/// The turn that sends +y to a unit direction.
+/// The rotation that takes +y to a unit direction.
 glm::dquat y_to(const glm::dvec3& direction) {
     const glm::dvec3 up(0.0, 1.0, 0.0);
     return glm::normalize(glm::dquat(1.0 + glm::dot(up, direction), glm::cross(up, direction)));
@@ -60,8 +60,8 @@ void add_cue(Scene& scene, const PoolSettings& settings, const PoolBall& struck)
     add_shape(scene, "shaft", cue, cylinder(0.008, 0.7, 24), maple, {0.0, 0.385, 0.0});
     add_shape(scene, "butt", cue, cylinder(0.0125, 0.72, 24), ebony, {0.0, 1.095, 0.0});
 
-    // Raised by 4 degrees to clear the rail. After the strike it draws back along itself; once its tip is past the far
-    // rail it sinks behind the table, where it lies on the floor.
+    // Raised by 4 degrees to clear the rail. After the strike it draws back along its axis. When its tip is past the
+    // far rail it sinks behind the table to the floor.
     const double raise = glm::radians(4.0);
     const glm::dvec3 back = -std::cos(raise) * glm::normalize(struck.velocity) + glm::dvec3(0.0, std::sin(raise), 0.0);
     const glm::dvec3 contact = struck.position + glm::dvec3(0.0, cloth_height, 0.0) + back * settings.radius;
@@ -75,7 +75,7 @@ void add_cue(Scene& scene, const PoolSettings& settings, const PoolBall& struck)
     node.rotation.values.clear();
     for (int i = 0; i <= static_cast<int>(last_frame / 30.0 * rate + 0.5); ++i) {
         const double t = i / rate;
-        // Swings in with growing speed, meets the ball at strike_time, follows through by a hand's breadth.
+        // Accelerates, hits the ball at strike_time, and follows through by 11 cm.
         const double swing = t < strike_time ? 0.3 * (1.0 - std::pow(t / strike_time, 2.5))
                                              : -through * (1.0 - std::exp((strike_time - t) / 0.035));
         glm::dvec3 tip = contact + back * (swing + (through + withdrawn) * smooth(0.3, 1.1, t));

@@ -1,5 +1,5 @@
 // Writes the scenes `pool` and `pool-still` and their textures: make_pool OUTPUT_FOLDER (usually scenes).
-// The same bytes every time; tests/unit/scenes/scenes_test.cpp holds it to that.
+// Deterministic: tests/unit/scenes/scenes_test.cpp compares the bytes.
 
 #include "scenes/common/generator.h"
 #include "scenes/pool/pool_scene.h"

@@ -12,15 +12,15 @@
 namespace aleph {
 
 void add_camera(Scene& scene, bool moves) {
-    // It turns on an arm of 60 cm, so that the walls move by about 3 pixels a frame at 640x480 and the table by less.
-    // It starts where the whole break stays in the picture; once the balls have spread it moves in, over the near rail
-    // and down towards them, and is still on its way at the end.
+    // The camera pans on an arm of 60 cm: the walls move by about 3 pixels per frame at 640x480, the table by less. It
+    // starts where the whole break stays in the picture. When the balls have spread, it approaches over the near rail
+    // and down towards them, and is still moving at the end.
     const int first_of_move = 32;                           // frame
     const double arm = 0.6, height = 1.4;                   // m
-    const double first = 68.8, last = 93.2, pitch = -15.2;  // degrees; -x lies ahead at 90
+    const double first = 68.8, last = 93.2, pitch = -15.2;  // degrees; 90 looks along -x
     const glm::dvec3 pivot(1.6, 0.0, 0.2), move(-0.82, -0.4, -0.12);
-    const double lift = 4.3;                                         // degrees, of the gaze as it moves in
-    const double begin = first_of_move / 30.0, rest = 102.0 / 30.0;  // s: between these it would move in, rest to rest
+    const double lift = 4.3;                                         // degrees, added to the pitch on the way in
+    const double begin = first_of_move / 30.0, rest = 102.0 / 30.0;  // s: start and end of the whole approach
 
     const int rig = add_node(scene, "camera_rig", no_index, pivot);
     turn_about(scene, rig, {0.0, 1.0, 0.0}, glm::radians(first));
@@ -33,7 +33,7 @@ void add_camera(Scene& scene, bool moves) {
     turn.sampling.period = last_frame / 30.0;
     turn.values = {glm::radians(first), glm::radians(last)};
     turn_about(scene, rig, {0.0, 1.0, 0.0}, turn);
-    // A part of the smoothest cubic from rest to rest is a cubic again.
+    // A part of the cubic from rest to rest is a cubic again.
     const auto share = [&](double seconds) {
         const double t = (seconds - begin) / (rest - begin);
         return t * t * (3.0 - 2.0 * t);
@@ -42,7 +42,7 @@ void add_camera(Scene& scene, bool moves) {
     const glm::dvec3 velocity = 6.0 * t * (1.0 - t) / (rest - begin) * move;
     node_at(scene, rig).translation =
         cubic_track<glm::dvec3>({{begin, {}, pivot, {}}, {end, velocity, pivot + share(end) * move, velocity}});
-    // The gaze has a key a frame: other formats know no cubic turns about an axis.
+    // The pitch has one key per frame, because other formats have no cubic rotations about an axis.
     Track<double> tilt;
     tilt.sampling.start = begin;
     tilt.sampling.period = 1.0 / 30.0;
@@ -61,8 +61,8 @@ Scene make_pool_scene(bool camera_moves, const std::string& textures) {
     const double duration = last_frame / 30.0 - strike_time;
     const PoolRun run = simulate_pool(make_rack(settings), settings, duration, samples_per_second);
 
-    // Exposure by eye. The automatic one goes by direct light alone, of which the walls get little: the cloth would
-    // burn out.
+    // Exposure chosen by eye. The automatic one uses direct light only, which is weak on the walls: the cloth would be
+    // overexposed.
     Scene scene = begin_scene(camera_moves ? "pool" : "pool-still", last_frame, 3.0, textures, make_pool_textures());
     add_room(scene);
     add_lights(scene);

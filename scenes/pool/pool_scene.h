@@ -1,5 +1,5 @@
 #pragma once
-// The scene `pool`, part by part. Metres; the floor is y = 0, the table's middle stands over the origin, x along it.
+// The parts of the scene `pool`. Metres; the floor is y = 0, the middle of the table is above the origin, x along it.
 
 #include <string>
 
@@ -9,19 +9,19 @@
 namespace aleph {
 
 inline constexpr double cloth_height = 0.78;         ///< m
-inline constexpr int last_frame = 89;                ///< the first is 0; 30 a second
-inline constexpr double samples_per_second = 120.0;  ///< of the balls' keys
-inline constexpr double strike_time = 1.0 / 6.0;     ///< s; the cue meets the cue ball on frame 5
+inline constexpr int last_frame = 89;                ///< the first is 0; 30 frames per second
+inline constexpr double samples_per_second = 120.0;  ///< keys of the balls
+inline constexpr double strike_time = 1.0 / 6.0;     ///< s; the cue hits the cue ball on frame 5
 
 /// Inner faces of the room's walls.
 inline constexpr glm::dvec3 room_low{-3.6, 0.0, -2.8};
 inline constexpr glm::dvec3 room_high{3.0, 2.9, 2.8};
 
-/// @param camera_moves  pool; without it, pool-still
-/// @param textures  folder of the textures as the scene file is to name it, "textures/" or "../pool/textures/"
+/// @param camera_moves  true: pool, false: pool-still
+/// @param textures  folder of the textures, relative to the scene file: "textures/" or "../pool/textures/"
 Scene make_pool_scene(bool camera_moves, const std::string& textures);
 
-/// The parts, each below a node of its own.
+/// The parts, each below its own node.
 void add_room(Scene& scene);
 void add_lights(Scene& scene);
 void add_table(Scene& scene, const PoolSettings& settings);

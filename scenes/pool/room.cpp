@@ -41,9 +41,16 @@ void add_wall(Scene& scene, int room, const Wall& wall, const WallMaterials& mat
               {0.0, room_high.y - 0.05, 0.045});
 }
 
-/// A picture in a frame; `middle` is a point of the wall.
-void add_painting(Scene& scene, int room, const std::string& image, const glm::dvec3& middle, const glm::dvec2& size,
-                  const glm::dquat& facing, int frame, int mount) {
+struct Painting {
+    std::string image;
+    glm::dvec3 middle;  ///< on the wall
+    glm::dvec2 size;    ///< m, without the frame
+    glm::dquat facing;
+    int frame;  ///< material
+};
+
+void add_painting(Scene& scene, int room, const Painting& painting, int mount) {
+    const auto& [image, middle, size, facing, frame] = painting;
     const int picture = add_textured(scene, image, image);
     const int node = add_node(scene, "painting_" + image, room, middle, facing);
     add_shape(scene, image + "_frame", node, box({size.x + 0.14, size.y + 0.14, 0.04}), frame, {0.0, 0.0, 0.02});
@@ -72,7 +79,7 @@ void add_stool(Scene& scene, int room, const std::string& name, const glm::dvec3
     add_shape(scene, name + "_foot", node, cylinder(0.2, 0.035, 48), wood, {0.0, 0.0175, 0.0});
 }
 
-/// A surface that shines and reflects nothing: what light falls on it, nobody would see beside its own.
+/// A surface that emits light and reflects none: reflected light would be invisible beside the emission.
 int add_glow(Scene& scene, const std::string& name, const glm::dvec3& color, double radiance) {
     const int material = add_emitter(scene, name, color, radiance);
     scene.materials.back().base_color = glm::dvec3(0.0);
@@ -103,16 +110,16 @@ void add_room(Scene& scene) {
     add_wall(scene, room, {"wall_right", {middle.x, 0.0, room_low.z}, size.x, {1.0, 0.0, 0.0, 0.0}}, materials);
     add_wall(scene, room, {"wall_left", {middle.x, 0.0, room_high.z}, size.x, z_to_minus_z}, materials);
 
-    add_painting(scene, room, "sunset", {room_low.x, 1.55, 0.75}, {1.05, 0.7}, z_to_plus_x, gilt, mount);
-    add_painting(scene, room, "blocks", {room_low.x, 1.55, -0.85}, {0.54, 0.72}, z_to_plus_x, dark, mount);
-    add_painting(scene, room, "circles", {-2.75, 1.55, room_high.z}, {0.66, 0.66}, z_to_minus_z, gilt, mount);
+    add_painting(scene, room, {"sunset", {room_low.x, 1.55, 0.75}, {1.05, 0.7}, z_to_plus_x, gilt}, mount);
+    add_painting(scene, room, {"blocks", {room_low.x, 1.55, -0.85}, {0.54, 0.72}, z_to_plus_x, dark}, mount);
+    add_painting(scene, room, {"circles", {-2.75, 1.55, room_high.z}, {0.66, 0.66}, z_to_minus_z, gilt}, mount);
     add_cue_rack(scene, room, -1.35, dark, ivory);
     add_stool(scene, room, "stool_a", {-3.05, 0.0, -1.9}, leather, dark);
     add_stool(scene, room, "stool_b", {-2.35, 0.0, -2.25}, leather, dark);
 }
 
 void add_lights(Scene& scene) {
-    // Over the table: a shade whose underside glows. Flush, because walls close to an emitter only make noise.
+    // Over the table: a shade with an emissive underside. Flush, because walls close to an emitter add noise.
     const int shade = add_lambert(scene, "shade", {34, 92, 70});
     const int brass = add_lambert(scene, "brass", {190, 148, 74});
     const int glow = add_glow(scene, "lamp_glow", {1.0, 0.87, 0.66}, 14.0);
@@ -129,14 +136,14 @@ void add_lights(Scene& scene) {
                   {0.0, 0.02, side * (0.5 * size.z + 0.005)});
     }
 
-    // A soft ceiling light over the sitting corner, so that the walls do not drown.
+    // A soft ceiling light over the sitting corner, so that the walls are not too dark.
     const int frame = add_lambert(scene, "light_frame", {226, 220, 206});
     const int soft = add_glow(scene, "ceiling_glow", {1.0, 0.9, 0.76}, 5.0);
     const int panel = add_node(scene, "ceiling_light", no_index, {-2.1, room_high.y, 0.2});
     add_shape(scene, "ceiling_light_frame", panel, box({1.5, 0.04, 1.5}), frame, {0.0, -0.02, 0.0});
     add_shape(scene, "ceiling_light_panel", panel, quad(1.4, 1.4), soft, {0.0, -0.041, 0.0}, z_to_down);
 
-    // A tall window in the evening, its bars a little before the sky.
+    // A tall window in the evening; its bars are a little in front of the sky.
     const int sky = add_textured(scene, "evening_sky", "sky");
     Material& shining = scene.materials.back();
     std::swap(shining.base_color_texture, shining.emission_texture);

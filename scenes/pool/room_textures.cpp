@@ -30,7 +30,7 @@ glm::dvec3 color_rail(const glm::dvec2& uv) {
     return glm::mix(glm::dvec3(84, 38, 20), glm::dvec3(148, 78, 42), wood_grain(uv, {12, 8}, 21));
 }
 
-/// Eight rows of planks, each row its own joints and each plank its own tone.
+/// Eight rows of planks with different joints and tones.
 glm::dvec3 color_floor(const glm::dvec2& uv) {
     const int rows = 8;
     const double across = uv.y * rows;

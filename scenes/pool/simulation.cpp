@@ -14,9 +14,9 @@ namespace {
 
 const glm::dvec3 cushion_normals[] = {{1.0, 0.0, 0.0}, {-1.0, 0.0, 0.0}, {0.0, 0.0, 1.0}, {0.0, 0.0, -1.0}};
 
-// m/s; below it an approach is rounding, not motion: in a minute it adds up to less than a tenth of a micrometre.
+// m/s; slower approaches are rounding, not motion: less than a tenth of a micrometre in a minute.
 constexpr double still_speed = 1e-10;
-// Far above what a rack needs; reached only if contacts would not come to an end.
+// Far more than a rack needs; reached only if contacts do not end.
 constexpr int most_events_per_step = 100000;
 constexpr int no_ball = -1;
 
@@ -166,7 +166,7 @@ PoolRun simulate_pool(std::vector<PoolBall> balls, const PoolSettings& settings,
     PoolRun run;
     run.samples_per_second = samples_per_second;
     run.samples.push_back(balls);
-    // Whole sub-steps between samples, so that a sample is a state and not an interpolation.
+    // Whole sub-steps between samples, so that a sample is a simulated state.
     const auto steps = static_cast<int>(std::ceil(1.0 / (samples_per_second * settings.step) - 1e-6));
     const double step = 1.0 / (samples_per_second * steps);
     const auto count = static_cast<int>(std::floor(duration * samples_per_second + 1e-6));

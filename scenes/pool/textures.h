@@ -1,5 +1,5 @@
 #pragma once
-// The scene's pictures, made by formulas: always the same bytes.
+// The textures of the scene, drawn from formulas. Deterministic.
 
 #include <vector>
 
@@ -7,12 +7,12 @@
 
 namespace aleph {
 
-// Every pattern but the paintings, the sky and the balls repeats without a seam.
+// All patterns except the paintings, the sky and the balls repeat without a seam.
 
 /// "felt", "rail", "floor", "wallpaper", "wainscot", "sunset", "blocks", "circles", "sky".
 std::vector<DrawnTexture> make_room_textures();
 
-/// "ball_00" (the cue ball) to "ball_15": latitude and longitude, the number at u = .25 and .75.
+/// "ball_00" (the cue ball) to "ball_15" by longitude and latitude; the number is at u = .25 and .75.
 std::vector<DrawnTexture> make_ball_textures();
 
 /// All of these.

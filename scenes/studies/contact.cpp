@@ -1,18 +1,17 @@
-// A contact sheet: one frame each of many scenes, or many frames of one, side by side with their names.
+// A contact sheet: one frame each of several scenes, or several frames of one scene, with captions.
 
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
 #include <charconv>
-#include <iostream>
 
 #include "engine/base/errors.h"
-#include "engine/base/parallel.h"
 #include "engine/load/load_scene.h"
 #include "render/cli/options.h"
 #include "render/cli/progress.h"
+#include "render/sequence.h"
+#include "scenes/studies/sheet.h"
 #include "scenes/studies/study_options.h"
-#include "scenes/studies/study_tools.h"
 
 namespace aleph {
 
@@ -22,10 +21,9 @@ struct ContactOptions {
     std::vector<std::string> scenes;
     StudyOptions study{.size = "320x240", .picture = "contact.png", .gather = 256, .spp = 4};
     int columns = 4, width = 320;
-    bool quiet = false;
 };
 
-/// "scene.json@20" is frame 20, without a number the middle of the scene's range.
+/// "scene.json@20" is frame 20; "scene.json" is the middle frame of the scene.
 struct Wanted {
     std::string file;
     std::optional<std::int64_t> frame;
@@ -42,43 +40,45 @@ Wanted parse_wanted(const std::string& text) {
     return {text.substr(0, at), frame};
 }
 
-/// The folder's name for a file that is called scene.json, else the file's own.
+/// The name of the folder for a file called scene.json, else the name of the file.
 std::string name_of(const std::string& file) {
     const std::filesystem::path path = std::filesystem::absolute(file);
     return path.stem() == "scene" ? path.parent_path().filename().string() : path.stem().string();
 }
 
-int run_contact(const ContactOptions& options) {
-    const ThreadLimit limit(options.study.threads);
+Panel make_panel(const std::string& text, const StudyOptions& study) {
+    const Wanted wanted = parse_wanted(text);
+    const Scene scene = load_scene(wanted.file);
+    Sequence sequence(scene, study_settings(scene, wanted.file, study));
+    const FrameRange range = sequence.range();
+    const std::int64_t frame = wanted.frame.value_or(range.first + (range.last - range.first) / 2);
+    std::string caption = name_of(wanted.file);
+    if (wanted.frame) caption += fmt::format(", frame {}", frame);
+    return color_panel(caption, sequence.render(frame).shaded.color);
+}
+
+void run_contact(const ContactOptions& options) {
     std::vector<Panel> panels;
-    Progress progress("contact", static_cast<double>(options.scenes.size()), progress_look(options.quiet));
+    Progress progress("contact", static_cast<double>(options.scenes.size()), progress_look(options.study.quiet));
     for (const std::string& text : options.scenes) {
-        const Wanted wanted = parse_wanted(text);
-        const Scene scene = load_scene(wanted.file);
-        Sequence sequence(scene, study_settings(scene, wanted.file, options.study));
-        const FrameRange range = sequence.range();
-        const std::int64_t frame = wanted.frame.value_or(range.first + (range.last - range.first) / 2);
-        std::string caption = name_of(wanted.file);
-        if (wanted.frame) caption += fmt::format(", frame {}", frame);
-        panels.push_back(color_panel(caption, sequence.render(frame).shaded.color));
-        progress.update(static_cast<double>(panels.size()), name_of(wanted.file));
+        panels.push_back(make_panel(text, options.study));
+        progress.update(static_cast<double>(panels.size()), panels.back().caption);
     }
     write_sheet(options.study.picture, panels, std::min(options.columns, static_cast<int>(panels.size())),
                 options.width);
-    return exit_done;
 }
 
 }  // namespace
 }  // namespace aleph
 
 int main(int argc, char** argv) {
-    CLI::App app{"renders one frame of each scene into one picture; SCENE@FRAME chooses the frame"};
+    CLI::App app{"Renders one frame of each scene into one picture."};
     aleph::ContactOptions options;
-    app.add_option("scenes", options.scenes, "scene files; the middle frame where none is chosen")->required();
+    app.add_option("scenes", options.scenes, "scene files; SCENE@FRAME chooses a frame, else the middle one")
+        ->required();
     aleph::add_study_options(app, options.study);
-    aleph::add_value(app, "--columns", options.columns, "pictures in a row");
-    aleph::add_value(app, "--width", options.width, "pixels of each on the sheet");
-    app.add_flag("-q,--quiet", options.quiet, "no progress");
-    return aleph::run_program(
-        app, [&] { return aleph::run_contact(options); }, argc, argv, std::cerr);
+    aleph::add_quiet_option(app, options.study);
+    aleph::add_value(app, "--columns", options.columns, "pictures per row");
+    aleph::add_value(app, "--width", options.width, "width of each picture in pixels");
+    return aleph::run_study(app, options.study, argc, argv, [&] { aleph::run_contact(options); });
 }

@@ -1,4 +1,4 @@
-// Image-based motion beside model-based motion (thesis figure 5.7): a table of errors by region, and one picture.
+// Image-based against model-based motion (thesis figure 5.7): a table of errors by region, and a picture of both.
 
 #include <fmt/format.h>
 
@@ -6,39 +6,36 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <iostream>
 
-#include "engine/base/parallel.h"
 #include "engine/load/load_scene.h"
 #include "motion/image_motion.h"
 #include "render/cli/options.h"
+#include "render/sequence.h"
+#include "scenes/studies/sheet.h"
 #include "scenes/studies/study_options.h"
-#include "scenes/studies/study_tools.h"
 
 namespace aleph {
 
 namespace {
 
 struct MotionOptions {
-    std::string scene;
     StudyOptions study{.picture = "motion.png", .gather = 256, .spp = 4};
     int frame = 40;
     double accuracy = 0.2;
 };
 
-/// Which instances move by themselves between two frames, whatever the camera does.
+/// For every instance: does it move between the frame and the next, apart from the camera?
 std::vector<bool> find_movers(const Scene& scene, int frame) {
     const ScenePose now = pose(scene, scene.frame_rate.seconds_of(frame));
     const ScenePose next = pose(scene, scene.frame_rate.seconds_of(frame + 1));
     std::vector<bool> moves;
     for (const Instance& instance : now.instances) {
-        const auto node = static_cast<std::size_t>(instance.node);
-        moves.push_back(now.world[node] != next.world[node]);
+        moves.push_back(now.world[instance.node] != next.world[instance.node]);
     }
     return moves;
 }
 
-/// Part of a picture: whether a pixel belongs to it.
+/// A part of the picture.
 struct Region {
     std::string name;
     std::function<bool(std::size_t pixel)> holds;
@@ -50,7 +47,7 @@ std::vector<Region> list_regions(const FrameOutput& model, const std::vector<boo
         return instance != no_index && movers[instance];
     };
     const auto validity = [&](std::size_t i) { return model.motion.validity.pixels[i]; };
-    // Where the other frame does not show the point there is nothing to find: such pixels have a row of their own.
+    // Points that the next frame does not show cannot be found: they are a region of their own.
     const auto shown = [=](std::size_t i) {
         return validity(i) == MotionValidity::valid || validity(i) == MotionValidity::background;
     };
@@ -59,13 +56,15 @@ std::vector<Region> list_regions(const FrameOutput& model, const std::vector<boo
             {"hidden in the next frame", [=](std::size_t i) { return validity(i) == MotionValidity::hidden; }}};
 }
 
-/// Lengths of differences in pixels, sorted, of a region.
+double length_of(const glm::dvec2& v) {
+    return std::hypot(v.x, v.y);
+}
+
+/// Errors of displacements within a region, in pixels, sorted.
 std::vector<double> list_errors(const MotionField& field, const MotionField& truth, const Region& region) {
     std::vector<double> errors;
     for (std::size_t i = 0; i < truth.displacement.size(); ++i) {
-        if (!region.holds(i)) continue;
-        const glm::dvec2 difference = field.displacement.pixels[i] - truth.displacement.pixels[i];
-        errors.push_back(std::hypot(difference.x, difference.y));
+        if (region.holds(i)) errors.push_back(length_of(field.displacement.pixels[i] - truth.displacement.pixels[i]));
     }
     std::sort(errors.begin(), errors.end());
     return errors;
@@ -84,78 +83,88 @@ void print_row(const std::string& source, const Region& region, const std::vecto
                100.0 * static_cast<double>(beyond) / static_cast<double>(errors.size()));
 }
 
-Image<float> lengths_of(const MotionField& field) {
-    Image<float> lengths(field.path_length.width, field.path_length.height);
-    for (std::size_t i = 0; i < lengths.size(); ++i) {
-        const glm::dvec2& d = field.displacement.pixels[i];
-        lengths.pixels[i] = static_cast<float>(std::hypot(d.x, d.y));
-    }
+Image<float> lengths_of(const Image<glm::dvec2>& displacement) {
+    Image<float> lengths(displacement.width, displacement.height);
+    for (std::size_t i = 0; i < lengths.size(); ++i)
+        lengths.pixels[i] = static_cast<float>(length_of(displacement.pixels[i]));
     return lengths;
 }
 
-/// A round number that most of the picture's motion stays under.
+/// An even number of pixels that 99.8 % of the motion stays under.
 double scale_of(const Image<float>& lengths) {
     std::vector<float> sorted = lengths.pixels;
     std::sort(sorted.begin(), sorted.end());
     return std::max(2.0, std::ceil(static_cast<double>(sorted[sorted.size() * 998 / 1000]) / 2.0) * 2.0);
 }
 
-int run_motion(const MotionOptions& options) {
-    const Scene scene = load_scene(options.scene);
-    RenderSettings settings = study_settings(scene, options.scene, options.study);
-    settings.accuracy = options.accuracy;
-    validate(settings);
-    const ThreadLimit limit(options.study.threads);
+/// The motion between two frames, found in three ways.
+struct Motions {
+    FrameOutput now, next;
+    MotionField from_frames, from_estimates;
 
+    const MotionField& model() const { return now.motion; }
+};
+
+Motions find_motions(const Scene& scene, const RenderSettings& settings, int frame) {
     Sequence sequence(scene, settings);
-    const FrameOutput now = sequence.render(options.frame, {.frame = true, .maps = true, .progress = {}});
-    const FrameOutput next = sequence.render(options.frame + 1, {.frame = true, .maps = true, .progress = {}});
-    const MotionField& model = now.motion;
-    const MotionField from_frames = compute_image_motion(now.shaded.color, next.shaded.color);
-    const MotionField from_estimates = compute_image_motion(now.estimate, next.estimate);
-    MotionField nothing = model;
-    std::fill(nothing.displacement.pixels.begin(), nothing.displacement.pixels.end(), glm::dvec2(0.0));
+    const FrameRequest request{.frame = true, .maps = true, .progress = {}};
+    Motions motions;
+    motions.now = sequence.render(frame, request);
+    motions.next = sequence.render(frame + 1, request);
+    motions.from_frames = compute_image_motion(motions.now.shaded.color, motions.next.shaded.color);
+    motions.from_estimates = compute_image_motion(motions.now.estimate, motions.next.estimate);
+    return motions;
+}
 
-    fmt::print("{}, frames {} and {}, {}; errors against model-based motion, pixels\n\n", options.scene, options.frame,
-               options.frame + 1, options.study.size);
+void print_table(const Motions& motions, const std::vector<bool>& movers) {
+    MotionField nothing = motions.model();
+    std::fill(nothing.displacement.pixels.begin(), nothing.displacement.pixels.end(), glm::dvec2(0.0));
     fmt::print("| motion from | region | pixels | median | mean | 95 % | beyond 1 px (%) |\n");
     fmt::print("| --- | --- | ---: | ---: | ---: | ---: | ---: |\n");
-    const std::vector<bool> movers = find_movers(scene, options.frame);
-    for (const Region& region : list_regions(now, movers)) {
-        print_row("rendered frames", region, list_errors(from_frames, model, region));
-        print_row("quick estimates", region, list_errors(from_estimates, model, region));
-        print_row("nothing: 0 everywhere", region, list_errors(nothing, model, region));
+    for (const Region& region : list_regions(motions.now, movers)) {
+        print_row("rendered frames", region, list_errors(motions.from_frames, motions.model(), region));
+        print_row("quick estimates", region, list_errors(motions.from_estimates, motions.model(), region));
+        print_row("nothing: 0 everywhere", region, list_errors(nothing, motions.model(), region));
     }
+}
 
-    const Image<float> lengths = lengths_of(model);
-    const double top = scale_of(lengths);
-    Image<float> error = lengths;
-    for (std::size_t i = 0; i < error.size(); ++i) {
-        const glm::dvec2 d = from_frames.displacement.pixels[i] - model.displacement.pixels[i];
-        error.pixels[i] = static_cast<float>(std::hypot(d.x, d.y));
-    }
-    write_sheet(options.study.picture,
-                {color_panel(fmt::format("frame {}", options.frame), now.shaded.color),
-                 color_panel(fmt::format("frame {}", options.frame + 1), next.shaded.color),
-                 map_panel(fmt::format("model-based motion, 0 to {:g} px", top), lengths, 0.0, top),
-                 map_panel(fmt::format("image-based motion, 0 to {:g} px", top), lengths_of(from_frames), 0.0, top),
-                 map_panel("image-based, from the quick estimates", lengths_of(from_estimates), 0.0, top),
-                 map_panel(fmt::format("error of image-based motion, 0 to {:g} px", top), error, 0.0, top)},
-                2, 400);
-    fmt::print("\nThe picture: {}\n", options.study.picture);
-    return exit_done;
+std::vector<Panel> make_panels(const Motions& motions, int frame) {
+    Image<glm::dvec2> error = motions.from_frames.displacement;
+    for (std::size_t i = 0; i < error.size(); ++i) error.pixels[i] -= motions.model().displacement.pixels[i];
+    const Image<float> lengths = lengths_of(motions.model().displacement);
+    const MapRange range{0.0, scale_of(lengths)};
+    return {color_panel(fmt::format("frame {}", frame), motions.now.shaded.color),
+            color_panel(fmt::format("frame {}", frame + 1), motions.next.shaded.color),
+            map_panel(fmt::format("model-based motion, 0 to {:g} px", range.high), lengths, range),
+            map_panel(fmt::format("image-based motion, 0 to {:g} px", range.high),
+                      lengths_of(motions.from_frames.displacement), range),
+            map_panel("image-based, from the quick estimates", lengths_of(motions.from_estimates.displacement), range),
+            map_panel(fmt::format("error of image-based motion, 0 to {:g} px", range.high), lengths_of(error), range)};
+}
+
+void run_motion(const MotionOptions& options) {
+    const StudyOptions& study = options.study;
+    const Scene scene = load_scene(study.scene);
+    RenderSettings settings = study_settings(scene, study.scene, study);
+    settings.accuracy = options.accuracy;
+    validate(settings);
+    const Motions motions = find_motions(scene, settings, options.frame);
+    fmt::print("{}, frames {} and {}, {}; errors against model-based motion, pixels\n\n", study.scene, options.frame,
+               options.frame + 1, study.size);
+    print_table(motions, find_movers(scene, options.frame));
+    write_sheet(study.picture, make_panels(motions, options.frame), 2, 400);
+    fmt::print("\nThe picture: {}\n", study.picture);
 }
 
 }  // namespace
 }  // namespace aleph
 
 int main(int argc, char** argv) {
-    CLI::App app{"image-based motion beside model-based motion: errors by region, and a picture of both"};
+    CLI::App app{"Compares image-based with model-based motion: errors by region, and a picture of both."};
     aleph::MotionOptions options;
-    app.add_option("scene", options.scene, "a scene file")->required();
+    aleph::add_scene_option(app, options.study);
     aleph::add_study_options(app, options.study);
+    aleph::add_accuracy_option(app, options.accuracy);
     aleph::add_value(app, "--frame", options.frame, "the first of two frames");
-    aleph::add_value(app, "--accuracy", options.accuracy, "ambient accuracy");
-    return aleph::run_program(
-        app, [&] { return aleph::run_motion(options); }, argc, argv, std::cerr);
+    return aleph::run_study(app, options.study, argc, argv, [&] { aleph::run_motion(options); });
 }

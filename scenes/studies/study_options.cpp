@@ -1,16 +1,31 @@
 #include "scenes/studies/study_options.h"
 
+#include <iostream>
+
+#include "engine/base/parallel.h"
 #include "render/cli/options.h"
 
 namespace aleph {
 
+void add_scene_option(CLI::App& app, StudyOptions& options) {
+    app.add_option("scene", options.scene, "a scene file")->required();
+}
+
 void add_study_options(CLI::App& app, StudyOptions& options) {
-    app.add_option("--size", options.size, "WIDTHxHEIGHT of the frames")->capture_default_str();
+    app.add_option("--size", options.size, "WIDTHxHEIGHT of the frames in pixels")->capture_default_str();
     if (!options.picture.empty())
-        app.add_option("-o,--output", options.picture, "the picture, .png or .jpg")->capture_default_str();
+        app.add_option("-o,--output", options.picture, "file of the picture, .png or .jpg")->capture_default_str();
     add_value(app, "--gather", options.gather, "rays per irradiance value");
     add_value(app, "--spp", options.spp, "samples per pixel");
-    add_value(app, "-t,--threads", options.threads, "threads; 0: all");
+    add_value(app, "-t,--threads", options.threads, "number of threads; 0: all");
+}
+
+void add_quiet_option(CLI::App& app, StudyOptions& options) {
+    app.add_flag("-q,--quiet", options.quiet, "do not show progress");
+}
+
+void add_accuracy_option(CLI::App& app, double& accuracy) {
+    add_value(app, "--accuracy", accuracy, "ambient accuracy, 0 to 1; smaller is more accurate");
 }
 
 RenderSettings study_settings(const Scene& scene, const std::string& file, const StudyOptions& options) {
@@ -20,6 +35,16 @@ RenderSettings study_settings(const Scene& scene, const std::string& file, const
     settings.gather = options.gather;
     settings.spp = options.spp;
     return settings;
+}
+
+int run_study(CLI::App& app, const StudyOptions& options, int argc, const char* const* argv,
+              const std::function<void()>& study) {
+    const auto run = [&] {
+        const ThreadLimit limit(options.threads);
+        study();
+        return static_cast<int>(exit_done);
+    };
+    return run_program(app, run, argc, argv, std::cerr);
 }
 
 }  // namespace aleph

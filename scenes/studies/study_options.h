@@ -1,7 +1,8 @@
 #pragma once
-// What every experiment takes on its command line.
+// The command line of the studies.
 
 #include <CLI/CLI.hpp>
+#include <functional>
 #include <string>
 
 #include "render/settings.h"
@@ -9,16 +10,31 @@
 namespace aleph {
 
 struct StudyOptions {
-    std::string size = "640x480";  ///< of the frames
-    std::string picture{};         ///< .png or .jpg; empty: the experiment makes none
-    int gather = 1024, spp = 1, threads = 0;
+    std::string scene{};           ///< a scene file
+    std::string size = "640x480";  ///< of the frames, WIDTHxHEIGHT in pixels
+    std::string picture{};         ///< .png or .jpg; empty: the study draws none
+    int gather = 1024;             ///< rays per irradiance value
+    int spp = 1, threads = 0;
+    bool quiet = false;
 };
 
-/// --size, --gather, --spp, --threads, and --output where there is a picture.
+/// SCENE, the one positional argument of most studies.
+void add_scene_option(CLI::App& app, StudyOptions& options);
+/// --size, --gather, --spp, --threads; --output where there is a picture.
 void add_study_options(CLI::App& app, StudyOptions& options);
+/// -q, --quiet.
+void add_quiet_option(CLI::App& app, StudyOptions& options);
+/// --accuracy.
+void add_accuracy_option(CLI::App& app, double& accuracy);
 
-/// A scene's settings with these options in their places.
+/// The settings of a scene, with those of the options in their places.
 /// @param file  of the scene, for errors
+/// @throws InputError for a setting that is out of range
 RenderSettings study_settings(const Scene& scene, const std::string& file, const StudyOptions& options);
+
+/// Reads the command line and runs a study on the number of threads that the options ask for.
+/// @return the exit code
+int run_study(CLI::App& app, const StudyOptions& options, int argc, const char* const* argv,
+              const std::function<void()>& study);
 
 }  // namespace aleph

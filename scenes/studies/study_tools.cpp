@@ -1,13 +1,34 @@
 #include "scenes/studies/study_tools.h"
 
-#include <fmt/format.h>
-
-#include <algorithm>
 #include <cmath>
 
 #include "engine/image/image_file.h"
 
 namespace aleph {
+
+namespace {
+
+/// Empty if the file has no R, G and B.
+Image<Rgb> read_color(const std::filesystem::path& file) {
+    const ChannelImage read = read_image(file);
+    const Image<float>*r = read.find("R"), *g = read.find("G"), *b = read.find("B");
+    if (r == nullptr || g == nullptr || b == nullptr) return {};
+    Image<Rgb> color(r->width, r->height);
+    for (std::size_t i = 0; i < color.size(); ++i) color.pixels[i] = Rgb(r->pixels[i], g->pixels[i], b->pixels[i]);
+    return color;
+}
+
+void write_color(const std::filesystem::path& file, const Image<Rgb>& color) {
+    ChannelImage written;
+    for (int c = 0; c < 3; ++c) {
+        Image<float> channel(color.width, color.height);
+        for (std::size_t i = 0; i < color.size(); ++i) channel.pixels[i] = color.pixels[i][c];
+        written.channels.push_back({std::string(1, "RGB"[c]), std::move(channel)});
+    }
+    write_exr(file, written);
+}
+
+}  // namespace
 
 FrameOutput render_variant(const Scene& scene, RenderSettings settings, std::int64_t frame, Guide guide,
                            double accuracy, bool maps) {
@@ -45,28 +66,12 @@ std::string guide_name(Guide guide) {
 Image<Rgb> load_or_render_dense(const Scene& scene, RenderSettings settings, std::int64_t frame, int gather,
                                 const std::filesystem::path& file) {
     if (!file.empty() && std::filesystem::exists(file)) {
-        const ChannelImage read = read_image(file);
-        const Image<float>*r = read.find("R"), *g = read.find("G"), *b = read.find("B");
-        if (r != nullptr && g != nullptr && b != nullptr && r->width == settings.width &&
-            r->height == settings.height) {
-            Image<Rgb> color(r->width, r->height);
-            for (std::size_t i = 0; i < color.size(); ++i) {
-                color.pixels[i] = Rgb(r->pixels[i], g->pixels[i], b->pixels[i]);
-            }
-            return color;
-        }
+        const Image<Rgb> color = read_color(file);
+        if (color.width == settings.width && color.height == settings.height) return color;
     }
     settings.gather = gather;
     const Image<Rgb> color = render_variant(scene, settings, frame, Guide::none, 0.0).shaded.color;
-    if (!file.empty()) {
-        ChannelImage kept;
-        for (int c = 0; c < 3; ++c) {
-            Image<float> channel(color.width, color.height);
-            for (std::size_t i = 0; i < color.size(); ++i) channel.pixels[i] = color.pixels[i][c];
-            kept.channels.push_back({std::string(1, "RGB"[c]), std::move(channel)});
-        }
-        write_exr(file, kept);
-    }
+    if (!file.empty()) write_color(file, color);
     return color;
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-// The scenes of scenes/hard, rendered small.
+// The scenes of scenes/hard, rendered at 48x36.
 
 #include <gtest/gtest.h>
 
@@ -24,7 +24,7 @@ inline RenderSettings small_settings() {
     return quick_settings(48, 36);
 }
 
-/// A scene of the folder with what renders it.
+/// A scene of the folder with its sequence.
 struct HardScene {
     explicit HardScene(const std::string& name)
         : scene(load_scene(hard_scenes_folder() / (name + ".json"))), sequence(scene, small_settings()) {}
@@ -39,7 +39,7 @@ struct HardScene {
     }
     ScenePose posed(double frame) const { return pose(scene, frame / scene.frame_rate.per_second()); }
     glm::dmat4 world(const std::string& name, double frame) const { return posed(frame).world[node(name)]; }
-    /// Pixels whose first hit is on a node.
+    /// Pixels whose first hit is on the node called `name`.
     std::vector<std::size_t> pixels_on(const FrameOutput& output, const std::string& name) const {
         const std::vector<Instance> instances = list_instances(scene);
         std::vector<std::size_t> pixels;

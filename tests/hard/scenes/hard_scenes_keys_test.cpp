@@ -1,4 +1,4 @@
-// The scenes of scenes/hard about keys and transforms: what their first lines promise holds.
+// The scenes of scenes/hard about keys and transforms have the results that scenes/hard/README.md expects.
 
 #include <gtest/gtest.h>
 
@@ -47,7 +47,7 @@ TEST(HardScenes, KF17_MirroredScaleKeepsItsLight) {
     HardScene hard("mirrored");
     Scene straight = hard.scene;
     Node& thing = straight.nodes[hard.node("thing")];
-    thing.scale = glm::dvec3(1.0);  // unmirrored and turned the other way: the whole picture's mirror image
+    thing.scale = glm::dvec3(1.0);  // unmirrored and turned the other way: this gives the mirror image of the picture
     thing.axis_rotation->angle = Track<double>(-20.0 * std::numbers::pi / 180.0);
     RenderSettings settings = small_settings();
     settings.light_samples = 256;
@@ -97,7 +97,7 @@ TEST(HardScenes, KF23_EqualReflectionsStay) {
     EXPECT_EQ(hard.world("thing", 0), hard.world("thing", 1));
     EXPECT_EQ(longest_motion(hard.render(0)), 0.0);
 }
-TEST(HardScenes, KF24_AHundredTurnsAreOne) {
+TEST(HardScenes, KF24_AHundredRotationsAddUpToNone) {
     const HardScene hard("deep_hierarchy");
     const glm::dmat4 world = hard.world("thing", 0);
     for (int c = 0; c < 3; ++c)
@@ -128,7 +128,7 @@ TEST(HardScenes, KF26_NormalsOfShearedFaces) {
     const std::vector<std::size_t> pixels = hard.pixels_on(output, "thing");
     ASSERT_FALSE(pixels.empty());
     for (const std::size_t i : pixels) {
-        // Perpendicular to two of the box's edges as they stand in the world.
+        // Perpendicular to two edges of the box in world space.
         int perpendicular = 0;
         for (int axis = 0; axis < 3; ++axis)
             if (std::abs(glm::dot(glm::normalize(linear[axis]), glm::dvec3(output.normal.pixels[i]))) < 1e-6)

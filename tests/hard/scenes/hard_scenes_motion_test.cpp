@@ -1,4 +1,4 @@
-// The scenes of scenes/hard about motion: what their first lines promise holds.
+// The scenes of scenes/hard about motion have the results that scenes/hard/README.md expects.
 
 #include <gtest/gtest.h>
 
@@ -42,9 +42,9 @@ TEST(HardScenes, RP07_SpinHasTheLengthOfItsArc) {
         longest_path = output.motion.path_length.pixels[i];
         chord = glm::length(output.motion.displacement.pixels[i]);
     }
-    EXPECT_GT(longest_path, 15.0 * chord);  // 350 degrees of arc against 10 of chord: 35 times
+    EXPECT_GT(longest_path, 15.0 * chord);  // an arc of 350 degrees, a chord of 10
 }
-TEST(HardScenes, RP08_LongTurnsAreWarnedOf) {
+TEST(HardScenes, RP08_LongTurnsGiveAWarning) {
     EXPECT_TRUE(warns(HardScene("long_way_round").scene, "270 degrees apart"));
 }
 TEST(HardScenes, RP09_SkyMovesByRotationAlone) {

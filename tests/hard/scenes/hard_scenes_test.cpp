@@ -1,5 +1,5 @@
-// The scenes of scenes/hard: every one renders to finite numbers on every frame, and what the first lines promise of
-// those about rays and light holds.
+// The scenes of scenes/hard: every frame of every scene renders to finite numbers, and the scenes about rays and light
+// have the results that scenes/hard/README.md expects.
 
 #include <gtest/gtest.h>
 
@@ -57,7 +57,7 @@ TEST(HardScenes, AreListedInTheReadme) {
 
 TEST(HardScenes, RC05_MillimetreWorldIsThePictureInMetres) {
     HardScene tiny("millimetre_world");
-    HardScene hard("still_keys");  // the same things at their own size
+    HardScene hard("still_keys");  // the same scene in metres
     const Image<Rgb> small = tiny.render(0).shaded.color, large = hard.render(0).shaded.color;
     EXPECT_NEAR(mean_luminance(small) / mean_luminance(large), 1.0, 0.02);
 }
@@ -75,7 +75,7 @@ TEST(HardScenes, RC07_TheFirstOfCoplanarWins) {
     const std::vector<std::size_t> one = hard.pixels_on(output, "one"), two = hard.pixels_on(output, "two");
     ASSERT_FALSE(one.empty());
     ASSERT_FALSE(two.empty());
-    // In the plane z = 0 the first ends at x = 1; the second may only be seen beyond.
+    // In the plane z = 0 the first quad ends at x = 1; the second may be visible only beyond that.
     const double pixels_per_unit = 18.0 / std::tan(20.0 * std::numbers::pi / 180.0);
     for (const std::size_t i : two) {
         const double x = (static_cast<double>(i % 48) + 0.5 - 24.0) / pixels_per_unit * output.depth.pixels[i];
@@ -115,8 +115,8 @@ TEST(HardScenes, CS10_MC17_BlackIsBlack) {
 TEST(HardScenes, MC10_MC11_NoSpikeBesideALampThatTouches) {
     HardScene hard("touching_lamp");
     const FrameOutput output = hard.render(0);
-    // A floor of albedo .6 sees at most half its sky filled by each side of the panel, at radiance 3, and a little of
-    // what the wall returns.
+    // The floor has albedo 0.6. Each side of the lamp, of radiance 3, covers at most half of the hemisphere, and the
+    // wall adds a little indirect light.
     for (const std::size_t i : hard.pixels_on(output, "floor"))
         ASSERT_LT(luminance(output.shaded.color.pixels[i]), 3.0f);
 }

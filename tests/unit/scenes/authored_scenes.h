@@ -1,5 +1,5 @@
 #pragma once
-// The scenes in scenes/: reading them, looking into them, and making them anew by their programs.
+// Loading the scenes in scenes/, querying them, and running their generators.
 
 #include <gtest/gtest.h>
 
@@ -21,7 +21,7 @@ namespace aleph {
 
 inline const std::filesystem::path scenes_folder = source_folder() / "scenes";
 
-/// A scene by the name of its folder, read once.
+/// The scene in a folder; loaded once.
 inline const Scene& loaded(const std::string& name) {
     static std::map<std::string, Scene> cache;
     if (!cache.contains(name)) cache[name] = load_scene(scenes_folder / name / "scene.json");
@@ -45,7 +45,7 @@ inline Image<Hit> cast(const Scene& scene, const ScenePose& now, const CameraVie
     return cast_first_hits(rays, view);
 }
 
-/// First hits of a frame and their motion to the next.
+/// First hits of a frame and their motion to the next frame.
 struct FrameMotion {
     Image<Hit> hits;
     MotionField field;
@@ -67,9 +67,9 @@ inline std::uintmax_t folder_size(const std::filesystem::path& folder) {
     return bytes;
 }
 
-/// Every file that the program writes is the one in scenes/, and there are no other scene files and textures beside
-/// them.
-/// @param files  how many it writes
+/// Every file that the program writes equals the one in scenes/, and the folders hold no other scene files and
+/// textures.
+/// @param files  number of files that the program writes
 inline void expect_generated(const std::string& program, std::size_t files) {
     namespace fs = std::filesystem;
     const ScratchFolder made;
@@ -92,7 +92,7 @@ inline void expect_generated(const std::string& program, std::size_t files) {
     EXPECT_EQ(names.size(), files);
 }
 
-/// What was read is what the program made, but for where it was read from.
+/// The scene that was read equals the one that the program made, except for its file name.
 inline void expect_same_scene(Scene read, const Scene& made) {
     EXPECT_TRUE(read.warnings.empty());
     read.file.clear();

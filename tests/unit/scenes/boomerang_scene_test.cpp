@@ -1,5 +1,4 @@
-// The scene `boomerang`: it comes from its generator byte for byte, its solid is closed, and it moves as its README
-// says.
+// The scene `boomerang`: its generator reproduces the files, its solid is closed, and it moves as its README says.
 
 #include <gtest/gtest.h>
 
@@ -23,7 +22,7 @@ TEST(BoomerangScene, TheSolidIsClosedAndFacesOutwards) {
     const Mesh mesh = make_boomerang_mesh(0);
     ASSERT_EQ(mesh.normals.size(), mesh.positions.size());
     ASSERT_EQ(mesh.uv[0].size(), mesh.positions.size());
-    // Every edge, by the places of its ends, is passed once in each direction.
+    // Every edge, identified by the positions of its ends, occurs once in each direction.
     const auto place = [&](std::uint32_t v) {
         const glm::vec3& p = mesh.positions[v];
         return std::array<float, 3>{p.x, p.y + 0.0f, p.z};
@@ -46,7 +45,7 @@ TEST(BoomerangScene, TheSolidIsClosedAndFacesOutwards) {
     EXPECT_LT(volume, 2e-3);
     glm::dvec3 middle(0.0);
     for (const glm::vec3& p : mesh.positions) middle += glm::dvec3(p) / static_cast<double>(mesh.positions.size());
-    EXPECT_LT(glm::length(middle), 0.02);  // it spins about its centre
+    EXPECT_LT(glm::length(middle), 0.02);  // it spins about its centre of mass
 }
 
 struct Moving {
@@ -54,7 +53,7 @@ struct Moving {
 };
 
 Moving measure(int frame) {
-    constexpr int width = 320, height = 240;  // half of what the README speaks of
+    constexpr int width = 320, height = 240;  // half the size that the README speaks of
     const Scene& scene = loaded("boomerang");
     const auto [hits, field, instances] = compute_motion(scene, frame, width, height);
     Moving moving;
@@ -76,13 +75,13 @@ Moving measure(int frame) {
     return moving;
 }
 
-TEST(BoomerangScene, FliesAcrossAWallThatHardlyMoves) {
+TEST(BoomerangScene, FliesInFrontOfAWallThatHardlyMoves) {
     for (const int frame : {0, 20, 40, 60, 80, 88}) {
         SCOPED_TRACE(frame);
         const Moving moving = measure(frame);
         EXPECT_GT(moving.boomerang_share, 0.008);
         EXPECT_GT(moving.fastest, 10.0);
-        EXPECT_LT(moving.fastest, 53.0);  // image-based motion reaches it
+        EXPECT_LT(moving.fastest, 53.0);  // the reach of image-based motion
         if (frame < boomerang_still_until) {
             EXPECT_EQ(moving.background, 0.0);
         } else {

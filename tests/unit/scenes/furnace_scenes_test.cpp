@@ -1,4 +1,4 @@
-// The scenes of scenes/furnace, whose every pixel is known on paper.
+// The scenes of scenes/furnace, whose pixels have known values.
 
 #include <gtest/gtest.h>
 
@@ -17,7 +17,7 @@ struct Deviation {
     double mean = 0.0, largest = 0.0;
 };
 
-/// Mean luminance of a frame, and how far a single pixel is off the expected one.
+/// Mean luminance of a frame, and the largest deviation of a pixel from the expected value.
 Deviation render_frame(const std::string& file, std::int64_t frame, double expected) {
     const Scene scene = load_scene(source_folder() / "scenes" / "furnace" / file);
     RenderSettings settings;

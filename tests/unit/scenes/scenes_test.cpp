@@ -1,4 +1,5 @@
-// The scenes in scenes/: they load, show what their READMEs promise, and come from their generator byte for byte.
+// The scenes pool, pool-still, cornell and room: their contents and motion, and that the generator reproduces the
+// files.
 
 #include <gtest/gtest.h>
 
@@ -20,14 +21,14 @@ glm::dvec3 origin_of(const ScenePose& frame, int node) {
     return world_of(frame, node)[3];
 }
 
-/// Is the node below (or is it) the one of this name?
+/// Is a node, or one above it, called `name`?
 bool is_below(const Scene& scene, int node, const std::string& name) {
     for (; node != no_index; node = scene.nodes[node].parent)
         if (scene.nodes[node].name == name) return true;
     return false;
 }
 
-/// Mean |dP| in pixels over what shows the room, and its share of the picture.
+/// Mean displacement in pixels over the pixels of the room, and their share of the picture.
 std::array<double, 2> background_motion(const Scene& scene, int frame) {
     const FrameMotion motion = compute_motion(scene, frame, 640, 480);
     double sum = 0.0, count = 0.0;
@@ -67,7 +68,7 @@ TEST(PoolScene, SixteenBallsOverNinetyFrames) {
 }
 
 TEST(PoolScene, FramesShowTheSimulationsOwnStates) {
-    // Keys at 120 Hz, the strike on frame 5: every frame lies on a key, rounded to a micrometre.
+    // Keys at 120 Hz, the strike on frame 5: every frame is on a key, rounded to a micrometre.
     const Scene& scene = loaded("pool");
     const PoolSettings settings;
     const PoolRun run = simulate_pool(make_rack(settings), settings, 3.0, 120.0);
@@ -124,7 +125,7 @@ TEST(PoolScene, BallsFillThePicture) {
     }
 }
 
-/// How many balls have their whole outline in a frame's picture of 4 by 3?
+/// The number of balls that are completely inside the picture (aspect ratio 4 : 3).
 int whole_balls(const Scene& scene, int frame) {
     const ScenePose now = pose(scene, scene.frame_rate.seconds_of(frame));
     const CameraView view = make_camera_view(now.cameras.front(), 640, 480);
@@ -146,8 +147,7 @@ TEST(PoolScene, TheBreakStaysInThePicture) {
 }
 
 TEST(PoolScene, CameraMovesSmoothly) {
-    // Neither its place nor its gaze changes speed suddenly: from one frame to the next by less than a tenth of the
-    // greatest speed.
+    // From frame to frame, the speeds of position and view direction change by less than a tenth of their maximum.
     const Scene& scene = loaded("pool");
     std::vector<glm::dvec3> places, gazes;
     for (int frame = 0; frame <= 89; ++frame) {
@@ -230,7 +230,7 @@ TEST(CornellScene, LoadsAndMoves) {
     }
     for (int i = 0; i <= 59 * 8; ++i) EXPECT_GE(origin_of(pose(scene, i / 240.0), sphere).y, top + radius - 1e-12) << i;
     EXPECT_NEAR(origin_of(pose(scene, 39.0 / 30.0), sphere).y, top + radius, 1e-12);
-    // 1.5 degrees a frame about y.
+    // 1.5 degrees per frame about y.
     const glm::dvec3 before = pose(scene, 0.0).world[block][0];
     const glm::dvec3 after = pose(scene, 10.0 / 30.0).world[block][0];
     EXPECT_NEAR(glm::dot(before, after), std::cos(15.0 * 3.14159265358979 / 180.0), 1e-12);
@@ -249,9 +249,9 @@ TEST(CornellScene, BoxFacesInwardsAndFillsThePicture) {
         const Instance& instance = now.instances[hit.instance];
         seen.insert(scene.nodes[instance.node].name);
     }
-    EXPECT_EQ(seen.size(), 9u);  // all but the camera
+    EXPECT_EQ(seen.size(), 9u);  // all nodes except the camera
     for (const char* name : {"floor", "ceiling", "back_wall", "left_wall", "right_wall", "lamp"}) {
-        // The quad's +z, from its middle, points to the middle of the box.
+        // The front of the quad faces the middle of the box.
         const glm::dmat4& world = now.world[find_node(scene, name)];
         EXPECT_GT(glm::dot(glm::dvec3(world[2]), glm::dvec3(0.0, 2.75, 0.0) - glm::dvec3(world[3])), 2.7) << name;
     }
