@@ -4,7 +4,7 @@
 //
 // Weights: at a point P with normal N, record i has the weight 1 / e_i, where
 //     e_i = |P - P_i| / R_i + sqrt(1 - N.N_i)
-// estimates the relative error of using it there. It is used where e_i < alpha, the accuracy of the pixel that asks.
+// estimates the relative error of using it there. It is used where e_i < alpha, the accuracy of the pixel.
 // R_i is the harmonic mean of the distances that the record's gather rays travelled: short next to a wall, long in the
 // open. (Ward, Rubinstein and Clear 1988, "A Ray Tracing Solution for Diffuse Interreflection"; Yee 2000,
 // eqs. 6.1, 6.2, 6.5 and 6.6.)
