@@ -29,8 +29,10 @@ const std::vector<Layer>& layers() {
         const std::vector<std::string> model = {"engine/base", "engine/scene", "engine/surface"};
         const std::vector<std::string> text = {"engine/base", "engine/json", "engine/scene", "engine/surface"};
         std::vector<std::string> engine = model;
-        for (const char* folder : {"pose", "rays", "image", "json", "scene_file", "gltf", "alembic", "load"})
+        for (const char* folder : {"pose", "rays", "image", "json", "scene_file", "gltf", "alembic"})
             engine.push_back(std::string("engine/") + folder);
+        const std::vector<std::string> below_load = engine;
+        engine.push_back("engine/load");
         std::vector<std::string> stages = engine;
         for (const char* folder : {"motion", "perception"}) stages.push_back(folder);
         std::vector<std::string> all_below_cli = stages;
@@ -51,7 +53,7 @@ const std::vector<Layer>& layers() {
             {"engine/gltf/validate", {"engine/base", "engine/json"}},
             {"engine/gltf", with(text, {"engine/image", "engine/gltf/validate"})},
             {"engine/alembic", with(model, {"engine/json"})},
-            {"engine/load", engine},
+            {"engine/load", below_load},
             {"motion", engine},
             {"perception", {"engine/base"}},
             {"render", stages},
