@@ -1,4 +1,5 @@
 #pragma once
+// The check of viewing conditions that every function of the vision model makes.
 
 #include <cmath>
 
