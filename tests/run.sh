@@ -28,7 +28,7 @@ part() {
 }
 
 configure() {
-  cmake -S "$root" -B "$build" -G Ninja -DCMAKE_BUILD_TYPE=Release -DALEPH_SANITIZE= -DALEPH_TESTS=ON -DALEPH_PRECOMPILE=ON -DALEPH_UNITY=ON
+  cmake -S "$root" -B "$build" -G Ninja -DCMAKE_BUILD_TYPE=Release -DALEPH_SANITIZE= -DALEPH_TESTS=ON -DALEPH_PRECOMPILE=ON
 }
 
 golden() {

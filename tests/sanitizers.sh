@@ -48,7 +48,7 @@ compare_maps() {
 
 # GCC 12 believes that parts of std::regex are uninitialized once they are instrumented.
 cmake -S "$root" -B "$build" -G Ninja -DALEPH_SANITIZE="$kind" -DCMAKE_BUILD_TYPE=None \
-  -DCMAKE_CXX_FLAGS="$optimize -g1 -Wno-maybe-uninitialized" -DALEPH_TESTS=ON -DALEPH_PRECOMPILE=ON -DALEPH_UNITY=ON
+  -DCMAKE_CXX_FLAGS="$optimize -g1 -Wno-maybe-uninitialized" -DALEPH_TESTS=ON -DALEPH_PRECOMPILE=ON
 cmake --build "$build" --parallel "$jobs" --target "${programs[@]}"
 
 # GCC 12's sanitizers cannot start where the kernel spreads addresses over more bits than they know; where that cannot
