@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# The main job end to end: set-up, build, frames of `pool` guided and unguided, a table and a picture.
+# The whole renderer in one command: set-up, build, frames of `pool` with and without guidance, a table and a picture.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 bash scenes/setup.sh

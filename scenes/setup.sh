@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Installs what aleph is built from. On Debian 12 (or a derivative) missing packages come through apt;
-# elsewhere it says what to install and stops. Safe to run again: it does nothing when all is there.
+# elsewhere it prints what to install and stops. It does nothing if all packages are installed.
 set -euo pipefail
 
 packages=(

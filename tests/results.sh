@@ -21,8 +21,8 @@ record_skip() {
 </testcase></testsuites>\n' "$2" "$2" "$3" >"$1/results/$2.xml"
 }
 
-# run_tests FOLDER CTEST-OPTIONS...: ctest, under `launcher` if that is set. A failure that left no trace in a program's
-# results (a crash, a sanitizer's report at the end, running out of time) is recorded as one more.
+# run_tests FOLDER CTEST-OPTIONS...: ctest, under `launcher` if that is set. A failure that a program's
+# results do not show (a crash, a sanitizer's report at exit, a timeout) is recorded as one more.
 run_tests() {
   local folder=$1 code=0 failed=$1/Testing/Temporary/LastTestsFailed.log name
   shift
@@ -31,7 +31,7 @@ run_tests() {
   [ -e "$failed" ] || return "$code"
   while IFS=: read -r _ name; do
     if ! grep -qs '<testsuites [^>]*failures="[1-9]' "$folder/results/$name.xml"; then
-      record "$folder" "$name (it did not end well: see above)" 1
+      record "$folder" "$name (crash, timeout or sanitizer report: see above)" 1
     fi
   done <"$failed"
   return "$code"

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# Builds with a sanitizer into build-address/ or build-thread/ and runs the tests that could upset it.
+# Builds with a sanitizer into build-address/ or build-thread/ and runs the tests that can fail under it.
 #   tests/sanitizers.sh address    memory and undefined behaviour; then the maps against the Release build's (DT-07)
-#   tests/sanitizers.sh thread     races: parallel_for on std::thread, since oneTBB upsets ThreadSanitizer (DT-08)
+#   tests/sanitizers.sh thread     races: parallel_for on std::thread, since oneTBB causes false reports (DT-08)
 # JOBS is the number of compilers and test programs at a time (2).
 set -euo pipefail
 
@@ -15,8 +15,8 @@ case $kind in
   address)
     programs=(test_base test_pose test_image_io test_motion test_scene_file test_gltf
       test_alembic test_subdivide test_maps_images test_hostile aleph)
-    # What tests time, memory and size on large texts is for the Release build; damaged scene files come by test_hostile,
-    # and `aleph maps` below runs all of perception.
+    # Tests of time, memory and size on large texts are for the Release build. test_hostile covers damaged scene files, and
+    # `aleph maps` below covers perception.
     filter='-HostileSceneFile.*:DamagedSceneFile.*:SceneJsonWrite.KF24*:SceneJsonWrite.ManyNames*:SceneJsonWrite.DT09*'
     optimize=-O0  # compiling takes longer than running
     ;;
@@ -36,7 +36,7 @@ build=$root/build-$kind
 compare_maps() {
   local release=$root/build/aleph maps=$build/maps
   if [ ! -x "$release" ]; then
-    echo "build/aleph is not there to compare with: run tests/run.sh, or build it first." >&2
+    echo "build/aleph is missing: run tests/run.sh or build it first." >&2
     return 1
   fi
   mkdir -p "$maps"
@@ -46,20 +46,20 @@ compare_maps() {
     "$release" compare "$maps/$kind.exr" "$maps/release.exr" --tolerance 1e-6 --relative 1e-6
 }
 
-# GCC 12 believes that parts of std::regex are uninitialized once they are instrumented.
+# GCC 12 takes parts of instrumented std::regex for uninitialized.
 cmake -S "$root" -B "$build" -G Ninja -DALEPH_SANITIZE="$kind" -DCMAKE_BUILD_TYPE=None \
   -DCMAKE_CXX_FLAGS="$optimize -g1 -Wno-maybe-uninitialized" -DALEPH_TESTS=ON -DALEPH_PRECOMPILE=ON
 cmake --build "$build" --parallel "$jobs" --target "${programs[@]}"
 
-# GCC 12's sanitizers cannot start where the kernel spreads addresses over more bits than they know; where that cannot
-# be turned off for a program either, there is nothing to run.
+# GCC 12's sanitizers cannot start if the kernel randomizes more address bits than they support. setarch turns that off; if
+# it cannot, the tests are skipped.
 if setarch --addr-no-randomize true 2>/dev/null; then launcher=(setarch --addr-no-randomize); fi
 if "${launcher[@]}" "$build/test_base" --gtest_list_tests 2>&1 | grep -q "unexpected memory mapping"; then
   echo "Skipped: this kernel's address layout keeps the $kind sanitizer from starting."
   exit 0
 fi
 
-# Leaks are not looked for: that needs ptrace, which containers refuse.
+# Leak detection is off: it needs ptrace, which containers refuse.
 export ASAN_OPTIONS=detect_leaks=0:strict_string_checks=1
 export UBSAN_OPTIONS=print_stacktrace=1
 export TSAN_OPTIONS=suppressions=$here/tsan.supp

@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
-# Golden images: small pictures of scenes/pool whose change somebody has to look at.
+# Golden images: small pictures of scenes/pool. A change of one of them must be reviewed.
 #   tests/golden/golden.sh check [name]    renders them into build/golden and compares them with the references here
 #   tests/golden/golden.sh accept [name]   the same, then makes them the references
-# On a difference, build/golden/NAME.exr is what came out and NAME.diff.png shows where (white: the largest difference).
+# If they differ, build/golden/NAME.exr is the new picture and NAME.diff.png shows the differences (white: the largest).
 # BUILD is the build folder, if it is not `build`.
 set -euo pipefail
 export LC_ALL=C
@@ -18,7 +18,7 @@ usage() {
   exit 2
 }
 
-# name | layers and channels kept in the reference | how near is near enough | command.
+# name | layers and channels kept in the reference | tolerance | command.
 # Motion and maps have no noise: processors differ in the last bits only, and in which of two surfaces a ray along
 # their common edge meets. Gathering takes other paths after such a bit, so the frame has more room.
 images=(

@@ -1,5 +1,5 @@
 #pragma once
-// Writes Ogawa archives by hand, right or wrong: what the format's description says, nothing more.
+// Writes Ogawa archives byte by byte, valid or damaged, from the format's description alone.
 
 #include <cstdint>
 #include <cstring>

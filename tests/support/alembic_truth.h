@@ -1,6 +1,6 @@
 #pragma once
-// Archives and what the reference library reads from them. The project's own stand in tests/assets/abc; those of others
-// are read from assets_folder() where that is present.
+// Archives and the values that the reference library reads from them. The project's own archives are in
+// tests/assets/abc, others in assets_folder(), which may be absent.
 
 #include <gtest/gtest.h>
 

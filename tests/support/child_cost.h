@@ -1,5 +1,5 @@
 #pragma once
-// What a piece of work costs in a process of its own, so that one file's peak memory is not another's.
+// Time and peak memory of work that runs in its own process, so that one file's peak does not count for another.
 
 #include <gtest/gtest.h>
 #include <sys/resource.h>
@@ -58,7 +58,7 @@ inline ChildCost run_in_child(const std::function<void()>& work, const std::func
         _exit(code);
     }
     close(channel[1]);
-    // Nothing comes from a child that was ended by a signal.
+    // A child that a signal ended writes nothing.
     if (read(channel[0], &cost.seconds, sizeof cost.seconds) < 0) cost.message = "no answer";
     char part[1024];
     for (ssize_t got = 0; (got = read(channel[0], part, sizeof part)) > 0;) cost.message.append(part, part + got);
@@ -73,7 +73,7 @@ inline ChildCost run_in_child(const std::function<void()>& work, const std::func
     return cost;
 }
 
-/// Two seconds and 512 MiB, where the build is one that people use.
+/// At most two seconds and 512 MiB, in the Release build.
 inline void expect_bounded(const ChildCost& cost, const std::string& name) {
     EXPECT_TRUE(cost.ended_well) << name << ": " << cost.message;
     if (!limits_count) return;

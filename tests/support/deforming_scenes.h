@@ -52,8 +52,8 @@ void add_cache(Scene& scene, std::size_t mesh, std::vector<double> times, const 
     scene.point_caches.push_back(std::move(cache));
 }
 
-/// Node 0 carries a sheet with a skin; what lies right of x = 0 hangs on joint node 2, which turns about z, the rest on
-/// joint node 1, which stands still. Node 0 is moved and scaled, which must not show.
+/// Node 0 carries a sheet with a skin. Points with x > 0 follow joint node 2, which turns about z; the others follow
+/// joint node 1, which is at rest. Node 0 is moved and scaled, which must not change the result.
 inline Scene make_skin_scene() {
     Scene scene = make_sheet_scene();
     scene.nodes.resize(3);
@@ -84,7 +84,7 @@ inline glm::dvec3 bent_by(const glm::vec3& rest, double angle) {
     return {p.x * std::cos(angle) - p.y * std::sin(angle), p.x * std::sin(angle) + p.y * std::cos(angle), p.z};
 }
 
-/// Something of each kind that time can change, among things that stand still.
+/// One of each thing that can change with time, and things that do not.
 inline Scene make_everything_scene() {
     Scene scene = make_skin_scene();
     scene.nodes[2].rotation =

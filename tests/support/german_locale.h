@@ -1,5 +1,6 @@
 #pragma once
-// A locale whose decimal point is a comma (HARD_CASES DT-09), compiled for the test where the system has none.
+// A locale whose decimal point is a comma (DT-09, tests/hard/README.md), compiled for the test where the system has
+// none.
 
 #include <stdlib.h>
 

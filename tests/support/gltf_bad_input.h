@@ -53,7 +53,7 @@ inline GltfDraft textured_draft(const ScratchFolder& folder, bool from_file) {
     return draft;
 }
 
-/// Place and reason as told, within two seconds of processor time (in the Release build), the scene untouched.
+/// Expects this place and reason within two seconds of processor time (in the Release build), and an unchanged scene.
 inline void expect_refused(const std::filesystem::path& path, const std::string& place, const std::string& reason) {
     Scene scene;
     scene.nodes.resize(1);

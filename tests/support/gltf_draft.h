@@ -1,5 +1,5 @@
 #pragma once
-// Small glTF files made in code: a valid scene to start from, changed by each test in its own way.
+// Small glTF files made in code: valid scenes that tests then change.
 
 #include <cstdint>
 #include <cstring>
@@ -83,7 +83,7 @@ struct GltfDraft {
              {"channels", {{{"sampler", 0}, {"target", {{"node", node}, {"path", path}}}}}}});
     }
 
-    /// An animation of its own for what a KHR_animation_pointer leads to.
+    /// A new animation of what a KHR_animation_pointer names.
     void animate_pointer(const char* pointer, const std::vector<float>& times, const std::vector<float>& values,
                          const char* interpolation = "LINEAR") {
         const std::size_t per_key = values.size() / times.size();

@@ -1,5 +1,5 @@
 #pragma once
-// Pictures for tests of image-based motion: every one a function of the point, so that it can be moved.
+// Pictures for tests of image-based motion. Each is a function of the point, so that it can be moved.
 
 #include <cmath>
 #include <cstdint>

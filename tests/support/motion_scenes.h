@@ -97,7 +97,7 @@ struct TwoViews {
           other(make_posed_view(scene, other_seconds, 0, width, height)) {}
 };
 
-/// Hits all over the scene's surfaces, whatever a ray would see: exactness is about the hit's own (primitive, u, v).
+/// Hits spread over the scene's surfaces, visible or not: motion is exact for any (primitive, u, v).
 inline Image<Hit> make_random_hits(const Scene& scene, const ScenePose& frame, int width, int height) {
     std::mt19937 random(11);
     std::uniform_real_distribution<float> fraction(0.0f, 1.0f);

@@ -1,6 +1,6 @@
 #pragma once
-// Where a surface point really goes: the hierarchy walked point by point in long double from the authored keys, without
-// a matrix, a pose or a camera view. Shares no code with engine or motion beyond the scene's plain data.
+// Reference for motion: each point through the hierarchy in long double, from the keys, without matrices, poses or
+// camera views. Shares no code with engine or motion except the plain structs of the scene.
 
 #include <array>
 #include <cmath>

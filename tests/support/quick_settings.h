@@ -4,7 +4,7 @@
 
 namespace aleph {
 
-/// Every stage runs, none for long.
+/// All stages run, each for a short time.
 inline RenderSettings quick_settings(int width, int height) {
     RenderSettings settings;
     settings.width = width;

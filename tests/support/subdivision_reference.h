@@ -1,6 +1,6 @@
 #pragma once
-// Subdivision written down again, as the papers state it, to check the library's against: Catmull and Clark 1978 with
-// the creases of DeRose, Kass and Truong 1998, Loop 1987, and the closed forms of where their vertices end.
+// Reference for subdivision, written from the papers: Catmull and Clark 1978 with the creases of DeRose, Kass and
+// Truong 1998, Loop 1987, and the closed forms of their limit positions.
 
 #include <algorithm>
 #include <cmath>
@@ -36,7 +36,7 @@ struct ReferenceMesh {
 
 inline constexpr double reference_infinite = 10.0;
 
-/// What the rules ask about a point.
+/// What the rules need to know about a point.
 struct ReferencePoint {
     std::vector<int> neighbours, faces;
     std::vector<int> sharp_neighbours;
@@ -70,7 +70,7 @@ inline double reduce_sharpness(double sharpness) {
     return sharpness >= reference_infinite ? sharpness : std::max(0.0, sharpness - 1.0);
 }
 
-/// Where the vertex rule of `sharp` neighbours and smooth ones stands between them: shares of sharpness below 1 fade.
+/// Blends between the sharp and the smooth vertex rule by sharpness below 1.
 inline double crease_share(const ReferencePoint& point) {
     double sum = 0.0;
     for (const double s : point.sharpness) sum += std::min(1.0, s);
@@ -189,8 +189,8 @@ inline ReferenceMesh subdivide_loop(const ReferenceMesh& mesh) {
     return next;
 }
 
-/// Where a mesh's points end. Every sharpness is infinite or 0. Catmull-Clark: all faces are quads (subdivide once
-/// before).
+/// Limit positions of a mesh's points. Every sharpness is infinite or 0. Catmull-Clark: all faces are quads (subdivide
+/// once before).
 inline std::vector<glm::dvec3> reference_limits(const ReferenceMesh& mesh, bool loop) {
     const auto points = reference_points(mesh);
     std::vector<glm::dvec3> limits(points.size());
