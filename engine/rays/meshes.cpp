@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <stdexcept>
 
 #include "engine/base/errors.h"
 #include "engine/base/flush_denormals.h"
@@ -44,24 +43,21 @@ void check_mesh(const Mesh& mesh, std::size_t index) {
 }
 
 /// @param places  which of the node's meshes; their numbers become Embree's
-RTCScene build_mesh_scene(RTCDevice device, const Scene& scene, const std::vector<int>& meshes,
-                          const std::vector<unsigned>& places,
-                          const std::vector<std::unique_ptr<const AlphaCutout>>& cutouts) {
-    RTCScene built = rtcNewScene(device);
-    rtcSetSceneFlags(built, RTC_SCENE_FLAG_ROBUST);
-    rtcSetSceneBuildQuality(built, RTC_BUILD_QUALITY_HIGH);
+EmbreeScene build_mesh_scene(const EmbreeDevice& device, const Scene& scene, const std::vector<int>& meshes,
+                             const std::vector<unsigned>& places,
+                             const std::vector<std::unique_ptr<const AlphaCutout>>& cutouts) {
+    EmbreeScene built = device.make_scene(RTC_SCENE_FLAG_ROBUST, RTC_BUILD_QUALITY_HIGH);
     for (const unsigned place : places) {
         const Mesh& mesh = scene.meshes[meshes[place]];
         if (mesh.triangles.empty()) continue;
-        RTCGeometry geometry =
+        const TriangleGeometry made =
             make_triangle_geometry(device, mesh.positions.size(), mesh.triangles, cutouts[meshes[place]].get());
-        std::ranges::copy(mesh.positions,
-                          static_cast<glm::vec3*>(rtcGetGeometryBufferData(geometry, RTC_BUFFER_TYPE_VERTEX, 0)));
-        rtcCommitGeometry(geometry);
-        rtcAttachGeometryByID(built, geometry, place);
-        rtcReleaseGeometry(geometry);
+        std::ranges::copy(mesh.positions, made.points.begin());
+        rtcCommitGeometry(made.geometry.get());
+        rtcAttachGeometryByID(built.get(), made.geometry.get(), place);
     }
-    rtcCommitScene(built);
+    rtcCommitScene(built.get());
+    device.check();
     return built;
 }
 
@@ -136,8 +132,9 @@ class ObjectMaker {
     RTCScene rigid_scene(const std::vector<int>& meshes, const std::vector<unsigned>& places) {
         RTCScene& built = rigid_[{meshes, places}];
         if (built == nullptr) {
-            built = build_mesh_scene(structures_.device, scene_, meshes, places, structures_.cutouts);
-            structures_.mesh_scenes.push_back(built);
+            structures_.mesh_scenes.push_back(
+                build_mesh_scene(*structures_.device, scene_, meshes, places, structures_.cutouts));
+            built = structures_.mesh_scenes.back().get();
         }
         return built;
     }
@@ -154,11 +151,10 @@ class ObjectMaker {
 
 }  // namespace
 
-MeshStructures::MeshStructures(const Scene& scene, const PosePlan& plan) {
+MeshStructures::MeshStructures(const Scene& scene, const PosePlan& plan, std::unique_ptr<EmbreeDevice> embree)
+    : device(std::move(embree)) {
     const FlushDenormals flush;
-    device = rtcNewDevice(nullptr);
-    if (device == nullptr) throw std::runtime_error("Embree found no way to start on this machine");
-    if (rtcGetDeviceProperty(device, RTC_DEVICE_PROPERTY_NATIVE_RAY16_SUPPORTED)) packet_width = 16;
+    if (rtcGetDeviceProperty(device->handle(), RTC_DEVICE_PROPERTY_NATIVE_RAY16_SUPPORTED)) packet_width = 16;
     for (std::size_t i = 0; i < scene.meshes.size(); ++i) {
         check_mesh(scene.meshes[i], i);
         degenerate_triangles += count_degenerate(scene.meshes[i]);
@@ -172,11 +168,6 @@ MeshStructures::MeshStructures(const Scene& scene, const PosePlan& plan) {
     ObjectMaker maker(*this, scene, plan);
     for (std::size_t n = 0; n < scene.nodes.size(); ++n) maker.add_node(static_cast<int>(n));
     maker.finish();
-}
-
-MeshStructures::~MeshStructures() {
-    for (RTCScene mesh_scene : mesh_scenes) rtcReleaseScene(mesh_scene);
-    if (device != nullptr) rtcReleaseDevice(device);
 }
 
 }  // namespace aleph

@@ -1,7 +1,5 @@
 #include "engine/rays/ray_scene.h"
 
-#include <embree3/rtcore.h>
-
 #include <algorithm>
 #include <cmath>
 
@@ -17,27 +15,23 @@ Layer make_layer(const MeshStructures& meshes, std::size_t first, std::size_t en
                  const std::vector<std::unique_ptr<RefitMesh>>& refits) {
     Layer layer;
     layer.first = first;
-    layer.top = rtcNewScene(meshes.device);
-    rtcSetSceneFlags(layer.top, RTC_SCENE_FLAG_ROBUST);
+    layer.top = meshes.device->make_scene(RTC_SCENE_FLAG_ROBUST, RTC_BUILD_QUALITY_MEDIUM);
     layer.placements.resize(end - first);
     for (std::size_t i = first; i < end; ++i) {
         const MeshStructures::Object& object = meshes.objects[i];
-        RTCGeometry geometry = rtcNewGeometry(meshes.device, RTC_GEOMETRY_TYPE_INSTANCE);
+        EmbreeGeometry& placed = layer.placements[i - first].geometry;
+        placed = meshes.device->make_geometry(RTC_GEOMETRY_TYPE_INSTANCE);
+        RTCGeometry geometry = placed.get();
         rtcSetGeometryInstancedScene(
             geometry, object.deforming == no_index ? object.mesh_scene : refits[object.deforming]->scene());
         rtcSetGeometryTimeStepCount(geometry, 1);
         rtcCommitGeometry(geometry);
-        rtcAttachGeometryByID(layer.top, geometry, static_cast<unsigned>(i));
+        rtcAttachGeometryByID(layer.top.get(), geometry, static_cast<unsigned>(i));
         rtcDisableGeometry(geometry);
-        layer.placements[i - first].geometry = geometry;
     }
-    rtcCommitScene(layer.top);
+    rtcCommitScene(layer.top.get());
+    meshes.device->check();
     return layer;
-}
-
-void release_layer(Layer& layer) {
-    for (const Placement& placement : layer.placements) rtcReleaseGeometry(placement.geometry);
-    if (layer.top != nullptr) rtcReleaseScene(layer.top);
 }
 
 /// Column by column: RTC_FORMAT_FLOAT3X4_COLUMN_MAJOR.
@@ -83,15 +77,15 @@ bool place(Layer& layer, Placement& placement, const MeshStructures::Object& obj
     const bool same = transform == placement.transform && change == RefitMesh::Change::none;
     if (enabled == placement.enabled && (!enabled || same)) return false;
     if (enabled) {
-        rtcSetGeometryTransform(placement.geometry, 0, RTC_FORMAT_FLOAT3X4_COLUMN_MAJOR, transform.data());
-        rtcCommitGeometry(placement.geometry);
+        rtcSetGeometryTransform(placement.geometry.get(), 0, RTC_FORMAT_FLOAT3X4_COLUMN_MAJOR, transform.data());
+        rtcCommitGeometry(placement.geometry.get());
     }
     if (enabled && !placement.enabled) {
-        rtcEnableGeometry(placement.geometry);
+        rtcEnableGeometry(placement.geometry.get());
         ++layer.enabled;
     }
     if (!enabled && placement.enabled) {
-        rtcDisableGeometry(placement.geometry);
+        rtcDisableGeometry(placement.geometry.get());
         --layer.enabled;
     }
     placement.enabled = enabled;
@@ -110,7 +104,8 @@ std::size_t place_objects(Layer& layer, std::size_t count, const MeshStructures&
             object.deforming == no_index ? RefitMesh::Change::none : changes[object.deforming];
         if (place(layer, layer.placements[i], object, change, frame, anchor)) ++touched;
     }
-    if (touched > 0) rtcCommitScene(layer.top);
+    if (touched > 0) rtcCommitScene(layer.top.get());
+    meshes.device->check();
     return touched;
 }
 
@@ -118,14 +113,9 @@ std::size_t place_objects(Layer& layer, std::size_t count, const MeshStructures&
 
 RayScene::State::State(std::shared_ptr<const MeshStructures> shared) : meshes(std::move(shared)) {
     for (const DeformingMesh& mesh : meshes->deforming)
-        refits.push_back(std::make_unique<RefitMesh>(meshes->device, mesh));
+        refits.push_back(std::make_unique<RefitMesh>(*meshes->device, mesh));
     moving = make_layer(*meshes, 0, meshes->first_layer_count, refits);
     still = make_layer(*meshes, meshes->first_layer_count, meshes->objects.size(), refits);
-}
-
-RayScene::State::~State() {
-    release_layer(moving);
-    release_layer(still);
 }
 
 bool is_traceable(const glm::dmat4& world, const glm::dvec3& anchor) {

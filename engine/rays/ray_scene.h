@@ -72,10 +72,10 @@ class RayScene {
     std::uint64_t invalid_rays() const;
 
     struct State;  ///< state.h
+    explicit RayScene(std::unique_ptr<State> state);
 
   private:
     friend class Tracer;
-    explicit RayScene(std::unique_ptr<State> state);
     std::unique_ptr<State> state_;
 };
 

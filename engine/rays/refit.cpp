@@ -66,35 +66,32 @@ DeformingMesh::DeformingMesh(const Mesh& of, int index, unsigned geometry_number
       triangles(of.triangles),
       cutout(holes) {}
 
-RTCGeometry make_triangle_geometry(RTCDevice device, std::size_t vertex_count, const std::vector<glm::uvec3>& triangles,
-                                   const AlphaCutout* cutout) {
-    RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
-    // Embree allocates, which brings the padding that its wide loads need (HARD_CASES RC-14).
-    rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, sizeof(glm::vec3), vertex_count);
-    auto* indices = static_cast<glm::uvec3*>(rtcSetNewGeometryBuffer(
-        geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, sizeof(glm::uvec3), triangles.size()));
-    std::ranges::copy(triangles, indices);
+TriangleGeometry make_triangle_geometry(const EmbreeDevice& device, std::size_t vertex_count,
+                                        const std::vector<glm::uvec3>& triangles, const AlphaCutout* cutout) {
+    TriangleGeometry made{device.make_geometry(RTC_GEOMETRY_TYPE_TRIANGLE), {}};
+    RTCGeometry geometry = made.geometry.get();
+    made.points = device.make_buffer<glm::vec3>(geometry, RTC_BUFFER_TYPE_VERTEX, RTC_FORMAT_FLOAT3, vertex_count);
+    std::ranges::copy(
+        triangles,
+        device.make_buffer<glm::uvec3>(geometry, RTC_BUFFER_TYPE_INDEX, RTC_FORMAT_UINT3, triangles.size()).begin());
     if (cutout == nullptr) {
         rtcSetGeometryIntersectFilterFunction(geometry, keep_lowest_of_nearest);
-        return geometry;
+        return made;
     }
     rtcSetGeometryUserData(geometry, const_cast<AlphaCutout*>(cutout));  // which the filters only read
     rtcSetGeometryIntersectFilterFunction(geometry, keep_lowest_of_nearest_but_holes);
     rtcSetGeometryOccludedFilterFunction(geometry, pass_holes);
-    return geometry;
+    return made;
 }
 
-RefitMesh::RefitMesh(RTCDevice device, const DeformingMesh& mesh)
-    : device_(device), mesh_(mesh), scene_(rtcNewScene(device)) {
-    // Embree refits only in scenes of this kind; the tree itself is still built with care.
-    rtcSetSceneFlags(scene_, static_cast<RTCSceneFlags>(RTC_SCENE_FLAG_ROBUST | RTC_SCENE_FLAG_DYNAMIC));
-    rtcSetSceneBuildQuality(scene_, RTC_BUILD_QUALITY_LOW);
-    rtcCommitScene(scene_);
-}
-
-RefitMesh::~RefitMesh() {
-    if (geometry_ != nullptr) rtcReleaseGeometry(geometry_);
-    rtcReleaseScene(scene_);
+// Embree refits only in scenes of this kind; the tree itself is still built with care.
+RefitMesh::RefitMesh(const EmbreeDevice& device, const DeformingMesh& mesh)
+    : device_(device),
+      mesh_(mesh),
+      scene_(device.make_scene(static_cast<RTCSceneFlags>(RTC_SCENE_FLAG_ROBUST | RTC_SCENE_FLAG_DYNAMIC),
+                               RTC_BUILD_QUALITY_LOW)) {
+    rtcCommitScene(scene_.get());
+    device_.check();
 }
 
 RefitMesh::Change RefitMesh::update(const std::vector<glm::dvec3>& positions) {
@@ -111,23 +108,21 @@ RefitMesh::Change RefitMesh::update(const std::vector<glm::dvec3>& positions) {
     }
     current_ = true;
     if (!moved) return Change::none;
-    if (geometry_ == nullptr || measure_spread() > largest_spread_growth * spread_) build();
-    auto* vertices = static_cast<glm::vec3*>(rtcGetGeometryBufferData(geometry_, RTC_BUFFER_TYPE_VERTEX, 0));
-    std::ranges::copy(points_, vertices);
-    rtcUpdateGeometryBuffer(geometry_, RTC_BUFFER_TYPE_VERTEX, 0);
-    rtcCommitGeometry(geometry_);
-    rtcCommitScene(scene_);
+    if (!is_filled() || measure_spread() > largest_spread_growth * spread_) build();
+    std::ranges::copy(points_, triangles_.points.begin());
+    rtcUpdateGeometryBuffer(triangles_.geometry.get(), RTC_BUFFER_TYPE_VERTEX, 0);
+    rtcCommitGeometry(triangles_.geometry.get());
+    rtcCommitScene(scene_.get());
+    device_.check();
     return Change::moved;
 }
 
 void RefitMesh::build() {
-    if (geometry_ != nullptr) {
-        rtcDetachGeometry(scene_, mesh_.geometry);
-        rtcReleaseGeometry(geometry_);
-    }
-    geometry_ = make_triangle_geometry(device_, mesh_.vertex_count, mesh_.triangles, mesh_.cutout);
-    rtcSetGeometryBuildQuality(geometry_, RTC_BUILD_QUALITY_REFIT);
-    rtcAttachGeometryByID(scene_, geometry_, mesh_.geometry);
+    if (is_filled()) rtcDetachGeometry(scene_.get(), mesh_.geometry);
+    triangles_ = {};
+    triangles_ = make_triangle_geometry(device_, mesh_.vertex_count, mesh_.triangles, mesh_.cutout);
+    rtcSetGeometryBuildQuality(triangles_.geometry.get(), RTC_BUILD_QUALITY_REFIT);
+    rtcAttachGeometryByID(scene_.get(), triangles_.geometry.get(), mesh_.geometry);
     neighbours_ = sort_neighbours(mesh_.triangles, points_);
     spread_ = measure_spread();
 }

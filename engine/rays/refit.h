@@ -1,12 +1,11 @@
 #pragma once
 // A deforming mesh for rays: its tree is refitted to the moved points, and built anew where it has come apart.
 
-#include <embree3/rtcore.h>
-
 #include <glm/vec3.hpp>
 #include <vector>
 
 #include "engine/rays/alpha_cutout.h"
+#include "engine/rays/embree_device.h"
 
 namespace aleph {
 
@@ -22,33 +21,37 @@ struct DeformingMesh {
     const AlphaCutout* cutout;  ///< null: rays always meet it
 };
 
-/// A triangle geometry with the settings that every mesh of a RayScene has. The caller releases it.
+/// A triangle geometry with the settings that every mesh of a RayScene has.
 /// @param cutout  null: rays always meet it; must outlive the geometry
-RTCGeometry make_triangle_geometry(RTCDevice device, std::size_t vertex_count, const std::vector<glm::uvec3>& triangles,
-                                   const AlphaCutout* cutout);
+struct TriangleGeometry {
+    EmbreeGeometry geometry;
+    std::span<glm::vec3> points;  ///< Embree's own, to be filled before the geometry is committed
+};
+TriangleGeometry make_triangle_geometry(const EmbreeDevice& device, std::size_t vertex_count,
+                                        const std::vector<glm::uvec3>& triangles, const AlphaCutout* cutout);
 
 /// Embree's scene of one deforming mesh.
 class RefitMesh {
   public:
-    RefitMesh(RTCDevice device, const DeformingMesh& mesh);
-    ~RefitMesh();
+    /// @param device, mesh  must outlive this
+    RefitMesh(const EmbreeDevice& device, const DeformingMesh& mesh);
     RefitMesh(const RefitMesh&) = delete;
     RefitMesh& operator=(const RefitMesh&) = delete;
 
     enum class Change { none, moved, unusable };
     /// Unusable: there are no positions, or some that Embree would drop without a word (HARD_CASES RC-08).
     Change update(const std::vector<glm::dvec3>& positions);
-    bool is_filled() const { return geometry_ != nullptr; }
-    RTCScene scene() const { return scene_; }
+    bool is_filled() const { return triangles_.geometry != nullptr; }
+    RTCScene scene() const { return scene_.get(); }
 
   private:
     void build();
     double measure_spread() const;
 
-    RTCDevice device_;
+    const EmbreeDevice& device_;
     const DeformingMesh& mesh_;
-    RTCScene scene_;
-    RTCGeometry geometry_ = nullptr;
+    EmbreeScene scene_;
+    TriangleGeometry triangles_;
     std::vector<glm::vec3> points_;
     bool current_ = false;                   ///< Embree has these points
     std::vector<std::uint32_t> neighbours_;  ///< triangles, near ones near each other when the tree was built

@@ -1,13 +1,12 @@
 #pragma once
 // What RayScene keeps, shared with Tracer only: Embree's handles do not leave these files (ray_scene*, tracer).
 
-#include <embree3/rtcore.h>
-
 #include <array>
 #include <atomic>
 #include <memory>
 #include <vector>
 
+#include "engine/rays/embree_device.h"
 #include "engine/rays/ray_scene.h"
 #include "engine/rays/refit.h"
 
@@ -37,14 +36,15 @@ struct MeshStructures {
         int deforming = no_index;       ///< into `deforming`
     };
 
-    MeshStructures(const Scene& scene, const PosePlan& plan);
-    ~MeshStructures();
+    /// @throws InputError: a mesh that cannot be traced; what EmbreeDevice throws
+    MeshStructures(const Scene& scene, const PosePlan& plan,
+                   std::unique_ptr<EmbreeDevice> device = std::make_unique<EmbreeDevice>());
     MeshStructures(const MeshStructures&) = delete;
     MeshStructures& operator=(const MeshStructures&) = delete;
 
-    RTCDevice device = nullptr;
+    std::unique_ptr<EmbreeDevice> device;
     int packet_width = 8;
-    std::vector<RTCScene> mesh_scenes;
+    std::vector<EmbreeScene> mesh_scenes;
     /// First what can move, deform, come or go, then what never does; in the order of the scene within both.
     std::vector<Object> objects;
     std::size_t moving_count = 0;
@@ -58,7 +58,7 @@ struct MeshStructures {
 
 /// One object's place in its layer's top-level scene.
 struct Placement {
-    RTCGeometry geometry = nullptr;
+    EmbreeGeometry geometry;
     bool enabled = false;
     bool skipped = false;  ///< shown, but no ray can meet it
     std::array<float, 12> transform{};
@@ -67,7 +67,7 @@ struct Placement {
 /// A top-level scene. Where many objects stand still they have their own, so that Embree does not sort them again for
 /// each that moves. The moving ones have the low numbers: Embree looks at every number up to the last when it commits.
 struct Layer {
-    RTCScene top = nullptr;
+    EmbreeScene top;
     std::size_t first = 0;              ///< its first object; Embree's instance number is the object's
     std::vector<Placement> placements;  ///< of the objects from `first`
     std::size_t enabled = 0, skipped = 0;
@@ -75,7 +75,6 @@ struct Layer {
 
 struct RayScene::State {
     explicit State(std::shared_ptr<const MeshStructures> shared);
-    ~State();
     State(const State&) = delete;
     State& operator=(const State&) = delete;
 

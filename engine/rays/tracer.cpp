@@ -137,7 +137,7 @@ PacketCounts intersect_packets(const RayScene::State& state, std::span<const Ray
         FilterContext context(state, coherent, &packet.hit);
         std::copy_n(packet.ray.tfar, Width, context.far.begin());
         for (const Layer* layer : state.layers())
-            if (layer->enabled > 0) Packet<Width>::intersect(valid, layer->top, &context.common.embree, &packet);
+            if (layer->enabled > 0) Packet<Width>::intersect(valid, layer->top.get(), &context.common.embree, &packet);
         const std::size_t count = std::min<std::size_t>(Width, rays.size() - begin);
         for (std::size_t lane = 0; lane < count; ++lane) {
             hits[begin + lane] =
@@ -164,7 +164,7 @@ PacketCounts occluded_packets(const RayScene::State& state, std::span<const Ray>
         const std::size_t count = std::min<std::size_t>(Width, rays.size() - begin);
         for (const Layer* layer : state.layers()) {
             if (layer->enabled == 0) continue;
-            Packet<Width>::occluded(valid, layer->top, &context.embree, &packet);
+            Packet<Width>::occluded(valid, layer->top.get(), &context.embree, &packet);
             bool open = false;  // a ray that is stopped has a negative end and is over
             for (std::size_t lane = 0; lane < count; ++lane) {
                 if (packet.tfar[lane] < 0.0f) valid[lane] = 0;
@@ -255,7 +255,7 @@ Hit Tracer::intersect(const Ray& ray) {
     FilterContext context(state_, false, &query.hit);
     context.far[0] = ray.far;
     for (const Layer* layer : state_.layers())
-        if (layer->enabled > 0) rtcIntersect1(layer->top, &context.common.embree, &query);
+        if (layer->enabled > 0) rtcIntersect1(layer->top.get(), &context.common.embree, &query);
     return make_hit(*state_.meshes, query.hit.instID[0], query.hit.geomID, query.hit.primID, query.hit.u, query.hit.v,
                     context.distance[0]);
 }
@@ -271,7 +271,7 @@ bool Tracer::occluded(const Ray& ray) {
     RTCRay query = {ray.origin.x, ray.origin.y, ray.origin.z, ray.near, direction.x, direction.y,
                     direction.z,  0.0f,         ray.far,      ~0u,      0,           0};
     for (const Layer* layer : state_.layers()) {
-        if (layer->enabled > 0) rtcOccluded1(layer->top, &context.embree, &query);
+        if (layer->enabled > 0) rtcOccluded1(layer->top.get(), &context.embree, &query);
         if (query.tfar < 0.0f) return true;
     }
     return false;
