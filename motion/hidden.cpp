@@ -36,10 +36,6 @@ std::uint64_t mark_hidden(MotionField& field, const Scene& scene, const PosedVie
     ALEPH_CHECK(same_size(field.validity, hits), fmt::format("{}x{} motion, {}x{} hits", field.validity.width,
                                                              field.validity.height, hits.width, hits.height));
     const std::vector<Instance>& instances = other.pose.instances;
-    std::vector<CameraFromObject> maps(instances.size());
-    for (std::size_t i = 0; i < maps.size(); ++i) {
-        maps[i] = make_camera_from_object(other.view, other.pose.world[instances[i].node]);
-    }
 
     // Blocks of neighbouring pixels: their points lie close together, so do the rays.
     constexpr int block = 8;
@@ -49,15 +45,18 @@ std::uint64_t mark_hidden(MotionField& field, const Scene& scene, const PosedVie
         std::array<Ray, block * block> rays;
         std::array<std::size_t, block * block> pixels;
         std::size_t count = 0;
+        int last = no_index;  // neighbours are mostly of one instance
+        CameraFromObject map;
         for (int y = top; y < std::min(top + block, hits.height); ++y) {
             for (int x = left; x < std::min(left + block, hits.width); ++x) {
                 const std::size_t pixel = hits.index(x, y);
                 if (field.validity.pixels[pixel] != MotionValidity::valid) continue;
                 const Hit& hit = hits.pixels[pixel];
-                const auto instance = static_cast<std::size_t>(hit.instance);
-                const auto mesh = static_cast<std::size_t>(instances[instance].mesh);
+                const auto [node, mesh] = instances[hit.instance];
+                if (hit.instance != last) map = make_camera_from_object(other.view, other.pose.world[node]);
+                last = hit.instance;
                 const glm::dvec3 point = triangle_point(scene.meshes[mesh], other.pose.meshes[mesh], hit);
-                rays[count] = make_visibility_ray(other.view, other_rays.anchor(), maps[instance](point));
+                rays[count] = make_visibility_ray(other.view, other_rays.anchor(), map(point));
                 pixels[count++] = pixel;
             }
         }

@@ -1,23 +1,51 @@
 #pragma once
-// Model-based motion, thesis 5.1.2: reproject the same surface point Q(u,v) at both times and subtract the projections.
+// Model-based motion, Yee 2000, 5.1.2: project the same surface point Q(u,v) at both times and subtract.
+
+#include <optional>
 
 #include "engine/pose/posed_view.h"
 #include "engine/rays/first_hits.h"
 #include "engine/rays/ray_scene.h"
 #include "motion/motion_field.h"
 #include "motion/other_frame.h"
+#include "motion/seen_instances.h"
+#include "motion/turn.h"
 
 namespace aleph {
 
-/// Exact motion of every first hit. Pure; double throughout; a world and camera that do not move give exactly 0.
-/// @param other  not read where `which` is none
-/// @param hits   first hits of `now`, of its view's size
+struct PreparedMotion;
+
+/// Motion between frames of one scene. Keeps a pose for the times between two frames, so that the cost follows what is
+/// seen and what moves, not the number of objects. The result depends on the arguments alone.
+class ModelMotion {
+  public:
+    /// @param plan  make_pose_plan(scene). Both must outlive this.
+    ModelMotion(const Scene& scene, const PosePlan& plan);
+
+    /// Motion of every first hit, in double precision. A world and camera that do not move give exactly 0.
+    /// @param other  not read where `which` is none
+    /// @param hits   first hits of `now`, of its view's size
+    MotionField compute(const PosedView& now, const PosedView& other, const Image<Hit>& hits,
+                        OtherFrame which = OtherFrame::next);
+
+  private:
+    void add_steps(PreparedMotion& motion, const PosedView& now, const PosedView& other);
+    const ScenePose& pose_between(double seconds);
+
+    const Scene& scene_;
+    const PosePlan& plan_;
+    TurnFinder turns_;
+    SeenInstances seen_;
+    std::optional<ScenePose> between_;
+};
+
+/// The same for a single pair of frames.
 MotionField compute_model_motion(const Scene& scene, const PosedView& now, const PosedView& other,
                                  const Image<Hit>& hits, OtherFrame which = OtherFrame::next);
 
-/// Marks valid pixels whose point something hides in the other frame as `hidden` (one ray each).
+/// Marks valid pixels whose point is hidden in the other frame as `hidden`. Casts one ray for each.
 /// @param other_rays  updated to the other frame
-/// @return rays cast
+/// @return number of rays cast
 std::uint64_t mark_hidden(MotionField& field, const Scene& scene, const PosedView& other, const Image<Hit>& hits,
                           const RayScene& other_rays);
 

@@ -30,6 +30,11 @@ inline CameraFromObject make_camera_from_object(const CameraView& view, const gl
             to_camera(view, glm::dvec3(world_from_object[3]))};
 }
 
+/// The background lies at infinity: only rotation moves it. Its points are directions in the axes of `now`.
+inline CameraFromObject make_background_map(const CameraView& now, const CameraView& view) {
+    return {glm::transpose(view.axes) * now.axes, glm::dvec3(0.0)};
+}
+
 /// Barycentric coordinates of a hit, brought back to the triangle that rounding may have put them off (RP-18). A NaN
 /// becomes 0.
 inline glm::dvec2 clamp_barycentrics(const Hit& hit) {

@@ -14,7 +14,7 @@
 namespace aleph {
 namespace {
 
-constexpr int largest_step_count = 512;
+constexpr int max_step_count = 512;
 
 double turn_between(double a, double b) {
     return std::abs(b - a);
@@ -119,66 +119,81 @@ bool is_detached(const Node& node, double begin, double end) {
     return evaluate(node.inherits, begin) == 0.0 && evaluate(node.inherits, end) == 0.0;
 }
 
-double largest(const Scene& scene, const Turns& turns) {
-    double most = turns.background;
-    for (std::size_t i = 0; i < scene.nodes.size(); ++i) {
-        if (!scene.nodes[i].meshes.empty()) most = std::max(most, turns.nodes[i]);
-    }
-    return most;
-}
-
 double step_time(double begin, double end, int step, int count) {
     return begin + (end - begin) * step / count;
 }
 
 }  // namespace
 
-Turns compute_turns(const Scene& scene, int camera_node, double begin, double end) {
-    if (begin > end) std::swap(begin, end);
-    std::vector<bool> carries_camera(scene.nodes.size(), false);
-    for (int node = camera_node; node != no_index;) {
-        carries_camera[node] = true;
-        const Node& carrier = scene.nodes[node];
-        node = is_detached(carrier, begin, end) ? no_index : carrier.parent;
+TurnFinder::TurnFinder(const Scene& scene, const PosePlan& plan)
+    : scene_(scene),
+      plan_(plan),
+      total_(scene.nodes.size(), 0.0),
+      shared_(scene.nodes.size(), 0.0),
+      joints_(scene.nodes.size(), 0.0),
+      carries_camera_(scene.nodes.size(), 0) {
+    for (int node = 0; node < std::ssize(scene.nodes); ++node) {
+        const std::vector<int>& meshes = scene.nodes[node].meshes;
+        const bool skinned = std::ranges::any_of(meshes, [&](int mesh) { return scene.meshes[mesh].skin != no_index; });
+        if (skinned) skinned_.push_back(node);
+        if (skinned || (!meshes.empty() && plan.moving[node] != 0)) with_mesh_.push_back(node);
     }
-    // Along the way from the root: everything's turn, and the part of it that the camera shares.
-    std::vector<double> total(scene.nodes.size(), 0.0), shared(scene.nodes.size(), 0.0);
-    for (std::size_t i = 0; i < scene.nodes.size(); ++i) {
-        const Node& node = scene.nodes[i];
-        const auto parent = static_cast<std::size_t>(node.parent);
-        const bool is_root = node.parent == no_index;
-        const bool detached = is_root || is_detached(node, begin, end);
-        total[i] = (detached ? 0.0 : total[parent]) + turn_of_node(node, begin, end);
-        shared[i] = carries_camera[i] ? total[i] : (detached ? 0.0 : shared[parent]);
-    }
-    Turns turns;
-    turns.background = camera_node == no_index ? 0.0 : total[camera_node];
-    turns.nodes.resize(scene.nodes.size());
-    for (std::size_t i = 0; i < turns.nodes.size(); ++i) {
-        turns.nodes[i] = (total[i] - shared[i]) + (turns.background - shared[i]);
-    }
-    // A skinned mesh turns with its joints, whatever its node does.
-    const std::vector<double> of_nodes = turns.nodes;
-    for (std::size_t i = 0; i < of_nodes.size(); ++i) {
-        for (const int mesh : scene.nodes[i].meshes) {
-            const int skin = scene.meshes[mesh].skin;
-            if (skin == no_index) continue;
-            for (const int joint : scene.skins[skin].joints) turns.nodes[i] = std::max(turns.nodes[i], of_nodes[joint]);
-        }
-    }
-    return turns;
 }
 
-std::vector<double> subdivide_turns(const Scene& scene, int camera_node, double begin, double end, double largest_turn,
-                                    double extra_turn) {
+void TurnFinder::find(int camera_node, double begin, double end) {
+    if (begin > end) std::swap(begin, end);
+    std::vector<int> carriers;
+    for (int node = camera_node; node != no_index;) {
+        carriers.push_back(node);
+        carries_camera_[node] = 1;
+        const Node& carrier = scene_.nodes[node];
+        node = is_detached(carrier, begin, end) ? no_index : carrier.parent;
+    }
+    for (const int n : plan_.nodes) {
+        const Node& node = scene_.nodes[n];
+        const bool detached = node.parent == no_index || is_detached(node, begin, end);
+        total_[n] = (detached ? 0.0 : total_[node.parent]) + turn_of_node(node, begin, end);
+        shared_[n] = carries_camera_[n] != 0 ? total_[n] : (detached ? 0.0 : shared_[node.parent]);
+    }
+    background_ = camera_node == no_index ? 0.0 : total_[camera_node];
+    for (const int node : carriers) carries_camera_[node] = 0;
+
+    for (const int node : skinned_) {
+        joints_[node] = 0.0;
+        for (const int mesh : scene_.nodes[node].meshes) {
+            const int skin = scene_.meshes[mesh].skin;
+            if (skin == no_index) continue;
+            for (const int joint : scene_.skins[skin].joints)
+                joints_[node] = std::max(joints_[node], turn_against_camera(joint));
+        }
+    }
+}
+
+double TurnFinder::turn_against_camera(int node) const {
+    return (total_[node] - shared_[node]) + (background_ - shared_[node]);
+}
+
+double TurnFinder::of_node(int node) const {
+    return std::max(turn_against_camera(node), joints_[node]);
+}
+
+double TurnFinder::largest() const {
+    double most = background_;  // also of everything that cannot move
+    for (const int node : with_mesh_) most = std::max(most, of_node(node));
+    return most;
+}
+
+std::vector<double> TurnFinder::subdivide(int camera_node, double begin, double end, double max_turn,
+                                          double extra_turn) {
     const auto turn_within = [&](double from, double to, int count) {
-        return largest(scene, compute_turns(scene, camera_node, from, to)) + extra_turn / count;
+        find(camera_node, from, to);
+        return largest() + extra_turn / count;
     };
     // The allowance keeps equal parts of a steady spin from being split again by rounding.
-    const double limit = largest_turn * (1.0 + 1e-9);
+    const double limit = max_turn * (1.0 + 1e-9);
     const double turn = turn_within(begin, end, 1);
     if (!(turn > limit)) return {};
-    int count = static_cast<int>(std::min<double>(std::ceil(turn / limit), largest_step_count));
+    int count = static_cast<int>(std::min<double>(std::ceil(turn / limit), max_step_count));
     const auto is_too_coarse = [&] {
         for (int step = 0; step < count; ++step) {
             const double from = step_time(begin, end, step, count), to = step_time(begin, end, step + 1, count);
@@ -187,7 +202,7 @@ std::vector<double> subdivide_turns(const Scene& scene, int camera_node, double 
         return false;
     };
     // A spin that speeds up or slows down needs shorter steps than its mean says.
-    while (count < largest_step_count && is_too_coarse()) count = std::min(2 * count, largest_step_count);
+    while (count < max_step_count && is_too_coarse()) count = std::min(2 * count, max_step_count);
     std::vector<double> times;
     for (int step = 1; step < count; ++step) times.push_back(step_time(begin, end, step, count));
     return times;

@@ -95,7 +95,8 @@ struct Sequence::State {
     RayScene rays;
     // What the last frame left: the next one updates it, and is the same as without.
     std::optional<PosedView> now, other;
-    std::optional<ShadingScene> shading;   ///< of `now`
+    std::optional<ShadingScene> shading;  ///< of `now`
+    std::optional<ModelMotion> model_motion;
     std::unique_ptr<RayScene> other_rays;  ///< for visibility in the other frame, or its quick estimate
     double exposure = 1.0;
 };
@@ -115,6 +116,7 @@ Sequence::Sequence(const Scene& authored, const RenderSettings& settings, const 
                            make_texture_set(scene),
                            std::move(plan),
                            std::move(rays),
+                           {},
                            {},
                            {},
                            {},
@@ -230,7 +232,8 @@ FrameOutput Sequence::render(std::int64_t frame, const FrameRequest& request) {
             clock.add_to(stats.seconds.estimate);
             out.motion = compute_image_motion(out.estimate, other_estimate, which);
         } else {
-            out.motion = compute_model_motion(s.scene, now, other, centers.hits, which);
+            if (!s.model_motion) s.model_motion.emplace(s.scene, s.pose_plan);
+            out.motion = s.model_motion->compute(now, other, centers.hits, which);
             if (look_there) {
                 stats.rays.primary += mark_hidden(out.motion, s.scene, other, centers.hits, *s.other_rays);
             }

@@ -127,6 +127,12 @@ TEST(ReprojectionTurn, RP07_SpinsAddUpAlongTheHierarchy) {
     }
 }
 
+/// Times between 0 and 1 s; node 1 holds the camera.
+std::vector<double> subdivide(const Scene& scene) {
+    const PosePlan plan = make_pose_plan(scene);
+    return TurnFinder(scene, plan).subdivide(1, 0.0, 1.0, 20.0 * degrees);
+}
+
 /// Starts at rest and ends fast: even steps would turn 38 degrees in the last of 18.
 TEST(ReprojectionTurn, RP07_UnevenSpin) {
     Scene scene = make_point_scene({1.0f, 0.0f, -10.0f}, 1500.0);
@@ -138,7 +144,7 @@ TEST(ReprojectionTurn, RP07_UnevenSpin) {
     angle.values = {0.0, 0.0, 0.0, 2.0 * turn, turn, 0.0};  // angle = turn t^2
     scene.nodes[0].axis_rotation = AxisRotation{{0.0, 0.0, 1.0}, angle};
     EXPECT_NEAR(motion_of_point(scene).path_length, 942.48, 9.4);
-    const std::vector<double> times = subdivide_turns(scene, 1, 0.0, 1.0, 20.0 * degrees);
+    const std::vector<double> times = subdivide(scene);
     double previous = 0.0;
     for (const double time : times) {
         EXPECT_LE(turn * (time * time - previous * previous), 20.001 * degrees);
@@ -148,13 +154,13 @@ TEST(ReprojectionTurn, RP07_UnevenSpin) {
 }
 
 TEST(ReprojectionTurn, RP07_NoSubFramesWithoutAFastSpin) {
-    EXPECT_TRUE(subdivide_turns(make_wheel(19.9), 1, 0.0, 1.0, 20.0 * degrees).empty());
-    EXPECT_EQ(subdivide_turns(make_wheel(20.1), 1, 0.0, 1.0, 20.0 * degrees).size(), 1u);
-    EXPECT_EQ(subdivide_turns(make_wheel(180.0), 1, 0.0, 1.0, 20.0 * degrees).size(), 8u);
-    EXPECT_EQ(subdivide_turns(make_wheel(1e12), 1, 0.0, 1.0, 20.0 * degrees).size(), 511u);
+    EXPECT_TRUE(subdivide(make_wheel(19.9)).empty());
+    EXPECT_EQ(subdivide(make_wheel(20.1)).size(), 1u);
+    EXPECT_EQ(subdivide(make_wheel(180.0)).size(), 8u);
+    EXPECT_EQ(subdivide(make_wheel(1e12)).size(), 511u);
     Scene jump = make_wheel(180.0);
     jump.nodes[0].axis_rotation->angle.interpolation = Interpolation::step;
-    EXPECT_TRUE(subdivide_turns(jump, 1, 0.0, 1.0, 20.0 * degrees).empty());
+    EXPECT_TRUE(subdivide(jump).empty());
 }
 
 }  // namespace

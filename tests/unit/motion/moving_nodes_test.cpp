@@ -1,0 +1,111 @@
+// Motion looks at the nodes that can move only: the same bits as when it looks at all of them.
+
+#include <gtest/gtest.h>
+
+#include <numeric>
+
+#include "motion/model_motion.h"
+#include "tests/support/deforming_scenes.h"
+#include "tests/support/motion_scenes.h"
+
+namespace aleph {
+namespace {
+
+constexpr int width = 96, height = 72;
+
+Node make_node(int parent, const glm::dvec3& translation) {
+    Node node;
+    node.parent = parent;
+    node.translation = translation;
+    return node;
+}
+
+Node spinning(Node node, double degrees_per_second) {
+    node.axis_rotation = AxisRotation{{0.0, 0.6, 0.8}, ramp(0.1, 0.1 + degrees_per_second * degrees)};
+    return node;
+}
+
+int add_object(Scene& scene, Node node) {
+    node.meshes = {add_triangle_soup(scene, 50, 1.0f)};
+    return add_node(scene, std::move(node));
+}
+
+/// Objects that stand still, turn fast, hang on what turns, or let go of it, in front of a camera.
+Scene make_scene(double object_turn, double camera_turn) {
+    Scene scene = make_skin_scene();  // its joints turn, its own node does not
+    for (int i = 0; i < 5; ++i) add_object(scene, make_node(no_index, {i - 2.0, 0.5, -9.0}));
+    const int arm = add_node(scene, spinning(make_node(no_index, {0.0, 1.0, -8.0}), object_turn));
+    add_object(scene, make_node(arm, {1.0, 0.0, 0.0}));
+    add_object(scene, spinning(make_node(arm, {-1.0, 0.0, 0.0}), -2.0 * object_turn));
+    Node let_go = make_node(arm, {0.0, 0.0, -12.0});
+    let_go.inherits = 0.0;
+    add_object(scene, let_go);
+    const int still = add_object(scene, make_node(no_index, {0.3, -2.0, -7.0}));
+    add_object(scene, spinning(make_node(still, {0.0, -1.0, 0.0}), 40.0));
+    // A turntable carries the camera and one object.
+    const int table = add_node(scene, spinning(make_node(no_index, {0.0, 0.0, 3.0}), camera_turn));
+    add_object(scene, make_node(table, {0.2, 0.1, -6.0}));
+    add_camera(scene, table);
+    return scene;
+}
+
+/// A plan that takes every node for a moving one.
+PosePlan plan_all(const Scene& scene) {
+    PosePlan plan = make_pose_plan(scene);
+    plan.moving.assign(scene.nodes.size(), 1);
+    plan.nodes.resize(scene.nodes.size());
+    std::iota(plan.nodes.begin(), plan.nodes.end(), 0);
+    return plan;
+}
+
+void expect_same(const MotionField& a, const MotionField& b) {
+    EXPECT_EQ(a.displacement, b.displacement);
+    EXPECT_EQ(a.path_length, b.path_length);
+    EXPECT_EQ(a.validity, b.validity);
+}
+
+TEST(MovingNodes, MotionHasTheBitsOfAPlanOfAllNodes) {
+    for (const double object_turn : {5.0, 300.0, 4000.0}) {
+        for (const double camera_turn : {0.0, 70.0}) {
+            SCOPED_TRACE(object_turn);
+            SCOPED_TRACE(camera_turn);
+            const Scene scene = make_scene(object_turn, camera_turn);
+            const PosePlan plan = make_pose_plan(scene), everything = plan_all(scene);
+            EXPECT_LT(plan.nodes.size(), everything.nodes.size());
+            ModelMotion motion(scene, plan);
+            for (const double seconds : {0.0, 0.5, 0.2}) {  // what the last call left behind does not show
+                const TwoViews views(scene, seconds, seconds + 0.3, width, height);
+                Image<Hit> hits = make_random_hits(scene, views.now.pose, width, height);
+                hits(0, 0) = {};
+                const MotionField field = motion.compute(views.now, views.other, hits);
+                expect_same(field, ModelMotion(scene, everything).compute(views.now, views.other, hits));
+                double detour = 0.0;
+                for (std::size_t i = 0; i < hits.size(); ++i) {
+                    const double chord = glm::length(field.displacement.pixels[i]);
+                    detour = std::max(detour, field.path_length.pixels[i] - chord);
+                }
+                EXPECT_EQ(detour > 1.0, object_turn > 100.0);  // a fast turn is followed step by step
+            }
+        }
+    }
+}
+
+TEST(MovingNodes, TurnsAreThoseOfAPlanOfAllNodes) {
+    const Scene scene = make_scene(300.0, 70.0);
+    const PosePlan plan = make_pose_plan(scene), everything = plan_all(scene);
+    TurnFinder some(scene, plan), all(scene, everything);
+    const int camera = static_cast<int>(scene.nodes.size()) - 1;
+    for (const int camera_node : {camera, 4, no_index}) {
+        for (const double end : {0.9, 0.4}) {
+            some.find(camera_node, 0.1, end);
+            all.find(camera_node, 0.1, end);
+            EXPECT_EQ(some.background(), all.background());
+            for (int node = 0; node < std::ssize(scene.nodes); ++node)
+                EXPECT_EQ(some.of_node(node), all.of_node(node)) << node;
+            EXPECT_EQ(some.subdivide(camera_node, 0.1, end, 0.3), all.subdivide(camera_node, 0.1, end, 0.3));
+        }
+    }
+}
+
+}  // namespace
+}  // namespace aleph
