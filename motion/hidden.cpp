@@ -1,4 +1,4 @@
-// What frame N sees and frame N+1 no longer does: one ray each from the other camera to where the point went.
+// Finds the points of frame N that are hidden in frame N+1, with one ray each from the other camera to the point.
 
 #include <fmt/format.h>
 #include <algorithm>
@@ -16,16 +16,16 @@
 namespace aleph {
 namespace {
 
-/// A ray that ends clearly before the point, so that the point's own surface does not count: m, relative to the anchor.
+/// A ray that ends just before the point, so that it does not hit the point's own surface: m, relative to the anchor.
 Ray make_visibility_ray(const CameraView& view, const glm::dvec3& anchor, const glm::dvec3& in_camera) {
-    constexpr double clearly_before = 1.0 - 1e-3;
+    constexpr double share_of_way = 1.0 - 1e-3;
     const glm::dvec3 start = view.orthographic ? glm::dvec3(in_camera.x, in_camera.y, 0.0) : glm::dvec3(0.0);
     const glm::dvec3 way = in_camera - start;
     const double distance = glm::length(way);
     Ray ray;
     ray.origin = glm::vec3((view.position - anchor) + view.axes * start);
     ray.direction = glm::vec3(view.axes * (way / distance));
-    ray.far = static_cast<float>(distance * clearly_before);
+    ray.far = static_cast<float>(distance * share_of_way);
     return ray;
 }
 

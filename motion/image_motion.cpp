@@ -114,7 +114,7 @@ Image<Offset> search_exhaustively(const CensusLevel& now, const CensusLevel& oth
     return best;
 }
 
-/// Three bytes of a window's row, x - 1 to x + 1, in one word with a byte of rubbish on top.
+/// Three bytes of a window's row, x - 1 to x + 1, in one word; the top byte is undefined.
 std::uint32_t load_window_row(const CensusLevel& level, int x, int y) {
     std::uint32_t word;
     std::memcpy(&word, level.row(y) + x - 1, sizeof word);
@@ -137,7 +137,7 @@ int compute_cost(const Window& a, const Window& b) {
     return cost;
 }
 
-/// Three steps of nine candidates each around where the search stands.
+/// Three steps of eight candidates each around the best offset so far.
 Offset search_in_steps(const CensusLevel& now, const CensusLevel& other, int x, int y, Offset offset) {
     static constexpr std::array<Offset, 8> around = {
         {{0, -1}, {-1, 0}, {1, 0}, {0, 1}, {-1, -1}, {1, -1}, {-1, 1}, {1, 1}}};
@@ -146,7 +146,7 @@ Offset search_in_steps(const CensusLevel& now, const CensusLevel& other, int x, 
     offset.y = std::clamp(offset.y, -y, now.height - 1 - y);
     int best = compute_cost(window, load_window(other, x + offset.x, y + offset.y));
     for (const int step : steps) {
-        if (best == 0 && offset.x == 0 && offset.y == 0) break;  // nothing comes before it
+        if (best == 0 && offset.x == 0 && offset.y == 0) break;  // no other offset can win
         const Offset middle = offset;
         for (const Offset& direction : around) {
             const Offset candidate{middle.x + step * direction.x, middle.y + step * direction.y};

@@ -1,7 +1,7 @@
 #pragma once
-// Image-based motion, thesis 5.1.1: where the census-transformed neighbourhood of a pixel went, by a hierarchical
-// search. For frames without a scene. Known limits: nothing can be told from uniform colour; motion along an edge does
-// not show; background that comes out from behind something seems to move with it; white noise has no coarse level to
+// Image-based motion, Yee 2000, 5.1.1: a hierarchical search for the census-transformed neighbourhood of every pixel in
+// the other frame. For frames without a scene. Known limits: uniform colour gives no motion; motion along an edge is
+// not found; background that appears from behind an object seems to move with it; white noise has no coarse level to
 // search.
 
 #include <cstdint>
@@ -18,14 +18,14 @@ namespace aleph {
 /// One pixel of border on every side repeats the edge, so that 3x3 windows need no test.
 struct CensusLevel {
     int width = 0, height = 0;       ///< without the border
-    std::vector<std::uint8_t> bits;  ///< (height + 2) rows of width + 2 bytes, and a few bytes that readers may touch
+    std::vector<std::uint8_t> bits;  ///< (height + 2) rows of width + 2 bytes, and a few spare bytes for wide reads
 
     const std::uint8_t* row(int y) const {  ///< y from -1 to height; [-1] to [width] may be read
         return bits.data() + static_cast<std::size_t>(y + 1) * static_cast<std::size_t>(width + 2) + 1;
     }
 };
 
-/// Level 0, the finest, first. Made once for a frame, which is N+1 first and N then.
+/// From the finest level, 0. Made once for a frame, which is first N+1 and then N.
 using CensusPyramid = std::vector<CensusLevel>;
 
 /// Of the achromatic channel A. NaN and components below 0 count as 0 (opponent_color.h).
@@ -38,9 +38,9 @@ CensusLevel make_census_level(const Image<float>& level);
 /// Whole pixels, for every pixel. Cost of an offset: sum of Hamming distances over 3x3, borders clamped; targets
 /// outside the frame are excluded. Exhaustive within 8 pixels at the coarsest level; at each finer level three steps
 /// (4, 2, 1) from twice the coarser result (of pixel floor(x/2), floor(y/2); brought back inside where it leads one
-/// pixel out). Ties go to the smaller |offset|^2, then dy, then dx, of the whole offset from the pixel: what shows
-/// nothing stands still. Reach: 53 pixels with three levels, 23 with two, 8 with one. Every pixel has a target, so that
-/// all are `valid`. The same bits for any number of threads.
+/// pixel out). Ties go to the smaller |offset|^2, then dy, then dx, of the whole offset from the pixel, so that
+/// areas without texture stand still. Reach: 53 pixels with three levels, 23 with two, 8 with one. Every pixel has a
+/// target, so that all are `valid`. The same bits for any number of threads.
 /// @param other  may be empty where `which` is none
 /// @throws InputError if the sizes differ or are empty
 MotionField compute_image_motion(const CensusPyramid& now, const CensusPyramid& other,

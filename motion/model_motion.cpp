@@ -32,7 +32,7 @@ int find_viewing_camera(const PosedView& now, const PosedView& other) {
     return no_index;
 }
 
-/// Between two views that no camera of the scene explains.
+/// A view between two others, for views made without a camera of the scene.
 CameraView interpolate_view(const CameraView& a, const CameraView& b, double fraction) {
     CameraView view = a;
     view.position = glm::mix(a.position, b.position, fraction);
@@ -60,13 +60,13 @@ glm::dvec2 cap_length(const glm::dvec2& vector, double longest) {
     return scaled * (longest / glm::length(scaled));
 }
 
-/// Q at both moments, in object space, m; or a direction of the background.
+/// Q at both times, in object space, m; or a direction of the background.
 struct SurfacePlace {
     glm::dvec3 now{0.0}, other{0.0};
     const Hit* hit = nullptr;
 };
 
-/// Sum of the chords over the steps; a chord with an end behind the camera counts nothing.
+/// Sum of the chords over the steps; a chord with an end behind the camera adds nothing.
 [[gnu::noinline]] double compute_path_length(const PreparedMotion& all, const ObjectMotion& object, SurfacePlace place,
                                              glm::dvec2 start, glm::dvec2 end) {
     double sum = 0.0;
@@ -95,8 +95,8 @@ bool is_on_screen(const CameraView& view, const glm::dvec2& p) {
     return p.x >= 0.0 && p.x <= view.width && p.y >= 0.0 && p.y <= view.height;
 }
 
-/// Motion of a surface point or of a background direction. The same function projects both moments, so that equal bits
-/// give exactly 0.
+/// Motion of a surface point or of a background direction. The same function projects both, so that equal bits give
+/// exactly 0.
 PixelMotion compute_point_motion(const PreparedMotion& all, const ObjectMotion& object, const SurfacePlace& place,
                                  double near_now, double near_other) {
     PixelMotion motion;
@@ -127,7 +127,7 @@ PixelMotion compute_background_motion(const PreparedMotion& all, double x, doubl
     return motion;
 }
 
-/// Apart, so that what is rigid stays one short path.
+/// Not inlined, so that the code for rigid objects stays short.
 [[gnu::noinline]] PixelMotion compute_deforming_motion(const PreparedMotion& all, const ObjectMotion& object,
                                                        const Hit& hit) {
     const SurfacePlace place{surface_point(*object.mesh, *object.shape_now, hit),

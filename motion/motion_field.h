@@ -1,5 +1,5 @@
 #pragma once
-// Where every pixel's surface point goes from one frame to the next. Plain data, double precision.
+// The motion field: where every pixel's surface point goes from one frame to the next. Double precision.
 
 #include <cstdint>
 #include <glm/vec2.hpp>
@@ -15,12 +15,12 @@ enum class MotionValidity : std::int8_t {
     behind_camera = -1,   ///< at or behind the other frame's near plane; displacement 0
     leaves_screen = -2,   ///< displacement kept
     no_counterpart = -3,  ///< object not visible in the other frame, topology change, camera cut; displacement 0
-    hidden = -4,          ///< something stands before it in frame N+1; displacement kept
+    hidden = -4,          ///< something covers it in frame N+1; displacement kept
 };
 
 struct MotionField {
-    /// P' - P in pixels, x right, y down, frame N to N+1 (a displacement of projections, never from the pixel centre;
-    /// MODEL.md 5.1). Length at most the image diagonal.
+    /// P' - P in pixels, x right, y down, from frame N to N+1. Both are projections of the surface point; the pixel's
+    /// centre is not used. Length at most the image diagonal.
     Image<glm::dvec2> displacement;
     /// Length of the path in pixels: |displacement|, or the sum over sub-frame steps where something turns more than
     /// 20 degrees in the frame. Not negative.

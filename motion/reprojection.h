@@ -1,5 +1,5 @@
 #pragma once
-// From a point on an object's surface to a camera's axes: composed once per instance and moment, in double.
+// From a point on an object's surface to a camera's axes, in double. The map is composed once per instance and time.
 
 #include <algorithm>
 #include <glm/mat3x3.hpp>
@@ -15,8 +15,8 @@
 
 namespace aleph {
 
-/// Object space to camera axes. The camera's position is subtracted before anything is rotated, so that nothing is
-/// lost far from the origin.
+/// Object space to camera axes. The camera's position is subtracted before the rotation, so that precision is
+/// kept far from the origin.
 struct CameraFromObject {
     glm::dmat3 linear{1.0};
     glm::dvec3 offset{0.0};  ///< m
@@ -35,8 +35,7 @@ inline CameraFromObject make_background_map(const CameraView& now, const CameraV
     return {glm::transpose(view.axes) * now.axes, glm::dvec3(0.0)};
 }
 
-/// Barycentric coordinates of a hit, brought back to the triangle that rounding may have put them off (RP-18). A NaN
-/// becomes 0.
+/// Barycentric coordinates of a hit, clamped to the triangle: rounding may have moved them outside. NaN becomes 0.
 inline glm::dvec2 clamp_barycentrics(const Hit& hit) {
     double u = hit.u > 0.0f ? std::min(static_cast<double>(hit.u), 1.0) : 0.0;
     double v = hit.v > 0.0f ? std::min(static_cast<double>(hit.v), 1.0) : 0.0;
@@ -47,7 +46,7 @@ inline glm::dvec2 clamp_barycentrics(const Hit& hit) {
     return {u, v};
 }
 
-/// Between three corners of a triangle given by their numbers among points of any precision.
+/// A point of a triangle. `triangle` holds indices into `points`, which may have any precision.
 template <class Points>
 [[gnu::always_inline]] inline glm::dvec3 point_between(const Points& points, const glm::uvec3& triangle,
                                                        const glm::dvec2& uv) {
@@ -55,29 +54,28 @@ template <class Points>
     return (1.0 - uv.x - uv.y) * p0 + uv.x * p1 + uv.y * p2;
 }
 
-/// Where on its mesh a ray met an object: object space, m. Always from the barycentrics, never from the distance, which
-/// is off by metres at grazing angles (HARD_CASES RP-19).
+/// The point of a mesh that a ray hit: object space, m. Computed from the barycentrics, because the distance is off by
+/// metres at grazing angles.
 [[gnu::always_inline]] inline glm::dvec3 surface_point(const Mesh& mesh, const Hit& hit) {
     return point_between(mesh.positions, mesh.triangles[hit.primitive], clamp_barycentrics(hit));
 }
 
-/// The same on a mesh that may deform, at the moment of `posed` (ScenePose::meshes): on its triangles, as rays meet
-/// it.
+/// The same on a mesh that may deform, as `posed` (ScenePose::meshes): the point of its triangles, as rays hit them.
 inline glm::dvec3 triangle_point(const Mesh& mesh, const PosedMesh& posed, const Hit& hit) {
     if (posed.positions.empty()) return surface_point(mesh, hit);
     return point_between(posed.positions, mesh.triangles[hit.primitive], clamp_barycentrics(hit));
 }
 
-/// Q(u,v,t) at the moment of `posed`: the limit surface's point where the mesh is a moving cage's, else the triangle's.
+/// Q(u,v,t) at the time of `posed`: on the limit surface for the mesh of a moving cage, else on the triangle.
 inline glm::dvec3 surface_point(const Mesh& mesh, const PosedMesh& posed, const Hit& hit) {
     if (posed.control.empty()) return triangle_point(mesh, posed, hit);
     const glm::dvec2 uv = clamp_barycentrics(hit);
     return mesh.limit.surface->evaluate(mesh.cage_part, posed.control, hit.primitive, uv.x, uv.y);
 }
 
-/// Nearest depth along the viewing axis that still counts as before the camera, m.
+/// Nearest depth along the viewing axis that counts as in front of the camera, m.
 inline double nearest_depth(const CameraView& view) {
-    // A perspective division by less than this says nothing any more.
+    // A perspective division by less than this gives no meaningful result.
     constexpr double smallest = 1e-12;
     return std::max(view.near_plane, view.orthographic ? 0.0 : smallest);
 }

@@ -68,7 +68,7 @@ double turn_along(const Track<T>& track, double begin, double end) {
     return sum;
 }
 
-/// The samples that matter between two times, as a track of their own. `make` reads a value from a sample's channels.
+/// The samples that are used between two times, as a track. `make` reads a value from a sample's channels.
 template <class T, class Make>
 double turn_of_channels(const OperationStack& stack, const SampleSpan& used, double begin, double end,
                         const Make& make) {
@@ -82,7 +82,7 @@ double turn_of_channels(const OperationStack& stack, const SampleSpan& used, dou
     return turn_along(track, begin, end);
 }
 
-/// Turns of all operations added up: not less than what they do together.
+/// Sum of the turns of all operations, which is not less than their combined turn.
 double turn_of_operations(const OperationStack& stack, double begin, double end) {
     using Kind = OperationStack::Kind;
     const std::size_t samples = sample_count(stack);
@@ -95,7 +95,7 @@ double turn_of_operations(const OperationStack& stack, double begin, double end)
         const std::size_t at = first;
         first += channel_count(kind);
         if (kind == Kind::rotate) {
-            // An axis that swings is rare, and then slow: only the angle is counted.
+            // Only the angle is counted: an axis that changes is rare, and changes slowly.
             sum += turn_of_channels<double>(stack, used, begin, end, [&](const double* c) { return c[at + 3]; });
         } else if (kind == Kind::rotate_x || kind == Kind::rotate_y || kind == Kind::rotate_z) {
             sum += turn_of_channels<double>(stack, used, begin, end, [&](const double* c) { return c[at]; });

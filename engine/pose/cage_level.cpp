@@ -54,7 +54,7 @@ unsigned beyond(const CameraView& view, const glm::dvec3& p) {
 // How bends shrink is known from this level on; coarser cages are measured at it.
 constexpr int lowest_measured_level = 2;
 
-/// A part of a cage's surface at a moment, by triangles.
+/// A part of a cage's surface at a time, by triangles.
 struct SurfaceShape {
     std::shared_ptr<const LimitSurface> surface;
     std::vector<glm::uvec3> triangles;
@@ -81,7 +81,7 @@ double measure_bend(const LimitSurface& surface, int part, const std::vector<glm
     return 9.0 / 8.0 * bend;  // an arc's height at a third of its chord, to that at its half
 }
 
-/// Fills what depends on the moment.
+/// Fills what depends on time.
 void place_shape(SurfaceShape& shape, const Scene& scene, const Mesh& mesh, double seconds) {
     const Cage& cage = scene.cages[mesh.cage];
     const auto control = shape.surface->make_control_points(cage_points_at(scene, cage, seconds));
@@ -123,7 +123,7 @@ double find_level_needed(const SurfaceShape& shape, const glm::dmat4& world, con
     return shape.surface->level() + most;
 }
 
-/// Nodes and instances of the scene at a moment, without its deforming meshes.
+/// Nodes and instances of the scene at a time, without its deforming meshes.
 ScenePose place_nodes(const Scene& scene, double seconds, std::vector<Instance> instances) {
     ScenePose frame;
     frame.seconds = seconds;
@@ -142,7 +142,7 @@ int find_camera_node(const Scene& scene, int camera) {
     return no_index;
 }
 
-/// Shapes of meshes, placed anew at every moment for cages that deform.
+/// Shapes of meshes; those of deforming cages are updated for every time.
 class Shapes {
   public:
     explicit Shapes(const Scene& scene)

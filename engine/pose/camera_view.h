@@ -1,5 +1,5 @@
 #pragma once
-// A camera with an image behind it: pixel to ray, point to pixel. All in double.
+// A camera with the size of its image: pixel to ray, and point to pixel. All in double.
 // Pixels: x right, y down, pixel centres at +.5, row 0 on top.
 
 #include <glm/mat3x3.hpp>
@@ -51,7 +51,8 @@ struct CameraRay {
 };
 CameraRay make_camera_ray(const CameraView& view, double x, double y);
 
-/// Where rays are traced relative to: the camera's position snapped to a coarse grid. A function of the camera alone.
+/// Origin of the coordinates in which rays are traced, m: the camera's position rounded to a coarse grid. Depends on
+/// the camera alone.
 glm::dvec3 compute_anchor(const CameraView& view);
 
 }  // namespace aleph

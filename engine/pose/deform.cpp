@@ -52,8 +52,8 @@ std::vector<std::uint32_t> group_normals(const Mesh& mesh) {
     return groups;
 }
 
-/// Sums of the triangles' normals about each group, weighted by the angle there, so that it does not matter how a face
-/// was cut into triangles (Thuermer and Wuethrich 1998, Journal of Graphics Tools 3(1)).
+/// Sums of the triangles' normals in each group, weighted by the angle at the vertex, so that the way a face was cut
+/// into triangles does not matter (Thuermer and Wuethrich 1998, Journal of Graphics Tools 3(1)).
 std::vector<glm::vec3> find_normals(const Mesh& mesh, const std::vector<glm::dvec3>& positions,
                                     const std::vector<std::uint32_t>& groups) {
     std::vector<glm::dvec3> sums(positions.size(), glm::dvec3(0.0));
@@ -121,8 +121,8 @@ void morph(const Mesh& mesh, double seconds, PosedMesh& posed) {
     for (std::size_t v = 0; v < normals.size(); ++v) posed.normals[v] = glm::vec3(safe_normalize(normals[v]));
 }
 
-/// glTF 2.0, 3.7.3.3: the node's own transform does not matter, so it is taken out again. A node without volume cannot
-/// be undone; no ray meets its mesh anyway, which stays as it is.
+/// glTF 2.0, 3.7.3.3: the node's own transform is to be ignored, so its inverse is applied. A node without volume has
+/// no inverse: its mesh stays as it is, and no ray can hit it.
 void apply_skin(const Scene& scene, const Mesh& mesh, int node, std::span<const glm::dmat4> world, PosedMesh& posed) {
     const glm::dmat4& placed = world[node];
     if (!has_full_rank(placed)) return;
@@ -151,7 +151,7 @@ void apply_skin(const Scene& scene, const Mesh& mesh, int node, std::span<const 
     }
 }
 
-/// Meshes of one cage follow each other as a rule: the last one's control points are kept.
+/// Control points of the last cage: its meshes usually follow each other.
 struct LastCage {
     int cage = no_index;
     const LimitSurface* surface = nullptr;

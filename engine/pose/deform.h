@@ -1,5 +1,5 @@
 #pragma once
-// Deforming meshes at a moment, in double: point caches, morph targets and then a skin, cages.
+// Poses deforming meshes, in double: point caches, morph targets followed by a skin, cages.
 
 #include <glm/mat4x4.hpp>
 #include <span>
@@ -9,25 +9,26 @@
 
 namespace aleph {
 
-/// What is found once about a mesh whose points pose() replaces.
+/// What is known about a mesh whose points pose() replaces; found once.
 struct Deformer {
     int mesh = no_index;
     int node = no_index;   ///< skinned: the only node that carries the mesh
     bool changes = false;  ///< false: posed, but the same at every time
-    /// Where normals are found from the moved triangles: vertices of one number share theirs. Those of one point whose
-    /// normals agree at rest do, so that an edge stays as smooth or sharp as the file has it.
+    /// Where normals are computed from the moved triangles: per vertex, the number of its group; a group shares one
+    /// normal. Vertices of one point whose normals agree at rest form a group, so that an edge stays as smooth or
+    /// sharp as in the file.
     std::vector<std::uint32_t> normal_groups;
 };
 
-/// The meshes that have instances and whose points or normals are not simply those of the mesh: samples that differ,
+/// The meshes that have instances and whose points or normals differ from those of the mesh: samples that differ,
 /// morph targets that are or may be on, a skin, a cage that moves. In the order of the scene's meshes.
-/// @param moving_nodes  per node, true where its transform can change: what a skin changes by
+/// @param moving_nodes  per node, true where its transform can change, and with it a skin
 std::vector<Deformer> find_deformers(const Scene& scene, std::span<const std::uint8_t> moving_nodes);
 
 /// Fills what `posed` holds of each deformer whose mesh is shown, and clears it of the others.
 /// @param shown  per deformer: whether some instance shows its mesh
 /// @param world  per node, object to world
-/// @param all    false: what does not change and is filled already stays
+/// @param all    false: leaves meshes that do not change and are filled already
 void deform(const Scene& scene, std::span<const Deformer> deformers, std::span<const std::uint8_t> shown,
             std::span<const glm::dmat4> world, double seconds, bool all, std::vector<PosedMesh>& posed);
 

@@ -1,5 +1,3 @@
-// The parts of a pose, one by one: pose() makes them all, update_pose() those that can change.
-
 #include "engine/pose/parts.h"
 
 #include <fmt/format.h>
@@ -15,7 +13,7 @@
 namespace aleph {
 namespace {
 
-/// Cubic keys overshoot; what leaves the range of its quantity is brought back.
+/// Cubic keys overshoot: values are clamped to the range of their quantity.
 float unit_range(const Track<double>& track, double seconds) {
     return static_cast<float>(std::clamp(evaluate(track, seconds), 0.0, 1.0));
 }
@@ -42,7 +40,7 @@ glm::dmat4 local_transform(const Node& node, double seconds) {
             glm::dvec4(rotation[2] * scale.z, 0.0), glm::dvec4(evaluate(node.translation, seconds), 1.0)};
 }
 
-/// For what never fades, whatever its track says.
+/// The value of a key, without interpolation: for visibility, which does not fade.
 double evaluate_whole(const Track<double>& track, double seconds) {
     const std::size_t key = track.interpolation == Interpolation::nearest
                                 ? nearest_sample(track.sampling, track.key_count(), seconds)
@@ -52,7 +50,7 @@ double evaluate_whole(const Track<double>& track, double seconds) {
 
 }  // namespace
 
-void place_node(const Scene& scene, int index, double seconds, ScenePose& frame) {
+void place_node(const Scene& scene, int index, double seconds, ScenePose& posed) {
     const Node& node = scene.nodes[index];
     ALEPH_CHECK(node.parent < index, fmt::format("node {} has parent {}", index, node.parent));
     const glm::dmat4 local = local_transform(node, seconds);
@@ -60,13 +58,13 @@ void place_node(const Scene& scene, int index, double seconds, ScenePose& frame)
     const bool root = node.parent == no_index;
     const bool detached = root || evaluate_whole(node.inherits, seconds) == 0.0;
     const auto n = static_cast<std::size_t>(index), parent = static_cast<std::size_t>(node.parent);
-    frame.world[n] = detached ? local : frame.world[parent] * local;
-    frame.visible[n] = visible >= 2.0 || (visible != 0.0 && (root || frame.visible[parent] != 0));
+    posed.world[n] = detached ? local : posed.world[parent] * local;
+    posed.visible[n] = visible >= 2.0 || (visible != 0.0 && (root || posed.visible[parent] != 0));
 }
 
-bool is_shown(const Scene& scene, const ScenePose& frame, std::size_t instance) {
-    const Instance& of = frame.instances[instance];
-    return frame.visible[of.node] != 0 && evaluate_whole(scene.meshes[of.mesh].present, frame.seconds) != 0.0;
+bool is_shown(const Scene& scene, const ScenePose& posed, std::size_t instance) {
+    const Instance& of = posed.instances[instance];
+    return posed.visible[of.node] != 0 && evaluate_whole(scene.meshes[of.mesh].present, posed.seconds) != 0.0;
 }
 
 MaterialValues pose_material(const Material& material, double seconds) {

@@ -7,11 +7,11 @@
 
 namespace aleph {
 
-/// Transform and visibility of a node; its parent's stand in the frame already.
-void place_node(const Scene& scene, int node, double seconds, ScenePose& frame);
+/// Transform and visibility of a node. Those of its parent must be in `posed` already.
+void place_node(const Scene& scene, int node, double seconds, ScenePose& posed);
 
-/// Whether the instance's node is visible and its mesh present, at frame.seconds.
-bool is_shown(const Scene& scene, const ScenePose& frame, std::size_t instance);
+/// Whether the instance's node is visible and its mesh present, at posed.seconds.
+bool is_shown(const Scene& scene, const ScenePose& posed, std::size_t instance);
 
 MaterialValues pose_material(const Material& material, double seconds);
 LightValues pose_light(const Scene& scene, int node, const glm::dmat4& world, double seconds);

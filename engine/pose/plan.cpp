@@ -66,35 +66,35 @@ PosePlan make_pose_plan(const Scene& scene) {
     return plan;
 }
 
-void update_pose(const Scene& scene, const PosePlan& plan, double seconds, ScenePose& frame) {
-    frame.seconds = seconds;
-    for (const int node : plan.nodes) place_node(scene, node, seconds, frame);
+void update_pose(const Scene& scene, const PosePlan& plan, double seconds, ScenePose& posed) {
+    posed.seconds = seconds;
+    for (const int node : plan.nodes) place_node(scene, node, seconds, posed);
     for (const int i : plan.instances) {
         const auto instance = static_cast<std::size_t>(i);
-        frame.shown[instance] = is_shown(scene, frame, instance);
+        posed.shown[instance] = is_shown(scene, posed, instance);
     }
     if (!plan.deformers.empty()) {
         std::vector<std::uint8_t> shown(plan.deformers.size(), 0);
         for (std::size_t d = 0; d < shown.size(); ++d)
-            for (const int i : plan.deformer_instances[d]) shown[d] |= frame.shown[i];
-        deform(scene, plan.deformers, shown, frame.world, seconds, false, frame.meshes);
+            for (const int i : plan.deformer_instances[d]) shown[d] |= posed.shown[i];
+        deform(scene, plan.deformers, shown, posed.world, seconds, false, posed.meshes);
     }
     for (const int material : plan.materials) {
         const auto m = static_cast<std::size_t>(material);
-        frame.materials[m] = pose_material(scene.materials[m], seconds);
+        posed.materials[m] = pose_material(scene.materials[m], seconds);
     }
     if (plan.lights) {
-        frame.lights.clear();
+        posed.lights.clear();
         for (const int node : plan.light_nodes) {
             const auto n = static_cast<std::size_t>(node);
-            if (frame.visible[n] != 0) frame.lights.push_back(pose_light(scene, node, frame.world[n], seconds));
+            if (posed.visible[n] != 0) posed.lights.push_back(pose_light(scene, node, posed.world[n], seconds));
         }
     }
     for (const int camera : plan.cameras) {
-        CameraValues& values = frame.cameras[camera];
-        values = pose_camera(scene, values.node, frame.world[values.node], seconds);
+        CameraValues& values = posed.cameras[camera];
+        values = pose_camera(scene, values.node, posed.world[values.node], seconds);
     }
-    if (plan.environment) frame.environment = pose_environment(scene, seconds);
+    if (plan.environment) posed.environment = pose_environment(scene, seconds);
 }
 
 }  // namespace aleph

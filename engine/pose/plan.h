@@ -1,5 +1,5 @@
 #pragma once
-// Which parts of a scene can differ between two moments, found once, so that a frame costs what moves.
+// Lists the parts of a scene that can change with time, so that the cost of a frame follows what moves.
 
 #include <cstdint>
 #include <vector>
@@ -24,9 +24,9 @@ struct PosePlan {
 
 PosePlan make_pose_plan(const Scene& scene);
 
-/// Takes a frame of the same scene to another time: bit for bit pose(scene, seconds), but only what can have changed
-/// is touched.
-/// @param frame  from pose() or an earlier update
-void update_pose(const Scene& scene, const PosePlan& plan, double seconds, ScenePose& frame);
+/// Takes a pose of the same scene to another time. The result has the bits of pose(scene, seconds), but only what can
+/// change is computed.
+/// @param posed  from pose() or an earlier update
+void update_pose(const Scene& scene, const PosePlan& plan, double seconds, ScenePose& posed);
 
 }  // namespace aleph

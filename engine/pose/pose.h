@@ -1,5 +1,5 @@
 #pragma once
-// What a scene looks like at a moment: every transform composed in double, every track evaluated.
+// A scene at a time: every transform composed in double, every track evaluated.
 
 #include <glm/mat3x3.hpp>
 #include <glm/mat4x4.hpp>
@@ -10,7 +10,7 @@
 
 namespace aleph {
 
-/// One mesh under one node. The list is the same at every time, so its index names an object over the whole shot.
+/// One mesh under one node. The list is the same at every time, so an index means the same object over the whole shot.
 struct Instance {
     int node = no_index;
     int mesh = no_index;
@@ -54,7 +54,7 @@ struct CameraValues {
     bool operator==(const CameraValues&) const = default;
 };
 
-/// What replaces a deforming mesh's own arrays at a moment. In double: its motion is a difference of projections.
+/// Replaces the arrays of a deforming mesh at a time. In double, because motion is a difference of projections.
 struct PosedMesh {
     std::vector<glm::dvec3> positions;  ///< m, object space, per vertex; empty: the mesh is rigid
     std::vector<glm::vec3> normals;     ///< per vertex; empty: flat
@@ -62,6 +62,7 @@ struct PosedMesh {
     bool operator==(const PosedMesh&) const = default;
 };
 
+/// The scene at a time.
 struct ScenePose {
     double seconds = 0.0;
     std::vector<glm::dmat4> world;      ///< per node, object to world
@@ -78,10 +79,10 @@ struct ScenePose {
 /// Every (node, mesh) pair in node order, visible or not.
 std::vector<Instance> list_instances(const Scene& scene);
 
-/// The scene at a time. Pure: the same bits whatever was posed before. Iterative, so depth costs no stack.
+/// Poses the scene at a time, s. The result depends on the arguments alone. Any depth of the hierarchy is fine.
 ScenePose pose(const Scene& scene, double seconds);
 
-/// The scene's frames: `range` where given, else the span of all keys rounded inwards to frames.
+/// The scene's frames: Scene::range where given, else the span of all keys, rounded inwards to whole frames.
 FrameRange frame_range(const Scene& scene);
 
 /// Index into ScenePose::cameras (the same at every time) by node or camera name; an empty name takes the scene's

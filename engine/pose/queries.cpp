@@ -1,4 +1,4 @@
-// What can be told of a scene without a time: its instances, its range, its cameras, whether it moves.
+// Properties of a scene that do not depend on time: its instances, its range, its cameras, whether it moves.
 
 #include <fmt/format.h>
 
@@ -15,7 +15,7 @@
 namespace aleph {
 namespace {
 
-/// A visitor with a function for each kind of what it meets.
+/// A visitor made of one function per type.
 template <class... Functions>
 struct Overloaded : Functions... {
     using Functions::operator()...;

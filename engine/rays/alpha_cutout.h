@@ -1,5 +1,5 @@
 #pragma once
-// Where a surface is not there: materials with an alpha mask let rays pass. Blended ones are taken as a mask at .5.
+// Holes in surfaces: materials with an alpha mask let rays pass. Blended materials are treated as a mask at .5.
 
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
@@ -9,19 +9,19 @@
 
 namespace aleph {
 
-/// A texture's alpha, read between texels as the reference says; kept apart from the scene, whose images may go.
+/// The alpha of a texture, filtered as the reference says. A copy: the scene's images need not stay.
 struct AlphaTexture {
     TextureRef reference;
     Image<float> alpha;  ///< empty: 1 everywhere
 
-    /// At texture coordinates as the mesh has them, v downwards; KHR_texture_transform applies. What is not
-    /// finite then counts as 0.
+    /// At texture coordinates as the mesh has them, v downwards; KHR_texture_transform applies. Coordinates that
+    /// are not finite then count as 0.
     float sample(const glm::vec2& uv) const;
 };
 
 AlphaTexture make_alpha_texture(const Scene& scene, const TextureRef& reference);
 
-/// What a mesh with such a material needs to tell holes from surface.
+/// What is needed to find the holes of a mesh with such a material.
 struct AlphaCutout {
     int material = no_index;
     float cutoff = 0.5f;
@@ -35,10 +35,10 @@ struct AlphaCutout {
     bool is_hole(float material_alpha, unsigned primitive, float u, float v) const;
 };
 
-/// False for materials that rays always meet: those cost nothing.
+/// False for meshes without holes: those cost nothing.
 bool has_cutout(const Scene& scene, const Mesh& mesh);
 
-/// Of a mesh that has_cutout.
+/// For a mesh that has_cutout.
 AlphaCutout make_alpha_cutout(const Scene& scene, const Mesh& mesh);
 
 }  // namespace aleph

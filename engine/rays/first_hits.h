@@ -1,5 +1,5 @@
 #pragma once
-// Q(u,v,t), thesis 5.1.2: the surface point behind every pixel, cast once and used by every stage.
+// First hits: the surface point Q(u,v,t) behind every pixel (Yee 2000, 5.1.2), found once and used by every stage.
 
 #include "engine/base/image.h"
 #include "engine/pose/camera_view.h"

@@ -1,4 +1,4 @@
-// Embree's structures of every mesh, and how the scene's instances are gathered into objects.
+// Builds Embree's structures of every mesh, and groups the scene's instances into objects.
 
 #include <fmt/format.h>
 
@@ -28,7 +28,7 @@ void check_mesh(const Mesh& mesh, std::size_t index) {
     const std::string place = fmt::format("mesh {} \"{}\"", index, printable(mesh.name));
     for (const glm::vec3& p : mesh.positions) {
         for (int k = 0; k < 3; ++k) {
-            if (!(std::abs(p[k]) < largest_coordinate)) {
+            if (!(std::abs(p[k]) < max_coordinate)) {
                 throw InputError("", place, fmt::format("a position is not finite or too large ({})", p[k]));
             }
         }
@@ -42,7 +42,7 @@ void check_mesh(const Mesh& mesh, std::size_t index) {
     }
 }
 
-/// @param places  which of the node's meshes; their numbers become Embree's
+/// @param places  indices into the node's meshes; they become Embree's geometry numbers
 EmbreeScene build_mesh_scene(const EmbreeDevice& device, const Scene& scene, const std::vector<int>& meshes,
                              const std::vector<unsigned>& places,
                              const std::vector<std::unique_ptr<const AlphaCutout>>& cutouts) {
@@ -61,8 +61,9 @@ EmbreeScene build_mesh_scene(const EmbreeDevice& device, const Scene& scene, con
     return built;
 }
 
-/// To sort so many again takes next to no time, but every ray pays a tenth for a second top-level scene.
-constexpr std::size_t most_still_beside_moving = 256;
+/// Up to so many objects that stand still are kept in one top-level scene with the moving ones: sorting them again
+/// takes almost no time, while a second top-level scene makes every ray a tenth slower.
+constexpr std::size_t max_still_beside_moving = 256;
 
 /// How each mesh of the scene is handled.
 struct MeshKinds {
@@ -72,7 +73,7 @@ struct MeshKinds {
             deforms[deformer.mesh] = 1;
             changes[deformer.mesh] = deformer.changes;
         }
-        // A mesh that is never there must not share an object with others either.
+        // A mesh that is never present must not share an object with others either.
         for (std::size_t m = 0; m < scene.meshes.size(); ++m)
             comes_and_goes[m] = scene.meshes[m].present != Track<double>(1.0);
     }
@@ -107,7 +108,7 @@ class ObjectMaker {
         structures_.moving_count = structures_.objects.size();
         structures_.objects.insert(structures_.objects.end(), still_.begin(), still_.end());
         structures_.first_layer_count =
-            still_.size() > most_still_beside_moving ? structures_.moving_count : structures_.objects.size();
+            still_.size() > max_still_beside_moving ? structures_.moving_count : structures_.objects.size();
     }
 
   private:

@@ -10,7 +10,7 @@
 namespace aleph {
 namespace {
 
-/// Of the objects from `first` up to `end`.
+/// The layer of the objects from `first` up to `end`.
 Layer make_layer(const MeshStructures& meshes, std::size_t first, std::size_t end,
                  const std::vector<std::unique_ptr<RefitMesh>>& refits) {
     Layer layer;
@@ -46,29 +46,29 @@ std::array<float, 12> make_transform(const glm::dmat4& world, const glm::dvec3& 
     return transform;
 }
 
-/// Brings the points of deforming meshes to the frame.
-std::vector<RefitMesh::Change> refit_meshes(RayScene::State& state, const ScenePose& frame) {
+/// Moves the points of deforming meshes as posed.
+std::vector<RefitMesh::Change> refit_meshes(RayScene::State& state, const ScenePose& posed) {
     std::vector<RefitMesh::Change> changes(state.refits.size(), RefitMesh::Change::none);
     for (std::size_t d = 0; d < changes.size(); ++d) {
         const DeformingMesh& mesh = state.meshes->deforming[d];
         if (!mesh.changes && state.refits[d]->is_filled()) continue;
-        changes[d] = state.refits[d]->update(frame.meshes[mesh.mesh].positions);
+        changes[d] = state.refits[d]->update(posed.meshes[mesh.mesh].positions);
     }
     return changes;
 }
 
-/// What the filters of alpha masks read.
-void note_alpha(RayScene::State& state, const ScenePose& frame) {
+/// Notes the materials' alpha, which the filters of alpha masks read.
+void note_alpha(RayScene::State& state, const ScenePose& posed) {
     if (!state.meshes->any_cutout) return;
     state.alpha.clear();
-    for (const MaterialValues& material : frame.materials) state.alpha.push_back(material.alpha);
+    for (const MaterialValues& material : posed.materials) state.alpha.push_back(material.alpha);
 }
 
-/// @return whether the object had to be touched
+/// Places one object. @return whether anything changed
 bool place(Layer& layer, Placement& placement, const MeshStructures::Object& object, RefitMesh::Change change,
-           const ScenePose& frame, const glm::dvec3& anchor) {
-    const glm::dmat4& world = frame.world[object.node];
-    const bool shown = frame.shown[object.instance] != 0;
+           const ScenePose& posed, const glm::dvec3& anchor) {
+    const glm::dmat4& world = posed.world[object.node];
+    const bool shown = posed.shown[object.instance] != 0;
     const bool enabled = shown && change != RefitMesh::Change::unusable && is_traceable(world, anchor);
     const bool skipped = shown && !enabled;
     layer.skipped = layer.skipped + (skipped ? 1 : 0) - (placement.skipped ? 1 : 0);
@@ -93,16 +93,16 @@ bool place(Layer& layer, Placement& placement, const MeshStructures::Object& obj
     return true;
 }
 
-/// The layer's first `count` objects.
+/// Places the layer's first `count` objects. @return how many changed
 std::size_t place_objects(Layer& layer, std::size_t count, const MeshStructures& meshes,
-                          const std::vector<RefitMesh::Change>& changes, const ScenePose& frame,
+                          const std::vector<RefitMesh::Change>& changes, const ScenePose& posed,
                           const glm::dvec3& anchor) {
     std::size_t touched = 0;
     for (std::size_t i = 0; i < count; ++i) {
         const MeshStructures::Object& object = meshes.objects[layer.first + i];
         const RefitMesh::Change change =
             object.deforming == no_index ? RefitMesh::Change::none : changes[object.deforming];
-        if (place(layer, layer.placements[i], object, change, frame, anchor)) ++touched;
+        if (place(layer, layer.placements[i], object, change, posed, anchor)) ++touched;
     }
     if (touched > 0) rtcCommitScene(layer.top.get());
     meshes.device->check();
@@ -126,7 +126,7 @@ bool is_traceable(const glm::dmat4& world, const glm::dvec3& anchor) {
         for (int row = 0; row < 3; ++row) largest = std::max(largest, std::abs(inverse[column][row]));
     }
     const glm::dvec3 moved = glm::abs(inverse * (glm::dvec3(world[3]) - anchor));
-    return 3.0 * largest * largest_ray_component + std::max({moved.x, moved.y, moved.z}) < largest_coordinate;
+    return 3.0 * largest * max_ray_component + std::max({moved.x, moved.y, moved.z}) < max_coordinate;
 }
 
 RayScene::RayScene(const Scene& scene, const PosePlan& plan)
@@ -141,24 +141,24 @@ RayScene RayScene::share_meshes() const {
     return RayScene(std::make_unique<State>(state_->meshes));
 }
 
-std::size_t RayScene::update(const ScenePose& frame, const glm::dvec3& anchor) {
+std::size_t RayScene::update(const ScenePose& posed, const glm::dvec3& anchor) {
     const FlushDenormals flush;
-    note_alpha(*state_, frame);
-    const std::vector<RefitMesh::Change> changes = refit_meshes(*state_, frame);
+    note_alpha(*state_, posed);
+    const std::vector<RefitMesh::Change> changes = refit_meshes(*state_, posed);
     std::size_t touched = 0;
     for (Layer* layer : {&state_->moving, &state_->still})
-        touched += place_objects(*layer, layer->placements.size(), *state_->meshes, changes, frame, anchor);
+        touched += place_objects(*layer, layer->placements.size(), *state_->meshes, changes, posed, anchor);
     state_->anchor = anchor;
     state_->placed = true;
     return touched;
 }
 
-std::size_t RayScene::update_moving(const ScenePose& frame, const glm::dvec3& anchor) {
-    if (!state_->placed || anchor != state_->anchor) return update(frame, anchor);
+std::size_t RayScene::update_moving(const ScenePose& posed, const glm::dvec3& anchor) {
+    if (!state_->placed || anchor != state_->anchor) return update(posed, anchor);
     const FlushDenormals flush;
-    note_alpha(*state_, frame);
+    note_alpha(*state_, posed);
     const MeshStructures& meshes = *state_->meshes;
-    return place_objects(state_->moving, meshes.moving_count, meshes, refit_meshes(*state_, frame), frame, anchor);
+    return place_objects(state_->moving, meshes.moving_count, meshes, refit_meshes(*state_, posed), posed, anchor);
 }
 
 const glm::dvec3& RayScene::anchor() const {

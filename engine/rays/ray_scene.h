@@ -1,7 +1,7 @@
 #pragma once
-// Rays through a posed scene. RayScene owns Embree's structures; a Tracer is one thread's door to them.
-// Everything here is single precision, in metres relative to the anchor (camera_view.h), so that a scene far from the
-// origin renders as well as one at it.
+// Rays through a posed scene. RayScene owns Embree's structures; each thread casts rays with a Tracer of its own.
+// Everything here is in single precision, in metres relative to the anchor (compute_anchor), so that a scene far from
+// the origin renders as well as one at it.
 
 #include <atomic>
 #include <cstdint>
@@ -23,7 +23,7 @@ struct Ray {
     float far = std::numeric_limits<float>::infinity();
 };
 
-/// What a ray met. instance is an index into ScenePose::instances, primitive a triangle of its mesh;
+/// What a ray hits first. instance is an index into ScenePose::instances, primitive a triangle of its mesh;
 /// the point is (1 - u - v) p0 + u p1 + v p2.
 struct Hit {
     int instance = no_index;  ///< no_index: nothing
@@ -35,39 +35,41 @@ struct Hit {
 };
 
 /// Rays with a component of this size or more are refused, in m or as a direction.
-inline constexpr float largest_ray_component = 1e9f;
+inline constexpr float max_ray_component = 1e9f;
 
-/// Whether rays can meet an instance at all: its transform keeps volume, and every ray that is let through stays within
-/// what Embree takes in the object's own space (else it ends the process; HARD_CASES RC-01, RC-02).
+/// Whether an instance can be traced: its transform keeps volume, and every valid ray stays within Embree's limits in
+/// the object's own space (beyond them Embree ends the process).
 bool is_traceable(const glm::dmat4& world, const glm::dvec3& anchor);
 
 class RayScene {
   public:
-    /// Builds the structures of every rigid mesh once; deforming ones follow at the first update. Degenerate triangles
-    /// are left out and counted.
+    /// Builds the structures of every rigid mesh; those of deforming meshes are built by the first update. Degenerate
+    /// triangles are left out and counted.
+    /// @throws InputError for a mesh that cannot be traced; std::bad_alloc, also from Embree
     /// @param plan  make_pose_plan(scene); only read during the call
     RayScene(const Scene& scene, const PosePlan& plan);
     explicit RayScene(const Scene& scene);
-    /// Another one over the same mesh structures: only the placement of instances and the deforming meshes are its own.
+    /// A second scene with the same mesh structures; the placement of instances and the deforming meshes are its own.
     RayScene share_meshes() const;
     ~RayScene();
     RayScene(RayScene&&) noexcept;
     RayScene& operator=(RayScene&&) noexcept;
 
-    /// Places the instances for a frame: only those whose transform, points or visibility changed are touched (all when
+    /// Places the instances as in a pose. Only those whose transform, points or visibility changed are touched (all if
     /// the anchor moved). Instances that are not traceable (a scale of 0, points that are not finite) are left out and
     /// counted.
-    /// @return how many instances were touched
-    std::size_t update(const ScenePose& frame, const glm::dvec3& anchor);
+    /// @return number of instances touched
+    /// @throws std::bad_alloc, also from Embree; after that this can only be destroyed
+    std::size_t update(const ScenePose& posed, const glm::dvec3& anchor);
 
-    /// The same for a frame of the very scene that this was made for, where the last update had one too: what cannot
-    /// move by its tracks is not even looked at, so that it costs what moves (everything where the anchor moved).
-    std::size_t update_moving(const ScenePose& frame, const glm::dvec3& anchor);
+    /// The same, if this pose and that of the last update are both of the scene that this was made for. Instances that
+    /// cannot move by their tracks are skipped, so that the cost follows what moves (all if the anchor moved).
+    std::size_t update_moving(const ScenePose& posed, const glm::dvec3& anchor);
 
     const glm::dvec3& anchor() const;
     std::size_t degenerate_triangles() const;
     std::size_t skipped_instances() const;
-    /// Rays that the checked wrapper passed on, and those it refused (NaN, infinite, out of range: a miss).
+    /// Number of rays traced, and of invalid ones (NaN, infinite, out of range), which count as misses.
     std::uint64_t rays_traced() const;
     std::uint64_t invalid_rays() const;
 
@@ -79,7 +81,7 @@ class RayScene {
     std::unique_ptr<State> state_;
 };
 
-/// Casts rays. Make one per task: it is cheap, counts locally and reports to the RayScene when it goes.
+/// Casts rays. Make one per task: it is cheap, counts locally, and adds its counts to the RayScene when destroyed.
 class Tracer {
   public:
     explicit Tracer(const RayScene& scene);
@@ -90,7 +92,7 @@ class Tracer {
     Hit intersect(const Ray& ray);
     bool occluded(const Ray& ray);
 
-    /// As many rays as there are hits, in packets; say coherent where neighbours start and point alike.
+    /// In packets, one hit per ray. `coherent`: neighbouring rays have similar origins and directions.
     void intersect(std::span<const Ray> rays, std::span<Hit> hits, bool coherent);
     void occluded(std::span<const Ray> rays, std::span<std::uint8_t> blocked);
 

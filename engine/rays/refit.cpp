@@ -10,8 +10,8 @@
 namespace aleph {
 namespace {
 
-/// Refitted boxes overlap more the further apart neighbours drift; a new tree pays from about here.
-constexpr double largest_spread_growth = 2.0;
+/// Refitted boxes overlap more as neighbours drift apart; from about this factor a new tree pays off.
+constexpr double max_spread_growth = 2.0;
 
 constexpr std::size_t cluster_size = 32;
 
@@ -78,7 +78,7 @@ TriangleGeometry make_triangle_geometry(const EmbreeDevice& device, std::size_t 
         rtcSetGeometryIntersectFilterFunction(geometry, keep_lowest_of_nearest);
         return made;
     }
-    rtcSetGeometryUserData(geometry, const_cast<AlphaCutout*>(cutout));  // which the filters only read
+    rtcSetGeometryUserData(geometry, const_cast<AlphaCutout*>(cutout));  // the filters only read it
     rtcSetGeometryIntersectFilterFunction(geometry, keep_lowest_of_nearest_but_holes);
     rtcSetGeometryOccludedFilterFunction(geometry, pass_holes);
     return made;
@@ -102,13 +102,13 @@ RefitMesh::Change RefitMesh::update(const std::vector<glm::dvec3>& positions) {
     for (std::size_t i = 0; i < positions.size(); ++i) {
         const glm::vec3 point(positions[i]);
         for (int k = 0; k < 3; ++k)
-            if (!(std::abs(point[k]) < largest_coordinate)) return Change::unusable;
+            if (!(std::abs(point[k]) < max_coordinate)) return Change::unusable;
         moved = moved || point != points_[i];
         points_[i] = point;
     }
     current_ = true;
     if (!moved) return Change::none;
-    if (!is_filled() || measure_spread() > largest_spread_growth * spread_) build();
+    if (!is_filled() || measure_spread() > max_spread_growth * spread_) build();
     std::ranges::copy(points_, triangles_.points.begin());
     rtcUpdateGeometryBuffer(triangles_.geometry.get(), RTC_BUFFER_TYPE_VERTEX, 0);
     rtcCommitGeometry(triangles_.geometry.get());
@@ -127,8 +127,8 @@ void RefitMesh::build() {
     spread_ = measure_spread();
 }
 
-/// Area of boxes about runs of neighbours, against that of all points: what a tree's lower levels look like. Growing as
-/// a whole does not count.
+/// Area of the boxes about runs of neighbours, relative to that of the box of all points: a measure of the tree's lower
+/// levels that does not depend on the size of the whole.
 double RefitMesh::measure_spread() const {
     Box all;
     for (const glm::vec3& p : points_) all.add(p);

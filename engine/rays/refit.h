@@ -1,5 +1,5 @@
 #pragma once
-// A deforming mesh for rays: its tree is refitted to the moved points, and built anew where it has come apart.
+// A deforming mesh for rays: its tree is refitted to the moved points, and built again when refitting has made it bad.
 
 #include <glm/vec3.hpp>
 #include <vector>
@@ -9,7 +9,7 @@
 
 namespace aleph {
 
-/// What stays of a deforming mesh whatever its points do.
+/// What does not change when the points of a deforming mesh move.
 struct DeformingMesh {
     DeformingMesh(const Mesh& mesh, int index, unsigned geometry_number, bool can_change, const AlphaCutout* holes);
 
@@ -18,11 +18,11 @@ struct DeformingMesh {
     bool changes;       ///< false: posed once
     std::size_t vertex_count;
     std::vector<glm::uvec3> triangles;
-    const AlphaCutout* cutout;  ///< null: rays always meet it
+    const AlphaCutout* cutout;  ///< null: no holes
 };
 
 /// A triangle geometry with the settings that every mesh of a RayScene has.
-/// @param cutout  null: rays always meet it; must outlive the geometry
+/// @param cutout  null: no holes; must outlive the geometry
 struct TriangleGeometry {
     EmbreeGeometry geometry;
     std::span<glm::vec3> points;  ///< Embree's own, to be filled before the geometry is committed
@@ -39,7 +39,7 @@ class RefitMesh {
     RefitMesh& operator=(const RefitMesh&) = delete;
 
     enum class Change { none, moved, unusable };
-    /// Unusable: there are no positions, or some that Embree would drop without a word (HARD_CASES RC-08).
+    /// Unusable: there are no positions, or some that Embree would drop silently (not finite, too large).
     Change update(const std::vector<glm::dvec3>& positions);
     bool is_filled() const { return triangles_.geometry != nullptr; }
     RTCScene scene() const { return scene_.get(); }

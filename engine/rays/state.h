@@ -1,5 +1,5 @@
 #pragma once
-// What RayScene keeps, shared with Tracer only: Embree's handles do not leave these files (ray_scene*, tracer).
+// The state of a RayScene. Internal to engine/rays: Embree's handles are not used outside it.
 
 #include <array>
 #include <atomic>
@@ -12,11 +12,11 @@
 
 namespace aleph {
 
-/// Embree drops geometry beyond this without a word (HARD_CASES RC-08); so we refuse it with one.
-inline constexpr float largest_coordinate = 1.844e18f;
+/// Embree silently drops geometry beyond this; we refuse it with an error.
+inline constexpr float max_coordinate = 1.844e18f;
 
-/// Embree's filter on every geometry: of hits at one distance the lowest (instance, primitive) stays, whatever the
-/// order in which a tree offers them (HARD_CASES RC-07).
+/// Embree's filter on every geometry: of hits at one distance it keeps the lowest (instance, primitive), so that the
+/// result does not depend on the order in which a tree finds them.
 void keep_lowest_of_nearest(const RTCFilterFunctionNArguments* arguments);
 
 /// The filters of meshes with an alpha mask (their user data is the AlphaCutout): rays pass through the holes.
@@ -51,7 +51,7 @@ struct MeshStructures {
     /// How many of them share the first top-level scene: the moving ones, or all where there are few.
     std::size_t first_layer_count = 0;
     std::vector<DeformingMesh> deforming;
-    std::vector<std::unique_ptr<const AlphaCutout>> cutouts;  ///< as Scene::meshes; null: rays always meet it
+    std::vector<std::unique_ptr<const AlphaCutout>> cutouts;  ///< as Scene::meshes; null: no holes
     bool any_cutout = false;
     std::size_t degenerate_triangles = 0;
 };

@@ -1,5 +1,5 @@
-// The one checked door to Embree: Debian's build ends the process on a ray with a NaN (HARD_CASES RC-01), so every ray
-// is looked at first, and a bad one is a miss that is counted.
+// The only calls that trace rays. Embree ends the process on a ray with a NaN (Debian's build), so every ray is checked
+// first: an invalid one is counted and is a miss.
 
 #include <algorithm>
 #include <array>
@@ -25,20 +25,20 @@ glm::vec3 embree_direction(const Ray& ray) {
 bool is_valid(const Ray& ray) {
     const auto fits = [](const glm::vec3& v) {
         // NaN fails every comparison.
-        return std::abs(v.x) < largest_ray_component && std::abs(v.y) < largest_ray_component &&
-               std::abs(v.z) < largest_ray_component;
+        return std::abs(v.x) < max_ray_component && std::abs(v.y) < max_ray_component &&
+               std::abs(v.z) < max_ray_component;
     };
-    return fits(ray.origin) && fits(ray.direction) && ray.near >= 0.0f && ray.near < largest_ray_component &&
+    return fits(ray.origin) && fits(ray.direction) && ray.near >= 0.0f && ray.near < max_ray_component &&
            ray.far >= ray.near && embree_direction(ray) != glm::vec3(0.0f);
 }
 
-constexpr int widest = 16;
+constexpr int max_packet_width = 16;
 
 /// Distances this near each other, relatively, count as equal: about 30 roundings. Embree's single rays, packets and
-/// processors differ by up to 1.8e-6 of a distance (HARD_CASES RC-15).
+/// processors differ by up to 1.8e-6 of a distance.
 constexpr float tie = 0x1p-19f;
 
-/// What every filter finds behind the context that Embree hands on.
+/// Embree passes its context to the filters; this is what they find in it.
 struct RayContext {
     RTCIntersectContext embree;
     const RayScene::State* state;
@@ -49,14 +49,14 @@ struct RayContext {
     }
 };
 
-/// What filters of first hits need to know of the rays on their way.
+/// What the filters of first hits know about the rays being traced.
 struct FilterContext {
     RayContext common;  ///< first
-    /// Embree's own note of what each ray has accepted so far: the hit part of the rays that it was given.
+    /// The hit that each ray has accepted so far: the hit part of the packet that Embree was given.
     RTCHitN* accepted;
-    std::array<float, widest> far;       ///< where each ray ends by itself
-    std::array<float, widest> nearest;   ///< distance of the nearest hit offered
-    std::array<float, widest> distance;  ///< of the one accepted, which ties with it
+    std::array<float, max_packet_width> far;       ///< where each ray ends by itself
+    std::array<float, max_packet_width> nearest;   ///< distance of the nearest hit offered
+    std::array<float, max_packet_width> distance;  ///< of the one accepted, which ties with it
 
     FilterContext(const RayScene::State& state, bool coherent, void* hits)
         : common(state, coherent), accepted(static_cast<RTCHitN*>(hits)) {

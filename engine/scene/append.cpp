@@ -24,7 +24,7 @@ void for_each_list(const Visit& visit, Scenes&... scenes) {
     visit(scenes.cameras...);
 }
 
-/// Makes the part's indices those that its elements have once they stand behind the scene's own.
+/// Shifts the part's indices by the number of elements that the scene already has.
 void rebase(Scene& part, const Scene& scene, int parent_node) {
     for (Node& node : part.nodes) {
         if (node.parent == no_index) {
@@ -60,7 +60,7 @@ void append_part(Scene& scene, Scene&& part, int parent_node, int include) {
             for (auto& element : elements) element.include = include;
         },
         part);
-    // Room first, for all: after that nothing can fail half way.
+    // Reserve memory for all lists first: after that nothing can fail.
     const auto reserve = [](auto& all, const auto& more) { all.reserve(all.size() + more.size()); };
     const auto append = [](auto& all, auto& more) {
         all.insert(all.end(), std::make_move_iterator(more.begin()), std::make_move_iterator(more.end()));

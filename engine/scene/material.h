@@ -1,5 +1,5 @@
 #pragma once
-// What a scene's surfaces look like: materials and the images they take their textures from.
+// Materials, and the images of their textures.
 
 #include <array>
 #include <glm/gtc/type_precision.hpp>

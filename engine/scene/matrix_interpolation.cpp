@@ -19,7 +19,7 @@ struct Polar {
 };
 
 Polar decompose_polar(const glm::dmat3& m) {
-    // Below this ratio of singular values the rotation is rounding.
+    // Below this ratio of singular values the rotation is rounding error.
     constexpr double singular_ratio = 1e-12;
     const SingularValues svd = decompose_singular(m);
     const glm::dvec3& sigma = svd.sigma;

@@ -1,5 +1,5 @@
 #pragma once
-// What a scene's surfaces are made of: triangles, and what they follow from (shapes, moving points, targets, skins,
+// Geometry: triangle meshes, and what they are made from or moved by (shapes, point caches, morph targets, skins,
 // cages).
 
 #include <cstdint>
@@ -17,7 +17,7 @@
 
 namespace aleph {
 
-/// What a procedural mesh was made from, kept so that it is saved as it was authored. Sizes in metres.
+/// Parameters of a procedural mesh, kept so that the scene is saved as it was authored. Sizes in metres.
 struct Shape {
     enum class Kind { quad, box, sphere, cylinder, torus, lathe };
     Kind kind = Kind::quad;
@@ -34,12 +34,12 @@ struct Shape {
     bool operator==(const Shape&) const = default;
 };
 
-/// Points under a time sampling, as a file stored them; meshes and cages are made of them. The count never changes.
+/// Animated points as a file stored them, for meshes and cages. Their number never changes.
 struct PointCache {
     std::string name;
     TimeSampling sampling;
     std::vector<std::vector<glm::vec3>> positions;   ///< m, object space; at least one sample; linear between them
-    std::vector<std::vector<glm::vec3>> velocities;  ///< m/s; empty or as `positions`; kept for those who ask
+    std::vector<std::vector<glm::vec3>> velocities;  ///< m/s; empty or as `positions`; not used by the renderer
     int include = no_index;
 
     std::size_t point_count() const { return positions.empty() ? 0 : positions.front().size(); }
@@ -98,7 +98,7 @@ struct Cage {
     std::vector<int> face_parts;  ///< which part a face belongs to (Mesh::cage_part); empty: all part 0
     int points = no_index;        ///< point cache
     int level = 2;                ///< refinement of the meshes made of it
-    int max_level = 6;            ///< the level that pixels ask for stays at or below this
+    int max_level = 6;            ///< the level chosen by pixel size is at most this
     int include = no_index;
 
     bool operator==(const Cage&) const = default;
@@ -106,7 +106,7 @@ struct Cage {
 
 class LimitSurface;  // engine/surface/limit_surface.h
 
-/// Follows from the cage and its level, so that it does not count in comparisons.
+/// Computed from the cage and its level, so comparisons ignore it.
 struct LimitSurfaceRef {
     std::shared_ptr<const LimitSurface> surface;
     bool operator==(const LimitSurfaceRef&) const { return true; }

@@ -1,5 +1,5 @@
 #pragma once
-// Alembic's transforms at a moment: channels interpolate one by one, then the matrix is built.
+// Alembic's transforms at a time: channels are interpolated one by one, then the matrix is built.
 
 #include <cstddef>
 #include <glm/mat4x4.hpp>

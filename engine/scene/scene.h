@@ -1,6 +1,6 @@
 #pragma once
 // The animated scene: plain data, elements refer to each other by index, every property is a track over time.
-// Every reader fills this one structure; pose() (pose.h) says what it looks like at a moment.
+// Every reader fills this one structure; pose() (engine/pose/pose.h) evaluates it at a time.
 // Right-handed, y up, metres, seconds; angles in radians; colours linear Rec.709; light units unscaled (candela, lux,
 // nits).
 
@@ -58,13 +58,13 @@ struct Node {
     Track<double> inherits{1.0};  ///< step; where 0 the parent's transform does not apply (Alembic's `.inherits`)
 
     /// 0: hidden, with everything below; 1: as its parent; 2: shown even below a hidden parent (Alembic's explicit 1).
-    /// Step or nearest, it never fades.
+    /// Interpolation is step or nearest.
     Track<double> visible{1.0};
 
     std::vector<int> meshes;
     int camera = no_index;
     int light = no_index;
-    int include = no_index;  ///< which include brought it; not saved again
+    int include = no_index;  ///< index of the include it comes from; such nodes are not saved
 
     bool operator==(const Node&) const = default;
 };
@@ -141,8 +141,9 @@ struct Scene {
     std::vector<Include> includes;
     SettingMap settings;
 
-    std::string file;                   ///< where it was read from; empty for a scene made in code
-    std::vector<std::string> warnings;  ///< what a user should know about the file; the command line prints them
+    std::string file;  ///< where it was read from; empty for a scene made in code
+    std::vector<std::string>
+        warnings;  ///< problems of the file that do not stop it from loading; the command line prints them
 
     bool operator==(const Scene&) const = default;
 };

@@ -50,7 +50,7 @@ glm::dmat4 interpolate(const glm::dmat4& a, const glm::dmat4& b, double fraction
 }
 
 /// glTF 2.0, appendix C.5: tangents are per second, so they count times the interval. Written around the first value,
-/// which keeps equal keys without tangents exact.
+/// so that equal keys without tangents give exactly their value.
 template <class T>
 T hermite(const T& a, const T& out_tangent, const T& in_tangent, const T& b, double fraction, double interval) {
     const double s = fraction, s2 = s * s, s3 = s2 * s;
@@ -70,8 +70,8 @@ T cubic_between(const T* key, double fraction, double interval) {
     return hermite(key[1], key[2], key[3], key[4], fraction, interval);
 }
 
-/// Keys at length 1, their tangents by the same factor. Where the curve runs through zero it has no direction: the
-/// nearer key holds (HARD_CASES KF-08).
+/// Keys at length 1, their tangents by the same factor. Where the curve passes through zero it has no direction, and
+/// the nearer key holds.
 template <>
 glm::dquat cubic_between(const glm::dquat* key, double fraction, double interval) {
     const glm::dquat a = safe_normalize(key[1]), b = safe_normalize(key[4]);

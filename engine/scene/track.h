@@ -1,5 +1,5 @@
 #pragma once
-// Keyed values: a property's samples under a time sampling, and one answer for every time.
+// Keyed values: a property's samples, and its value at any time.
 
 #include <glm/gtc/quaternion.hpp>
 #include <glm/mat4x4.hpp>
@@ -26,15 +26,15 @@ struct Track {
     std::vector<T> values;
 
     Track() = default;
-    Track(const T& constant) : values{constant} {}  // implicit: `node.scale = dvec3(2)` reads as it should
+    Track(const T& constant) : values{constant} {}  // implicit, for `node.scale = dvec3(2)`
 
     /// Keys, not values: a cubic key has three values.
     std::size_t key_count() const { return interpolation == Interpolation::cubic ? values.size() / 3 : values.size(); }
     bool operator==(const Track&) const = default;
 };
 
-/// The value at a time: exactly the key's on a key, the first's before and the last's after. Equal neighbours give
-/// exactly that value, so what does not move is bit for bit the same at every time.
+/// The value at a time: on a key exactly the key's; before the first key and after the last, theirs. Between equal keys
+/// exactly their value, so that what does not move has the same bits at every time.
 /// Quaternions come back unit; NaN counts as before the first key. Instantiated for double, dvec3, dquat, dmat4.
 template <class T>
 T evaluate(const Track<T>& track, double seconds);
@@ -59,24 +59,24 @@ const T& key_value(const Track<T>& track, std::size_t key) {
     return track.values[track.interpolation == Interpolation::cubic ? 3 * key + 1 : key];
 }
 
-/// What every reader checks before it hands a track on: there are keys, a cubic track has three values each, values
-/// are finite, no rotation is zero, matrices are affine (last row 0 0 0 1), and times lie as validate(TimeSampling)
-/// wants them (one key: any sampling without times will do). Negative times are fine here.
+/// Readers call this for every track. There must be keys, three values for each key of a cubic track, finite values, no
+/// zero rotation, affine matrices (last row 0 0 0 1), and times that validate(TimeSampling) accepts (a single key needs
+/// none). Negative times are valid.
 /// @throws InputError with the index of the first bad key in its reason. Same types as evaluate.
 template <class T>
 void validate(const Track<T>& track, const std::string& file, const std::string& place);
 
-/// The largest turn between two neighbouring keys, degrees, as the signs of the keys tell it: 0 to 270 degrees is
-/// 270, although slerp_short will take the 90 back (HARD_CASES RP-08: readers warn above 170). Keys within 20 degrees
-/// of each other count as that near: their signs are an exporter's habit, not a turn.
+/// The largest turn between two neighbouring keys, degrees, by the signs of the quaternions: a turn from 0 to 270
+/// degrees counts as 270, although slerp_short takes the 90 degrees back. Readers warn above 170. Keys within 20
+/// degrees of each other count as that near: there, exporters choose signs at random.
 double largest_turn_degrees(const Track<glm::dquat>& track);
 
 /// The shorter great arc from a to b, in double; a tie (exactly 180 degrees) keeps the sign of b.
-/// Accurate for every angle: theta = 2 atan2(|a - b|, |a + b|) (HARD_CASES KF-01 to KF-03).
+/// Accurate for every angle, also near 0 and 180 degrees: theta = 2 atan2(|a - b|, |a + b|).
 glm::dquat slerp_short(const glm::dquat& a, const glm::dquat& b, double fraction);
 
 /// Between two affine matrices: M = R S each (polar), R by slerp, S and translation by lerp; exact at the ends.
-/// A reflection is factored out once, with the sign of both determinants (HARD_CASES KF-21 to KF-23).
+/// A reflection is factored out once, with the sign of both determinants.
 glm::dmat4 interpolate_matrix(const glm::dmat4& a, const glm::dmat4& b, double fraction);
 
 }  // namespace aleph

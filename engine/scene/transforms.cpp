@@ -97,7 +97,8 @@ SingularValues decompose_singular(const glm::dmat3& m) {
         return result;
     }
 
-    // Columns are turned in pairs until all are at right angles; the turns gather in V. Three columns need few sweeps.
+    // Columns are turned in pairs until all are at right angles; V accumulates the rotations. Three columns need few
+    // sweeps.
     glm::dmat3 columns = scaled_to_one(m, largest);
     glm::dmat3& v = result.v;
     constexpr int pairs[3][2] = {{0, 1}, {0, 2}, {1, 2}};

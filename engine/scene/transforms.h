@@ -1,6 +1,6 @@
 #pragma once
-// Small exact tools for vectors, rotations and affine matrices that GLM leaves to luck: nothing here divides by a
-// length of zero, underflows for tiny or overflows for huge scales (HARD_CASES KF-17 to KF-19, KF-27, KF-28).
+// Vectors, rotations and affine matrices, where GLM's functions are not robust: nothing here divides by a length of
+// zero, underflows for tiny scales or overflows for huge ones.
 
 #include <glm/gtc/quaternion.hpp>
 #include <glm/mat3x3.hpp>
@@ -44,10 +44,10 @@ SingularValues decompose_singular(const glm::dmat3& m);
 bool has_full_rank(const glm::dmat4& world);
 
 /// Right, up and back of a camera or light with this matrix, orthonormal and right-handed: what it looks along
-/// (-z) is kept, then up; scale, shear and mirroring are taken out. Identity where nothing can be told.
+/// (-z) is kept, then up; scale, shear and mirroring are taken out. Identity where the matrix gives no direction.
 glm::dmat3 orthonormal_axes(const glm::dmat4& world);
 
-/// World from camera, looking from eye to target. Where up is parallel to the view or zero another axis stands in for
+/// World from camera, looking from eye to target. Where up is zero or parallel to the view another axis replaces
 /// it; where eye and target coincide the camera looks along -z.
 glm::dmat4 look_at(const glm::dvec3& eye, const glm::dvec3& target, const glm::dvec3& up);
 

@@ -1,11 +1,11 @@
 #pragma once
-// Everything of a scene that time can change, visited in one place: what is animated, and from when to when.
+// Visits every track of a scene: to find what is animated, and over which span of time.
 
 #include "engine/scene/scene.h"
 
 namespace aleph {
 
-/// Calls visit(track or operation stack) for what places and shows a node: what pose() reads.
+/// Calls visit(track or operation stack) for what pose() reads of a node: its transform and visibility.
 template <class Visit>
 void visit_tracks(const Node& node, const Visit& visit) {
     visit(node.visible);

@@ -1,6 +1,6 @@
 #pragma once
-// Checks a subdivision cage before OpenSubdiv sees it: what it does not check corrupts memory or ends the process
-// (HARD_CASES section 12).
+// Checks of a subdivision cage before it is given to OpenSubdiv, which does not check it: a bad cage corrupts memory or
+// ends the process.
 
 #include <cstddef>
 #include <string>
@@ -13,8 +13,8 @@ namespace aleph {
 /// The highest level that Cage::level and Cage::max_level may name.
 inline constexpr int max_subdivision_level = 10;
 
-/// How crowded a cage is: the sum, over its points and faces of more than 16 neighbours, of their number squared. What
-/// OpenSubdiv's time and memory grow with; at most `max_crowding` (one point of 2048 neighbours: 1 s).
+/// How crowded a cage is: the sum, over its points and faces of more than 16 neighbours, of their number squared.
+/// OpenSubdiv's time and memory grow with it; at most `max_crowding` (one point of 2048 neighbours takes 1 s).
 /// @param cage  with indices in range
 std::size_t measure_crowding(const Cage& cage, std::size_t cage_points);
 inline constexpr std::size_t max_crowding = std::size_t{1} << 22;
@@ -26,8 +26,8 @@ inline constexpr std::size_t max_crowding = std::size_t{1} << 22;
 /// @throws InputError (place: the cage's name)
 void validate(const Cage& cage, std::size_t cage_points);
 
-/// What is let pass and a user should know: creases that follow no edge (ignored), faces that repeat another, edges of
-/// more than two faces (they become sharp). Of a valid cage.
+/// Warnings about a valid cage: creases that follow no edge (ignored), faces that repeat another, edges of
+/// more than two faces (they become sharp).
 std::vector<std::string> list_warnings(const Cage& cage);
 
 }  // namespace aleph

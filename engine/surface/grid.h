@@ -1,6 +1,6 @@
 #pragma once
 // Triangles over a cage's faces at a level: which faces share which vertices, and where every vertex and triangle lies
-// on the limit surface. Included by the sources of limit_surface.h only.
+// on the limit surface. Internal to limit_surface.cpp and its parts.
 
 #include <cstdint>
 #include <glm/vec2.hpp>
@@ -19,7 +19,7 @@ struct GridVertex {
     LimitLocation position, normal, uv;
 };
 
-/// Half of a cell of a face's grid (a Loop face: every second triangle stands on its head).
+/// Half of a cell of a face's grid (Loop face: every second triangle is upside down).
 struct GridTriangle {
     int face = 0;                ///< of the parametrisation, as in LimitLocation
     std::uint16_t i = 0, j = 0;  ///< cell
@@ -33,7 +33,7 @@ struct PartGrid {
     std::vector<glm::uvec3> corners;  ///< as triangles, into vertices
 };
 
-/// What grid cells are in a face of the parametrisation.
+/// The grid cells of a face of the parametrisation.
 struct FaceGrid {
     std::vector<std::uint16_t> cells;  ///< along an edge, by face
     bool triangular = false;

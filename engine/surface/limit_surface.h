@@ -1,6 +1,6 @@
 #pragma once
 // Subdivision surfaces: a cage refined once, so that Q(u,v,t) names the same point of the limit surface in every frame.
-// Topology and weights are found once (OpenSubdiv); every moment then costs sums over the cage's points.
+// Topology and weights are found once (OpenSubdiv). A pose then needs only weighted sums of the cage's points.
 
 #include <memory>
 #include <span>
@@ -13,12 +13,10 @@ namespace aleph {
 /// Immutable and safe to share between threads. Points are in object space, m.
 class LimitSurface {
   public:
-    /// @param level  every edge of the cage gets 2^level segments. It decides on the triangles alone: the limit surface
-    /// and its
-    ///               control points are the same at every level
-    /// @throws InputError where the cage's topology cannot be subdivided, or the triangles would be too many (place:
-    /// the
-    ///         cage's name)
+    /// @param level  every edge of the cage gets 2^level segments. It affects the triangles only; the limit surface and
+    ///               its control points are the same at every level
+    /// @throws InputError (place: the cage's name) where the cage's topology cannot be subdivided, or the triangles
+    ///         would be too many
     LimitSurface(const Cage& cage, std::size_t cage_points, int level);
     ~LimitSurface();
     LimitSurface(const LimitSurface&) = delete;
@@ -32,7 +30,7 @@ class LimitSurface {
     /// Corners of the part's triangles, into its vertices.
     const std::vector<glm::uvec3>& triangles(int part) const;
 
-    /// What evaluation reads, from the cage's points at a moment.
+    /// Control points, which evaluate() reads, from the cage's points at a time.
     std::vector<glm::dvec3> make_control_points(std::span<const glm::dvec3> cage_points) const;
 
     /// Limit positions and unit limit normals of the vertices of one part's triangles. Faces that share an edge share
@@ -53,7 +51,7 @@ class LimitSurface {
     std::unique_ptr<State> state_;
 };
 
-/// The cage's points at a moment, in double. Points that do not move are the same bit for bit at every time.
+/// The cage's points at a time, in double. Points that do not move have the same bits at every time.
 std::vector<glm::dvec3> cage_points_at(const Scene& scene, const Cage& cage, double seconds);
 
 /// (Re)makes the triangles, normals and first texture coordinates of every mesh that a cage has in the scene, at the

@@ -21,8 +21,8 @@ namespace {
 // about them, one patch stands for the rest. It has the limit's position and tangents at the point; between, it slides
 // along the surface by up to 1e-5 of an edge (measured by the tests). All other patches are exact.
 constexpr int deepest_isolation = 9;
-// Cages of many such points, or of long semi-sharp creases, are isolated less deeply, so that a moment's control points
-// stay at about this many.
+// Cages of many such points, or of long semi-sharp creases, are isolated less deeply, so that the number of
+// control points of a pose stays at about this.
 constexpr int control_point_budget = 1'000'000;
 
 // A smooth patch at a point of n neighbours depends on all of them, so all n patches take n^2 weights. In cages more
@@ -171,7 +171,7 @@ std::vector<glm::dvec3> LimitPatches::make_control_points(std::span<const glm::d
 }
 
 const Far::PatchTable::PatchHandle& LimitPatches::find_patch(int face, double& s, double& t) const {
-    // FindPatch asserts on what lies outside (HARD_CASES RP-17).
+    // FindPatch asserts on places outside.
     ALEPH_CHECK(!std::isnan(s) && !std::isnan(t), fmt::format("({}, {})", s, t));
     s = std::clamp(s, 0.0, 1.0);
     t = std::clamp(t, 0.0, triangular_ ? 1.0 - s : 1.0);

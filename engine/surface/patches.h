@@ -1,6 +1,6 @@
 #pragma once
 // The limit surface as patches, and the weights that make their control points from a cage's points, all in double.
-// Included by the sources of limit_surface.h only.
+// Internal to limit_surface.cpp and its parts.
 
 #include <opensubdiv/far/patchMap.h>
 #include <opensubdiv/far/patchTable.h>
@@ -45,9 +45,9 @@ class LimitPatches {
     /// The cage's points, then the refined ones: sums only.
     std::vector<glm::dvec3> make_control_points(std::span<const glm::dvec3> cage_points) const;
 
-    /// Finds patch and weights once. While the surface is built.
+    /// Finds patch and weights of a location. Only while the surface is built.
     LimitSample make_sample(const LimitLocation& location);
-    /// No more samples will be made: frees what only that needs.
+    /// Ends the building: no more samples can be made, and the memory for that is freed.
     void finish_samples() { known_bases_ = {}; }
 
     glm::dvec3 position(std::span<const glm::dvec3> control, const LimitSample& sample) const;

@@ -18,7 +18,7 @@ struct OutlinePoint {
 /// Smooth along its points; the next one begins at a sharp edge.
 using OutlineStrip = std::vector<OutlinePoint>;
 
-/// Of a torus or a lathe that validate (shapes.h) has passed.
+/// Outline of a torus or a lathe. Call validate (shapes.h) first.
 std::vector<OutlineStrip> make_outline(const Shape& shape);
 
 /// Pieces that make_outline cuts a lathe's profile into at most, without making them.

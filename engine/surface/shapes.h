@@ -8,7 +8,7 @@
 
 namespace aleph {
 
-/// Limits of Shape::segments: fewer are no solid, more only fill the memory.
+/// Limits of Shape::segments: fewer make no solid, more only take memory.
 inline constexpr int min_shape_segments = 3;
 inline constexpr int max_shape_segments = 4096;
 /// In all shapes of a scene file together.

@@ -1,5 +1,6 @@
 #pragma once
-// Which faces of a cage share which vertices of its triangles. Included by the sources of limit_surface.h only.
+// Which faces of a cage share which vertices of its triangles. Internal to limit_surface.cpp and
+// its parts.
 
 #include <opensubdiv/far/ptexIndices.h>
 

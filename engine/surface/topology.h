@@ -1,5 +1,5 @@
 #pragma once
-// A cage as OpenSubdiv's refiner. Included by the sources of limit_surface.h only.
+// A cage as OpenSubdiv's refiner. Internal to limit_surface.cpp and its parts.
 
 #include <opensubdiv/far/topologyRefiner.h>
 

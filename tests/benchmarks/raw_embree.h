@@ -1,5 +1,5 @@
 #pragma once
-// Embree alone, as the yardstick: the same rays over the same triangles, prepared beforehand, in packets of 16.
+// Embree alone, for comparison: the same rays through the same triangles, prepared beforehand, in packets of 16.
 
 #include <embree3/rtcore.h>
 
@@ -18,7 +18,7 @@ class RawEmbree {
     RawEmbree(const RawEmbree&) = delete;
     RawEmbree& operator=(const RawEmbree&) = delete;
 
-    /// Traces every ray once. @return how many met something
+    /// Traces every ray once. @return number of hits
     std::size_t trace();
 
   private:

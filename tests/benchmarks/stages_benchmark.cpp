@@ -1,6 +1,6 @@
-// Motion and perception, one thread, 640x480, measured in one run against the unit of both: casting the frame's first
-// hits in packets. Beside each stage a plain copy of what it reads and writes. Ends with a table of ratios.
-// Uses scenes/pool/scene.json where it exists, else a scene made here.
+// Cost of motion and perception on one thread at 640x480, relative to casting the frame's first hits in packets, and to
+// a plain copy of what each stage reads and writes. Prints a table of ratios. Uses scenes/pool/scene.json where it
+// exists, else a scene made here.
 
 #include <benchmark/benchmark.h>
 #include <fmt/format.h>
@@ -191,7 +191,7 @@ void copy_perception(benchmark::State& state) {
     copy_all(state, in.estimate, in.velocity, in.velocity, in.velocity);
 }
 
-/// Prints as usual and keeps each benchmark's best time: CPU time, since others may share the machine.
+/// Prints as usual, and keeps each benchmark's best CPU time: other programs may run on the machine.
 class BestTimes : public benchmark::ConsoleReporter {
   public:
     void ReportRuns(const std::vector<Run>& runs) override {

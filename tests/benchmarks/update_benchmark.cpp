@@ -66,7 +66,7 @@ Scene make_field(int objects) {
 
 using Clock = std::chrono::steady_clock;
 
-/// ms of the fastest call: others share the machine.
+/// Time of the fastest call, ms: other programs may run on the machine.
 class Best {
   public:
     template <class Work>

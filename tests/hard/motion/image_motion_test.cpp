@@ -1,4 +1,4 @@
-// Image-based motion where it has nothing to go by, hardly any room, or a known answer (HARD_CASES RP-22 to RP-24).
+// Image-based motion of pictures without texture, of tiny pictures, and with a known answer (RP-22 to RP-24).
 
 #include <gtest/gtest.h>
 
@@ -118,7 +118,7 @@ TEST(ImageMotionHard, RP24_SmoothTextureMovedByFiveAndThree) {
 }
 
 TEST(ImageMotionHard, RP24_WholeCoarsePixelsAreExact) {
-    // Moved by 4 pixels, which is 1 at the coarsest level: nothing changes under the pyramid but the place.
+    // Moved by 4 pixels, which is 1 at the coarsest level: all levels are the same but for the shift.
     const ErrorFigures e = measure_shift(256, 192, 8, 4, [](int x, int y) { return smooth_texture(x, y, 10.0); });
     EXPECT_EQ(e.median, 0.0);
     EXPECT_LT(e.percent_beyond_1, 5.0);
@@ -129,7 +129,7 @@ TEST(ImageMotionHard, RP24_KnownLimits) {
     const ErrorFigures noise = measure_shift(256, 192, 5, 3, [](int x, int y) { return white_noise(x, y); });
     EXPECT_GT(noise.mean, 5.0);
     EXPECT_LT(noise.mean, 20.0);
-    // Half a coarse pixel away from anything: fine texture looks like another one there.
+    // A shift by half a coarse pixel: fine texture looks different at the coarsest level.
     const ErrorFigures between = measure_shift(256, 192, -6, 2, [](int x, int y) { return smooth_texture(x, y, 8.0); });
     EXPECT_GT(between.median, 5.0);
     RecordProperty("white_noise_mean_px", std::to_string(noise.mean));

@@ -1,5 +1,5 @@
-// HARD_CASES section 2 with real rays: what single-precision hits must not do to motion, and what hides a point in the
-// other frame.
+// Reprojection with real rays: single-precision hits must not disturb motion, and points hidden in the other frame are
+// found.
 
 #include <gtest/gtest.h>
 
@@ -74,7 +74,7 @@ TEST(ReprojectionRays, RP18_BarycentricsOffTheTriangleArePutBack) {
     }
 }
 
-/// Where the hit's own barycentrics put it on the screen.
+/// The pixel position that the hit's barycentrics give.
 glm::dvec2 hit_pixel(const Scene& scene, const ScenePose& frame, const CameraView& view, const Hit& hit) {
     const Instance& instance = frame.instances[hit.instance];
     const CameraFromObject map = make_camera_from_object(view, frame.world[instance.node]);
@@ -103,7 +103,7 @@ TEST(ReprojectionRays, RP18_HitsOnSubPixelTrianglesLieAtTheirPixel) {
 }
 
 TEST(ReprojectionRays, RP19_BarycentricPointsLieOnTheirTriangles) {
-    // Long slivers 500 away whose planes almost hold the ray: the distance along it says little.
+    // Long slivers at 500 m whose planes are almost parallel to the ray: the distance along it is inaccurate.
     Scene scene;
     Mesh slivers;
     std::mt19937 random(3);
@@ -148,11 +148,11 @@ TEST(ReprojectionRays, RP19_BarycentricPointsLieOnTheirTriangles) {
     }
     EXPECT_GT(count, 1000u);
     EXPECT_LT(worst, 1e-6L);
-    // The case is hard: along the ray the point is off by a good part of a metre.
+    // The case is hard: computed along the ray the point is off by a good part of a metre.
     EXPECT_GT(worst_by_distance, 0.1L);
 }
 
-/// A scene with what it takes to ask who is hidden in its second moment.
+/// A scene at two times, with the points that are hidden at the second.
 struct Hidden {
     TwoViews views;
     RayScene rays, other_rays;

@@ -1,4 +1,4 @@
-// HARD_CASES section 2: reprojection of Q(u,v,t) where it is fragile. Expected values by hand or in long double.
+// Reprojection of Q(u,v,t) where it is fragile. Expected values by hand or in long double.
 
 #include <gtest/gtest.h>
 
@@ -11,7 +11,7 @@
 namespace aleph {
 namespace {
 
-/// What is not known to be still (here: it rotates about the camera together with it) must come out as good as still.
+/// An object that rotates about the camera together with it: its motion must be almost 0.
 TEST(Reprojection, RP01_RidingAlongIsStillWithinRounding) {
     Scene scene;
     Node cart;
@@ -34,7 +34,7 @@ TEST(Reprojection, RP02_TinyMotion) {
         for (const double distance : {0.0, 1e3, 1e6}) {
             const double metres = pixels / 200.0;  // 1000 px at 5 m
             Scene scene = make_point_scene({0.5f, -0.25f, -5.0f});
-            // The far keys are rounded to doubles themselves: what they hold is the truth.
+            // The far keys are rounded to doubles: the rounded values are the truth.
             const double from = distance, to = distance + metres;
             scene.nodes[0].translation = ramp(glm::dvec3(from, 0.0, 0.0), glm::dvec3(to, 0.0, 0.0));
             scene.nodes[1].translation = glm::dvec3(distance, 0.0, 0.0);
@@ -80,7 +80,7 @@ TEST(Reprojection, RP05_OnAndNearTheCameraPlane) {
     for (const glm::vec3& point : {glm::vec3(0.3f, -0.3f, -1.0f), glm::vec3(0.0f, 0.0f, -1.0f)}) {
         for (const double remaining : {0.0, 1e-300, 1e-6, 0.99e-4, 1e-4}) {  // m; the near plane is at 1e-4
             Scene scene = make_point_scene(point);
-            // The point comes to the camera: what remains is exact.
+            // The point moves towards the camera: the rest is exact.
             scene.nodes[0].translation = ramp(glm::dvec3(0.0), glm::dvec3(0.0, 0.0, 1.0 - remaining));
             const double depth = 1.0 - (1.0 - remaining);
             const PointMotion motion = motion_of_point(scene);
@@ -103,7 +103,7 @@ TEST(Reprojection, RP05_OnAndNearTheCameraPlane) {
     EXPECT_NEAR(motion.path_length, 1000.0 * std::sqrt(2.0), 1e-9);
 }
 
-/// A near plane of almost nothing: numbers beyond what a square can hold must still be capped, not turn into NaN.
+/// A near plane of almost 0: numbers whose square overflows must be capped too, and not become NaN.
 TEST(Reprojection, RP05_NoNearPlane) {
     for (const double near_plane : {0.0, 1e-300, -1.0}) {
         Scene scene = make_point_scene({3.0e30f, -4.0e30f, -1.0f});
@@ -230,7 +230,7 @@ TEST(Reprojection, RP12_VisibleInOneFrameOnly) {
     EXPECT_EQ(vanishes.validity, MotionValidity::no_counterpart);
     EXPECT_EQ(vanishes.displacement, glm::dvec2(0.0));
     EXPECT_EQ(vanishes.path_length, 0.0);
-    // The first that applies: behind the camera too, and yet without counterpart.
+    // The first reason that applies: it is also behind the camera, but has no counterpart.
     scene.nodes[0].translation = ramp(glm::dvec3(0.0), glm::dvec3(0.0, 0.0, 9.0));
     EXPECT_EQ(motion_of_point(scene).validity, MotionValidity::no_counterpart);
     scene.nodes[0].visible = 1.0;

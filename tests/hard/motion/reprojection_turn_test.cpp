@@ -1,4 +1,4 @@
-// HARD_CASES RP-07: things that turn far within a frame, whose chord lies.
+// Objects that turn far within a frame, so that the chord is much shorter than the path (RP-07).
 
 #include <gtest/gtest.h>
 
@@ -50,7 +50,7 @@ TEST(ReprojectionTurn, RP07_TheCameraTurnsInstead) {
     EXPECT_NEAR(field.path_length(800, 500), 2.0 * std::numbers::pi * radius, 0.01 * 2.0 * std::numbers::pi * radius);
 }
 
-/// The same bits at both moments, and yet no rest.
+/// The same bits at both times, although it moves between them.
 TEST(ReprojectionTurn, RP07_FullTurnBetweenEqualPoses) {
     for (const bool camera_turns : {false, true}) {
         Scene scene = make_point_scene({1.0f, 0.0f, -10.0f}, 1500.0);
@@ -87,7 +87,7 @@ TEST(ReprojectionTurn, RP07_QuaternionKeysWithinTheFrame) {
     EXPECT_EQ(motion_of_point(scene, 1.0, 2.0).path_length, 0.0);
 }
 
-/// Quaternion keys 270 degrees apart go the short way, 90 back; motion says what the picture will show.
+/// Quaternion keys 270 degrees apart take the short way, 90 degrees back, as the picture does.
 TEST(ReprojectionTurn, RP08_KeysBeyondAHalfTurnGoTheShortWay) {
     Scene scene = make_point_scene({1.0f, 0.0f, -10.0f}, 1500.0);
     scene.nodes[0].rotation =
@@ -112,7 +112,7 @@ TEST(ReprojectionTurn, RP07_MatrixKeysWithinTheFrame) {
 }
 
 TEST(ReprojectionTurn, RP07_SpinsAddUpAlongTheHierarchy) {
-    // Two nested half turns make a full one; against each other they rest.
+    // Two nested half turns make a full one; in opposite directions they cancel.
     for (const double sense : {1.0, -1.0}) {
         Scene scene;
         Node outer;

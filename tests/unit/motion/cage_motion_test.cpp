@@ -56,7 +56,7 @@ glm::dvec2 place_of(const Hit& hit, int level) {
 TEST(CageMotion, IsTheLimitSurfacesAtEveryLevel) {
     TestCage test = make_grid_cage(4, 4);
     test.cage.boundary = Cage::Boundary::none;
-    // Every point moves its own way, by far: a bend, a twist and a stretch.
+    // Every point moves differently and far: a bend, a twist and a stretch.
     std::vector<glm::dvec3> later;
     for (const glm::dvec3& p : test.points) {
         later.emplace_back(p.x + 0.3 * p.y * p.y, 0.8 * p.y + 0.2 * p.z, p.z + 0.25 * p.x * p.y - 0.4);
@@ -117,7 +117,7 @@ TEST(CageMotion, RP16_StaticSurfacesDoNotMoveAtAnyLevel) {
     for (int level = 0; level <= 5; ++level) {
         TestCage test = make_cube_cage();
         add_crease(test.cage, {4, 5, 7}, 2.5f);
-        // Two equal samples, and a third: the cage is one that deforms, but not between frames 0 and 1.
+        // Two equal samples and a different third: the cage deforms, but not between frames 0 and 1.
         std::vector<glm::dvec3> later = test.points;
         later[0] *= 1.5;
         Scene scene = make_cage_scene(test, {test.points, test.points, later}, level);

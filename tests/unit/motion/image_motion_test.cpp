@@ -1,4 +1,4 @@
-// Image-based motion: against a slow, separate reading of MODEL.md 5.1, and known answers.
+// Image-based motion: against a slow, separate implementation of the search, and known answers.
 
 #include "motion/image_motion.h"
 
@@ -22,7 +22,7 @@ struct Offset {
     int x, y;
 };
 
-/// The documented algorithm, word for word and without any of the tricks: every census bit and every cost from scratch.
+/// The documented algorithm without optimisations: every census bit and every cost is computed from scratch.
 struct SlowSearch {
     std::vector<Image<float>> now, other;
 
@@ -96,7 +96,7 @@ SlowSearch make_slow_search(const Image<Rgb>& now, const Image<Rgb>& other) {
     return {pyramid(now), pyramid(other)};
 }
 
-/// Two pictures that have something, but not all, in common: motion, new things, flat places, noise.
+/// Two pictures that differ by motion, new objects, flat areas and noise.
 Image<Rgb> make_scene_picture(int width, int height, double shift_x, double shift_y, std::uint32_t seed) {
     return make_pattern(width, height, [&](int x, int y) {
         if (x > width / 2 && y > height / 2) return 0.5;  // flat
@@ -174,7 +174,7 @@ TEST(ImageMotion, MultiplesOfTheCoarsestPixelAreFoundAlmostEverywhere) {
 }
 
 TEST(ImageMotion, ReachesFiftyThreePixels) {
-    // 53 = 4 * 8 + 2 * 7 + 7. Of a pair that has nothing in common, some pixel goes as far as there is to go.
+    // 53 = 4 * 8 + 2 * 7 + 7. Between two unrelated pictures some pixel moves by the full reach.
     const auto longest = [](int width, int height) {
         const auto noise = [&](std::uint32_t seed) {
             return make_pattern(width, height, [=](int x, int y) { return white_noise(x, y, seed); });
@@ -221,7 +221,7 @@ TEST(ImageMotion, NoneAcrossACut) {
 }
 
 TEST(ImageMotion, ExposureDoesNotMatter) {
-    // Census compares; thesis 5.1.1 names it as its reason.
+    // The census compares values, so brightness does not matter (thesis 5.1.1).
     const Image<Rgb> now = make_scene_picture(64, 48, 0, 0, 1), other = make_scene_picture(64, 48, 3, 2, 1);
     Image<Rgb> brighter = other;
     for (Rgb& pixel : brighter.pixels) pixel *= 4.0f;

@@ -128,7 +128,7 @@ class MotionTruth : public testing::TestWithParam<std::tuple<Moving, double>> {
   protected:
     MotionTruth() {
         const auto& [moving, distance] = GetParam();
-        // Exactly representable, as a scene is authored; along every axis.
+        // Exactly representable, along every axis.
         const int root = add_node(scene_, make_node(no_index, glm::dvec3(distance, -distance, distance)));
         camera_ = moving.build(scene_, root);
     }
@@ -204,7 +204,7 @@ INSTANTIATE_TEST_SUITE_P(
         return std::string(std::get<0>(test.param).name) + (std::get<1>(test.param) > 0.0 ? "Far" : "Near");
     });
 
-/// What never moves is worth its own scene: other things do, so nothing is skipped as a whole.
+/// Other objects move, so that the frame as a whole is not skipped.
 TEST(ModelMotion, StaticObjectsBesideMovingOnesAreExactlyStill) {
     Scene scene;
     const int root = add_node(scene, make_node(no_index, {0.3, -0.1, 0.7}));
@@ -224,7 +224,7 @@ TEST(ModelMotion, StaticObjectsBesideMovingOnesAreExactlyStill) {
     }
 }
 
-/// A zoom changes the projection alone: neither object nor camera moves, and yet the picture does.
+/// A zoom changes only the projection: neither object nor camera moves, but the picture does.
 TEST(ModelMotion, ZoomMovesObjectsAndBackground) {
     Scene scene;
     Node node = make_node(no_index, {});
@@ -243,7 +243,7 @@ TEST(ModelMotion, ZoomMovesObjectsAndBackground) {
     EXPECT_NEAR(field.displacement(0, height / 2).x, left_edge * grown, 1e-9);
 }
 
-/// A film offset that changes slides the whole picture, near and far alike; one that stays moves nothing.
+/// A film offset that changes moves the whole picture, near and far alike; a constant one moves nothing.
 TEST(ModelMotion, FilmOffsetSlidesThePicture) {
     for (const bool orthographic : {false, true}) {
         Scene scene;

@@ -1,4 +1,4 @@
-// Motion looks at the nodes that can move only: the same bits as when it looks at all of them.
+// Motion examines only the nodes that can move. The result has the same bits as when it examines all of them.
 
 #include <gtest/gtest.h>
 
@@ -30,7 +30,7 @@ int add_object(Scene& scene, Node node) {
     return add_node(scene, std::move(node));
 }
 
-/// Objects that stand still, turn fast, hang on what turns, or let go of it, in front of a camera.
+/// Objects in front of a camera: some still, some turning fast, some below a turning node, one of them not inheriting.
 Scene make_scene(double object_turn, double camera_turn) {
     Scene scene = make_skin_scene();  // its joints turn, its own node does not
     for (int i = 0; i < 5; ++i) add_object(scene, make_node(no_index, {i - 2.0, 0.5, -9.0}));
@@ -49,7 +49,7 @@ Scene make_scene(double object_turn, double camera_turn) {
     return scene;
 }
 
-/// A plan that takes every node for a moving one.
+/// A plan in which every node counts as moving.
 PosePlan plan_all(const Scene& scene) {
     PosePlan plan = make_pose_plan(scene);
     plan.moving.assign(scene.nodes.size(), 1);
@@ -73,7 +73,7 @@ TEST(MovingNodes, MotionHasTheBitsOfAPlanOfAllNodes) {
             const PosePlan plan = make_pose_plan(scene), everything = plan_all(scene);
             EXPECT_LT(plan.nodes.size(), everything.nodes.size());
             ModelMotion motion(scene, plan);
-            for (const double seconds : {0.0, 0.5, 0.2}) {  // what the last call left behind does not show
+            for (const double seconds : {0.0, 0.5, 0.2}) {  // the result does not depend on earlier calls
                 const TwoViews views(scene, seconds, seconds + 0.3, width, height);
                 Image<Hit> hits = make_random_hits(scene, views.now.pose, width, height);
                 hits(0, 0) = {};

@@ -1,4 +1,4 @@
-// Motion of what deforms: RP-14 to RP-16 of HARD_CASES.md, skins and morph targets by known displacements.
+// Motion of deforming meshes (RP-14 to RP-16): skins and morph targets with known displacements.
 
 #include <gtest/gtest.h>
 
@@ -90,7 +90,7 @@ TEST(Deforming, RP14_MovingAllVerticesIsMovingTheObject) {
         double largest = 0.0;
         for (std::size_t i = 0; i < a.hits.size(); ++i) {
             if (a.hits.pixels[i].instance == no_index || b.hits.pixels[i].instance == no_index) continue;
-            // Rays meet both in the same place up to their own rounding, which moves the point and not its motion.
+            // Rays hit both at the same place up to rounding, which moves the point but not its motion.
             largest = std::max(largest, glm::length(a.motion.displacement.pixels[i] - b.motion.displacement.pixels[i]));
         }
         EXPECT_GT(glm::length(a.motion.displacement(width / 2, height / 2)), 1.0);
@@ -177,7 +177,7 @@ TEST(Deforming, RP16_CagesAreReprojectedOnTheLimitSurface) {
     add_camera(scene);
     const Observed seen = observe(scene, 0.25, 0.75);
     const LimitSurface& surface = *scene.meshes[0].limit.surface;
-    // What the posed frame says against the surface asked by itself.
+    // The posed mesh against the limit surface itself.
     const auto control = [&](double seconds) {
         return surface.make_control_points(cage_points_at(scene, scene.cages[0], seconds));
     };

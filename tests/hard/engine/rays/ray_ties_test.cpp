@@ -1,5 +1,5 @@
-// RC-07: which of several surfaces at one distance is met does not depend on how Embree's trees came about, nor on how
-// the rays are asked.
+// RC-07: which of several surfaces at one distance is hit depends neither on how Embree's trees were built nor on
+// whether rays are cast one by one or in packets.
 
 #include <gtest/gtest.h>
 
@@ -54,7 +54,7 @@ std::vector<Hit> trace(const RayScene& scene, const std::vector<Ray>& rays, Way 
     return hits;
 }
 
-/// How many rays met another instance or primitive.
+/// How many rays hit another instance or primitive.
 std::size_t count_differences(const std::vector<Hit>& a, const std::vector<Hit>& b) {
     std::size_t count = 0;
     for (std::size_t i = 0; i < a.size(); ++i)

@@ -1,4 +1,4 @@
-// Hard keys: almost equal, opposite, zero, misordered, far away in time (HARD_CASES KF-01 to KF-16).
+// Hard keys: almost equal, opposite, zero, misordered, far away in time (KF-01 to KF-16).
 
 #include <gtest/gtest.h>
 

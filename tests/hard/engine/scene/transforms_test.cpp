@@ -1,4 +1,4 @@
-// Hard transforms: mirrored, flattened, sheared, tiny, deep, far away (HARD_CASES KF-17 to KF-28).
+// Hard transforms: mirrored, flattened, sheared, tiny, deep, far away (KF-17 to KF-28).
 
 #include "engine/scene/transforms.h"
 
@@ -143,7 +143,7 @@ TEST(Transforms, KF20_ScaleThroughZero) {
     EXPECT_EQ(middle, scaling(0, 1, 1));
     EXPECT_FALSE(has_full_rank(middle));
     EXPECT_EQ(safe_normalize(normal_matrix(middle) * glm::dvec3(1, 1, 1)), glm::dvec3(1, 0, 0));
-    // A camera flattened along one axis still knows its axes.
+    // The axes of a camera flattened along one axis are still found.
     const glm::dmat4 turn = turning(70, {1, -2, 3});
     for (const glm::dmat4& flat : {scaling(0, 1, 1), scaling(1, 0, 1), scaling(2, 3, 0)})
         EXPECT_LT(largest_element(orthonormal_axes(turn * flat) - glm::dmat3(turn)), 1e-15 * 4.0);
@@ -160,7 +160,7 @@ TEST(Transforms, KF21_ShearedKeysComeBackAsTheyWere) {
     const glm::dmat4 sheared = scaling(1, 3, 1) * turning(45, {0, 0, 1});
     EXPECT_EQ(interpolate_matrix(sheared, glm::dmat4(1.0), 0.0), sheared);
     EXPECT_EQ(interpolate_matrix(glm::dmat4(1.0), sheared, 1.0), sheared);
-    // Just beside a key only the decomposition is left: it recomposes what it took apart.
+    // Next to a key the decomposition is recomposed almost unchanged.
     EXPECT_LT(distance(interpolate_matrix(sheared, glm::dmat4(1.0), 1e-12), sheared), 1e-11);
     const std::vector<glm::dmat4> keys = random_matrices(400);
     for (std::size_t i = 1; i < keys.size(); ++i) {
@@ -189,7 +189,7 @@ TEST(Transforms, KF23_MirroredKeysDoNotSpin) {
     for (double t = 0.0; t <= 1.0; t += 0.125) {
         EXPECT_EQ(interpolate_matrix(mirror, mirror, t), mirror);
         EXPECT_LT(distance(interpolate_matrix(mirror, nearly, t), mirror), 1.1e-9);
-        // A mirror that turns by 80 degrees takes the same way as what is not mirrored.
+        // A mirrored object that turns by 80 degrees takes the same way as one that is not mirrored.
         const glm::dmat4 turned = interpolate_matrix(mirror, turning(80, {0, 1, 0}) * mirror, t);
         EXPECT_LT(distance(turned, turning(80 * t, {0, 1, 0}) * mirror), 1e-14);
     }
@@ -275,7 +275,7 @@ TEST(Transforms, KF27_LookAtStraightDownAndAtItself) {
             const glm::dvec3 forward = target == glm::dvec3(0.0) ? glm::dvec3(0, 0, -1) : safe_normalize(target);
             EXPECT_LT(glm::length(-glm::dvec3(world[2]) - forward), 4.0 * double_unit);
         }
-    // Up nearly along the view: its product with the view is all rounding beyond the eighth digit.
+    // Up nearly along the view: beyond the eighth digit its product with the view is rounding error.
     const glm::dvec3 view = glm::normalize(glm::dvec3(3.0, -7.0, 2.0));
     for (const double lean : {1e-3, 1e-7, 2e-9, 1e-10, 1e-16})
         expect_orthonormal(glm::dmat3(look_at(glm::dvec3(0.0), view, view + glm::dvec3(lean, 0.0, -lean))), 1e-15);

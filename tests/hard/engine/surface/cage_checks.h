@@ -1,5 +1,5 @@
 #pragma once
-// What a damaged cage may come to: refused with a reason, or a surface that is sound everywhere.
+// Allowed outcomes for a damaged cage: it is refused with a reason, or its surface is valid everywhere.
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-// Cages that are refused before they could end the process (HARD_CASES, section 12).
+// Cages that OpenSubdiv would crash on are refused.
 #include <gtest/gtest.h>
 
 #include <chrono>

@@ -1,4 +1,4 @@
-// Odd and damaged cages, and surfaces at their limits (HARD_CASES RP-16, RP-17, section 12).
+// Odd and damaged cages, and surfaces at their limits (RP-16, RP-17).
 #include <gtest/gtest.h>
 
 #include <array>

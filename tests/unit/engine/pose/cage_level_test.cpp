@@ -1,4 +1,4 @@
-// The level of cages follows the size of their edges in the picture, one for the whole shot.
+// The level of a cage follows the size of its edges in the picture; it is one for the whole shot.
 #include "engine/pose/cage_level.h"
 
 #include <gtest/gtest.h>

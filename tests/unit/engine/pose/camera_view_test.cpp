@@ -80,7 +80,7 @@ TEST(CameraView, OrthographicRaysStartOnTheCameraPlane) {
     EXPECT_NEAR(to_camera(view, ray.origin).y, 2.5 * (240.0 - 20.0) / 240.0, 1e-14);
 }
 
-/// A film offset cuts another window out of the same, larger picture.
+/// A film offset shows another window of the same, larger picture.
 TEST(CameraView, FilmOffsetIsACropOfALargerPicture) {
     for (const bool orthographic : {false, true}) {
         CameraValues camera = placed({3.0, 4.0, -5.0}, {-1.0, 0.5, 2.0});

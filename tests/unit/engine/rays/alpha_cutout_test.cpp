@@ -13,7 +13,7 @@
 namespace aleph {
 namespace {
 
-/// Two by two texels: only the left column is there.
+/// Two by two texels: only the left column is opaque.
 Scene make_masked_scene(Material::AlphaMode mode) {
     Scene scene = make_sheet_scene(1);
     SceneImage image;
@@ -37,7 +37,7 @@ Ray ray_at(float x, float y) {
     return ray;
 }
 
-/// Whether a ray meets something: by itself, in a packet and as a shadow, which must agree.
+/// Whether a ray hits something. A single ray, a packet and a shadow ray must agree.
 bool is_met(const RayScene& scene, float x, float y) {
     Tracer tracer(scene);
     const Ray ray = ray_at(x, y);

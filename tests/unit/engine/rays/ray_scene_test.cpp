@@ -1,4 +1,4 @@
-// Rays through a posed scene: the checked door to Embree, packets against single rays, updates, what is left out.
+// Rays through a posed scene: invalid rays, packets against single rays, updates, instances that are left out.
 
 #include "engine/rays/ray_scene.h"
 
@@ -36,7 +36,7 @@ class RandomRays {
         return {in_cube(8.0f) - glm::vec3(0.0f, 0.0f, 5.0f), in_cube(1.0f), 0.0f,
                 uniform(0.0f, 1.0f) < 0.5f ? infinite : 5.0f};
     }
-    /// A number that a broken computation may give.
+    /// A number such as a broken computation gives.
     float special() {
         const float values[] = {0.0f,
                                 -0.0f,
@@ -148,7 +148,7 @@ TEST(RayScene, RC01_BadRaysAreMissesAndCounted) {
                     ASSERT_EQ(blocked[i], 0);
                 }
                 const Hit alone = tracer.intersect(r);
-                // Whatever its neighbours in the packet are.
+                // It does not depend on its neighbours in the packet.
                 if (untouched[i]) {
                     ASSERT_EQ(alone.instance, hits[i].instance);
                 }
@@ -199,7 +199,7 @@ TEST(RayScene, UpdateTouchesWhatMoved) {
         Tracer tracer(rays);
         EXPECT_EQ(tracer.intersect({{1.5f - 64.0f, 0.0f, 0.0f}, {0.0f, 0.0f, -1.0f}}).instance, 0);
     }
-    // Back again: what was moved there and back is what was built.
+    // Moved back: the same as when it was built.
     frame = pose(scene, 0.0);
     rays.update(frame, glm::dvec3(0.0));
     RayScene fresh(scene), shared = rays.share_meshes();
@@ -226,7 +226,7 @@ TEST(RayScene, KF18_FlattenedInstancesAreLeftOutAndCounted) {
         const glm::vec3 anchor(stage.shading.anchor);
         EXPECT_NE(tracer.intersect({-anchor, {0.0f, 0.0f, -1.0f}}).instance, 0);
     }
-    // Whole, but so small that a ray's numbers in its own space would be beyond what Embree takes.
+    // It has volume, but is so small that rays in its own space would be beyond Embree's limits.
     for (const double scale : {1e-12, 1e-20, 1e-30, 1e-200}) {
         Scene scene = make_many();
         scene.nodes[0].scale = glm::dvec3(scale);
@@ -235,7 +235,7 @@ TEST(RayScene, KF18_FlattenedInstancesAreLeftOutAndCounted) {
         Tracer tracer(stage.rays);
         EXPECT_NE(tracer.intersect({-glm::vec3(stage.shading.anchor), {0.0f, 0.0f, -1.0f}}).instance, 0);
     }
-    // Small but whole, and rays as large as are let through.
+    // Small, but with volume, and rays of the largest valid size.
     Scene tiny = make_many();
     tiny.nodes[0].scale = glm::dvec3(1e-8);
     const Stage stage(tiny);

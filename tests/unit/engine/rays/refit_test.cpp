@@ -33,7 +33,7 @@ std::vector<Hit> trace(const RayScene& scene, const std::vector<Ray>& rays) {
     return hits;
 }
 
-/// The scene with everything frozen as it is at a moment: rigid meshes of the posed points.
+/// The scene frozen at a time: rigid meshes of the posed points.
 Scene freeze(const Scene& scene, double seconds) {
     const ScenePose frame = pose(scene, seconds);
     Scene frozen;

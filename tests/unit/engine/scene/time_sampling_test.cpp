@@ -75,7 +75,8 @@ TEST(TimeSampling, SnapsToASampleWithinRounding) {
     expect_span(find_samples(times, 3, 2.0 - 1e-9), 1, 1, 0.0);
     EXPECT_EQ(find_samples(times, 3, 2.0 + 1e-8).ceil, 2u);
     EXPECT_EQ(find_samples(times, 3, 2.0 - 1e-8).floor, 0u);
-    // Every frame of an hour at 24000/1001 fps meets its uniform sample, though the two multiply in another order.
+    // Every frame of an hour at 24000/1001 fps finds its uniform sample, although the two times are computed in a
+    // different order.
     const TimeSampling film = uniform(0.0, 1001.0 / 24000.0);
     for (std::size_t frame = 0; frame < 86400; ++frame) {
         const SampleSpan span = find_samples(film, 86400, static_cast<double>(frame) * 1001.0 / 24000.0);

@@ -54,7 +54,7 @@ TEST(Track, StepTakesTheKeyAtOrBefore) {
 }
 
 TEST(Track, CubicMatchesThePolynomialItsKeysWereTakenFrom) {
-    // A cubic polynomial is its own Hermite spline, whatever the intervals.
+    // The Hermite spline of a cubic polynomial is that polynomial, for any intervals.
     const auto value = [](double t) { return 2.0 - t + 0.5 * t * t - 0.25 * t * t * t; };
     const auto slope = [](double t) { return -1.0 + t - 0.75 * t * t; };
     std::vector<double> times{-1.0, 0.0, 2.5, 3.0}, values;

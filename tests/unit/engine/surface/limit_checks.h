@@ -1,5 +1,5 @@
 #pragma once
-// Points of limit surfaces, as the tests of subdivision ask for them.
+// Points of limit surfaces, for the tests of subdivision.
 
 #include <vector>
 

@@ -1,4 +1,4 @@
-// Subdivision surfaces as meshes: levels, holes and parts, places between the vertices (HARD_CASES RP-16, RP-17).
+// Subdivision surfaces as meshes: levels, holes and parts, places between the vertices (RP-16, RP-17).
 #include <gtest/gtest.h>
 
 #include <glm/geometric.hpp>

@@ -1,4 +1,4 @@
-// Tori and lathes: analytic where they can be, sharp where the profile says, finite for any profile.
+// Tori and lathes: analytic values, sharp edges where the profile has them, finite numbers for any profile.
 
 #include <gtest/gtest.h>
 
@@ -77,7 +77,7 @@ TEST(Shapes, FlatLatheFacesUp) {
     }
 }
 
-// Points of a half circle: the spline is a sphere within what so few points can say, round at both poles.
+// Points of a half circle: the spline is nearly a sphere, and round at both poles.
 TEST(Shapes, SmoothLatheFollowsACircle) {
     std::vector<glm::dvec2> points;
     for (int i = 0; i <= 8; ++i) {
@@ -141,7 +141,7 @@ TEST(Shapes, BadToriAndLathesAreRefused) {
     for (const auto& profile : profiles) EXPECT_THROW(make_shape_mesh(make_lathe(profile, true)), InputError);
 }
 
-// Points that turn back, touch the axis, or lie absurdly near each other still give finite unit normals.
+// Points that turn back, touch the axis, or nearly coincide still give finite unit normals.
 TEST(Shapes, AwkwardLathesStayFinite) {
     const std::vector<std::vector<glm::dvec2>> profiles = {
         {{1.0, 0.0}, {1.0, 1.0}, {1.0, 0.0}},

@@ -1,5 +1,5 @@
 #pragma once
-// Shapes that the tests of shapes share, and what triangles enclose.
+// Shapes that several tests use, and the volume that triangles enclose.
 
 #include <array>
 #include <glm/geometric.hpp>

@@ -44,7 +44,7 @@ TEST(Shapes, NormalsAreUnitAndTrianglesCounterClockwiseFromTheirSide) {
     }
 }
 
-// Every edge is used once in each direction, once vertices at one place count as one: no cracks, no doubles.
+// With vertices at one place merged, every edge is used once in each direction: no cracks, no double triangles.
 TEST(Shapes, SolidsAreClosed) {
     using Place = std::tuple<float, float, float>;
     for (const Shape& shape : all_shapes()) {
