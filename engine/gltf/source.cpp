@@ -6,6 +6,7 @@
 
 #include "engine/base/errors.h"
 #include "engine/gltf/validate/validate.h"
+#include "engine/json/text.h"
 
 namespace aleph {
 
@@ -116,7 +117,8 @@ GltfSource load_gltf_source(const fs::path& path, const LoadLimits& limits) {
     source.folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
     const Bytes bytes = read_regular_file(path, source.file, "");
     const GltfChunks chunks = split_gltf(bytes, source.file);
-    source.document = parse_untrusted_json(chunks.json, source.file, limits);
+    source.document =
+        parse_strict_json(chunks.json, source.file, limits, "keep vertices, keys and indices in the binary buffer");
     validate_gltf(JsonRef(source.document, source.file), chunks.has_binary, source.warnings);
 
     std::uint64_t bytes_left = max_file_bytes;

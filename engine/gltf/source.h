@@ -9,6 +9,7 @@
 
 #include "engine/gltf/files.h"
 #include "engine/json/json_ref.h"
+#include "engine/json/load_limits.h"
 
 namespace aleph {
 

@@ -1,5 +1,5 @@
 #pragma once
-// "Did you mean": the known names nearest to one that is not known.
+// "Did you mean ...?": known names that are close to an unknown one.
 
 #include <string>
 #include <string_view>
@@ -7,11 +7,11 @@
 
 namespace aleph {
 
-/// Up to three of the names that are a slip away from `name` (a third of its letters, at least one, are different,
-/// missing or swapped) or that contain it or lie in it; nearest first, then as given.
+/// Up to three names that differ from `name` by a few letters (a third of them; at least two, one in names of one or
+/// two letters; regardless of case), or of which one contains the other. Nearest first, then in the order given.
 std::vector<std::string> close_names(std::string_view name, const std::vector<std::string>& known);
 
-/// `; did you mean "a" or "b"?`, or nothing where no name is close. Few names are listed in full.
+/// `; did you mean "a" or "b"?`. Where no name is close, `; there is "a" or "b"` with up to six names, else nothing.
 std::string suggestion(std::string_view name, const std::vector<std::string>& known);
 
 }  // namespace aleph

@@ -2,48 +2,11 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
 
 #include "engine/base/errors.h"
-#include "engine/json/scan.h"
-#include "engine/json/text.h"
 
 namespace aleph {
-
-namespace {
-
-/// Deepest nesting of brackets outside strings. Parsers recurse, or build values that are destroyed recursively.
-int nesting_depth(std::string_view text) {
-    int depth = 0, deepest = 0;
-    const auto count = [&](char c) {
-        if (c == '{' || c == '[') {
-            deepest = std::max(deepest, ++depth);
-        } else if (c == '}' || c == ']') {
-            --depth;
-        }
-    };
-    scan_json(text, false, count, [](std::size_t) {});
-    return deepest;
-}
-
-}  // namespace
-
-nlohmann::json parse_untrusted_json(std::string_view text, const std::string& file, const LoadLimits& limits) {
-    if (text.size() > max_json_bytes) {
-        throw InputError(file, "",
-                         fmt::format("the JSON text has {} bytes, more than {}", text.size(), max_json_bytes));
-    }
-    if (const int depth = nesting_depth(text); depth > max_json_depth) {
-        throw InputError(file, "", fmt::format("the JSON text is nested {} deep, more than {}", depth, max_json_depth));
-    }
-    check_json_memory(text, false, limits, file, "keep vertices, keys and indices in the binary buffer");
-    try {
-        return nlohmann::json::parse(text);
-    } catch (const nlohmann::json::exception& error) {
-        throw InputError(file, "", "not valid JSON: " + printable(error.what(), 300));
-    }
-}
 
 std::string JsonRef::pointer() const {
     if (parent_ == nullptr) return "";
@@ -82,10 +45,10 @@ JsonRef JsonRef::operator[](std::size_t i) const& {
     return JsonRef((*value_)[i], *this, {}, i);
 }
 
-std::size_t JsonRef::array_size(std::size_t least) const {
+std::size_t JsonRef::array_size(std::size_t min_size) const {
     if (!value_->is_array()) fail(fmt::format("must be an array, found {}", value_->type_name()));
-    if (value_->size() < least) {
-        fail(least == 1 ? "the array must not be empty" : fmt::format("the array needs {} elements", least));
+    if (value_->size() < min_size) {
+        fail(min_size == 1 ? "the array must not be empty" : fmt::format("the array needs {} elements", min_size));
     }
     return value_->size();
 }

@@ -1,5 +1,5 @@
 #pragma once
-// Checked reading of raw JSON: every value knows its place, so that an error can name it.
+// Checked access to parsed JSON: errors name the JSON pointer of the value.
 
 #include <cstdint>
 #include <nlohmann/json.hpp>
@@ -8,23 +8,13 @@
 #include <string_view>
 #include <vector>
 
-#include "engine/json/load_limits.h"
-
 namespace aleph {
 
-/// Deepest nesting of arrays and objects in a file; nothing legitimate comes near.
-inline constexpr int max_json_depth = 128;
-/// Longest JSON text, bytes (embedded base64 included); text.h limits the memory that its values take.
-inline constexpr std::size_t max_json_bytes = std::size_t{256} << 20;
-/// Largest magnitude of any number that we use.
+/// Largest magnitude of a number in a file.
 inline constexpr double max_json_number = 1e18;
 
-/// Parses JSON of an untrusted file. Size and nesting are checked before the parser sees the text, UTF-8 by the parser.
-/// @throws InputError
-nlohmann::json parse_untrusted_json(std::string_view text, const std::string& file, const LoadLimits& limits);
-
-/// A value inside a document, with the way that led to it. It refers to the value it came from, so that one must
-/// outlive it (the deleted overloads see to that). Every mismatch throws InputError with the value's JSON pointer.
+/// A value in a document, with its path. It points to its parent, which must outlive it: the deleted overloads refuse
+/// temporaries. All functions throw InputError with the JSON pointer of the value that is not as expected.
 class JsonRef {
   public:
     JsonRef(const nlohmann::json& root, const std::string& file) : value_(&root), file_(&file) {}
@@ -34,18 +24,18 @@ class JsonRef {
     const std::string& file() const { return *file_; }
     const nlohmann::json& json() const { return *value_; }
 
-    /// Member of an object: nothing where absent.
+    /// Member of an object; nothing if it is absent.
     std::optional<JsonRef> find(std::string_view key) const&;
     std::optional<JsonRef> find(std::string_view key) const&& = delete;
     JsonRef require(std::string_view key) const&;
     JsonRef require(std::string_view key) const&& = delete;
     bool has(std::string_view key) const { return expect_object().json().contains(key); }
 
-    /// Element of an array whose size was asked before.
+    /// Element of an array. @param i  below array_size()
     JsonRef operator[](std::size_t i) const&;
     JsonRef operator[](std::size_t i) const&& = delete;
-    /// @param least  fewest elements allowed
-    std::size_t array_size(std::size_t least = 0) const;
+    /// @param min_size  fewest elements allowed
+    std::size_t array_size(std::size_t min_size = 0) const;
 
     const JsonRef& expect_object() const;
     const std::string& string() const;
@@ -57,10 +47,10 @@ class JsonRef {
     double number_above(double low) const;
     /// An array of exactly `count` numbers.
     void numbers(std::size_t count) const;
-    /// An index into an array of `count` elements; `kind` is what they are, for the message.
+    /// An index into an array of `count` elements. @param kind  of the elements, for messages
     std::size_t index(std::size_t count, std::string_view kind) const;
 
-    // The same for an optional member, which must be right where it is present.
+    // The same for an optional member.
     std::optional<std::size_t> find_index(std::string_view key, std::size_t count, std::string_view kind) const;
     std::optional<std::int64_t> find_integer(std::string_view key, std::int64_t low, std::int64_t high) const;
     std::optional<std::string> find_string(std::string_view key) const;

@@ -1,10 +1,9 @@
-// How much memory the values of a JSON text will take, before any of them is made.
+#include "engine/json/memory.h"
 
 #include <fmt/format.h>
 
 #include "engine/base/errors.h"
 #include "engine/json/scan.h"
-#include "engine/json/text.h"
 
 namespace aleph {
 

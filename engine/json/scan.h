@@ -1,11 +1,11 @@
 #pragma once
-// Looking over a JSON text without parsing it.
+// A scan over JSON text without parsing: characters outside strings, and strings.
 
 #include <string_view>
 
 namespace aleph {
 
-/// Where the comment that begins here ends; `at` itself where none does.
+/// Position of the last character of the comment that begins at `at`; `at` if none does.
 inline std::size_t skip_json_comment(std::string_view text, std::size_t at) {
     const std::string_view start = text.substr(at, 2);
     if (start != "//" && start != "/*") return at;
@@ -13,7 +13,7 @@ inline std::size_t skip_json_comment(std::string_view text, std::size_t at) {
     return end == std::string_view::npos ? text.size() : end + (start == "//" ? 0 : 1);
 }
 
-/// Calls mark(character) for what stands outside strings, and string(bytes) for each string.
+/// Calls mark(character) for each character outside strings, and string(bytes) for each string.
 /// @param comments  the text may hold // and /* */
 template <class Mark, class String>
 void scan_json(std::string_view text, bool comments, const Mark& mark, const String& string) {

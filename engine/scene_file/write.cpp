@@ -5,7 +5,7 @@
 #include <unordered_set>
 
 #include "engine/base/errors.h"
-#include "engine/json/text.h"
+#include "engine/json/format.h"
 #include "engine/scene_file/operations.h"
 #include "engine/scene_file/scene_text.h"
 #include "engine/scene_file/tracks.h"
@@ -60,7 +60,7 @@ class Writer {
     }
 
   private:
-    /// Elements refer to each other by name; only nodes may go without, as long as nothing refers to them.
+    /// Elements refer to each other by name. Nodes may have no name if nothing refers to them.
     template <class Element>
     void check_names(const char* kind, const std::vector<Element>& list) {
         std::unordered_set<std::string> names;
@@ -80,7 +80,7 @@ class Writer {
         auto& object = out_[key].template get_ref<ordered_json::object_t&>();
         for (std::size_t i = 0; i < list.size(); ++i) {
             at_.place = place_of(key, list, i);
-            object.emplace_back(list[i].name, write(list[i]));  // as a vector: names are known to differ
+            object.emplace_back(list[i].name, write(list[i]));  // without a search for the key: names differ
         }
     }
 
@@ -233,7 +233,7 @@ std::string first_difference(const Scene& a, const Scene& b) {
 std::string write_scene_text(const Scene& scene, const std::string& file) {
     Scene own = without_includes(scene, file);
     const std::string text = format_json(Writer(own, file).write(), file);
-    // What the format cannot say, in one place and for certain: read it again.
+    // Finds everything that the format cannot hold: the text is read and compared.
     for (SceneImage& image : own.images) {
         if (image.path.empty())
             throw InputError(file, "image " + image.name, "a scene file needs the path of a picture");
@@ -245,7 +245,7 @@ std::string write_scene_text(const Scene& scene, const std::string& file) {
     Scene again = read_scene_text(text, file).scene;
     again.warnings.clear();
     if (again != own) {
-        throw InputError(file, first_difference(own, again), "holds something that a scene file cannot say exactly");
+        throw InputError(file, first_difference(own, again), "holds something that a scene file cannot store exactly");
     }
     return text;
 }

@@ -8,7 +8,7 @@
 #include <string>
 
 #include "engine/base/errors.h"
-#include "engine/json/text.h"
+#include "engine/json/memory.h"
 #include "engine/scene_file/scene_text.h"
 #include "tests/support/child_cost.h"
 
