@@ -10,9 +10,9 @@ namespace aleph {
 namespace {
 
 constexpr int rows_per_chunk = 32;
-constexpr float largest_component = 1e15f;
+constexpr float max_component = 1e15f;
 
-/// glm takes columns; the tables are printed by rows.
+/// glm takes columns; the papers print rows.
 glm::dmat3 from_rows(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
     return glm::transpose(glm::dmat3(a, b, c));
 }
@@ -39,18 +39,10 @@ glm::dmat3 opponent_from_rgb(bool neutral) {
 }
 
 float clamp_component(float c) {
-    return c > 0.0f ? (c < largest_component ? c : largest_component) : 0.0f;
+    return c > 0.0f ? (c < max_component ? c : max_component) : 0.0f;
 }
 
 }  // namespace
-
-glm::dvec3 to_opponent(const glm::dvec3& rgb) {
-    return opponent_from_rgb(false) * rgb;
-}
-
-glm::dvec3 from_opponent(const glm::dvec3& opponent) {
-    return glm::inverse(opponent_from_rgb(false)) * opponent;
-}
 
 ChannelWeights opponent_weights(OpponentChannel channel, bool neutral) {
     const glm::dmat3 m = opponent_from_rgb(neutral);

@@ -2,22 +2,15 @@
 // The opponent colour space AC1C2 of Meyer 1988 ("Wavelength selection for synthetic image generation"), as Bolin and
 // Meyer 1995 use it: A achromatic, C1 roughly red-green, C2 roughly yellow-blue. In units of Y, like linear RGB.
 
-#include <glm/vec3.hpp>
-
 #include "engine/base/color.h"
 #include "engine/base/image.h"
 
 namespace aleph {
 
-/// (A, C1, C2) of linear Rec.709 RGB, signed, any finite input. Grey of luminance Y gives (1, -.029, .554) Y.
-glm::dvec3 to_opponent(const glm::dvec3& rgb);
-
-/// The inverse of to_opponent.
-glm::dvec3 from_opponent(const glm::dvec3& opponent);
-
+/// Grey of luminance Y has (A, C1, C2) = (1, -.029, .554) Y.
 enum class OpponentChannel { a, c1, c2 };
 
-/// A channel as a weighted sum of R, G and B: floats of weights built in double.
+/// A channel as a weighted sum of R, G and B.
 struct ChannelWeights {
     float r, g, b;
 };

@@ -55,7 +55,7 @@ void take_even_samples(const float* filtered, int width, float* out) {
     for (int x = 0; x < count; ++x) out[x] = filter_at(filtered, 2 * x);
 }
 
-/// The few rows around one that moves down an image, each fetched once.
+/// The rows around the current one, which moves down an image; each is fetched once.
 class RowCache {
   public:
     RowCache(LevelSize size, const RowSource& source)
@@ -72,7 +72,7 @@ class RowCache {
     }
 
   private:
-    static constexpr std::size_t rows = 8;  // more than the kernel spans: neighbours never share a slot
+    static constexpr std::size_t rows = 8;  // above the kernel's height: its rows have different slots
 
     std::size_t width_;
     const RowSource& source_;
@@ -80,12 +80,12 @@ class RowCache {
     std::vector<int> held_;
 };
 
-/// Index of the coarse sample i under the finer axis' reflection: fine positions 2i keep their parity.
+/// Index of coarse sample i reflected at the borders of the finer axis: fine position 2i stays even.
 int reflect_coarse(int i, int fine) {
     return reflect_101(2 * i, fine) / 2;
 }
 
-/// One coarse axis step along a row: `coarse` has a pad of one float on both sides, filled here.
+/// Expands one row along x: `coarse` has a pad of one float on both sides, filled here.
 void expand_along_row(float* coarse, int coarse_width, float* out, int fine_width) {
     if (coarse_width == 1) {
         std::fill_n(out, fine_width, coarse[0]);
@@ -104,25 +104,25 @@ void expand_along_row(float* coarse, int coarse_width, float* out, int fine_widt
     }
 }
 
-/// Some rows of a level: row y lies at data + (y - first) * width.
+/// Some rows of a level: row y lies at data + (y - first) * size.width.
 struct RowWindow {
     const float* data;
     int first;
+    LevelSize size;  ///< of the whole level
 };
 
 /// Fine rows [begin, end) from a window that holds every coarse row they need. `column_sums`: coarse width + 2 floats.
-void expand_window(RowWindow coarse, LevelSize coarse_size, LevelSize fine_size, int begin, int end, float* out,
-                   float* column_sums) {
-    const int w = coarse_size.width;
+void expand_window(const RowWindow& coarse, LevelSize fine_size, int begin, int end, float* out, float* column_sums) {
+    const int w = coarse.size.width;
     const auto row = [&](int i) {
         const int y = reflect_coarse(i, fine_size.height) - coarse.first;
-        return coarse.data + static_cast<std::ptrdiff_t>(y) * w;
+        return coarse.data + std::ptrdiff_t{y} * w;
     };
     float* const sums = column_sums + 1;
     for (int y = begin; y < end; ++y, out += fine_size.width) {
         const int i = y / 2;
         const float* const center = row(i);
-        if (coarse_size.height == 1) {
+        if (coarse.size.height == 1) {
             std::copy_n(center, w, sums);
         } else if (y % 2 == 0) {
             const float* const up = row(i - 1);
@@ -162,7 +162,7 @@ Image<float> low_pass(const Image<float>& image) {
     Image<float> out(image.width, image.height);
     const LevelSize size{image.width, image.height};
     parallel_rows(out.height, rows_per_chunk, [&](int begin, int end) {
-        std::vector<float> columns(static_cast<std::size_t>(image.width + 2 * padding));
+        std::vector<float> columns(image.width + 2 * padding);
         float* const filtered = columns.data() + padding;
         for (int y = begin; y < end; ++y) {
             filter_columns([&](int row) { return image.row(row); }, size, y, filtered);
@@ -181,7 +181,7 @@ Image<float> reduce(const Image<float>& image) {
     Image<float> out(half_size(image.width), half_size(image.height));
     const LevelSize size{image.width, image.height};
     parallel_rows(out.height, rows_per_chunk, [&](int begin, int end) {
-        std::vector<float> columns(static_cast<std::size_t>(image.width + 2 * padding));
+        std::vector<float> columns(image.width + 2 * padding);
         float* const filtered = columns.data() + padding;
         for (int y = begin; y < end; ++y) {
             filter_columns([&](int row) { return image.row(row); }, size, 2 * y, filtered);
@@ -195,7 +195,7 @@ Image<float> reduce(LevelSize size, const RowSource& source) {
     Image<float> out(half_size(size.width), half_size(size.height));
     parallel_rows(out.height, rows_per_chunk, [&](int begin, int end) {
         RowCache rows(size, source);
-        std::vector<float> columns(static_cast<std::size_t>(size.width + 2 * padding));
+        std::vector<float> columns(size.width + 2 * padding);
         float* const filtered = columns.data() + padding;
         for (int y = begin; y < end; ++y) {
             filter_columns(std::ref(rows), size, 2 * y, filtered);
@@ -207,11 +207,10 @@ Image<float> reduce(LevelSize size, const RowSource& source) {
 
 Image<float> expand(const Image<float>& image, LevelSize fine) {
     Image<float> out(fine.width, fine.height);
-    const LevelSize coarse{image.width, image.height};
+    const RowWindow coarse{image.pixels.data(), 0, {image.width, image.height}};
     parallel_rows(fine.height, rows_per_chunk, [&](int begin, int end) {
-        std::vector<float> sums(static_cast<std::size_t>(image.width) + 2);
-        const int first = begin;
-        expand_window({image.pixels.data(), 0}, coarse, fine, first, end, out.row(first), sums.data());
+        std::vector<float> sums(image.width + 2);
+        expand_window(coarse, fine, begin, end, out.row(begin), sums.data());
     });
     return out;
 }
@@ -246,30 +245,28 @@ void RowExpander::load(const Image<float>& image, int level, int begin, int end)
         const int height = (*sizes_)[l].height;
         ranges.push_back({std::max(0, fine.begin / 2 - 1), std::min(height, (fine.end - 1) / 2 + 2)});
     }
-    RowWindow window{image.pixels.data(), 0};
+    RowWindow window{image.pixels.data(), 0, {image.width, image.height}};
     for (int l = level - 1; l >= 1; --l) {
-        const auto index = static_cast<std::size_t>(l);
-        const LevelSize fine = (*sizes_)[index];
-        const LevelSize coarse = (*sizes_)[index + 1];
-        const Range rows = ranges[index];
-        std::vector<float>& buffer = buffers_[index];
+        const LevelSize fine = (*sizes_)[l];
+        const Range rows = ranges[l];
+        std::vector<float>& buffer = buffers_[l];
         buffer.resize(static_cast<std::size_t>(rows.end - rows.begin) * static_cast<std::size_t>(fine.width));
-        column_sums_.resize(static_cast<std::size_t>(coarse.width) + 2);
-        expand_window(window, coarse, fine, rows.begin, rows.end, buffer.data(), column_sums_.data());
-        window = {buffer.data(), rows.begin};
+        column_sums_.resize(window.size.width + 2);
+        expand_window(window, fine, rows.begin, rows.end, buffer.data(), column_sums_.data());
+        window = {buffer.data(), rows.begin, fine};
     }
     expands_ = level > 0;
     rows_ = window.data;
     first_row_ = window.first;
-    if (expands_) column_sums_.resize(static_cast<std::size_t>((*sizes_)[1].width) + 2);
+    if (expands_) column_sums_.resize((*sizes_)[1].width + 2);
 }
 
 void RowExpander::expand_row(int y, float* out) {
     if (expands_) {
-        expand_window({rows_, first_row_}, (*sizes_)[1], sizes_->front(), y, y + 1, out, column_sums_.data());
+        expand_window({rows_, first_row_, (*sizes_)[1]}, sizes_->front(), y, y + 1, out, column_sums_.data());
     } else {
-        const auto width = static_cast<std::size_t>(sizes_->front().width);
-        std::copy_n(rows_ + static_cast<std::size_t>(y - first_row_) * width, width, out);
+        const int width = sizes_->front().width;
+        std::copy_n(rows_ + std::ptrdiff_t{y - first_row_} * width, width, out);
     }
 }
 
