@@ -47,7 +47,7 @@ class FileDescriptor {
     int fd_;
 };
 
-/// Where the bytes really go, after a look at what is there now.
+/// The file to write: `path`, or what it links to. Refuses what cannot be replaced.
 fs::path checked_target(const fs::path& path) {
     if (!path.has_filename()) throw OutputError(printable(path.string(), 4096), "this is a folder, not a file name");
     std::error_code error;
@@ -115,7 +115,7 @@ void write_atomically(const fs::path& path, const std::function<void(const fs::p
         ::unlink(temporary.c_str());
         throw;
     }
-    // The name itself lives in the folder. Some file systems refuse to flush folders; the file is complete either way.
+    // The name is part of the folder. Some file systems refuse to flush folders; the file is complete either way.
     const FileDescriptor folder(
         ::open(target.has_parent_path() ? target.parent_path().c_str() : ".", O_RDONLY | O_DIRECTORY | O_CLOEXEC));
     if (folder.get() >= 0) ::fsync(folder.get());

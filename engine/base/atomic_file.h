@@ -8,8 +8,8 @@
 namespace aleph {
 
 /// Runs write(temporary path), flushes the file to the disk, then renames it to `path`. The temporary file is
-/// `.name.<process id>.part` beside the target, and goes if anything throws. An existing file is replaced, unless it is
-/// read-only or not a regular file; a symbolic link is followed. Used by all writers.
+/// `.name.<process id>.part` beside the target and is removed if anything throws. An existing file is replaced, unless
+/// it is read-only or not a regular file; a symbolic link is followed.
 /// @throws OutputError naming `path`; whatever `write` throws
 void write_atomically(const std::filesystem::path& path,
                       const std::function<void(const std::filesystem::path& temporary)>& write);
@@ -18,7 +18,7 @@ void write_atomically(const std::filesystem::path& path,
 /// @throws OutputError naming `path`
 void write_file(const std::filesystem::path& path, std::string_view bytes);
 
-/// Creates `file` and writes the bytes, checking every step; for use inside write_atomically.
+/// Creates `file` and writes the bytes, with every step checked; for use inside write_atomically.
 /// @param named  the file that messages name
 /// @throws OutputError
 void write_bytes(const std::filesystem::path& file, std::string_view bytes, const std::filesystem::path& named);

@@ -1,5 +1,5 @@
 #pragma once
-// Colour as the renderer keeps it: linear RGB, Rec.709 primaries, white = 1 after exposure.
+// Colours: linear RGB, Rec.709 primaries, white = 1 after exposure.
 
 #include <cmath>
 #include <glm/vec3.hpp>
@@ -13,7 +13,7 @@ inline float luminance(const Rgb& c) {
     return 0.2126f * c.x + 0.7152f * c.y + 0.0722f * c.z;
 }
 
-/// sRGB transfer function, [0,1] to [0,1] (IEC 61966-2-1). `pow` sees no negative base.
+/// sRGB transfer function, [0,1] to [0,1] (IEC 61966-2-1).
 inline float linear_to_srgb(float v) {
     return v <= 0.0031308f ? 12.92f * v : 1.055f * std::pow(v, 1.0f / 2.4f) - 0.055f;
 }

@@ -18,9 +18,9 @@ std::string join_message(const std::string& file, const std::string& place, cons
 
 }  // namespace
 
-std::string printable(std::string_view text, std::size_t longest) {
+std::string printable(std::string_view text, std::size_t max_bytes) {
     std::string out;
-    for (const char c : text.substr(0, longest)) {
+    for (const char c : text.substr(0, max_bytes)) {
         const auto byte = static_cast<unsigned char>(c);
         if (byte < 0x20 || byte == 0x7f) {
             out += fmt::format("\\x{:02x}", byte);
@@ -28,7 +28,7 @@ std::string printable(std::string_view text, std::size_t longest) {
             out += c;
         }
     }
-    if (text.size() > longest) out += "...";
+    if (text.size() > max_bytes) out += "...";
     return out;
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-// The kinds of failure that users see. The library throws; only the command line prints and exits.
+// Errors. The library throws them; only the command line prints and exits.
 
 #include <stdexcept>
 #include <string>
@@ -7,8 +7,8 @@
 
 namespace aleph {
 
-/// Text from a file or a user, made safe and short for a message: control bytes escaped, cut at `longest` bytes.
-std::string printable(std::string_view text, std::size_t longest = 80);
+/// Text from a file or a user, made safe and short for a message: control bytes escaped, cut at `max_bytes`.
+std::string printable(std::string_view text, std::size_t max_bytes = 80);
 
 /// Bad input: a scene, an image, an option. Exit code 2. what() is "file: place: reason", empty parts left out.
 class InputError : public std::runtime_error {
@@ -29,7 +29,7 @@ class OutputError : public std::runtime_error {
     OutputError(const std::string& file, const std::string& reason);
 };
 
-/// Our own mistake: an invariant does not hold. `values` prints what was found.
+/// Throws std::logic_error: an invariant of the program does not hold. @param values  the values found, as text
 [[noreturn]] void fail_check(const char* expression, const char* file, int line, const std::string& values);
 
 #define ALEPH_CHECK(expression, values)                                                  \

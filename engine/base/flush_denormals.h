@@ -1,6 +1,6 @@
 #pragma once
-// Embree wants flush-to-zero on every thread that traces; we set it for all parallel work, so that a stage
-// gives the same bits on the calling thread and on a pool thread (HARD_CASES DT-06).
+// Flush-to-zero for floats. Embree asks for it on every thread that traces; parallel_for sets it for all work, so that
+// the calling thread and the threads of the pool compute the same bits.
 
 #if defined(__SSE2__)
 #include <pmmintrin.h>

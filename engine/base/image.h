@@ -1,5 +1,5 @@
 #pragma once
-// A raster of values: plain data, row 0 on top, x to the right.
+// A raster of values: row 0 on top, x to the right.
 
 #include <cstddef>
 #include <vector>

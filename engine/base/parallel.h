@@ -1,7 +1,7 @@
 #pragma once
-// Parallel loops with fixed chunks: what a chunk computes never depends on the number of threads, so results that are
-// combined in chunk order are the same for any number of threads.
-// ALEPH_STD_THREADS selects a std::thread back-end, for ThreadSanitizer, which reports false races in oneTBB.
+// Parallel loops over chunks that do not depend on the number of threads, so that results combined in chunk order are
+// the same for any number of threads.
+// ALEPH_STD_THREADS replaces oneTBB by std::thread for ThreadSanitizer, which reports false races in oneTBB.
 
 #include <algorithm>
 #include <cstddef>
@@ -21,7 +21,7 @@
 
 namespace aleph {
 
-/// Limits how many threads parallel_for uses, while it lives. 0 means all that the machine has.
+/// Limits the number of threads of parallel_for during its lifetime. 0: all that the machine has.
 class ThreadLimit {
   public:
     explicit ThreadLimit(int threads);
@@ -34,7 +34,7 @@ class ThreadLimit {
     std::unique_ptr<State> state_;
 };
 
-/// How many threads parallel_for may use now.
+/// Number of threads that parallel_for may use now.
 int thread_count();
 
 /// Calls body(begin, end) for the ranges [0, grain), [grain, 2 grain), ... of [0, count), in any order, on any thread.

@@ -1,6 +1,6 @@
 #pragma once
 // Gaussian pyramids (Burt and Adelson 1983) with the kernel {.05 .25 .4 .25 .05}, thesis 5.2. Borders are reflect-101
-// (-1 is 1, n is n-2) on axes of any length. Coarse pixel i lies on fine pixel 2i, so nothing drifts between levels.
+// (-1 is 1, n is n-2) on axes of any length. Coarse pixel i lies on fine pixel 2i.
 
 #include <functional>
 #include <vector>
@@ -14,7 +14,7 @@ struct LevelSize {
     bool operator==(const LevelSize&) const = default;
 };
 
-/// Writes row y of an image that need not be stored. Called from many threads at once, and more than once per row.
+/// Writes row y of an image, which need not be stored. Called from many threads at once, and repeatedly for a row.
 using RowSource = std::function<void(int y, float* out)>;
 
 /// Index of pixel i under reflect-101 on an axis of n pixels; any i, n >= 1.
@@ -37,20 +37,20 @@ Image<float> expand(const Image<float>& image, LevelSize fine);
 /// Levels 0 .. count-1; level 0 is the image itself.
 std::vector<Image<float>> make_gaussian_pyramid(Image<float> image, int count);
 
-/// Levels 0 .. count-1 of an image that is not stored: level 0 is left empty.
+/// Levels 0 .. count-1 of an image that is not stored: level 0 stays empty.
 std::vector<Image<float>> make_gaussian_pyramid(LevelSize size, const RowSource& source, int count);
 
 /// Expands level `from` of a pyramid to the size of level `to` <= from, step by step.
 Image<float> expand_to_level(const Image<float>& image, const std::vector<LevelSize>& sizes, int from, int to);
 
-/// Gives rows of a level expanded to level 0 step by step, one at a time: the same bits as expand_to_level, without
-/// ever holding a whole fine level. Keeps its buffers from one map to the next; one per thread.
+/// Expands a level to level 0 row by row: the same bits as expand_to_level, without a whole fine level in memory.
+/// Its buffers are reused from one image to the next. Each thread needs its own.
 class RowExpander {
   public:
     /// @param sizes  of all levels; must outlive the expander
     explicit RowExpander(const std::vector<LevelSize>& sizes) : sizes_(&sizes), buffers_(sizes.size()) {}
 
-    /// Prepares rows [begin, end) of level 0. `image` is a level's raster and must outlive their use.
+    /// Prepares rows [begin, end) of level 0. @param image  raster of `level`; must outlive their use
     void load(const Image<float>& image, int level, int begin, int end);
 
     /// Row y of level 0: sizes[0].width floats.

@@ -31,7 +31,7 @@ glm::vec2 sample_triangle(const glm::vec2& u) {
 float power_heuristic(float pdf_a, float pdf_b) {
     if (!(pdf_a > 0.0f)) return 0.0f;
     const float ratio = pdf_b / pdf_a;
-    if (!(ratio >= 0.0f)) return std::isinf(pdf_a) ? 0.5f : 1.0f;  // inf/inf, or a NaN handed in
+    if (!(ratio >= 0.0f)) return std::isinf(pdf_a) ? 0.5f : 1.0f;  // inf/inf, or a NaN
     return 1.0f / (1.0f + ratio * ratio);
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-// Random numbers that depend on where they are used, never on which thread asks first; warps and their pdfs.
+// Random numbers that depend on seed, frame, pixel and sample, not on threads; sampling functions and their pdfs.
 
 #include <cstdint>
 #include <glm/geometric.hpp>
@@ -18,17 +18,17 @@ constexpr std::uint64_t mix_bits(std::uint64_t x) {
     return x;
 }
 
-/// Uniform in [0, 1), 24 bits: never 1 (HARD_CASES MC-05).
+/// Uniform in [0, 1) with 24 bits: never 1, so that indices made from it stay in range.
 constexpr float unit_float(std::uint32_t bits) {
     return static_cast<float>(bits >> 8) * 0x1p-24f;
 }
 
-/// What a stream of random numbers is for. Streams with different keys are independent.
+/// Streams of random numbers with different keys are independent.
 struct RandomKey {
     std::uint32_t seed = 0, frame = 0, pixel = 0, sample = 0;
 };
 
-/// Numbers for dimensions 0, 1, 2, ... of one key. Cheap to make, nothing shared.
+/// Random numbers for dimensions 0, 1, 2, ... of one key.
 class RandomStream {
   public:
     explicit RandomStream(const RandomKey& key)
@@ -64,14 +64,15 @@ struct Basis {
 /// Duff et al. 2017, "Building an Orthonormal Basis, Revisited", JCGT 6(1). n must be unit.
 Basis make_basis(const glm::vec3& n);
 
-/// Direction about +z with density cos/pi; u in [0,1)^2. z comes from u, not from x and y (HARD_CASES MC-06).
+/// Direction about +z with density cos/pi; u in [0,1)^2. z is computed from u: from x and y it
+/// would lose its digits near the horizon.
 glm::vec3 sample_cosine_hemisphere(const glm::vec2& u);
 float pdf_cosine_hemisphere(float cos_theta);
 
 /// Barycentric (b1, b2) of a uniform point of a triangle.
 glm::vec2 sample_triangle(const glm::vec2& u);
 
-/// Weight of strategy a against b, exponent 2 (Veach 1997); 0 when a cannot have made the sample (HARD_CASES MC-12).
+/// Weight of strategy a against b, exponent 2 (Veach 1997); 0 where pdf_a is 0. Infinite pdfs give no NaN.
 float power_heuristic(float pdf_a, float pdf_b);
 
 }  // namespace aleph

@@ -1,5 +1,5 @@
 #pragma once
-// How large a pixel and how bright white is for the viewer.
+// Viewing conditions: size of a pixel and brightness of the display.
 
 namespace aleph {
 

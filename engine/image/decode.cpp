@@ -1,4 +1,4 @@
-// Encoded pictures to pixels: EXR by our OpenEXR reader; PNG, JPEG and HDR by OpenImageIO, from checked bytes.
+// Decoding: EXR with exr.cpp; PNG, JPEG and HDR with OpenImageIO, after the checks of formats.cpp.
 
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
@@ -13,7 +13,7 @@ namespace aleph {
 
 namespace {
 
-/// Interleaved pixels as OpenImageIO gives them: 1 (grey), 2 (grey, alpha), 3 or 4 channels.
+/// Interleaved pixels of OpenImageIO: 1 (grey), 2 (grey, alpha), 3 or 4 channels.
 template <class T>
 struct Interleaved {
     int width = 0, height = 0, channels = 0;
@@ -23,9 +23,8 @@ struct Interleaved {
     bool has_alpha() const { return channels == 2 || channels == 4; }
     /// Red, green, blue or alpha (0..3) of pixel i.
     T value(std::size_t i, int component, T opaque) const {
-        const auto stride = static_cast<std::size_t>(channels);
-        if (component == 3) return has_alpha() ? values[i * stride + stride - 1] : opaque;
-        return values[i * stride + (grey() ? 0 : static_cast<std::size_t>(component))];
+        if (component == 3) return has_alpha() ? values[i * channels + channels - 1] : opaque;
+        return values[i * channels + (grey() ? 0 : component)];
     }
 };
 
@@ -65,15 +64,15 @@ Interleaved<T> decode_with_library(ByteView bytes, ImageFormat format, const std
         throw InputError(name, "", fmt::format("{} channels are not a colour", spec.nchannels));
     }
     Interleaved<T> pixels{spec.width, spec.height, spec.nchannels, {}};
-    pixels.values.resize(static_cast<std::size_t>(spec.image_pixels()) * static_cast<std::size_t>(spec.nchannels));
+    pixels.values.resize(spec.image_pixels() * spec.nchannels);
     const bool read = input->read_image(0, 0, 0, spec.nchannels, OIIO::BaseTypeFromC<T>::value, pixels.values.data());
-    // Cut and damaged JPEG data is a warning for the library: it returns true with an error text.
+    // For cut and damaged JPEG data the library returns true, with an error text.
     if (!read || input->has_error()) fail();
     input->close();
     return pixels;
 }
 
-Image<std::array<float, 4>> colours_of(const ChannelImage& image, const std::string& name) {
+Image<std::array<float, 4>> colors_of(const ChannelImage& image, const std::string& name) {
     std::array<const Image<float>*, 4> sources{image.find("R"), image.find("G"), image.find("B"), image.find("A")};
     if (const Image<float>* grey = image.find("Y"); grey && !sources[0] && !sources[1] && !sources[2]) {
         sources[0] = sources[1] = sources[2] = grey;
@@ -89,7 +88,7 @@ Image<std::array<float, 4>> colours_of(const ChannelImage& image, const std::str
 }
 
 template <class T>
-Image<std::array<T, 4>> colours_of(const Interleaved<T>& pixels, T opaque) {
+Image<std::array<T, 4>> colors_of(const Interleaved<T>& pixels, T opaque) {
     Image<std::array<T, 4>> colours(pixels.width, pixels.height);
     for (std::size_t i = 0; i < colours.size(); ++i) {
         for (int c = 0; c < 4; ++c) colours.pixels[i][c] = pixels.value(i, c, opaque);
@@ -117,14 +116,14 @@ DecodedTexture decode_texture(const std::vector<std::uint8_t>& encoded, const st
     DecodedTexture texture;
     switch (const ImageFormat format = require_format(encoded, name)) {
         case ImageFormat::exr:
-            texture.floats = colours_of(decode_exr(encoded, name), name);
+            texture.floats = colors_of(decode_exr(encoded, name), name);
             break;
         case ImageFormat::hdr:
-            texture.floats = colours_of(decode_with_library<float>(encoded, format, name), 1.0f);
+            texture.floats = colors_of(decode_with_library<float>(encoded, format, name), 1.0f);
             break;
         case ImageFormat::png:
         case ImageFormat::jpeg:
-            texture.bytes = colours_of(decode_with_library<std::uint8_t>(encoded, format, name), std::uint8_t{255});
+            texture.bytes = colors_of(decode_with_library<std::uint8_t>(encoded, format, name), std::uint8_t{255});
             break;
     }
     return texture;

@@ -70,15 +70,14 @@ class MemoryInput : public Imf::IStream {
     std::size_t position_ = 0;
 };
 
-/// OpenEXR's helpers are one pool per process; it only grows, so that nobody loses threads that somebody else asked
-/// for.
+/// OpenEXR has one pool of threads per process. It only grows: another caller may be using its threads.
 void grow_thread_pool(int threads) {
     static std::mutex mutex;
     const std::lock_guard lock(mutex);
     if (threads > 1 && Imf::globalThreadCount() < threads) Imf::setGlobalThreadCount(threads);
 }
 
-/// Checks what OpenEXR would refuse late or write wrongly.
+/// Checks faults that OpenEXR would find late or write into the file.
 void check_channels(const ChannelImage& image) {
     if (image.channels.empty()) throw InputError("", "", "there is no channel to write");
     const Image<float>& first = image.channels.front().values;
@@ -100,7 +99,7 @@ void check_channels(const ChannelImage& image) {
     }
 }
 
-/// Attributes that say how the pixels are stored: OpenEXR's and ours to set, never metadata.
+/// Attributes about the storage of pixels, which are not metadata.
 bool is_structural(const std::string& name) {
     static const std::set<std::string> names{"channels",
                                              "chromaticities",
@@ -162,7 +161,7 @@ std::map<std::string, MetadataValue> read_attributes(const Imf::Header& header) 
     return metadata;
 }
 
-/// The flags of the version field (OpenEXR file layout) say what must not reach the decoder at all.
+/// Refuses multi-part and deep files by the flags of the version field (OpenEXR file layout), before decoding.
 void refuse_unsupported_kinds(ByteView bytes, const std::string& name) {
     if (bytes.size() < 8) throw InputError(name, "", "the file is cut");
     const auto flags = static_cast<int>(bytes[4] | bytes[5] << 8 | bytes[6] << 16 | bytes[7] << 24);
@@ -170,12 +169,12 @@ void refuse_unsupported_kinds(ByteView bytes, const std::string& name) {
     if (Imf::isNonImage(flags)) throw InputError(name, "", "deep EXR files are not read; flatten it first");
 }
 
-/// OpenEXR finishes a file in a destructor that swallows errors (HARD_CASES OU-05): reads the last row back.
+/// Reads the last row back: OpenEXR finishes a file in a destructor, which loses errors.
 void verify(const std::string& bytes, const Image<float>& first, const Channel& last) {
     MemoryInput stream({reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()});
     Imf::InputFile file(stream, 0);
     const int y = first.height - 1;
-    std::vector<float> row(static_cast<std::size_t>(first.width));
+    std::vector<float> row(first.width);
     Imf::FrameBuffer pixels;
     pixels.insert(last.name, Imf::Slice(Imf::FLOAT, reinterpret_cast<char*>(row.data()), sizeof(float), 0));
     file.setFrameBuffer(pixels);
@@ -204,7 +203,7 @@ std::string encode_exr(const ChannelImage& image, int threads) {
         Imf::FrameBuffer pixels;
         for (const Channel& channel : image.channels) {
             header.channels().insert(channel.name, Imf::Channel(Imf::FLOAT));
-            auto* base = const_cast<float*>(channel.values.pixels.data());  // a Slice serves reading and writing
+            auto* base = const_cast<float*>(channel.values.pixels.data());  // a Slice is for reading and writing
             pixels.insert(channel.name, Imf::Slice(Imf::FLOAT, reinterpret_cast<char*>(base), sizeof(float),
                                                    sizeof(float) * static_cast<std::size_t>(first.width)));
         }

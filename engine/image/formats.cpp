@@ -1,4 +1,4 @@
-// The allow-list: which bytes are a picture of ours, how large it says it is, and which parts of it a decoder may see.
+// Checks before decoding: format, size, and the parts of PNG and JPEG files that a decoder may read.
 
 #include <fmt/format.h>
 #include <zlib.h>
@@ -21,7 +21,7 @@ bool starts_with(ByteView bytes, std::string_view magic) {
 
 std::uint32_t big_endian(ByteView bytes, std::size_t at, int count) {
     std::uint32_t value = 0;
-    for (int i = 0; i < count; ++i) value = value << 8 | bytes[at + static_cast<std::size_t>(i)];
+    for (int i = 0; i < count; ++i) value = value << 8 | bytes[at + i];
     return value;
 }
 
@@ -64,7 +64,7 @@ std::vector<std::uint8_t> strip_png(ByteView bytes, const std::string& name) {
         }
         const auto chunk = bytes.subspan(at, length + 12);
         if ((type[0] >= 'A' && type[0] <= 'Z') || type == "tRNS") {
-            // libpng would find this out too, and print it.
+            // libpng would print this fault.
             const auto checksum = crc32(0, chunk.data() + 4, static_cast<uInt>(length + 4));
             if (checksum != big_endian(chunk, length + 8, 4)) {
                 throw InputError(name, "", fmt::format("the PNG is damaged (wrong checksum in {})", printable(type)));
@@ -105,7 +105,7 @@ std::vector<std::uint8_t> strip_jpeg(ByteView bytes, const std::string& name) {
             kept.insert(kept.end(), bytes.begin() + static_cast<std::ptrdiff_t>(at), bytes.end());
             return kept;
         }
-        // Application data is dropped, but for APP0 (JFIF) and APP14 (Adobe: which colour transform); comments as well.
+        // Application data other than APP0 (JFIF) and APP14 (Adobe: the colour transform) is dropped, and comments.
         const bool application = marker >= 0xe1 && marker <= 0xef && marker != 0xee;
         const auto segment = bytes.subspan(at, length + 2);
         if (!application && marker != 0xfe) kept.insert(kept.end(), segment.begin(), segment.end());

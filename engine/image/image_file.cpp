@@ -13,14 +13,14 @@ namespace aleph {
 
 namespace {
 
-/// Bytes a picture's file may have.
-constexpr std::uintmax_t max_file_size = std::uintmax_t{1} << 32;
+/// Largest file that is read, bytes.
+constexpr std::uintmax_t max_image_file_bytes = std::uintmax_t{1} << 32;
 
 std::string display_name(const std::filesystem::path& path) {
     return printable(path.string(), 4096);
 }
 
-/// What the encoders say about a picture, said of the file that was to hold it.
+/// Turns an encoder's InputError into an OutputError that names the file.
 template <class Encode>
 std::string encode_for(const std::filesystem::path& path, const Encode& encode) {
     try {
@@ -38,7 +38,7 @@ std::vector<std::uint8_t> read_bytes(const std::filesystem::path& path) {
     if (!std::filesystem::is_regular_file(status)) throw InputError(name, "", "this is not a file");
     const std::uintmax_t size = std::filesystem::file_size(path, error);
     if (error) throw InputError(name, "", error.message());
-    if (size > max_file_size) throw InputError(name, "", "the file is larger than 4 GiB");
+    if (size > max_image_file_bytes) throw InputError(name, "", "the file is larger than 4 GiB");
     std::vector<std::uint8_t> bytes(size);
     std::ifstream file(path, std::ios::binary);
     if (!file) throw InputError(name, "", "cannot open the file");

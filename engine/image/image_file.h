@@ -1,5 +1,5 @@
 #pragma once
-// Pictures in files: named channels and metadata, written whole or not at all.
+// Image files: named channels and metadata. Files are written whole or not at all.
 
 #include <array>
 #include <cstdint>
@@ -30,29 +30,28 @@ struct ChannelImage {
     const Image<float>* find(const std::string& name) const;  ///< null if there is none
 };
 
-/// Writes 32-bit float channels, ZIP, one part, Rec.709 chromaticities, no date, no host: equal data gives equal bytes.
-/// Goes to a hidden temporary name beside the target, is read back in size, then renamed.
+/// Writes 32-bit float channels, ZIP, one part, Rec.709 chromaticities; no date and no host, so that equal data gives
+/// equal bytes.
 /// @throws OutputError naming the file
 void write_exr(const std::filesystem::path& path, const ChannelImage& image);
 
-/// Writes 8-bit sRGB: clamped to [0,1], NaN as 0, rounded (HARD_CASES OU-04). Written whole or not at all.
+/// Writes 8-bit sRGB: clamped to [0,1], NaN as 0, rounded.
+/// @throws OutputError naming the file
 void write_png(const std::filesystem::path& path, const Image<Rgb>& linear);
 
-/// Reads every channel of a picture as float; 8-bit colour channels stay encoded as they are (0..1). Formats by an
-/// allow-list (EXR, PNG, JPEG, HDR) checked against the file's first bytes, size checked before decoding; multi-part
-/// and deep EXR are refused.
+/// Reads every channel as float; 8-bit channels are divided by 255 and stay sRGB encoded. EXR, PNG, JPEG and HDR are
+/// recognized by the file's first bytes. The size is checked before decoding. Multi-part and deep EXR are refused.
 /// @throws InputError
 ChannelImage read_image(const std::filesystem::path& path);
 
-/// A texture from memory or from a file. One of the two images of the pair is filled: 8 bits for PNG and JPEG, float
-/// else.
+/// One of the two images is filled: `bytes` for PNG and JPEG, else `floats`. Components: R, G, B, A.
 struct DecodedTexture {
     Image<std::array<std::uint8_t, 4>> bytes;
     Image<std::array<float, 4>> floats;
 };
 
-/// @param name  what messages call it
-/// @throws InputError (file = name) if the bytes are not one of the allowed formats or do not decode
+/// @param name  of the texture in messages
+/// @throws InputError (file = name) if the bytes are of another format or do not decode
 DecodedTexture decode_texture(const std::vector<std::uint8_t>& encoded, const std::string& name);
 
 }  // namespace aleph

@@ -14,7 +14,7 @@ namespace aleph {
 
 namespace {
 
-/// Clamped to [0,1], NaN as 0, sRGB, rounded to the nearest of 256 steps (HARD_CASES OU-04).
+/// sRGB of [0,1] in 0 .. 255, rounded. Values outside are clamped; NaN gives 0.
 std::uint8_t encode_srgb8(float linear) {
     if (!(linear > 0.0f)) return 0;  // NaN too
     if (linear >= 1.0f) return 255;
@@ -36,7 +36,7 @@ std::string encode_png(const Image<Rgb>& linear) {
     spec.attribute("oiio:ColorSpace", "sRGB");
     std::vector<unsigned char> bytes;
     OIIO::Filesystem::IOVecOutput memory(bytes);
-    // This writer reports some failures through geterror() alone.
+    // Some failures are reported by geterror() only.
     const bool done = output->set_ioproxy(&memory) && output->open("memory.png", spec) &&
                       output->write_image(OIIO::TypeDesc::UINT8, encoded.pixels.data()) && output->close();
     const std::string error = output->geterror();

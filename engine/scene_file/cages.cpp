@@ -15,7 +15,7 @@ namespace aleph {
 
 namespace {
 
-/// Lists of any length, one for each face.
+/// Each face is a list of points.
 void read_faces(const JsonRef& at, std::size_t points, Cage& cage) {
     for (std::size_t i = 0; i < at.array_size(); ++i) {
         const JsonRef face = at[i];
@@ -32,12 +32,12 @@ void read_uv(const JsonRef& at, Cage& cage) {
     if (!uv) return;
     cage.uv = read_vec2s(*uv);
     if (!faces) {
-        const int most = *std::max_element(cage.face_points.begin(), cage.face_points.end());
-        if (static_cast<std::size_t>(most) >= cage.uv.size()) {
+        const int max_point = *std::max_element(cage.face_points.begin(), cage.face_points.end());
+        if (static_cast<std::size_t>(max_point) >= cage.uv.size()) {
             uv->fail(
                 fmt::format("has {} texture coordinates, but faces name point {}: one for each point was "
                             "expected, or \"face_uv\"",
-                            cage.uv.size(), most));
+                            cage.uv.size(), max_point));
         }
         cage.face_uv = cage.face_points;
         return;
@@ -79,7 +79,7 @@ void read_sharp_parts(const JsonRef& at, std::size_t points, Cage& cage) {
 
 int add_cage(SceneReader& reader, const JsonRef& at, const std::string& name) {
     if (reader.scene.cages.size() >= max_scene_cages) {
-        at.fail(fmt::format("more than {} cages; join some and tell them apart by \"parts\"", max_scene_cages));
+        at.fail(fmt::format("more than {} cages; join some and separate them by \"parts\"", max_scene_cages));
     }
     Cage cage;
     cage.name = name;

@@ -1,6 +1,6 @@
 #pragma once
-// What scene files call the members of materials, lights and cameras, with limits and with the values that stand for
-// absent keys: one table for the reader and the writer.
+// Keys of materials, lights, cameras and shapes in scene files, with the limits of their values. Reader and writer use
+// the same tables.
 
 #include <array>
 #include <limits>
@@ -47,7 +47,7 @@ inline constexpr std::array material_colors{
     TrackField<Material, glm::dvec3>{"specular_color", &Material::specular_color, not_negative},
     TrackField<Material, glm::dvec3>{"emission", &Material::emission, not_negative},
 };
-/// What does not change over time.
+/// A value that does not change over time.
 template <class Element, class T>
 struct Field {
     const char* key;
@@ -78,7 +78,8 @@ inline constexpr std::array shape_numbers{
     Field<Shape, double>{"height", &Shape::height},
 };
 
-/// Nobody who writes a colour by hand expects metal: unlike in glTF an absent `metallic` is 0.
+/// The material of an empty object. Unlike in glTF an absent `metallic` is 0: in a file written by hand a colour alone
+/// means a plain surface.
 inline Material absent_material() {
     Material material;
     material.metallic = 0.0;
@@ -90,7 +91,7 @@ inline constexpr std::array interpolation_words{"step", "linear", "nearest", "cu
 inline constexpr std::array alpha_words{"opaque", "mask", "blend"};
 inline constexpr std::array wrap_words{"repeat", "clamp", "mirror"};
 inline constexpr std::array shape_words{"quad", "box", "sphere", "cylinder", "torus", "lathe"};
-/// What each kind of shape takes, in the order of shape_words.
+/// Keys of each kind of shape, in the order of shape_words.
 inline const std::array<std::vector<std::string>, shape_words.size()> shape_keys{{
     {"size", "uv_scale"},
     {"size", "uv_scale"},

@@ -8,7 +8,7 @@ namespace aleph {
 
 namespace {
 
-/// Calls visit for every number of a list.
+/// Calls visit for every number of a flat list, or of a list of groups.
 template <class Visit>
 void for_each_number(const JsonRef& at, std::size_t width, const Visit& visit) {
     const std::size_t count = at.array_size();

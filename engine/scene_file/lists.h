@@ -1,5 +1,5 @@
 #pragma once
-// Long lists of numbers in scene files: points, texture coordinates, indices; to JSON and back, every float exactly.
+// Long lists of numbers in scene files: points, texture coordinates, indices. Every float is written exactly.
 
 #include <cstddef>
 #include <glm/vec2.hpp>
@@ -13,19 +13,19 @@
 namespace aleph {
 
 // A list is flat ([0, 0, 0, 1, 0, 0]) or made of lists of the vector's size ([[0, 0, 0], [1, 0, 0]]).
-// These throw InputError with the pointer of what is no number, or of the list where it has too few or too many.
+// @throws InputError with the pointer of an element that is no number, or of a list of the wrong length
 std::vector<glm::vec2> read_vec2s(const JsonRef& at);
 std::vector<glm::vec3> read_vec3s(const JsonRef& at);
 std::vector<glm::vec4> read_vec4s(const JsonRef& at);
 
 /// Indices below `count`, flat or in lists of `width`; their number is a multiple of width.
-/// @param kind  what they name, for messages
+/// @param kind  of the elements, for messages
 std::vector<int> read_indices(const JsonRef& at, std::size_t width, std::size_t count, const char* kind);
 
 /// An index below `count`.
 int read_index(const JsonRef& at, std::size_t count, const char* kind);
 
-/// Flat. Floats as the shortest decimals that give them back.
+/// A flat list. Each float is the shortest decimal that gives it back.
 nlohmann::ordered_json write_floats(const float* first, std::size_t count);
 template <class Vector>
 nlohmann::ordered_json write_vectors(const std::vector<Vector>& values) {
@@ -33,7 +33,7 @@ nlohmann::ordered_json write_vectors(const std::vector<Vector>& values) {
                         values.size() * static_cast<std::size_t>(Vector::length()));
 }
 
-/// The double whose shortest decimal is the float's: 0.1f becomes 0.1.
+/// The double with the shortest decimal of the float: 0.1f becomes 0.1.
 double widen(float value);
 
 }  // namespace aleph

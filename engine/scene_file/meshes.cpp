@@ -1,4 +1,4 @@
-// Meshes of a scene file: shapes, triangles as lists, parts of cages; and the points they are made of.
+// Meshes of a scene file: shapes, lists of triangles, parts of cages; and their points.
 
 #include <fmt/format.h>
 
@@ -14,7 +14,7 @@ namespace aleph {
 
 namespace {
 
-/// Keys that a kind of shape does not have would change nothing: most likely another kind was meant.
+/// Refuses keys that this kind of shape does not have. They would have no effect.
 void check_shape_keys(const JsonRef& at, const char* kind, const std::vector<std::string>& known) {
     for (const auto& member : at.json().items()) {
         if (member.key() == "type" || std::find(known.begin(), known.end(), member.key()) != known.end()) continue;
@@ -53,7 +53,7 @@ Shape read_shape(const JsonRef& at, Shape::Kind kind) {
     return shape;
 }
 
-/// Samples of points (or normals) over time: as many in each.
+/// Samples of points or normals over time. All samples have the same number.
 TimeSampling read_point_samples(const JsonRef& at, const FrameRate& rate,
                                 std::vector<std::vector<glm::vec3>>& samples) {
     return read_samples(at, rate, [&](const JsonRef& value) {
@@ -160,7 +160,7 @@ void read_triangles(SceneReader& reader, const JsonRef& at, Mesh& mesh) {
     }
 }
 
-// Bytes of a triangle with its share of vertices; OpenSubdiv's tables on top.
+// Bytes per triangle with its share of vertices; for cages with OpenSubdiv's tables.
 constexpr std::size_t shape_triangle_bytes = 28, cage_triangle_bytes = 200;
 constexpr std::size_t mesh_bytes = sizeof(Mesh) + 1000;
 

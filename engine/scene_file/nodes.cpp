@@ -1,4 +1,4 @@
-// Nodes of a scene file: the tree, transforms, and what hangs there.
+// Nodes of a scene file: the tree, transforms, and references to elements.
 
 #include <fmt/format.h>
 
@@ -14,7 +14,7 @@ namespace aleph {
 
 namespace {
 
-/// Every name that the file gives, to tell a parent that stands too late from one that is missing, and to see doubles.
+/// All node names of the file: for duplicates, and for parents that come too late rather than being absent.
 void collect_names(const JsonRef& list, NameIndex& names, std::size_t& count) {
     for (std::size_t i = 0; i < list.array_size(); ++i) {
         const JsonRef node = list[i];
@@ -109,7 +109,7 @@ class NodeReader {
         const glm::dvec3 given = read_dvec3(*axis);
         const double length = glm::length(safe_normalize(given));
         if (length == 0.0) axis->fail("the axis cannot be zero");
-        // What is unit within rounding keeps its bits.
+        // An axis that is unit within rounding keeps its bits.
         rotation.axis = std::abs(glm::length(given) - 1.0) < 1e-15 ? given : safe_normalize(given);
         const auto degrees = at.find("degrees"), radians = at.find("radians");
         if (degrees.has_value() == radians.has_value()) at.fail("an axis goes with either \"degrees\" or \"radians\"");
@@ -132,8 +132,7 @@ class NodeReader {
         }
     }
 
-    /// What the named node shows is shown here too: its meshes and light at this node, all that stands below it as
-    /// copies of those nodes.
+    /// Shows the named node here too: this node gets its meshes and light, and copies of all nodes below it.
     void read_instance(const JsonRef& at, int index) {
         const int source = require_earlier(at, "what it shows");
         if (!children_[source].empty()) refuse_ancestor(at, source, index);
@@ -172,7 +171,7 @@ class NodeReader {
         }
     }
 
-    /// True if the source has something to show.
+    /// Gives the node the source's meshes and light. @return whether the source has any
     bool share(const JsonRef& at, int source, int index) {
         if (with_include_.contains(source)) {
             at.fail("what an include brings cannot be shown twice: include the file again");

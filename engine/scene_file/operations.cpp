@@ -17,7 +17,7 @@ using Kind = OperationStack::Kind;
 
 /// In the order of OperationStack::Kind.
 constexpr std::array operation_words{"translate", "scale", "matrix", "rotate", "rotate_x", "rotate_y", "rotate_z"};
-/// Turns whose angle has no exact degrees.
+/// Rotations by angles without exact degrees.
 constexpr std::array radian_words{"rotate_x_radians", "rotate_y_radians", "rotate_z_radians"};
 
 /// Collects channels: constants, and tracks that share one sampling.

@@ -1,5 +1,5 @@
 #pragma once
-// A node's list of transform operations in scene files, to OperationStack and back.
+// The list of transform operations of a node in scene files: reading and writing.
 
 #include <nlohmann/json.hpp>
 
@@ -8,11 +8,11 @@
 
 namespace aleph {
 
-/// Every operation is an object with one key; those that are keyed are so at the same times.
-/// @throws InputError at the operation that breaks a rule
+/// Every operation is an object with one key. Keyed operations have the same times.
+/// @throws InputError with the pointer of the faulty operation
 OperationStack read_operations(const JsonRef& at, const FrameRate& rate);
 
-/// @throws InputError where channels and operations do not fit each other
+/// @throws InputError if channels and operations do not match
 nlohmann::ordered_json write_operations(const OperationStack& stack, const FrameRate& rate, const std::string& file,
                                         const std::string& place);
 

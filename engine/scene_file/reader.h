@@ -1,5 +1,5 @@
 #pragma once
-// What the parts of the scene file's reader share: the scene so far and the names in it.
+// The reader of scene files: state shared by its parts, and the parts.
 
 #include <optional>
 #include <string>
@@ -20,7 +20,7 @@ class NameIndex {
     /// `name`, or "name 2" and so on if an element has it.
     std::string unused(const std::string& name) const;
     std::optional<int> find(const std::string& name) const;
-    /// The element that a text in the file names. @throws InputError at that text, with names that are close
+    /// The element named by the text at `at`. @throws InputError with the text's pointer and close names
     int require(const JsonRef& at) const;
 
   private:
@@ -32,16 +32,16 @@ class NameIndex {
 struct SceneReader {
     SceneText result;
     Scene& scene = result.scene;
-    std::string file;  ///< what errors name
+    std::string file;  ///< its name in errors
     LoadLimits limits;
     NameIndex images{"image"}, materials{"material"}, meshes{"mesh"}, lights{"light"}, cameras{"camera"}, nodes{"node"};
     NameIndex points{"list of points"}, cages{"cage"};
     std::vector<std::string> cage_places;  ///< JSON pointer per scene.cages
     std::unordered_map<std::string, int> image_of_path;
-    std::size_t memory = 0;  ///< that the elements take, about
+    std::size_t memory = 0;  ///< about, of the elements so far, bytes
 
-    /// Counts what is about to be made.
-    /// @throws InputError at `at` beyond limits.scene()
+    /// Adds the memory of an element that will be made.
+    /// @throws InputError with the pointer of `at` if the sum is above limits.scene()
     void charge(std::size_t bytes, const JsonRef& at, const char* advice);
 };
 
@@ -50,14 +50,13 @@ using KeyOrder = std::map<std::string, std::vector<std::string>>;
 /// The root's images, materials, meshes, lights and cameras, in the order of the file.
 void read_elements(SceneReader& reader, const JsonRef& root, const KeyOrder& key_order);
 
-// An element where a node, or a mesh, gives a name or the element itself; `name` is what that one is called then.
+// A node or mesh holds the name of an element, or the element itself, which then gets the name `name`.
 int read_material_use(SceneReader& reader, const JsonRef& at, const std::string& name);
 int read_light_use(SceneReader& reader, const JsonRef& at, const std::string& name);
 int read_camera_use(SceneReader& reader, const JsonRef& at, const std::string& name);
-
 int read_cage_use(SceneReader& reader, const JsonRef& at, const std::string& name);
 
-/// The word that a text is, by its place in the list.
+/// Position of the text in a list of words.
 template <class Words>
 std::size_t read_word(const JsonRef& at, const Words& words) {
     for (std::size_t i = 0; i < words.size(); ++i) {
@@ -77,24 +76,24 @@ struct PointsUse {
 };
 PointsUse read_points_use(SceneReader& reader, const JsonRef& at, const std::string& name);
 
-/// Adds a mesh; what follows from shapes and cages is made at the end, by make_meshes.
-/// @param material  nothing: glTF's default material
+/// Adds a mesh. Triangles of shapes and cages are made at the end, by make_meshes.
+/// @param material  absent: glTF's default material
 int read_mesh(SceneReader& reader, const JsonRef& shape, const std::optional<JsonRef>& material,
               const std::optional<JsonRef>& present, const std::string& name);
 
-/// Makes the triangles of shapes and cages, when all of them are known to be few enough.
+/// Makes the triangles of shapes and cages, after all were counted (SceneReader::charge).
 void make_meshes(SceneReader& reader);
 void make_cage_meshes(SceneReader& reader);
 
-/// Parts that a cage's faces belong to.
+/// Number of parts of a cage.
 std::size_t count_parts(const Cage& cage);
-/// Triangles of all parts at the cage's level.
+/// Number of triangles of all parts at the cage's level.
 std::size_t count_cage_triangles(const Cage& cage);
 
-/// Where a cache's first sample puts the vertices of a mesh.
+/// Vertex positions of a mesh in the cache's first sample.
 std::vector<glm::vec3> first_positions(const Mesh& mesh, const PointCache& cache);
 
-/// The root's nodes with all that stands in them.
+/// The root's nodes and the elements in them.
 void read_nodes(SceneReader& reader, const JsonRef& root);
 
 /// Paths under the key "include" of the root or of a node. @param node  no_index for the root

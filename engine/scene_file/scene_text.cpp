@@ -72,7 +72,7 @@ void read_settings(Scene& scene, const JsonRef& root) {
     }
 }
 
-/// A later version is told apart from a file that is wrong.
+/// A file of a later version gets its own message.
 void check_version(const nlohmann::json& root, const std::string& file) {
     if (!root.is_object()) return;
     const auto version = root.find("aleph");

@@ -24,7 +24,7 @@ void check_range(const JsonRef& at, double value, const ValueRange& range) {
     if (!inside) at.fail(fmt::format("{}, found {}", describe(range), value));
 }
 
-/// How one kind of value stands in the file.
+/// Reads one kind of value.
 template <class T>
 struct ValueReader {
     T (*value)(const JsonRef&, const ValueRange&);
@@ -182,7 +182,7 @@ glm::dvec3 read_factors(const JsonRef& at, const ValueRange&) {
     return at.json().is_number() ? glm::dvec3(at.number()) : read_dvec3(at);
 }
 
-/// In the file x, y, z, w. Zero is left to validate: a tangent may be zero.
+/// x, y, z, w. A zero value is found by validate: tangents may be zero.
 glm::dquat read_four(const JsonRef& at, const ValueRange&) {
     const glm::dvec4 v = read_components(at, glm::dvec4(0.0), 4, any_value);
     return {v.w, v.x, v.y, v.z};

@@ -1,5 +1,5 @@
 #pragma once
-// Values over time in scene files: constants, keys, uniform and cyclic samples; and back to JSON, bit for bit.
+// Values over time in scene files: constants, keys, uniform and cyclic samples. Writing keeps every bit.
 
 #include <functional>
 #include <nlohmann/json.hpp>
@@ -10,8 +10,8 @@
 
 namespace aleph {
 
-// The document has passed the schema, so types and lengths are right. All of these throw InputError with the pointer
-// of the value that breaks a rule: limits (of values, not of tangents), ascending times, what goes together.
+// Types and lengths were checked by the schema. All throw InputError with the pointer of a value outside its limits
+// (tangents have none), of times that do not ascend, or of keys that exclude each other.
 Track<double> read_number(const JsonRef& at, const FrameRate& rate, const ValueRange& range);
 Track<glm::dvec3> read_vector(const JsonRef& at, const FrameRate& rate, const ValueRange& range);
 Track<glm::dvec3> read_scale(const JsonRef& at, const FrameRate& rate);
@@ -22,29 +22,28 @@ Track<double> read_visibility(const JsonRef& at, const FrameRate& rate);
 /// Degrees in the file, radians in the track. @param range  degrees
 Track<double> read_degrees(const JsonRef& at, const FrameRate& rate, const ValueRange& range);
 
-/// Values of any kind over time: calls visit at each value of "keys" or "values", and gives their times.
+/// Values of any kind over time: calls visit for each value of "keys" or "values" and returns their times.
 TimeSampling read_samples(const JsonRef& at, const FrameRate& rate, const std::function<void(const JsonRef&)>& visit);
 
 glm::dvec3 read_dvec3(const JsonRef& at);
 glm::dvec2 read_dvec2(const JsonRef& at);
 
-/// Degrees to radians as the reader does it.
+/// The conversion of the reader.
 double to_radians(double degrees);
-/// The shortest degrees that to_radians turns into exactly these radians; nothing where no double does.
+/// The shortest decimal of degrees that to_radians turns into exactly these radians; nothing if there is none.
 std::optional<double> exact_degrees(double radians);
 
-// Times are written in frames where all of them are whole frames, else in seconds.
-// The track is valid (track.h).
+// Times are written in frames if all are whole frames, else in seconds. The track is valid (track.h).
 nlohmann::ordered_json write_number(const Track<double>& track, const FrameRate& rate);
 nlohmann::ordered_json write_vector(const Track<glm::dvec3>& track, const FrameRate& rate);
 nlohmann::ordered_json write_scale(const Track<glm::dvec3>& track, const FrameRate& rate);
 nlohmann::ordered_json write_quaternion(const Track<glm::dquat>& track, const FrameRate& rate);
 nlohmann::ordered_json write_matrix(const Track<glm::dmat4>& track, const FrameRate& rate);
 nlohmann::ordered_json write_visibility(const Track<double>& track, const FrameRate& rate);
-/// Nothing where a value has no exact degrees: then it has to be written in radians.
+/// Nothing if a value has no exact degrees; it has to be written in radians.
 std::optional<nlohmann::ordered_json> write_degrees(const Track<double>& track, const FrameRate& rate);
 
-/// An object with "keys" or "values", one each of the sampling's.
+/// An object with "keys" or "values". @param values  one for each time
 nlohmann::ordered_json write_samples(const TimeSampling& sampling, const FrameRate& rate,
                                      std::vector<nlohmann::ordered_json> values);
 

@@ -1,6 +1,5 @@
 #pragma once
-// What the parts of the scene file writer share, and the parts that write one kind of element each; the reading half is
-// elements.cpp. Only write*.cpp use them.
+// The writer of scene files: state shared by its parts, and materials, lights and cameras. The reader: elements.cpp.
 
 #include <fmt/format.h>
 
@@ -13,11 +12,11 @@
 
 namespace aleph {
 
-/// The scene that is written, and where in it the writer is.
+/// The scene and the writer's place in it.
 struct SceneWriting {
     const Scene& scene;
     const std::string& file;
-    std::string place;  ///< what is being written, for errors
+    std::string place;  ///< of the element that is written, for errors
 
     const FrameRate& rate() const { return scene.frame_rate; }
     [[noreturn]] void refuse(const std::string& reason) const { throw InputError(file, place, reason); }
@@ -29,7 +28,7 @@ struct SceneWriting {
         return list[index].name;
     }
 
-    /// Writes a track under a key unless it says what an absent key says.
+    /// Writes a track under a key unless it equals the value of an absent key.
     template <class T, class Write>
     void track(nlohmann::ordered_json& out, const char* key, const Track<T>& value, const Track<T>& absent,
                const Write& write) const {
@@ -38,7 +37,7 @@ struct SceneWriting {
         out[key] = write(value, rate());
     }
 
-    /// In degrees where they give back every bit, else in radians.
+    /// Writes degrees where they give back every bit, else radians.
     void angle(nlohmann::ordered_json& out, const char* degrees_key, const char* radians_key,
                const Track<double>& value) const;
 };

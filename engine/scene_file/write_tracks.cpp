@@ -1,4 +1,4 @@
-// Tracks to JSON; the reading half is tracks.cpp.
+// The writer of tracks. The reader: tracks.cpp.
 
 #include <fmt/format.h>
 
@@ -19,7 +19,7 @@ double seconds_per_frame(const FrameRate& rate) {
     return static_cast<double>(rate.denominator) / static_cast<double>(rate.numerator);
 }
 
-/// The frames that the reader turns into exactly these seconds; nothing if they are no whole frame.
+/// The whole frame that the reader turns into exactly these seconds; nothing if there is none.
 std::optional<std::int64_t> whole_frame(double seconds, const FrameRate& rate) {
     const double frame = std::round(seconds / seconds_per_frame(rate));
     if (!(std::abs(frame) <= 1e9)) return std::nullopt;
@@ -134,7 +134,7 @@ ordered_json write_visibility(const Track<double>& track, const FrameRate& rate)
 
 std::optional<double> exact_degrees(double radians) {
     const double near = radians * (180.0 / std::numbers::pi);
-    for (int digits = 6; digits <= 17; ++digits) {  // what people write is short
+    for (int digits = 6; digits <= 17; ++digits) {  // the shortest first
         const std::string text = fmt::format("{:.{}g}", near, digits);
         double degrees = near;
         std::from_chars(text.data(), text.data() + text.size(), degrees);
