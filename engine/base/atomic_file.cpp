@@ -26,7 +26,7 @@ std::string reason(const char* what, int error) {
     throw OutputError(printable(named.string(), 4096), reason(what, error));
 }
 
-/// An open file that is closed at the end of the scope; close() tells whether that worked.
+/// An open file that is closed at the end of the scope; close() returns whether that worked.
 class FileDescriptor {
   public:
     explicit FileDescriptor(int fd) : fd_(fd) {}

@@ -125,7 +125,7 @@ void insert_attribute(Imf::Header& header, const std::string& name, const Metada
     if (name.empty() || name.size() > 255 || is_structural(name)) {
         throw InputError("", fmt::format("metadata '{}'", printable(name)), "this name is not free");
     }
-    // The standard attribute is a 32-bit float; others would read it as missing.
+    // The standard attribute is a 32-bit float; readers ignore another type.
     if (name == "whiteLuminance" && std::holds_alternative<double>(value)) {
         Imf::addWhiteLuminance(header, static_cast<float>(std::get<double>(value)));
     } else if (const auto* text = std::get_if<std::string>(&value)) {
@@ -185,8 +185,7 @@ void verify(const std::string& bytes, const Image<float>& first, const Channel& 
 }
 
 Imf::Slice make_slice(Image<float>& image, const Imath::Box2i& window) {
-    return Imf::Slice::Make(Imf::FLOAT, image.pixels.data(), window, sizeof(float),
-                            sizeof(float) * static_cast<std::size_t>(image.width));
+    return Imf::Slice::Make(Imf::FLOAT, image.pixels.data(), window, sizeof(float), sizeof(float) * image.width);
 }
 
 }  // namespace
@@ -205,7 +204,7 @@ std::string encode_exr(const ChannelImage& image, int threads) {
             header.channels().insert(channel.name, Imf::Channel(Imf::FLOAT));
             auto* base = const_cast<float*>(channel.values.pixels.data());  // a Slice is for reading and writing
             pixels.insert(channel.name, Imf::Slice(Imf::FLOAT, reinterpret_cast<char*>(base), sizeof(float),
-                                                   sizeof(float) * static_cast<std::size_t>(first.width)));
+                                                   sizeof(float) * first.width));
         }
         grow_thread_pool(threads);
         {

@@ -50,7 +50,7 @@ void check_size(std::int64_t width, std::int64_t height, const std::string& name
 std::vector<std::uint8_t> strip_png(ByteView bytes, const std::string& name) {
     // Chunks (PNG 1.2, section 3.2): length, type, data, CRC. An upper-case first letter marks those needed for pixels;
     // tRNS is the one other chunk that changes them.
-    std::vector<std::uint8_t> kept(bytes.begin(), bytes.begin() + static_cast<std::ptrdiff_t>(png_magic.size()));
+    std::vector<std::uint8_t> kept(bytes.begin(), bytes.begin() + png_magic.size());
     kept.reserve(bytes.size());
     bool has_pixels = false;
     for (std::size_t at = png_magic.size(); at < bytes.size();) {
@@ -102,7 +102,7 @@ std::vector<std::uint8_t> strip_jpeg(ByteView bytes, const std::string& name) {
         }
         if (marker == 0xda) {  // start of scan: pixels follow
             if (!has_size) break;
-            kept.insert(kept.end(), bytes.begin() + static_cast<std::ptrdiff_t>(at), bytes.end());
+            kept.insert(kept.end(), bytes.begin() + at, bytes.end());
             return kept;
         }
         // Application data other than APP0 (JFIF) and APP14 (Adobe: the colour transform) is dropped, and comments.

@@ -130,7 +130,7 @@ class FirstMismatch : public Visitor {
             return true;
         });
         if (one_fits) return true;
-        // The clearest reason: inside the value, else the only alternative of its type, else a key that none knows.
+        // The clearest reason: inside the value, else the only alternative of its type, else a key unknown to all.
         if (deepest->depth > depth_) {
             mismatch_ = deepest;
         } else if (count_of_this_type == 1) {
@@ -191,7 +191,7 @@ JsonSchema::JsonSchema(json schema) : compiled_(std::make_unique<valijson::Schem
 JsonSchema::~JsonSchema() = default;
 
 std::optional<SchemaMismatch> JsonSchema::find_mismatch(const json& document) const {
-    // Most documents fit: without a search for reasons that takes half the time.
+    // Most documents fit: without places and reasons this takes half the time.
     valijson::Validator validator(valijson::Validator::kStrongTypes);
     if (validator.validate(*compiled_, Adapter(document), nullptr)) return std::nullopt;
     Patterns patterns;

@@ -21,7 +21,7 @@ std::string line_and_column(std::string_view text, std::size_t offset) {
         if (c == '\n') {
             ++line;
             column = 1;
-        } else if ((static_cast<unsigned char>(c) & 0xc0) != 0x80) {  // not a byte that continues a character
+        } else if ((static_cast<unsigned char>(c) & 0xc0) != 0x80) {  // not a continuation byte of UTF-8
             ++column;
         }
     }

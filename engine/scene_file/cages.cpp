@@ -33,7 +33,7 @@ void read_uv(const JsonRef& at, Cage& cage) {
     cage.uv = read_vec2s(*uv);
     if (!faces) {
         const int max_point = *std::max_element(cage.face_points.begin(), cage.face_points.end());
-        if (static_cast<std::size_t>(max_point) >= cage.uv.size()) {
+        if (max_point >= std::ssize(cage.uv)) {
             uv->fail(
                 fmt::format("has {} texture coordinates, but faces name point {}: one for each point was "
                             "expected, or \"face_uv\"",
@@ -48,7 +48,7 @@ void read_uv(const JsonRef& at, Cage& cage) {
     for (std::size_t i = 0; i < faces->array_size(); ++i) {
         const JsonRef face = (*faces)[i];
         const std::vector<int> indices = read_indices(face, 1, cage.uv.size(), "texture coordinate");
-        if (indices.size() != static_cast<std::size_t>(cage.face_sizes[i])) {
+        if (std::ssize(indices) != cage.face_sizes[i]) {
             face.fail(
                 fmt::format("has {} texture coordinates for a face of {} points", indices.size(), cage.face_sizes[i]));
         }
@@ -83,12 +83,12 @@ int add_cage(SceneReader& reader, const JsonRef& at, const std::string& name) {
     }
     Cage cage;
     cage.name = name;
-    if (const auto word = at.find("scheme")) cage.scheme = static_cast<Cage::Scheme>(read_word(*word, scheme_words));
+    if (const auto word = at.find("scheme")) cage.scheme = read_word<Cage::Scheme>(*word, scheme_words);
     if (const auto word = at.find("boundary")) {
-        cage.boundary = static_cast<Cage::Boundary>(read_word(*word, boundary_words));
+        cage.boundary = read_word<Cage::Boundary>(*word, boundary_words);
     }
     if (const auto word = at.find("uv_rule")) {
-        cage.uv_rule = static_cast<Cage::UvRule>(read_word(*word, uv_rule_words));
+        cage.uv_rule = read_word<Cage::UvRule>(*word, uv_rule_words);
     }
     const PointsUse points = read_points_use(reader, at, name);
     cage.points = points.index;
@@ -116,11 +116,8 @@ int add_cage(SceneReader& reader, const JsonRef& at, const std::string& name) {
     } catch (const InputError& error) {
         at.fail(error.reason());
     }
-    const int index = static_cast<int>(reader.scene.cages.size());
-    reader.cages.add(name, index);
     reader.cage_places.push_back(at.pointer());
-    reader.scene.cages.push_back(std::move(cage));
-    return index;
+    return SceneReader::add(std::move(cage), reader.scene.cages, reader.cages);
 }
 
 }  // namespace

@@ -19,15 +19,13 @@ std::string read_path(const JsonRef& at) {
 }
 
 int add_image(SceneReader& reader, const JsonRef& at, const std::string& name) {
-    const int index = static_cast<int>(reader.scene.images.size());
     reader.charge(sizeof(SceneImage) + 300, at, "it has too many images");
     SceneImage image;
     image.name = name;
     image.path = read_path(at);
-    reader.images.add(name, index);
-    reader.image_of_path.emplace(image.path, index);
-    reader.scene.images.push_back(std::move(image));
     reader.result.image_places.push_back(at.pointer());
+    const int index = SceneReader::add(std::move(image), reader.scene.images, reader.images);
+    reader.image_of_path.emplace(reader.scene.images[index].path, index);
     return index;
 }
 
@@ -48,7 +46,7 @@ TextureRef read_texture(SceneReader& reader, const JsonRef& at) {
     texture.image = read_image_use(reader, image);
     texture.uv_set = static_cast<int>(at.find_integer("uv_set", 0, 1).value_or(0));
     if (const auto wrap = at.find("wrap")) {
-        const auto read = [](const JsonRef& word) { return static_cast<Wrap>(read_word(word, wrap_words)); };
+        const auto read = [](const JsonRef& word) { return read_word<Wrap>(word, wrap_words); };
         if (wrap->json().is_string()) {
             texture.wrap_u = texture.wrap_v = read(*wrap);
         } else {
@@ -81,7 +79,7 @@ int add_material(SceneReader& reader, const JsonRef& at, const std::string& name
         if (const auto value = at.find(field.key)) material.*field.member = read_texture(reader, *value);
     }
     if (const auto value = at.find("alpha_mode")) {
-        material.alpha_mode = static_cast<Material::AlphaMode>(read_word(*value, alpha_words));
+        material.alpha_mode = read_word<Material::AlphaMode>(*value, alpha_words);
     }
     if (const auto value = at.find("alpha_cutoff")) {
         material.alpha_cutoff = value->number();
@@ -91,9 +89,7 @@ int add_material(SceneReader& reader, const JsonRef& at, const std::string& name
     }
     if (const auto value = at.find("unlit")) material.unlit = value->boolean();
     if (const auto value = at.find("double_sided")) material.double_sided = value->boolean();
-    reader.materials.add(name, static_cast<int>(reader.scene.materials.size()));
-    reader.scene.materials.push_back(std::move(material));
-    return static_cast<int>(reader.scene.materials.size()) - 1;
+    return SceneReader::add(std::move(material), reader.scene.materials, reader.materials);
 }
 
 int add_light(SceneReader& reader, const JsonRef& at, const std::string& name) {
@@ -102,7 +98,7 @@ int add_light(SceneReader& reader, const JsonRef& at, const std::string& name) {
     Light light;
     light.name = name;
     const JsonRef type = at.require("type");
-    light.kind = static_cast<Light::Kind>(read_word(type, light_words));
+    light.kind = read_word<Light::Kind>(type, light_words);
     if (const auto value = at.find("color")) light.color = read_vector(*value, rate, not_negative);
     if (const auto value = at.find("intensity")) light.intensity = read_number(*value, rate, not_negative);
     if (const auto value = at.find("range")) {
@@ -123,9 +119,7 @@ int add_light(SceneReader& reader, const JsonRef& at, const std::string& name) {
     if (constant && light.inner_cone.values[0] > light.outer_cone.values[0]) {
         at.fail("\"inner_cone\", where the light begins to fade, cannot be wider than \"outer_cone\", where it ends");
     }
-    reader.lights.add(name, static_cast<int>(reader.scene.lights.size()));
-    reader.scene.lights.push_back(std::move(light));
-    return static_cast<int>(reader.scene.lights.size()) - 1;
+    return SceneReader::add(std::move(light), reader.scene.lights, reader.lights);
 }
 
 int add_camera(SceneReader& reader, const JsonRef& at, const std::string& name) {
@@ -149,9 +143,7 @@ int add_camera(SceneReader& reader, const JsonRef& at, const std::string& name) 
         camera.shutter = read_dvec2(*value);
         if (camera.shutter.y < camera.shutter.x) value->fail("the shutter has to open before it closes");
     }
-    reader.cameras.add(name, static_cast<int>(reader.scene.cameras.size()));
-    reader.scene.cameras.push_back(std::move(camera));
-    return static_cast<int>(reader.scene.cameras.size()) - 1;
+    return SceneReader::add(std::move(camera), reader.scene.cameras, reader.cameras);
 }
 
 /// Calls add(element, name) for the members of one of the root's objects, in the order of the file.

@@ -37,7 +37,7 @@ void for_each_number(const JsonRef& at, std::size_t width, const Visit& visit) {
 
 template <class Vector>
 std::vector<Vector> read_vectors(const JsonRef& at) {
-    constexpr auto width = static_cast<std::size_t>(Vector::length());
+    constexpr std::size_t width = Vector::length();
     std::vector<Vector> values;
     values.reserve(at.array_size() / width + 1);
     std::size_t i = 0;

@@ -29,8 +29,7 @@ int read_index(const JsonRef& at, std::size_t count, const char* kind);
 nlohmann::ordered_json write_floats(const float* first, std::size_t count);
 template <class Vector>
 nlohmann::ordered_json write_vectors(const std::vector<Vector>& values) {
-    return write_floats(values.empty() ? nullptr : &values.front().x,
-                        values.size() * static_cast<std::size_t>(Vector::length()));
+    return write_floats(values.empty() ? nullptr : &values.front().x, values.size() * Vector::length());
 }
 
 /// The double with the shortest decimal of the float: 0.1f becomes 0.1.

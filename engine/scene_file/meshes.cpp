@@ -26,7 +26,7 @@ void check_shape_keys(const JsonRef& at, const char* kind, const std::vector<std
 Shape read_shape(const JsonRef& at, Shape::Kind kind) {
     Shape shape;
     shape.kind = kind;
-    const auto index = static_cast<std::size_t>(kind);
+    const std::size_t index = index_of(kind);
     check_shape_keys(at, shape_words[index], shape_keys[index]);
     if (const auto value = at.find("size")) {
         const bool flat = kind == Shape::Kind::quad;
@@ -88,10 +88,7 @@ int add_point_cache(SceneReader& reader, const JsonRef& at, const std::string& n
         }
     }
     if (cache.point_count() == 0) at.fail("has no points");
-    const int index = static_cast<int>(reader.scene.point_caches.size());
-    reader.points.add(name, index);
-    reader.scene.point_caches.push_back(std::move(cache));
-    return index;
+    return SceneReader::add(std::move(cache), reader.scene.point_caches, reader.points);
 }
 
 void expect_count(const JsonRef& at, std::size_t found, std::size_t vertices, const char* kind) {
@@ -105,7 +102,7 @@ void read_vertices(SceneReader& reader, const JsonRef& at, Mesh& mesh) {
     const auto positions = at.find("positions"), points = at.find("points"), map = at.find("vertex_points");
     const bool keyed = positions && positions->json().is_object();
     if (!positions && !points) at.fail("a mesh needs \"positions\", or \"points\" with a name from the scene's points");
-    if (keyed && points) positions->fail("keyed positions are points by themselves: without \"points\"");
+    if (keyed && points) positions->fail("keyed positions already are points over time: leave out \"points\"");
     if (points) mesh.points = reader.points.require(*points);
     if (keyed) mesh.points = add_point_cache(reader, *positions, reader.points.unused(mesh.name));
     if (positions && !keyed) mesh.positions = read_vec3s(*positions);
@@ -118,7 +115,8 @@ void read_vertices(SceneReader& reader, const JsonRef& at, Mesh& mesh) {
         for (const int point : read_indices(*map, 1, cache.point_count(), "point")) {
             mesh.vertex_points.push_back(static_cast<std::uint32_t>(point));
         }
-        if (mesh.vertex_points.empty()) map->fail("names no points; leave it out where vertices are points one to one");
+        if (mesh.vertex_points.empty())
+            map->fail("is empty; leave it out if each vertex is the point of the same number");
     }
     const std::vector<glm::vec3> first = first_positions(mesh, cache);
     if (positions && !keyed) {
@@ -206,15 +204,12 @@ int read_mesh(SceneReader& reader, const JsonRef& at, const std::optional<JsonRe
         reader.charge(cage_triangle_bytes * count_cage_triangles(reader.scene.cages[mesh.cage]), at,
                       "lower the cage's \"level\"");
     } else {
-        mesh.shape = read_shape(at, static_cast<Shape::Kind>(read_word(type, shape_words)));
+        mesh.shape = read_shape(at, read_word<Shape::Kind>(type, shape_words));
         reader.charge(shape_triangle_bytes * shape_triangle_count(*mesh.shape), at, "lower \"segments\"");
     }
     if (material) mesh.material = read_material_use(reader, *material, name);
     if (present) mesh.present = read_visibility(*present, reader.scene.frame_rate);
-    const int index = static_cast<int>(reader.scene.meshes.size());
-    reader.scene.meshes.push_back(std::move(mesh));
-    reader.meshes.add(name, index);
-    return index;
+    return SceneReader::add(std::move(mesh), reader.scene.meshes, reader.meshes);
 }
 
 void make_meshes(SceneReader& reader) {

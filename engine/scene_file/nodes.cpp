@@ -71,14 +71,15 @@ class NodeReader {
     }
 
     int read_parent(const JsonRef& at, int nested_under) const {
-        if (nested_under != no_index) at.fail("this node has a parent already: it stands among its children");
+        if (nested_under != no_index)
+            at.fail("this node has a parent already: it is in the list \"children\" of another");
         return require_earlier(at, "a parent");
     }
 
     int require_earlier(const JsonRef& at, const char* what) const {
         if (const auto found = reader_.nodes.find(at.string())) return *found;
         if (at.string().empty() || !all_names_.find(at.string())) return all_names_.require(at);
-        at.fail(fmt::format("\"{}\" does not stand before this node: {} has to, and a node cannot lie below itself",
+        at.fail(fmt::format("\"{}\" comes after this node: {} has to come before, and a node cannot lie below itself",
                             printable(at.string()), what));
     }
 
@@ -120,7 +121,7 @@ class NodeReader {
 
     void read_meshes(const JsonRef& at, Node& node, const std::string& name) {
         const auto shape = at.find("shape"), material = at.find("material");
-        if (material && !shape) material->fail("\"material\" goes with \"shape\"; a mesh has its own");
+        if (material && !shape) material->fail("\"material\" goes with \"shape\"; a mesh from \"meshes\" has its own");
         if (shape)
             node.meshes.push_back(read_mesh(reader_, *shape, material, std::nullopt, reader_.meshes.unused(name)));
         if (const auto mesh = at.find("mesh")) node.meshes.push_back(reader_.meshes.require(*mesh));
@@ -134,7 +135,7 @@ class NodeReader {
 
     /// Shows the named node here too: this node gets its meshes and light, and copies of all nodes below it.
     void read_instance(const JsonRef& at, int index) {
-        const int source = require_earlier(at, "what it shows");
+        const int source = require_earlier(at, "its source");
         if (!children_[source].empty()) refuse_ancestor(at, source, index);
         bool shows = share(at, source, index);
         struct Copy {
@@ -161,20 +162,21 @@ class NodeReader {
             shows = share(at, next.source, made) || shows;
             add_children(next.source, made);
         }
-        if (!shows) at.fail("neither that node nor one below it has meshes or a light to show");
+        if (!shows) at.fail("neither that node nor a node below it has meshes or a light");
     }
 
     void refuse_ancestor(const JsonRef& at, int source, int index) {
         for (int above = index; above != no_index; above = scene_.nodes[above].parent) {
             if (above == source) at.fail("this node lies below the one it names: it would hold itself");
-            if (++ancestors_seen_ > max_ancestors_seen) at.fail("too many instances of sub-trees stand too deep");
+            if (++ancestors_seen_ > max_ancestors_seen)
+                at.fail("too many instances of nodes with children at too great a depth");
         }
     }
 
     /// Gives the node the source's meshes and light. @return whether the source has any
     bool share(const JsonRef& at, int source, int index) {
         if (with_include_.contains(source)) {
-            at.fail("what an include brings cannot be shown twice: include the file again");
+            at.fail("an instance cannot show an include: include the file again");
         }
         const Node& from = scene_.nodes[source];
         Node& to = scene_.nodes[index];

@@ -90,7 +90,7 @@ void read_operation(Stack& stack, const JsonRef& at, const FrameRate& rate) {
     const JsonRef value = at.require(key);
     for (std::size_t i = 0; i < radian_words.size(); ++i) {
         if (key != radian_words[i]) continue;
-        stack.add_kind(static_cast<Kind>(static_cast<std::size_t>(Kind::rotate_x) + i));
+        stack.add_kind(static_cast<Kind>(index_of(Kind::rotate_x) + i));
         stack.add(read_number(value, rate, any_value), value, from_number);
         return;
     }
@@ -174,7 +174,7 @@ ordered_json write_operation(Kind kind, Channels& channels, const FrameRate& rat
         default: {
             const Track<double> angle = channels.number();
             if (const auto degrees = write_degrees(angle, rate)) return {{word, *degrees}};
-            const auto axis = static_cast<std::size_t>(kind) - static_cast<std::size_t>(Kind::rotate_x);
+            const std::size_t axis = index_of(kind) - index_of(Kind::rotate_x);
             return {{radian_words[axis], write_number(angle, rate)}};
         }
     }
@@ -201,7 +201,7 @@ ordered_json write_operations(const OperationStack& stack, const FrameRate& rate
                          fmt::format("its operations have {} channels, found {}", width, stack.channels.size()));
     }
     validate(stack.sampling, sample_count(stack), file, place);
-    // Keys that change nothing are kept too, on the first operation.
+    // If no value changes, the first operation keeps the keys.
     Channels probe(stack, false);
     bool keyed = false;
     for (std::size_t i = 0; i < width; ++i) keyed = probe.number().values.size() > 1 || keyed;

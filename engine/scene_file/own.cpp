@@ -1,4 +1,4 @@
-// Which part of a scene is its file's own, and which came with includes.
+// The part of a scene that its own file defines, without the elements of includes.
 
 #include <fmt/format.h>
 
@@ -11,7 +11,7 @@ namespace aleph {
 
 namespace {
 
-/// The elements before the first that an include brought. Copies no more than those: included meshes are large.
+/// The elements before the first included one. Only these are copied: included meshes are large.
 template <class Element>
 std::vector<Element> own_part(const char* kind, const std::vector<Element>& list, const std::string& file) {
     const auto is_included = [](const Element& element) { return element.include != no_index; };
@@ -19,7 +19,7 @@ std::vector<Element> own_part(const char* kind, const std::vector<Element>& list
     const auto late = std::find_if_not(end, list.end(), is_included);
     if (late != list.end()) {
         throw InputError(file, fmt::format("{} {}", kind, late - list.begin()),
-                         "stands after what includes brought; a scene file's own elements come first");
+                         "comes after an element of an include; the scene's own elements have to come first");
     }
     return {list.begin(), end};
 }
@@ -28,7 +28,7 @@ void check_index(int index, std::size_t count, const char* kind, std::size_t use
                  const std::string& file) {
     if (index >= no_index && index < static_cast<int>(count)) return;
     throw InputError(file, fmt::format("{} {}", kind, user),
-                     fmt::format("uses {} {}, which an include brought or which is not there", what, index));
+                     fmt::format("refers to {} {}, which belongs to an include or does not exist", what, index));
 }
 
 }  // namespace
@@ -59,7 +59,7 @@ Scene without_includes(const Scene& scene, const std::string& file) {
 
     for (std::size_t i = 0; i < own.nodes.size(); ++i) {
         const Node& node = own.nodes[i];
-        check_index(node.parent, i, "node", i, "as its parent node", file);
+        check_index(node.parent, i, "node", i, "parent node", file);
         for (const int mesh : node.meshes) check_index(mesh, own.meshes.size(), "node", i, "mesh", file);
         check_index(node.camera, own.cameras.size(), "node", i, "camera", file);
         check_index(node.light, own.lights.size(), "node", i, "light", file);

@@ -43,6 +43,15 @@ struct SceneReader {
     /// Adds the memory of an element that will be made.
     /// @throws InputError with the pointer of `at` if the sum is above limits.scene()
     void charge(std::size_t bytes, const JsonRef& at, const char* advice);
+
+    /// Appends an element to its list under its name. @return its index
+    template <class Element>
+    static int add(Element element, std::vector<Element>& list, NameIndex& names) {
+        const int index = static_cast<int>(list.size());
+        names.add(element.name, index);
+        list.push_back(std::move(element));
+        return index;
+    }
 };
 
 using KeyOrder = std::map<std::string, std::vector<std::string>>;
@@ -56,11 +65,11 @@ int read_light_use(SceneReader& reader, const JsonRef& at, const std::string& na
 int read_camera_use(SceneReader& reader, const JsonRef& at, const std::string& name);
 int read_cage_use(SceneReader& reader, const JsonRef& at, const std::string& name);
 
-/// Position of the text in a list of words.
-template <class Words>
-std::size_t read_word(const JsonRef& at, const Words& words) {
+/// The enumerator that the text names. @param words  in the order of the enumerators
+template <class Enum, class Words>
+Enum read_word(const JsonRef& at, const Words& words) {
     for (std::size_t i = 0; i < words.size(); ++i) {
-        if (at.string() == words[i]) return i;
+        if (at.string() == words[i]) return static_cast<Enum>(i);
     }
     at.fail("unknown word");  // the schema has the same words
 }

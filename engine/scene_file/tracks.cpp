@@ -49,7 +49,7 @@ std::vector<double> read_times(const JsonRef& list, std::size_t count, const Fra
         const auto check = [&](const JsonRef& at) {
             times.push_back(read_time(at, rate, in_frames));
             if (i > 0 && !(times[i] > times[i - 1])) {
-                at.fail(fmt::format("times have to ascend: {} does not come after the one before", at.json().dump()));
+                at.fail(fmt::format("times have to ascend: {} is not above the time before", at.json().dump()));
             }
         };
         if (first_of_key) {
@@ -110,8 +110,7 @@ void read_values(const JsonRef& values, Track<T>& track, const ValueReader<T>& r
 TimeSampling read_regular_times(const JsonRef& at, const FrameRate& rate, bool in_frames) {
     TimeSampling sampling;
     const auto start = at.find("start"), period = at.find("period"), cycle = at.find("cycle");
-    const double frame = static_cast<double>(rate.denominator) / static_cast<double>(rate.numerator);
-    sampling.period = period ? read_time(*period, rate, in_frames) : in_frames ? frame : 1.0;
+    sampling.period = period ? read_time(*period, rate, in_frames) : in_frames ? seconds_per_frame(rate) : 1.0;
     if (!(sampling.period > 0.0)) period->fail("has to be above 0");
     if (start) sampling.start = read_time(*start, rate, in_frames);
     if (cycle) {
@@ -203,6 +202,10 @@ glm::dmat4 read_sixteen(const JsonRef& at, const ValueRange&) {
 
 double to_radians(double degrees) {
     return degrees * (std::numbers::pi / 180.0);
+}
+
+double seconds_per_frame(const FrameRate& rate) {
+    return static_cast<double>(rate.denominator) / static_cast<double>(rate.numerator);
 }
 
 TimeSampling read_samples(const JsonRef& at, const FrameRate& rate, const std::function<void(const JsonRef&)>& visit) {

@@ -28,8 +28,9 @@ TimeSampling read_samples(const JsonRef& at, const FrameRate& rate, const std::f
 glm::dvec3 read_dvec3(const JsonRef& at);
 glm::dvec2 read_dvec2(const JsonRef& at);
 
-/// The conversion of the reader.
+// Conversions of the reader.
 double to_radians(double degrees);
+double seconds_per_frame(const FrameRate& rate);
 /// The shortest decimal of degrees that to_radians turns into exactly these radians; nothing if there is none.
 std::optional<double> exact_degrees(double radians);
 

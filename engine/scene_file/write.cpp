@@ -69,7 +69,7 @@ class Writer {
             at_.place = place_of(kind, list, i);
             if (list[i].name.empty()) at_.refuse("a scene file needs a name for it");
             if (!names.insert(list[i].name).second)
-                at_.refuse("another one has this name: a scene file tells them apart by name");
+                at_.refuse("another one has this name: names have to differ in a scene file");
         }
     }
 

@@ -23,8 +23,7 @@ struct SceneWriting {
 
     template <class List>
     const std::string& name_in(const List& list, int index) const {
-        if (index < 0 || static_cast<std::size_t>(index) >= list.size())
-            refuse(fmt::format("there is no element {}", index));
+        if (index < 0 || index >= std::ssize(list)) refuse(fmt::format("there is no element {}", index));
         return list[index].name;
     }
 

@@ -19,7 +19,7 @@ ordered_json write_samples_of_points(const TimeSampling& sampling, const std::ve
     return write_samples(sampling, rate, std::move(values));
 }
 
-/// Neighbouring runs of a list, one for each length.
+/// A list cut into consecutive lists of the given lengths.
 ordered_json write_runs(const std::vector<int>& lengths, const std::vector<int>& values) {
     ordered_json out = ordered_json::array();
     auto begin = values.begin();
@@ -47,7 +47,7 @@ ordered_json write_points(const PointCache& cache, const FrameRate& rate) {
 
 ordered_json write_shape(const Shape& shape) {
     const Shape absent;
-    const auto kind = static_cast<std::size_t>(shape.kind);
+    const auto kind = index_of(shape.kind);
     const auto has = [&](const char* key) {
         return std::find(shape_keys[kind].begin(), shape_keys[kind].end(), key) != shape_keys[kind].end();
     };

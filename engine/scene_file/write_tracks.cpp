@@ -15,10 +15,6 @@ namespace {
 
 using nlohmann::ordered_json;
 
-double seconds_per_frame(const FrameRate& rate) {
-    return static_cast<double>(rate.denominator) / static_cast<double>(rate.numerator);
-}
-
 /// The whole frame that the reader turns into exactly these seconds; nothing if there is none.
 std::optional<std::int64_t> whole_frame(double seconds, const FrameRate& rate) {
     const double frame = std::round(seconds / seconds_per_frame(rate));

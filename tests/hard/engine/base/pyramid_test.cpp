@@ -1,4 +1,4 @@
-// HARD_CASES, section 4: pyramids, N(.) and saliency where the obvious code gives NaN, noise or one bright pixel.
+// Pyramids, N(.) and saliency of images for which simple code gives NaN, noise or one bright pixel.
 
 #include <gtest/gtest.h>
 
@@ -29,7 +29,7 @@ bool all_zero(const Image<float>& image) {
     return std::all_of(image.pixels.begin(), image.pixels.end(), [](float v) { return v == 0.0f; });
 }
 
-/// Nothing stands out: S = .82 everywhere, every conspicuity 0, v_R as (3.1) has it.
+/// No feature differs: S = .82 everywhere, every conspicuity 0, v_R as (3.1) has it.
 void expect_fallback(const PerceptionMaps& maps, const Image<float>& velocity) {
     EXPECT_TRUE(maps.fallback);
     EXPECT_TRUE(all_zero(maps.conspicuity_intensity));
@@ -98,7 +98,7 @@ TEST(PyramidHard, PY03_EverySizeRuns) {
                 ASSERT_TRUE(maps.aleph.pixels[i] >= 1.0f && maps.aleph.pixels[i] <= 250.8f) << width << "x" << height;
                 ASSERT_TRUE(maps.saliency.pixels[i] >= 0.0f && maps.saliency.pixels[i] <= 1.0f);
             }
-            // Nothing of other sizes is left behind in buffers.
+            // Buffers keep nothing of other sizes.
             EXPECT_EQ(compute_perception(frame.estimate, frame.velocity, {}, {}, {.grid = grid}).aleph, maps.aleph);
         }
     }

@@ -1,4 +1,4 @@
-// HARD_CASES, section 8: what can go wrong on the way to the disk.
+// Output: values, names and disk errors that damage image files.
 
 #include <OpenEXR/ImfChannelList.h>
 #include <OpenEXR/ImfHeader.h>
@@ -118,7 +118,7 @@ TEST(Output, OU04_EightBitGoldenBytes) {
     }
 }
 
-/// No file may grow beyond `bytes` while this lives: the nearest thing to a full disk that any user can have.
+/// Limits the size of all files during its lifetime: a full disk without a disk.
 class FileSizeLimit {
   public:
     explicit FileSizeLimit(rlim_t bytes) {
@@ -183,7 +183,7 @@ TEST(Output, OU05_AnyFailureInsideRemovesTheTemporary) {
                                       throw std::runtime_error("stop");
                                   }),
                  std::runtime_error);
-    // A writer that writes nothing, and says nothing, is a failure too.
+    // A writer that writes nothing, without an error, is a failure too.
     EXPECT_THROW(write_atomically(folder / "a.txt", [](const fs::path&) {}), OutputError);
     EXPECT_EQ(entries_in(folder.path()), 0u);
 }
@@ -213,7 +213,7 @@ TEST(Output, OU06_ReadOnlyFolderAndFile) {
     ::chmod((folder / "kept.exr").c_str(), 0444);
     ::chmod((folder / "sealed").c_str(), 0555);
     const uid_t user = ::geteuid();
-    ASSERT_EQ(::seteuid(user == 0 ? 65534 : user), 0);  // root may write anywhere: be nobody for a while
+    ASSERT_EQ(::seteuid(user == 0 ? 65534 : user), 0);  // root may write anywhere: another user is needed
     const std::string in_sealed = output_error([&] { write_file(folder / "sealed/new.exr", "new"); });
     const std::string over_kept = output_error([&] { write_file(folder / "kept.exr", "new"); });
     ASSERT_EQ(::seteuid(user), 0);
@@ -237,7 +237,7 @@ TEST(Output, OU06_ExistingFileIsReplacedAndLinksAreFollowed) {
 
 constexpr std::size_t big = std::size_t{16} << 20;
 
-/// Not a test: what the next one runs and kills.
+/// Not a test: the program that the next test runs and kills.
 TEST(Output, DISABLED_WriteForever) {
     const char* target = std::getenv("ALEPH_TEST_TARGET");
     ASSERT_NE(target, nullptr);

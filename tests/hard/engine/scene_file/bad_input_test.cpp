@@ -1,4 +1,4 @@
-// Broken scene files: each is refused as a whole, naming the file, the place in it and the reason.
+// Broken scene files: each is refused with the file, the place in it and the reason.
 
 #include <gtest/gtest.h>
 
@@ -55,7 +55,7 @@ TEST(BadSceneFile, Limits) {
             {"shape": {"type": "sphere", "segments": 4096}}])",
               "/nodes/1/shape", "lower \"segments\""),
     });
-    // Memory that nobody touches: the size is looked at before the text.
+    // The memory is never touched: the size is checked before the text.
     constexpr std::size_t too_large = (std::size_t{64} << 20) + 1;
     const std::unique_ptr<char, void (*)(void*)> text(static_cast<char*>(std::calloc(too_large, 1)), std::free);
     EXPECT_THROW(read_scene_text({text.get(), too_large}, "broken.json"), InputError);
@@ -120,7 +120,7 @@ TEST(BadSceneFile, Settings) {
     });
 }
 
-// Every place for a number, given what is no number that we can use.
+// Every place for a number, with values that are not finite numbers up to 1e18.
 TEST(BadSceneFile, InfinityAnywhere) {
     const std::string file = R"({"aleph": 1, "exposure": @, "viewing": {"pixels_per_degree": @, "display_white": @},
         "environment": [@, @, @], "materials": {"m": {"base_color": [@, 0, 0], "alpha": @, "metallic": @, "roughness": @,

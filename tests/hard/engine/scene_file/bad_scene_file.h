@@ -1,5 +1,5 @@
 #pragma once
-// Broken scene files as short texts, and what has to be said of each.
+// Broken scene files as short texts, with the expected place and reason of the error.
 
 #include <gtest/gtest.h>
 

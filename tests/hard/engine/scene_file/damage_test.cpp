@@ -1,4 +1,4 @@
-// Randomly damaged scene files: refused with an InputError or read, nothing else; what was read can be saved again.
+// Randomly damaged scene files: each is refused with an InputError or read; a scene that was read can be saved.
 
 #include <gtest/gtest.h>
 

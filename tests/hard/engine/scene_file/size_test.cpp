@@ -1,4 +1,4 @@
-// Hostile scene files as large as they may be: each ends in 2 s and 512 MiB (release builds), read or refused.
+// Hostile scene files of the largest size that is parsed: each is read or refused in 2 s and 512 MiB (release builds).
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -15,7 +15,7 @@
 namespace aleph {
 namespace {
 
-/// Makes the text and reads it; the peak counts both, the time reading alone.
+/// Makes the text and reads it. The peak is of both, the time of reading only.
 ChildCost read_in_child(const std::function<std::string()>& make) {
     std::string text;
     return run_in_child([&] { read_scene_text(text, "hostile.json"); }, [&] { text = make(); });
@@ -67,7 +67,7 @@ TEST(HostileSceneFile, EndsInTwoSecondsAndHalfAGibibyte) {
          ",[1,0],[2,1]", "]}}]}"},
     };
     for (const Hostile& file : files) {
-        // The largest that is parsed at all: below that, more text costs more.
+        // The largest text that is parsed: the costliest one.
         std::size_t bytes = LoadLimits{}.text();
         const std::string sample = repeated(file.head, file.piece, file.tail, std::size_t{1} << 20);
         const double per_byte =

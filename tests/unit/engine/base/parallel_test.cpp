@@ -1,4 +1,4 @@
-// parallel_for visits everything once, in the chunks it promises, and passes exceptions on.
+// parallel_for visits every index once, in fixed chunks, and passes exceptions on.
 
 #include "engine/base/parallel.h"
 

@@ -1,4 +1,4 @@
-// Known answers of engine/base/sampling.h.
+// Random numbers and sampling functions against known values.
 
 #include "engine/base/sampling.h"
 

@@ -1,4 +1,4 @@
-// What image_io writes comes back; what it should refuse, it refuses.
+// Image files that are written and read again, and files that are refused.
 
 #include "engine/image/image_file.h"
 
@@ -285,7 +285,7 @@ TEST(ImageIo, BrokenColourProfileInAJpegIsNeverParsed) {
     const ScratchFolder folder;
     const auto clean = flat_jpeg(folder);
     // A profile of 200 bytes with one tag: a text of 3 bytes, shorter than the 8 of its own head. OpenImageIO 2.4.7
-    // ends with a segmentation fault where this reaches it.
+    // crashes when it decodes this.
     std::vector<std::uint8_t> profile(200, 0);
     const auto put = [&](std::size_t at, const std::string& text) {
         std::copy(text.begin(), text.end(), &profile[at]);

@@ -1,4 +1,5 @@
-// Meshes, points over time and subdivision cages in scene files: what the keys mean, and that every bit comes back.
+// Meshes, points over time and subdivision cages in scene files: the meaning of the keys, and every bit after writing
+// and reading.
 
 #include <gtest/gtest.h>
 
@@ -173,13 +174,13 @@ TEST(SceneJsonMeshes, FloatsOfEveryKindComeBack) {
     scene.meshes.push_back(mesh);
     const std::string text = write_scene_text(scene, "test.json");
     EXPECT_TRUE(read_scene_text(text, "test.json").scene == scene);
-    std::size_t lines = 0, longest = 0, last = 0;
+    std::size_t lines = 0, max_length = 0, last = 0;
     for (std::size_t end = text.find('\n'); end != std::string::npos; end = text.find('\n', end + 1)) {
-        longest = std::max(longest, end - last);
+        max_length = std::max(max_length, end - last);
         last = end + 1;
         ++lines;
     }
-    EXPECT_LE(longest, 112u);
+    EXPECT_LE(max_length, 112u);
     EXPECT_LT(lines, text.size() / 90) << "long lists fill their lines";
 }
 

@@ -1,4 +1,4 @@
-// The scene file: what every key means, and that writing and reading give back every bit.
+// The scene file: the meaning of every key, and every bit after writing and reading.
 
 #include "engine/scene_file/scene_text.h"
 

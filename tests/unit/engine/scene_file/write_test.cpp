@@ -1,4 +1,4 @@
-// Writing a scene file and reading it again gives back every bit; what the file cannot say is refused.
+// A scene file that is written and read gives back every bit; what the format cannot hold is refused.
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -267,7 +267,7 @@ TEST(SceneJsonWrite, KF24_ChainOfAHundredThousandNodes) {
     EXPECT_TRUE(again(scene) == scene);
 }
 
-// An object of ordered_json looks for a key one by one: a table of names must not be filled that way.
+// ordered_json looks for a key by linear search: filling an object by key would take quadratic time.
 TEST(SceneJsonWrite, ManyNamesCostNoMoreThanTheyShould) {
     Scene scene;
     for (int i = 0; i < 30000; ++i) {
@@ -288,7 +288,7 @@ TEST(SceneJsonWrite, DT09_CommaLocaleChangesNothing) {
     EXPECT_EQ(std::string(std::localeconv()->decimal_point), ",") << "the caller's locale has to stay";
 }
 
-/// A scene that can be saved, for tests to spoil.
+/// A scene that can be saved; tests change it.
 Scene make_good_scene() {
     return read_scene_text(
                R"({"aleph": 1, "nodes": [{"name": "a", "shape": {"type": "box"}, "material": {}, "light": {"type": "point"}},
