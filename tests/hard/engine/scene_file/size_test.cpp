@@ -63,6 +63,7 @@ TEST(HostileSceneFile, EndsInTwoSecondsAndHalfAGibibyte) {
         {"comments", "\"nodes\": [/*", "\"[,:", "*/]}"},
         {"cuts", "\"cuts\": [0", ",0", "]}"},
         {"lists", "\"nodes\": [[]", ",[]", "]}"},
+        {"wrong keys", "\"nodes\": [{\"scale\": {\"keys\": [[]", ",[]", "]}}]}"},
         {"profile", "\"nodes\": [{\"shape\": {\"type\": \"lathe\", \"segments\": 4096, \"profile\": [[0,0]",
          ",[1,0],[2,1]", "]}}]}"},
     };
