@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/json/load_limits.h"
 #include "engine/scene/scene.h"
 #include "render/settings.h"
 
@@ -42,6 +43,7 @@ struct MissingFile {
 
 /// Looks through a scene file or glTF, and through the glTF files it includes, for named files that are not there;
 /// loading stops at the first. What cannot be read is left out: loading says why.
-std::vector<MissingFile> list_missing_files(const std::filesystem::path& path);
+/// @param limits  those of the loading that failed: a file that is refused for its size is not parsed here either
+std::vector<MissingFile> list_missing_files(const std::filesystem::path& path, const LoadLimits& limits = {});
 
 }  // namespace aleph

@@ -27,7 +27,7 @@ Scene load_or_list_missing(const std::string& file, const LoadLimits& limits) {
     try {
         return load_scene(file, limits);
     } catch (const InputError&) {
-        const std::vector<MissingFile> missing = list_missing_files(file);
+        const std::vector<MissingFile> missing = list_missing_files(file, limits);
         for (const MissingFile& item : missing) {
             std::cerr << fmt::format("aleph: missing: {} {} names {}\n", printable(item.file, 300),
                                      printable(item.place), printable(item.path, 300));
