@@ -111,7 +111,7 @@ std::vector<std::uint32_t> GltfAccessors::read_sparse_indices(int accessor, cons
 template <class Store>
 void GltfAccessors::for_each_value(int index, const Store& store) {
     const tinygltf::Accessor& accessor = source_.model.accessors[index];
-    const auto components = static_cast<std::size_t>(this->components(index));
+    const std::size_t components = this->components(index);
     const auto read = [&](const Layout& layout, const auto& element_of) {
         with_component_type(accessor.componentType, [&]<class C>(C) {
             for_each_component<C>(layout,
@@ -134,18 +134,18 @@ void GltfAccessors::for_each_value(int index, const Store& store) {
 }
 
 template <class T>
-std::vector<T> GltfAccessors::read(int index) {
+std::vector<T> GltfAccessors::read(int index, double max_value) {
     const tinygltf::Accessor& accessor = source_.model.accessors[index];
-    const auto components = static_cast<std::size_t>(this->components(index));
+    const std::size_t components = this->components(index);
     const std::string place = fmt::format("/accessors/{}", index);
     charge(accessor.count * components * sizeof(T), place);
     std::vector<T> values(accessor.count * components);
     for_each_value(index, [&]<class C>(std::size_t element, std::size_t component, C value) {
         if constexpr (std::is_same_v<C, float>) {
-            if (!std::isfinite(value) || std::abs(value) > static_cast<float>(max_json_number)) {
+            if (!std::isfinite(value) || std::abs(value) > static_cast<float>(max_value)) {
                 throw InputError(
                     source_.file, place,
-                    fmt::format("element {} is {}: must be finite and within +-{}", element, value, max_json_number));
+                    fmt::format("element {} is {}: must be finite and within +-{}", element, value, max_value));
             }
             values[element * components + component] = static_cast<T>(value);
         } else {
@@ -155,12 +155,12 @@ std::vector<T> GltfAccessors::read(int index) {
     return values;
 }
 
-template std::vector<float> GltfAccessors::read<float>(int);
-template std::vector<double> GltfAccessors::read<double>(int);
+template std::vector<float> GltfAccessors::read<float>(int, double);
+template std::vector<double> GltfAccessors::read<double>(int, double);
 
 std::vector<std::uint32_t> GltfAccessors::read_indices(int index, std::size_t limit, const char* kind) {
     const tinygltf::Accessor& accessor = source_.model.accessors[index];
-    const auto components = static_cast<std::size_t>(this->components(index));
+    const std::size_t components = this->components(index);
     const std::string place = fmt::format("/accessors/{}", index);
     charge(accessor.count * components * sizeof(std::uint32_t), place);
     std::vector<std::uint32_t> indices(accessor.count * components);
@@ -181,9 +181,9 @@ std::size_t GltfAccessors::count(int accessor) const {
     return source_.model.accessors[accessor].count;
 }
 
-int GltfAccessors::components(int accessor) const {
+std::size_t GltfAccessors::components(int accessor) const {
     const int type = source_.model.accessors[accessor].type;
-    return tinygltf::GetNumComponentsInType(static_cast<std::uint32_t>(type));
+    return static_cast<std::size_t>(tinygltf::GetNumComponentsInType(static_cast<std::uint32_t>(type)));
 }
 
 bool GltfAccessors::is_float(int accessor) const {

@@ -12,7 +12,7 @@ namespace aleph {
 
 namespace {
 
-/// A channel that moves something: where its keys are, and what they move.
+/// A channel: where its keys are, and which property they move.
 struct Channel {
     const tinygltf::AnimationSampler& sampler;
     GltfPointer target;
@@ -149,7 +149,7 @@ void read_channel(GltfReader& reader, const Channel& channel) {
     }
 }
 
-/// What a validated channel moves; nothing for one that is left out.
+/// The property that a validated channel moves; nothing for a channel that is left out.
 std::optional<GltfPointer> find_target(const nlohmann::json& target) {
     if (const auto node = target.find("node"); node != target.end()) {
         return find_node_property(node->get<std::size_t>(), target["path"].get_ref<const std::string&>());
@@ -171,7 +171,8 @@ bool moves_nothing(const nlohmann::json& target) {
 }  // namespace
 
 void read_animations(GltfReader& reader) {
-    // Animations play together. Two that move one property were meant to be played one at a time: the first one does.
+    // All animations play together. Where two move one property they were made to play one at a time: only the first
+    // does.
     std::map<std::string, std::size_t> moved_by;
     const std::vector<tinygltf::Animation>& animations = reader.source.model.animations;
     for (std::size_t i = 0; i < animations.size(); ++i) {

@@ -14,7 +14,7 @@ Camera read_camera(const tinygltf::Camera& source, std::size_t index) {
     Camera camera;
     camera.name = source.name.empty() ? fmt::format("camera{}", index) : source.name;
     camera.orthographic = source.type == "orthographic";
-    // znear and zfar only serve depth buffers: nothing is clipped here, so near_plane keeps its default.
+    // znear and zfar are for depth buffers. Nothing is clipped here, so near_plane keeps its default.
     if (camera.orthographic) {
         camera.half_height = source.orthographic.ymag;
     } else {
@@ -46,7 +46,7 @@ Light read_light(GltfReader& reader, const tinygltf::Light& source, std::size_t 
     if (light.kind == Light::Kind::spot) {
         const nlohmann::json& spot =
             reader.source.document["extensions"]["KHR_lights_punctual"]["lights"][index]["spot"];
-        constexpr double quarter_turn = std::numbers::pi / 2.0;  // which a float may exceed by a little
+        constexpr double quarter_turn = std::numbers::pi / 2.0;  // a float may exceed it by rounding
         light.inner_cone = spot.value("innerConeAngle", 0.0);
         light.outer_cone = std::min(spot.value("outerConeAngle", std::numbers::pi / 4.0), quarter_turn);
     }

@@ -20,8 +20,7 @@ constexpr std::uint32_t binary_chunk = 0x004e4942;  // "BIN\0"
 /// Little-endian, from an offset that was checked.
 std::uint32_t read_u32(std::string_view bytes, std::size_t offset) {
     std::uint32_t value = 0;
-    for (int i = 3; i >= 0; --i)
-        value = value << 8 | static_cast<std::uint8_t>(bytes[offset + static_cast<std::size_t>(i)]);
+    for (int i = 3; i >= 0; --i) value = value << 8 | static_cast<std::uint8_t>(bytes[offset + i]);
     return value;
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-// The binary container of glTF files, and what a URI may refer to.
+// The binary container of glTF files (.glb), and the files and data that URIs name.
 
 #include <cstdint>
 #include <filesystem>
@@ -17,7 +17,7 @@ struct GltfChunks {
     std::string_view binary;  ///< the BIN chunk
 };
 
-/// Splits by the file's first bytes, not by its name. A container's version, length and chunk table are checked.
+/// Tells text and container apart by the first bytes, not by the name. Checks version, length and chunk table.
 /// @throws InputError
 GltfChunks split_gltf(const Bytes& bytes, const std::string& file);
 
@@ -32,11 +32,11 @@ struct DataUri {
 /// Decodes a base64 data URI. @throws InputError
 DataUri decode_data_uri(std::string_view uri, const std::string& file, const std::string& place);
 
-/// "%20" and the like become bytes. @throws InputError for a broken escape
+/// Replaces escapes such as "%20" by their bytes. @throws InputError for a broken escape
 std::string percent_decode(std::string_view uri, const std::string& file, const std::string& place);
 
-/// The file that a relative URI means. Refused: absolute paths, schemes, backslashes, control characters, and whatever
-/// leaves `folder` once "..", and symbolic links are resolved.
+/// The file that a relative URI names. Absolute paths, schemes, backslashes and control characters are refused, and so
+/// are paths that lead out of `folder` after ".." and symbolic links are resolved.
 /// @throws InputError
 std::filesystem::path resolve_file_uri(std::string_view uri, const std::filesystem::path& folder,
                                        const std::string& file, const std::string& place);

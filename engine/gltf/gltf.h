@@ -1,5 +1,5 @@
 #pragma once
-// Reader of glTF 2.0 files (.gltf, .glb), through a validator of our own and tinygltf.
+// Reader of glTF 2.0 files (.gltf, .glb). Files are checked by engine/gltf/validate before tinygltf parses them.
 
 #include <filesystem>
 
@@ -12,7 +12,7 @@ namespace aleph {
 /// morph targets or a skin once for each node), skins, materials, images, lights, cameras and warnings to a scene.
 /// All animations of the file apply at once; where two of them move the same property the first one does, and a
 /// warning names what is left out. Times are seconds.
-/// Either everything is appended or the scene stays as it was.
+/// The scene does not change where an error is thrown.
 /// @param parent_node    node under which the file's roots hang, or no_index to append them as roots
 /// @param include_index  becomes `include` of every element that is appended
 /// @throws InputError naming file, place ("node 3", "accessor 7", a JSON pointer) and the rule that is broken, or the

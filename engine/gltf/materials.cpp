@@ -11,7 +11,7 @@ namespace aleph {
 
 namespace {
 
-/// Most bytes of decoded pixels in one file.
+/// Bytes of decoded pixels in one file.
 constexpr std::uint64_t max_pixel_bytes = std::uint64_t{2} << 30;
 
 SceneImage read_image(const GltfReader& reader, std::size_t index) {
@@ -45,7 +45,7 @@ Wrap wrap_of(int mode) {
     }
 }
 
-/// Reads materials and, of the images, those that some used texture shows.
+/// Reads materials, and the images that their textures use.
 class MaterialReader {
   public:
     explicit MaterialReader(GltfReader& reader)
@@ -67,7 +67,7 @@ class MaterialReader {
     const tinygltf::Model& model_;
     std::vector<int> image_of_;  ///< glTF image -> scene image, no_index until needed
     std::uint64_t pixel_bytes_ = 0;
-    std::string place_;  ///< of the material at hand
+    std::string place_;  ///< of the material that is read
 };
 
 TextureRef MaterialReader::texture(int index, int uv_set) {

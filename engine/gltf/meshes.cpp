@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <glm/geometric.hpp>
+#include <limits>
 #include <numeric>
 
 #include "engine/base/errors.h"
@@ -12,9 +13,9 @@ namespace aleph {
 namespace {
 
 template <class V>
-std::vector<V> to_vectors(GltfReader& reader, int accessor) {
-    const std::vector<float> values = reader.accessors.read<float>(accessor);
-    const auto components = static_cast<std::size_t>(reader.accessors.components(accessor));
+std::vector<V> to_vectors(GltfReader& reader, int accessor, double max_value = max_json_number) {
+    const std::vector<float> values = reader.accessors.read<float>(accessor, max_value);
+    const std::size_t components = reader.accessors.components(accessor);
     const std::size_t used = std::min<std::size_t>(components, V::length());
     std::vector<V> vectors(values.size() / components, V(1.0f));  // a colour without alpha has alpha 1
     for (std::size_t i = 0; i < vectors.size(); ++i) {
@@ -24,10 +25,11 @@ std::vector<V> to_vectors(GltfReader& reader, int accessor) {
 }
 
 template <class V>
-std::vector<V> read_vectors(GltfReader& reader, const tinygltf::Primitive& primitive, const std::string& attribute) {
+std::vector<V> read_vectors(GltfReader& reader, const tinygltf::Primitive& primitive, const std::string& attribute,
+                            double max_value = max_json_number) {
     const auto found = primitive.attributes.find(attribute);
     if (found == primitive.attributes.end()) return {};
-    return to_vectors<V>(reader, found->second);
+    return to_vectors<V>(reader, found->second, max_value);
 }
 
 int triangle_mode(const tinygltf::Primitive& primitive) {
@@ -62,7 +64,7 @@ void read_triangles(GltfReader& reader, const GltfMeshUse& use, int mode, const 
         const std::size_t odd = is_fan ? 0 : i % 2;
         const glm::uvec3 corners = is_fan ? glm::uvec3(indices[i + 1], indices[i + 2], indices[0])
                                           : glm::uvec3(indices[i], indices[i + 1 + odd], indices[i + 2 - odd]);
-        // Strips repeat vertices to jump: such triangles are nothing.
+        // Strips repeat vertices to start anew: such triangles have no area.
         if (corners.x == corners.y || corners.y == corners.z || corners.z == corners.x) continue;
         mesh.triangles.push_back(corners);
     }
@@ -74,8 +76,10 @@ Mesh read_primitive(GltfReader& reader, const GltfMeshUse& use, const tinygltf::
     mesh.material = primitive.material;
     mesh.positions = read_vectors<glm::vec3>(reader, primitive, "POSITION");
     mesh.normals = read_vectors<glm::vec3>(reader, primitive, "NORMAL");
-    mesh.uv[0] = read_vectors<glm::vec2>(reader, primitive, "TEXCOORD_0");
-    mesh.uv[1] = read_vectors<glm::vec2>(reader, primitive, "TEXCOORD_1");
+    // Texture coordinates have no place in the world: any finite ones will do.
+    constexpr double any = std::numeric_limits<float>::max();
+    mesh.uv[0] = read_vectors<glm::vec2>(reader, primitive, "TEXCOORD_0", any);
+    mesh.uv[1] = read_vectors<glm::vec2>(reader, primitive, "TEXCOORD_1", any);
     mesh.colors = read_vectors<glm::vec4>(reader, primitive, "COLOR_0");
 
     const auto is_zero = [](const glm::vec3& normal) {
@@ -98,7 +102,7 @@ Mesh read_primitive(GltfReader& reader, const GltfMeshUse& use, const tinygltf::
     return mesh;
 }
 
-/// Bytes of a mesh's arrays; the names do not count.
+/// Bytes of a mesh's arrays, without its names.
 std::uint64_t byte_count(const Mesh& mesh) {
     const auto bytes = [](const auto& list) { return std::uint64_t{list.size()} * sizeof(list[0]); };
     std::uint64_t total = bytes(mesh.positions) + bytes(mesh.normals) + bytes(mesh.uv[0]) + bytes(mesh.uv[1]) +
@@ -171,11 +175,10 @@ std::vector<int> take_meshes(GltfReader& reader, std::size_t node_index) {
     const tinygltf::Node& node = reader.source.model.nodes[node_index];
     const nlohmann::json& raw = reader.source.document["nodes"][node_index];
     const auto skin = raw.find("skin");
-    const auto mesh_index = static_cast<std::size_t>(node.mesh);
-    const tinygltf::Mesh& source = reader.source.model.meshes[mesh_index];
+    const tinygltf::Mesh& source = reader.source.model.meshes[node.mesh];
     const std::vector<double>& weights = node.weights.empty() ? source.weights : node.weights;
     std::vector<int> taken;
-    for (const int original : reader.meshes_of[mesh_index]) {
+    for (const int original : reader.meshes_of[node.mesh]) {
         const GltfMeshUse use = reader.uses[original];
         const bool morphs = !reader.part.meshes[original].targets.empty();
         const bool deforms = morphs || skin != raw.end();

@@ -10,7 +10,7 @@ namespace aleph {
 
 namespace {
 
-/// Most (node, mesh) pairs: a small file can multiply many nodes by many primitives.
+/// (node, mesh) pairs in one file: a small file can multiply many nodes by many primitives.
 constexpr std::size_t max_instances = 10'000'000;
 
 /// The default scene's roots; without scenes, every node that has no parent.

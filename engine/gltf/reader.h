@@ -1,5 +1,5 @@
 #pragma once
-// The glTF reader's parts: each turns one kind of element into scene elements. Only this folder uses them.
+// The parts of the glTF reader: each reads one kind of element. Only this folder uses them.
 
 #include <string>
 #include <vector>
@@ -35,13 +35,15 @@ struct GltfReader {
     }
 };
 
-// In this order.
+// Called in this order: each needs what the ones before have read.
 void read_materials(GltfReader& reader);
 void read_meshes(GltfReader& reader);
 void read_cameras_and_lights(GltfReader& reader);
 void read_nodes(GltfReader& reader);
 void read_skins(GltfReader& reader);
 void read_animations(GltfReader& reader);
+/// Warns of a scene without a mesh, and of nodes that always shrink their meshes to a point.
+void warn_of_invisible_meshes(GltfReader& reader);
 
 /// The scene meshes that stand under a node: shared ones of a rigid mesh, the node's own of one that deforms.
 /// @param node  of the file
@@ -74,13 +76,14 @@ struct UnitRotation {
     }
 };
 
-/// How far from unit a rotation may be without a word: quantised ones are off by up to 7e-3 (HARD_CASES KF-06).
+/// How far from unit length a rotation may be without a warning: quantised ones are off by up to 7e-3.
 inline double rotation_tolerance(bool is_float) {
     return is_float ? 1e-3 : 1.6e-2;
 }
 
-/// From x, y, z, w at `values`; of any length but 0, which is refused (HARD_CASES KF-04, KF-05).
+/// From x, y, z, w at `values`, of any length but 0.
 /// @param place  names node and key in the error
+/// @throws InputError where all four are 0
 UnitRotation read_rotation(const GltfReader& reader, const double* values, const std::string& place);
 
 }  // namespace aleph

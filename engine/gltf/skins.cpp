@@ -1,4 +1,4 @@
-// glTF reader: what deforms meshes: morph targets, skins and their joints.
+// glTF reader: morph targets, skins and their joints.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -17,7 +17,7 @@ const nlohmann::json& attributes_of(const GltfReader& reader, const GltfMeshUse&
     return reader.source.document["meshes"][use.mesh]["primitives"][use.primitive]["attributes"];
 }
 
-/// Most files round weights; beyond this the sum is worth a word.
+/// Files round weights: a sum within this of 1 needs no warning.
 constexpr double weight_sum_tolerance = 1e-2;
 
 /// One vertex's weights to a sum of 1. @return whether they were near it before
@@ -29,7 +29,7 @@ bool normalize_weights(JointWeight* weights, int count) {
             weights[i].weight = static_cast<float>(static_cast<double>(weights[i].weight) / sum);
         }
     } else {
-        weights[0].weight = 1.0f;  // carried by no joint, it would fall to the origin
+        weights[0].weight = 1.0f;  // without a joint the vertex would move to the origin
     }
     return std::abs(sum - 1.0) <= weight_sum_tolerance;
 }
@@ -50,7 +50,7 @@ std::vector<glm::dmat4> read_inverse_binds(GltfReader& reader, const nlohmann::j
     if (accessor == raw.end()) return matrices;
     const std::vector<double> values = reader.accessors.read<double>(accessor->get<int>());
     for (std::size_t i = 0; i < joints; ++i) {
-        for (int k = 0; k < 16; ++k) matrices[i][k / 4][k % 4] = values[16 * i + static_cast<std::size_t>(k)];
+        for (int k = 0; k < 16; ++k) matrices[i][k / 4][k % 4] = values[16 * i + k];
         for (int column = 0; column < 4; ++column) {
             const double wanted = column == 3 ? 1.0 : 0.0;
             if (matrices[i][column].w != wanted) {

@@ -50,7 +50,7 @@ bool is_image_type(std::string_view type) {
     return type == "image/png" || type == "image/jpeg";
 }
 
-/// Every image must be there and be reachable, used or not, so that the verdict does not depend on materials.
+/// Checks that an image is there, also where no material uses it: whether a file loads does not depend on materials.
 void locate_image(const GltfSource& source, std::size_t i) {
     const nlohmann::json& image = source.document["images"][i];
     if (!image.contains("uri")) return;
@@ -71,8 +71,8 @@ void locate_image(const GltfSource& source, std::size_t i) {
     }
 }
 
-/// The document without what tinygltf would open or decode, or what it chokes on: sparse values, indices without a
-/// buffer view, channels without a node. Those are read from the document itself.
+/// The document without what tinygltf would open or decode, and without what it refuses though it is valid: sparse
+/// values, indices without a buffer view, channels without a node. Those are read from the document itself.
 nlohmann::json make_parser_input(const GltfSource& source) {
     nlohmann::json input = nlohmann::json::object();
     for (const auto& [key, value] : source.document.items()) {
@@ -95,7 +95,7 @@ nlohmann::json make_parser_input(const GltfSource& source) {
 void parse_model(GltfSource& source) {
     const std::string text = make_parser_input(source).dump();
     tinygltf::TinyGLTF parser;
-    parser.SetFsCallbacks({});  // it has nothing to open
+    parser.SetFsCallbacks({});  // there is no file to open
     parser.RemoveImageLoader();
     std::string error, warning;
     bool parsed = false;
@@ -105,7 +105,7 @@ void parse_model(GltfSource& source) {
     } catch (const std::exception& exception) {
         error += exception.what();
     }
-    // It may return true with an error text, having dropped the element.
+    // tinygltf may return true with an error text: it has left an element out.
     if (!parsed || !error.empty()) throw InputError(source.file, "", "not valid glTF: " + printable(error, 300));
 }
 

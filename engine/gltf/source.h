@@ -15,7 +15,7 @@ namespace aleph {
 
 struct GltfSource {
     std::string file;              ///< what messages call it
-    std::filesystem::path folder;  ///< no URI leads out of it
+    std::filesystem::path folder;  ///< URIs may only name files below it
     nlohmann::json document;     ///< validated; extensions are read from here: tinygltf cuts their integers to 31 bits
     tinygltf::Model model;       ///< without buffers, images, skins, indices, channels, sparse values
     std::vector<Bytes> buffers;  ///< exactly byteLength each

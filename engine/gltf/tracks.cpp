@@ -30,7 +30,8 @@ std::vector<double> read_times(GltfReader& reader, int accessor, const std::stri
     return times;
 }
 
-/// Interpolation goes the short way, so a turn of 270 degrees between two keys becomes one of -90 (HARD_CASES RP-08).
+/// Warns of the first two keys more than 170 degrees apart. Interpolation goes the short way, so a turn of 270 degrees
+/// between two keys becomes one of -90.
 void warn_of_large_steps(GltfReader& reader, const Track<glm::dquat>& track, const std::string& node) {
     for (std::size_t i = 1; i < track.values.size(); ++i) {
         const glm::dquat& a = track.values[i - 1];
@@ -52,7 +53,7 @@ GltfKeys read_keys(GltfReader& reader, const tinygltf::AnimationSampler& sampler
     GltfKeys keys;
     keys.times = read_times(reader, sampler.input, place);
     keys.values = reader.accessors.read<double>(sampler.output);
-    keys.row = row > 0 ? row : static_cast<std::size_t>(reader.accessors.components(sampler.output));
+    keys.row = row > 0 ? row : reader.accessors.components(sampler.output);
     keys.is_float = reader.accessors.is_float(sampler.output);
     if (sampler.interpolation == "STEP") keys.interpolation = Interpolation::step;
     if (sampler.interpolation == "CUBICSPLINE") keys.interpolation = Interpolation::cubic;

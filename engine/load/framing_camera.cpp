@@ -14,9 +14,9 @@ namespace aleph {
 
 namespace {
 
-constexpr std::int64_t most_frames = 16;
+constexpr std::int64_t max_frames = 16;
 
-/// Of all visible meshes, at frames spread over the range with both ends.
+/// Bounds of all visible meshes at up to max_frames frames, spread over the range, both ends included.
 Bounds scene_bounds(const Scene& scene) {
     std::vector<Bounds> meshes(scene.meshes.size());
     for (std::size_t i = 0; i < meshes.size(); ++i) {
@@ -24,7 +24,7 @@ Bounds scene_bounds(const Scene& scene) {
     }
     Bounds bounds;
     const FrameRange range = frame_range(scene);
-    const std::int64_t steps = std::min(most_frames, range.last - range.first + 1);
+    const std::int64_t steps = std::min(max_frames, range.last - range.first + 1);
     for (std::int64_t step = 0; step < steps; ++step) {
         const std::int64_t frame =
             range.first + (steps == 1 ? 0
@@ -33,7 +33,7 @@ Bounds scene_bounds(const Scene& scene) {
         const ScenePose now = pose(scene, scene.frame_rate.seconds_of(frame));
         for (std::size_t i = 0; i < now.instances.size(); ++i) {
             if (now.shown[i] == 0) continue;
-            const auto m = static_cast<std::size_t>(now.instances[i].mesh);
+            const int m = now.instances[i].mesh;
             const glm::dmat4& world = now.world[now.instances[i].node];
             if (now.meshes[m].positions.empty()) {
                 if (!meshes[m].empty()) meshes[m].add_corners_to(bounds, world);

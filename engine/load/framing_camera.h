@@ -5,9 +5,9 @@
 
 namespace aleph {
 
-/// Adds a camera, on a node of its own, that sees everything visible at up to 16 frames of the scene's range: 45
-/// degrees, on the +z side and a little above. Camera and node come first, as a scene's own elements do, so other
-/// numbers grow by one. Says so in the scene's warnings.
+/// Adds a camera on a node of its own, and a warning. The camera sees everything that is visible at up to 16 frames of
+/// the scene's range, from the +z side and a little above, with a field of view of 45 degrees. Camera and node become
+/// the first of their lists, as elements of the scene come before those of includes: other indices grow by one.
 void add_framing_camera(Scene& scene);
 
 }  // namespace aleph

@@ -14,7 +14,9 @@
 #include "engine/image/image_file.h"
 #include "engine/json/json_ref.h"
 #include "engine/json/text.h"
+#include "engine/load/camera_check.h"
 #include "engine/load/framing_camera.h"
+#include "engine/load/mesh_warnings.h"
 #include "engine/load/warnings.h"
 #include "engine/pose/pose.h"
 #include "engine/scene_file/scene_text.h"
@@ -32,13 +34,12 @@ std::string extension_of(const fs::path& path) {
     return extension;
 }
 
-/// @param accepted  what the place takes, for the message
+/// @param accepted  the kinds of file that are allowed there, for the message
 void check_asset_name(const fs::path& path, const std::string& file, const std::string& place, const char* accepted) {
     const std::string extension = extension_of(path);
     if (extension == ".gltf" || extension == ".glb" || extension == ".abc") return;
-    throw InputError(
-        file, place,
-        fmt::format("\"{}\" is no kind of file that is read here; expected {}", printable(extension), accepted));
+    throw InputError(file, place,
+                     fmt::format("files of the kind \"{}\" are not read; expected {}", printable(extension), accepted));
 }
 
 void check_regular_file(const fs::path& path, const std::string& file, const std::string& place) {
@@ -113,11 +114,11 @@ Scene load_scene_file(const fs::path& path, const std::string& file, const LoadL
     return std::move(scene);
 }
 
-/// An archive says at what rate it was sampled, and its range is what it holds, still parts at both ends included.
+/// Frame rate and range of an Alembic archive. The range includes samples at both ends that do not change.
 void set_timing(const AlembicTiming& timing, Scene& scene) {
     if (timing.frame_rate) scene.frame_rate = *timing.frame_rate;
     if (!timing.first) return;
-    Scene ends;  // two keys: frame_range knows how times become frames
+    Scene ends;  // a scene with two keys: frame_range turns their times into frames
     ends.frame_rate = scene.frame_rate;
     ends.nodes.emplace_back().visible.values = {1.0, 0.0};
     ends.nodes.back().visible.sampling.kind = TimeSampling::Kind::acyclic;
@@ -139,7 +140,7 @@ Scene load_asset_file(const fs::path& path, const std::string& file, const LoadL
     return scene;
 }
 
-/// A path next to `from`, as it is called next to `to`.
+/// A path relative to the folder `from`, made relative to `to`.
 std::string move_path(const std::string& path, const fs::path& from, const fs::path& to) {
     return path.empty() ? path : (from / path).lexically_relative(to).generic_string();
 }
@@ -156,8 +157,10 @@ Scene load_scene(const std::filesystem::path& path, const LoadLimits& limits) {
     const std::string file = path.string();
     Scene scene =
         extension_of(path) == ".json" ? load_scene_file(path, file, limits) : load_asset_file(path, file, limits);
+    check_camera_axes(scene);
     add_rotation_warnings(scene);
     add_surface_warnings(scene);
+    add_mesh_warnings(scene);
     add_missing_light(scene);
     return scene;
 }
@@ -165,7 +168,7 @@ Scene load_scene(const std::filesystem::path& path, const LoadLimits& limits) {
 void save_scene(const Scene& scene, const std::filesystem::path& path) {
     const std::string file = path.string();
     if (extension_of(path) != ".json") {
-        throw InputError(file, "", "a scene file ends in .json: by that load_scene will know it");
+        throw InputError(file, "", "the name of a scene file must end in .json: load_scene tells files apart by it");
     }
     Scene own = without_includes(scene, file);
     if (!scene.file.empty()) {  // paths are relative to the file they stand in

@@ -1,5 +1,5 @@
 #pragma once
-// The door to scenes in files. Picks the reader by the file's ending; every reader fills the same Scene.
+// Loads and saves scenes. The ending of the file's name picks the reader; every reader fills the same Scene.
 
 #include <filesystem>
 
@@ -8,17 +8,17 @@
 
 namespace aleph {
 
-/// Reads a keyframed scene file (.json), a .gltf or .glb, or an .abc, includes and images with it. An .abc by itself
-/// brings its frame rate and range; included, the scene file's count.
-/// A glTF or Alembic archive without a camera gets one that frames its bounds over the whole range; a scene without
-/// light gets a constant white environment; both are said in Scene::warnings.
-/// @throws InputError with file, place and reason; nothing is half loaded
+/// Reads a scene file (.json), a .gltf or .glb, or an .abc, with its includes and images. An .abc that is loaded by
+/// itself sets frame rate and range; where it is included, those of the scene file are used.
+/// A glTF or Alembic file without a camera gets one that sees its bounds over the whole range, a scene without light
+/// gets a constant white environment. Scene::warnings tells of both, and of what is read and cannot be seen.
+/// @throws InputError with file, place and reason
 Scene load_scene(const std::filesystem::path& path, const LoadLimits& limits = {});
 
-/// Writes a keyframed scene file; load_scene gives back an equal scene, apart from `file` and `warnings` (of a light or
-/// a camera that was added to the first, say: the file holds them). Includes stay includes. In another folder than that
-/// of Scene::file the paths of includes and images change accordingly. The file appears whole or not at all.
-/// @throws InputError where the scene holds what the file format cannot say, OutputError if writing fails
+/// Writes a scene file (.json). load_scene then returns an equal scene, apart from `file` and `warnings`: a camera or a
+/// light that was added is written like the rest. Includes stay includes. In another folder than that of Scene::file
+/// the paths of includes and images change accordingly. The file is written completely or not at all.
+/// @throws InputError where the file format has no words for what the scene holds, OutputError if writing fails
 void save_scene(const Scene& scene, const std::filesystem::path& path);
 
 }  // namespace aleph

@@ -45,7 +45,7 @@ bool is_positive_somewhere(const Track<T>& track) {
 
 void add_rotation_warnings(Scene& scene) {
     for (const Node& node : scene.nodes) {
-        // Readers of other formats say it of theirs, with the place in the file.
+        // Other readers warn of their own nodes, with the place in the file.
         if (node.include == no_index && !node.matrix && !node.axis_rotation)
             add_rotation_warnings(node, scene.warnings);
     }
@@ -90,7 +90,7 @@ bool has_light(const Scene& scene) {
 }
 
 void add_missing_light(Scene& scene) {
-    if (has_light(scene) || scene.environment) return;  // a black environment was asked for
+    if (has_light(scene) || scene.environment) return;  // a black environment is a choice
     scene.environment = Track<glm::dvec3>(glm::dvec3(1.0));
     scene.warnings.push_back("there is no light: a constant white environment was added");
 }

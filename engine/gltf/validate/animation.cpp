@@ -11,7 +11,7 @@ namespace aleph {
 
 namespace {
 
-/// Properties that one animation moves already, as pointers.
+/// Pointers to the properties that an animation moves already.
 using Taken = std::set<std::string>;
 
 std::size_t owner_count(const GltfCheck& check, GltfOwner owner) {
@@ -28,7 +28,7 @@ std::size_t owner_count(const GltfCheck& check, GltfOwner owner) {
     return 0;
 }
 
-/// What KHR_animation_pointer leads to must be there.
+/// Refuses a KHR_animation_pointer whose element is missing or has no such property.
 void check_owner(const GltfCheck& check, const GltfPointer& pointer, const JsonRef& place) {
     const std::size_t count = owner_count(check, pointer.info->owner);
     const std::string text = pointer_text(pointer);
@@ -45,7 +45,7 @@ void check_owner(const GltfCheck& check, const GltfPointer& pointer, const JsonR
     }
 }
 
-/// What a channel moves; nothing where the channel is left out.
+/// The property that a channel moves; nothing where the channel is left out.
 std::optional<GltfPointer> check_target(GltfCheck& check, const JsonRef& target) {
     const JsonRef path = target.require("path");
     const std::string& name = path.string();

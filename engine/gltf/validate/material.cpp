@@ -5,6 +5,7 @@
 
 #include "engine/base/errors.h"
 #include "engine/gltf/validate/parts.h"
+#include "engine/gltf/validate/pointer.h"
 
 namespace aleph {
 
@@ -47,7 +48,7 @@ void check_material_extensions(const GltfCheck& check, const JsonRef& material) 
     }
 }
 
-/// Nothing is clipped here, but a file whose planes are the wrong way round means something else than it says.
+/// Nothing is clipped here, but planes the wrong way round show that the file is broken.
 void check_far_plane(const JsonRef& lens) {
     const std::optional<JsonRef> far = lens.find("zfar");
     const double near = lens.require("znear").number();
@@ -61,6 +62,9 @@ void check_camera(const JsonRef& camera) {
         const JsonRef lens = camera.require("perspective");
         const JsonRef yfov = lens.require("yfov");
         if (yfov.number_above(0.0) >= std::numbers::pi) yfov.fail("must be below pi");
+        if (yfov.number() < min_gltf_size) {
+            yfov.fail(fmt::format("must be at least {} radians, found {}", min_gltf_size, yfov.number()));
+        }
         lens.require("znear").number_above(0.0);
         check_far_plane(lens);
         if (const std::optional<JsonRef> aspect = lens.find("aspectRatio")) aspect->number_above(0.0);

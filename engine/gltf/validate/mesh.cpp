@@ -1,4 +1,4 @@
-// Validator: meshes: what accessors are used for.
+// Validator: meshes, and that their accessors fit their use.
 #include <fmt/format.h>
 
 #include "engine/base/errors.h"
@@ -8,7 +8,7 @@ namespace aleph {
 
 namespace {
 
-/// KHR_mesh_quantization allows small integers; without it only floats will do.
+/// KHR_mesh_quantization allows small integers; without it only floats are allowed.
 bool is_position(const GltfCheck& check, const AccessorInfo& info) {
     return is_float(info) || (check.is_quantized && info.component_type != type_u32);
 }

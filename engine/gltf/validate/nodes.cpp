@@ -33,7 +33,8 @@ void check_node(const GltfCheck& check, const JsonRef& node) {
     }
 }
 
-/// Every node under at most one parent and none above itself, without recursion: chains of 10^5 nodes are fine.
+/// Every node has at most one parent and none is above itself. Without recursion: chains of 10^5 nodes are fine.
+/// @return per node whether it has a parent
 std::vector<bool> check_graph(const GltfCheck& check) {
     std::vector<std::vector<std::size_t>> children(check.counts.nodes);
     std::vector<bool> has_parent(check.counts.nodes, false);
@@ -48,7 +49,7 @@ std::vector<bool> check_graph(const GltfCheck& check) {
             children[i].push_back(index);
         }
     });
-    // With one parent each, whatever cannot be reached from the roots lies on a cycle or below one.
+    // As each has one parent at most, a node that no root reaches lies on a cycle or below one.
     std::vector<bool> reached(check.counts.nodes, false);
     std::vector<std::size_t> open;
     for (std::size_t i = 0; i < check.counts.nodes; ++i) {

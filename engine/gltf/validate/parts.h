@@ -10,7 +10,7 @@
 
 namespace aleph {
 
-/// What later checks need to know about an accessor that was checked itself.
+/// What later checks need to know of an accessor.
 struct AccessorInfo {
     std::int64_t component_type = 0;
     std::string type;
@@ -21,7 +21,7 @@ struct AccessorInfo {
     bool aligned = true;  ///< every element starts at a multiple of 4 bytes, as vertex attributes must
 };
 
-/// How many elements of each kind the file has, so that any index can be checked at any time.
+/// How many elements of each kind the file has: what indices are checked against.
 struct GltfCounts {
     std::size_t buffers = 0, views = 0, accessors = 0, images = 0, samplers = 0, textures = 0, materials = 0,
                 meshes = 0, nodes = 0, cameras = 0, scenes = 0, skins = 0, lights = 0;
@@ -47,7 +47,7 @@ struct GltfCheck {
 inline constexpr std::int64_t type_i8 = 5120, type_u8 = 5121, type_i16 = 5122, type_u16 = 5123, type_u32 = 5125,
                               type_float = 5126;
 
-/// Largest count, offset or length: sizes made of them fit 64 bits by far (2^31 elements of at most 64 bytes).
+/// Of counts, offsets and lengths: sizes made of them fit 64 bits (2^31 elements of at most 64 bytes).
 inline constexpr std::int64_t max_gltf_count = 0x7fffffff;
 
 inline bool is_float(const AccessorInfo& info) {
@@ -85,7 +85,7 @@ class ExtensionRef {
 /// Optional "weights" of a mesh or a node: one number for each morph target.
 void check_weights(const JsonRef& owner, std::size_t target_count);
 
-// In this order; each relies on the ones before.
+// Called in this order: each relies on the ones before.
 void check_extensions(GltfCheck& check);
 void check_buffers(GltfCheck& check);
 void check_accessors(GltfCheck& check);

@@ -11,7 +11,6 @@ namespace aleph {
 namespace {
 
 constexpr double unlimited = std::numeric_limits<double>::max();
-constexpr double smallest = 1e-6;  // of what must be above 0
 
 constexpr std::array<GltfPropertyInfo, 21> properties = {{
     {GltfProperty::node_translation, GltfOwner::node, "/nodes/{}/translation", "VEC3", -unlimited, unlimited},
@@ -19,19 +18,19 @@ constexpr std::array<GltfPropertyInfo, 21> properties = {{
     {GltfProperty::node_scale, GltfOwner::node, "/nodes/{}/scale", "VEC3", -unlimited, unlimited},
     {GltfProperty::node_weights, GltfOwner::node, "/nodes/{}/weights", "SCALAR", -unlimited, unlimited},
     {GltfProperty::node_visible, GltfOwner::node, "/nodes/{}/extensions/KHR_node_visibility/visible", "SCALAR", 0, 1},
-    {GltfProperty::camera_yfov, GltfOwner::camera, "/cameras/{}/perspective/yfov", "SCALAR", smallest,
-     std::numbers::pi - smallest},
-    {GltfProperty::camera_ymag, GltfOwner::camera, "/cameras/{}/orthographic/ymag", "SCALAR", smallest, unlimited},
+    {GltfProperty::camera_yfov, GltfOwner::camera, "/cameras/{}/perspective/yfov", "SCALAR", min_gltf_size,
+     std::numbers::pi - min_gltf_size},
+    {GltfProperty::camera_ymag, GltfOwner::camera, "/cameras/{}/orthographic/ymag", "SCALAR", min_gltf_size, unlimited},
     {GltfProperty::light_color, GltfOwner::light, "/extensions/KHR_lights_punctual/lights/{}/color", "VEC3", 0,
      unlimited},
     {GltfProperty::light_intensity, GltfOwner::light, "/extensions/KHR_lights_punctual/lights/{}/intensity", "SCALAR",
      0, unlimited},
-    {GltfProperty::light_range, GltfOwner::light, "/extensions/KHR_lights_punctual/lights/{}/range", "SCALAR", smallest,
-     unlimited},
+    {GltfProperty::light_range, GltfOwner::light, "/extensions/KHR_lights_punctual/lights/{}/range", "SCALAR",
+     min_gltf_size, unlimited},
     {GltfProperty::light_inner_cone, GltfOwner::light, "/extensions/KHR_lights_punctual/lights/{}/spot/innerConeAngle",
      "SCALAR", 0, std::numbers::pi / 2},
     {GltfProperty::light_outer_cone, GltfOwner::light, "/extensions/KHR_lights_punctual/lights/{}/spot/outerConeAngle",
-     "SCALAR", smallest, std::numbers::pi / 2},
+     "SCALAR", min_gltf_size, std::numbers::pi / 2},
     {GltfProperty::material_base_color, GltfOwner::material, "/materials/{}/pbrMetallicRoughness/baseColorFactor",
      "VEC4", 0, 1},
     {GltfProperty::material_metallic, GltfOwner::material, "/materials/{}/pbrMetallicRoughness/metallicFactor",

@@ -1,6 +1,6 @@
 #pragma once
-// KHR_animation_pointer: which property a JSON pointer means. Node channels are named by the same pointers, so that
-// every animated property has one name.
+// KHR_animation_pointer: the property that a JSON pointer names. Channels of nodes are named by the same pointers, so
+// that every animated property has one name.
 
 #include <cstddef>
 #include <optional>
@@ -33,6 +33,10 @@ enum class GltfProperty {
     material_transmission,
 };
 
+/// The smallest field of view (radians), half height (m), range (m) or cone (radians): smaller keys are clamped to it.
+/// Below it the rays of neighbouring pixels are the same in single precision.
+inline constexpr double min_gltf_size = 1e-6;
+
 /// What owns a property: the array whose length limits the pointer's index.
 enum class GltfOwner { node, camera, light, material };
 
@@ -50,7 +54,8 @@ struct GltfPointer {
     std::size_t index;  ///< of the owner
 };
 
-/// Nothing for what cannot be animated here, or is no such pointer: indices are digits without leading zeros.
+/// The property that a pointer names; nothing where it cannot be animated or the pointer is malformed (an index with
+/// leading zeros, say).
 std::optional<GltfPointer> find_gltf_property(std::string_view pointer);
 
 /// The property of a channel that names a node and a path; nothing for a path that glTF does not have.

@@ -17,7 +17,7 @@ constexpr std::array<std::string_view, 11> supported_extensions = {
     "KHR_materials_ior",       "KHR_materials_specular", "KHR_materials_unlit",  "KHR_materials_transmission",
     "KHR_mesh_quantization",   "KHR_node_visibility",    "KHR_texture_transform"};
 
-/// Compressed data cannot be done without, even where the extension is called optional.
+/// Compressed data is needed even where the file calls the extension optional.
 constexpr std::array<std::string_view, 2> refused_extensions = {"EXT_meshopt_compression",
                                                                 "KHR_draco_mesh_compression"};
 
@@ -29,7 +29,7 @@ bool contains(const std::array<std::string_view, N>& names, std::string_view nam
     return false;
 }
 
-/// Names in all "extensions" objects, wherever they stand; "extras" belong to applications.
+/// Names in all "extensions" objects of the document. "extras" are left out: applications may put anything there.
 void collect_extensions(const nlohmann::json& value, std::set<std::string>& names) {
     if (value.is_array()) {
         for (const nlohmann::json& element : value) collect_extensions(element, names);
@@ -50,8 +50,10 @@ void check_asset(const JsonRef& root) {
     if (const std::string& text = version.string(); text.substr(0, 2) != "2.") {
         version.fail(fmt::format("glTF version \"{}\" is not supported, only 2.x", printable(text)));
     }
-    if (const std::optional<JsonRef> least = asset.find("minVersion"); least && least->string() != "2.0") {
-        least->fail(fmt::format("the file wants glTF \"{}\", we know 2.0", printable(least->string())));
+    if (const std::optional<JsonRef> version_needed = asset.find("minVersion");
+        version_needed && version_needed->string() != "2.0") {
+        version_needed->fail(
+            fmt::format("the file needs glTF \"{}\", only 2.0 is supported", printable(version_needed->string())));
     }
 }
 
