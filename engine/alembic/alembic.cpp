@@ -14,7 +14,7 @@
 
 namespace aleph {
 
-constexpr std::size_t most_warnings = 100;  // of different texts; more only bury what matters
+constexpr std::size_t max_warnings = 100;  // of different texts
 
 AlembicReader::AlembicReader(const AlembicArchive& source) : archive(source) {
     for (std::size_t i = 1; i < archive.objects().size(); ++i) {
@@ -24,7 +24,7 @@ AlembicReader::AlembicReader(const AlembicArchive& source) : archive(source) {
 }
 
 void AlembicReader::warn(int object, const std::string& text) {
-    if (order_.size() >= most_warnings && !warned_.contains(text)) {
+    if (order_.size() >= max_warnings && !warned_.contains(text)) {
         ++left_out_;
         return;
     }

@@ -1,5 +1,5 @@
 #pragma once
-// Reader of Alembic archives (.abc, the Ogawa container), written from a description of the format; no Alembic library.
+// Reader of Alembic archives (.abc, the Ogawa container). It uses no Alembic library.
 
 #include <filesystem>
 #include <optional>
@@ -8,7 +8,7 @@
 
 namespace aleph {
 
-/// When an archive's samples lie, for a scene that is nothing else.
+/// Frame rate and range of an archive, for a scene that consists of that archive.
 struct AlembicTiming {
     std::optional<FrameRate> frame_rate;  ///< of its uniform samples, or as its metadata says; common rates exactly
     /// First and last sample of what changes, s; unset where nothing does.
@@ -19,11 +19,11 @@ struct AlembicTiming {
 ///
 /// Every transform, surface, camera and group is a node of the object's name. Transforms interpolate channel by
 /// channel, points linearly, visibility takes the nearest sample. Instances are expanded and share their meshes. Faces
-/// are turned counter-clockwise (archives have them clockwise) unless the archive's own normals say that they are
-/// already; v grows downwards. A surface whose topology changes is one mesh for each topology. Camera: the film's frame
-/// without overscan; f-stop and shutter are left out. What is not read (points, curves, patches, lights) is said in
-/// Scene::warnings.
-/// @throws InputError with file, place and reason; the scene is unchanged then
+/// become counter-clockwise (archives have them clockwise), unless the archive's normals show that they are already; v
+/// grows downwards. A surface whose topology changes becomes one mesh for each topology. Cameras show the film's frame
+/// without overscan; f-stop and shutter are ignored. Points, curves, patches and lights are not read; a warning in
+/// Scene::warnings names them.
+/// @throws InputError with file, place and reason; the scene does not change then
 AlembicTiming append_alembic(const std::filesystem::path& file, Scene& scene, int parent_node, int include_index);
 
 }  // namespace aleph

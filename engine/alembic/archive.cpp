@@ -11,14 +11,14 @@
 namespace aleph {
 namespace {
 
-constexpr std::uint64_t hash_bytes = 32;        // at the end of object headers
+constexpr std::uint64_t hash_bytes = 32;        // hashes at the end of object headers
 constexpr std::uint64_t inline_metadata = 255;  // the string stands in the header
 constexpr double acyclic_period = 1e300;        // periods above it say that there is none
-constexpr std::uint64_t smallest_budget = std::uint64_t{128} << 20;
+constexpr std::uint64_t min_budget = std::uint64_t{128} << 20;
 constexpr std::uint64_t budget_per_byte = 32;
 
 std::uint64_t budget_of(std::uint64_t file_size) {
-    return std::max(smallest_budget, file_size * budget_per_byte);
+    return std::max(min_budget, file_size * budget_per_byte);
 }
 
 std::string_view as_text(const OgawaData& data) {
@@ -144,7 +144,7 @@ void AlembicArchive::read_objects() {
     root.group = ogawa_.group(ogawa_.root(), 2);
     objects_.push_back(std::move(root));
 
-    // Depth first without recursion: what is still to be read, the next on top.
+    // Depth first without recursion: objects whose children are still to be read, the next one last.
     struct Pending {
         int object;
         std::size_t depth;

@@ -1,6 +1,6 @@
 #pragma once
-// An Ogawa archive's tree: objects, their properties, the times and values of samples. What the properties mean is the
-// business of the schema readers.
+// The tree of an Ogawa archive: objects, their properties, and the times and values of samples. Readers of the schemas
+// (transform.cpp, mesh.cpp, ...) turn them into scene elements.
 
 #include <cstdint>
 #include <map>
@@ -14,7 +14,7 @@
 
 namespace aleph {
 
-/// Deepest nesting of objects that is read, and the most objects, instances expanded.
+/// Limits of the nesting of objects, and of the number of objects after instances are expanded.
 inline constexpr std::size_t max_alembic_depth = 1024;
 inline constexpr std::size_t max_alembic_objects = 250000;
 
@@ -40,7 +40,7 @@ struct AlembicProperty {
     PlainType type = PlainType::boolean;
     std::uint32_t extent = 1;  ///< plain values of one element
     std::uint64_t sample_count = 0;
-    std::uint64_t first_changed = 0, last_changed = 0;  ///< what lies before and after repeats and is not stored
+    std::uint64_t first_changed = 0, last_changed = 0;  ///< samples outside repeat the nearest one and are not stored
     std::size_t time_sampling = 0;                      ///< into AlembicArchive::time_samplings
 
     bool is_constant() const { return sample_count <= 1 || (first_changed == 0 && last_changed == 0); }
@@ -49,7 +49,7 @@ struct AlembicProperty {
 struct AlembicCompound {
     std::vector<AlembicProperty> properties;
 
-    /// Null where there is none of that name.
+    /// Null where there is no property of that name.
     const AlembicProperty* find(std::string_view name) const;
 };
 
@@ -64,8 +64,8 @@ struct AlembicObject {
     bool is_instance() const { return metadata_value(metadata, "isInstance") == "1"; }
 };
 
-/// The samples of a property that differ from their neighbours at both ends of the sequence, and when they lie: what
-/// stands before and after them repeats the first and the last. One entry for a constant, none without samples.
+/// The stored samples of a property and their times. Samples before the first and after the last that repeat them are
+/// left out. One entry for a constant, none without samples.
 struct AlembicSamples {
     TimeSampling sampling;
     std::vector<std::uint64_t> indices;
@@ -106,7 +106,7 @@ class AlembicArchive {
     /// @throws InputError where times cannot be told apart
     AlembicSamples samples(const AlembicProperty& property) const;
 
-    /// For those who make things of what they read.
+    /// Charge it before memory is taken for what was read.
     ReadBudget& budget() const { return budget_; }
     [[noreturn]] void fail(int object, const std::string& reason) const;
 
@@ -128,10 +128,9 @@ class AlembicArchive {
     std::vector<AlembicObject> objects_;
 };
 
-// Look-up by time as the format's users do it: a sample within 1e-5 s after the time counts as reached. `count` is at
-// least 1.
+/// The sample at or before a time, the first before all. As in Alembic, a sample within 1e-5 s after the time counts as
+/// reached.
+/// @param count  samples, at least 1
 std::size_t alembic_floor(const TimeSampling& sampling, std::size_t count, double seconds);
-std::size_t alembic_ceil(const TimeSampling& sampling, std::size_t count, double seconds);
-std::size_t alembic_near(const TimeSampling& sampling, std::size_t count, double seconds);
 
 }  // namespace aleph

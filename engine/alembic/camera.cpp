@@ -17,7 +17,7 @@ double half_width_tangent(std::span<const double> core) {
     return core[horizontal_aperture] * mm_per_cm / (2.0 * core[focal_length]);
 }
 
-/// What our camera needs of the 16 numbers.
+/// Of the 16 numbers, what Camera needs: radians, heights of the picture, scene units.
 struct View {
     double fov, shift_x, shift_y, focus;
 };
@@ -42,8 +42,9 @@ Track<double> make_track(const AlembicSamples& samples, const std::vector<View>&
     return track;
 }
 
-/// The archive interpolates focal length and aperture; the angle between them follows no line. Cubic keys with the
-/// curve's own slopes, one sided where it bends, in quarters of every interval stay within 1e-7 rad of it.
+/// An archive interpolates focal length and aperture linearly; the angle that they give is not linear in time. Cubic
+/// keys at quarters of every interval, with the slopes of the exact curve (one sided at samples, where it bends), stay
+/// within 1e-7 rad of it.
 Track<double> make_fov_track(const AlembicSamples& samples, const std::vector<std::vector<double>>& cores,
                              const std::vector<View>& views, const glm::dmat3& film_back) {
     Track<double> track = make_track(samples, views, &View::fov);

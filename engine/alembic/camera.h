@@ -1,5 +1,5 @@
 #pragma once
-// What an Alembic camera's numbers mean for a picture.
+// The picture that an Alembic camera sees: its film window and field of view.
 
 #include <glm/mat3x3.hpp>
 #include <glm/vec2.hpp>
@@ -30,7 +30,7 @@ enum AlembicCameraChannel {
     camera_channel_count
 };
 
-/// What the picture shows, in units of half the frame's width.
+/// The part of the film that the picture shows, in units of half the frame's width.
 struct FilmWindow {
     double left = -1.0, right = 1.0, bottom = -1.0, top = 1.0;
 };

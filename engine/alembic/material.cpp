@@ -1,4 +1,4 @@
-// Materials by name: what an archive's shader parameters say that has a counterpart here.
+// Materials by name, from those shader parameters of an archive that Material has too.
 
 #include <fmt/format.h>
 
@@ -49,7 +49,7 @@ bool is_number(PlainType type) {
     return type == PlainType::f16 || type == PlainType::f32 || type == PlainType::f64;
 }
 
-/// What was found for each meaning; the first counts.
+/// Values found for each meaning; the first ones are used.
 using Found = std::map<Meaning, std::vector<double>>;
 
 void collect_parameters(AlembicReader& reader, int object, const AlembicCompound& parameters, Found& found) {
@@ -150,7 +150,7 @@ int read_material(AlembicReader& reader, int object, const std::string& path) {
                     fmt::format("the archive has no material \"{}\"; a neutral one stands for it", printable(path)));
         return add_material(reader, path, std::move(material));
     }
-    Found found;  // a material under another has what it does not set itself from there
+    Found found;  // a material inherits what it does not set from the one above it
     for (int i = source; is_material(i); i = reader.archive.objects()[i].parent) collect_material(reader, i, found);
     set_parameters(found, material);
     if (!found.contains(Meaning::base_color))

@@ -14,14 +14,14 @@
 namespace aleph {
 namespace {
 
-constexpr std::uint64_t polygon_effort = 20'000'000;  // point-in-triangle tests for one surface: a tenth of a second
+constexpr std::uint64_t polygon_effort = 20'000'000;  // point-in-triangle tests for one surface, about 0.1 s
 
 /// Normals of a surface over a run: one sample, or several under a sampling of their own.
 struct RunNormals {
     GeometryScope scope = GeometryScope::constant;
     TimeSampling sampling;
     std::vector<ParameterSample> samples;
-    bool fixed_indices = false;  ///< what the file stores once stays one over time
+    bool fixed_indices = false;  ///< indices do not change: corners that share a value share it at all times
 };
 
 /// The surface of one topology, ready to be cut into meshes.
@@ -31,6 +31,7 @@ struct RunSurface {
     std::optional<RunNormals> normals;
     std::optional<ParameterSample> uv;
     GeometryScope uv_scope = GeometryScope::constant;
+    bool clockwise = true;  ///< faces as stored
 
     std::span<const int> face(std::size_t f) const {
         return {run.face_points.data() + run.first_corner[f], static_cast<std::size_t>(run.face_counts[f])};
@@ -82,7 +83,7 @@ glm::vec3 normal_at(const ParameterSample& sample, std::size_t item) {
     return {n[0], n[1], n[2]};
 }
 
-/// Archives have their faces clockwise, but nothing in a file says so; its normals do, where it has them.
+/// Faces of archives are clockwise by convention. Where there are normals they tell: most of them decide.
 bool are_faces_clockwise(const RunSurface& surface) {
     if (!surface.normals) return true;
     std::int64_t clockwise = 0;
@@ -126,8 +127,9 @@ CornerKey make_key(const RunSurface& surface, std::size_t face, std::size_t corn
     return key;
 }
 
+/// @param vertices  one corner of each
 std::vector<glm::vec3> vertex_normals(const RunSurface& surface, const ParameterSample& sample,
-                                      const std::vector<CornerKey>& vertices, bool clockwise) {
+                                      const std::vector<CornerKey>& vertices) {
     std::vector<glm::vec3> normals;
     normals.reserve(vertices.size());
     for (const CornerKey& key : vertices) {
@@ -135,67 +137,90 @@ std::vector<glm::vec3> vertex_normals(const RunSurface& surface, const Parameter
         glm::vec3 normal = safe_normalize(normal_at(sample, item));
         if (normal == glm::vec3(0.0f)) {  // none was given: the face's own
             const glm::dvec3 own = polygon_normal(face_positions(surface, key.face));
-            normal = glm::vec3(safe_normalize(clockwise ? -own : own));
+            normal = glm::vec3(safe_normalize(surface.clockwise ? -own : own));
         }
         normals.push_back(normal == glm::vec3(0.0f) ? glm::vec3(0.0f, 1.0f, 0.0f) : normal);
     }
     return normals;
 }
 
-/// The triangles of some faces. @param vertex_of  room for a number per corner
-Mesh make_mesh(AlembicReader& reader, int object, const RunSurface& surface, const std::vector<std::size_t>& faces,
-               bool clockwise, std::uint64_t& effort, std::vector<std::uint32_t>& vertex_of) {
-    const SurfaceRun& run = surface.run;
-    std::vector<CornerKey> keys;
-    std::size_t corners = 0;
-    for (const std::size_t f : faces) corners += surface.face(f).size();
-    reader.archive.budget().charge(corners, 2 * sizeof(CornerKey) + 100);
-    keys.reserve(corners);
-    for (const std::size_t f : faces) {
-        for (std::size_t i = 0; i < surface.face(f).size(); ++i)
-            keys.push_back(make_key(surface, f, run.first_corner[f] + i));
-    }
-    std::ranges::sort(keys);
+/// Cuts a surface into meshes, one for each part.
+class SurfaceCutter {
+  public:
+    /// @param effort  for all polygons of the object (triangulate_polygon)
+    SurfaceCutter(AlembicReader& reader, int object, const RunSurface& surface, std::uint64_t& effort)
+        : reader_(reader),
+          object_(object),
+          surface_(surface),
+          effort_(effort),
+          vertex_of_(surface.run.corner_count()) {}
 
-    Mesh mesh;
-    mesh.name = reader.archive.objects()[object].name;
-    mesh.points = run.points;
-    mesh.present = run.present;
-    std::vector<CornerKey> vertices;
-    for (const CornerKey& key : keys) {
-        if (vertices.empty() || vertices.back().value != key.value) vertices.push_back(key);
-        vertex_of[key.corner] = static_cast<std::uint32_t>(vertices.size() - 1);
+    Mesh cut(const std::vector<std::size_t>& faces) {
+        Mesh mesh;
+        mesh.name = reader_.archive.objects()[object_].name;
+        mesh.points = surface_.run.points;
+        mesh.present = surface_.run.present;
+        add_vertices(find_vertices(faces), mesh);
+        for (const std::size_t face : faces) add_triangles(face, mesh);
+        return mesh;
     }
-    for (const CornerKey& key : vertices) {
-        mesh.vertex_points.push_back(key.value[0]);
-        mesh.positions.push_back(surface.points[key.value[0]]);
-        if (!surface.uv) continue;
-        const float* uv = surface.uv->at(scope_item(surface.uv_scope, run, key.face, key.corner));
-        mesh.uv[0].emplace_back(uv[0], 1.0f - uv[1]);
-    }
-    if (surface.normals) {
-        const RunNormals& normals = *surface.normals;
-        mesh.normals = vertex_normals(surface, normals.samples.front(), vertices, clockwise);
-        if (normals.samples.size() > 1) {
-            reader.archive.budget().charge(normals.samples.size() * vertices.size(), sizeof(glm::vec3));
-            mesh.normal_sampling = normals.sampling;
-            for (const ParameterSample& sample : normals.samples)
-                mesh.normal_samples.push_back(vertex_normals(surface, sample, vertices, clockwise));
+
+  private:
+    /// One corner of each vertex; numbers the corners' vertices in vertex_of_.
+    std::vector<CornerKey> find_vertices(const std::vector<std::size_t>& faces) {
+        std::vector<CornerKey> keys;
+        std::size_t corners = 0;
+        for (const std::size_t f : faces) corners += surface_.face(f).size();
+        reader_.archive.budget().charge(corners, 2 * sizeof(CornerKey) + 100);
+        keys.reserve(corners);
+        for (const std::size_t f : faces) {
+            for (std::size_t i = 0; i < surface_.face(f).size(); ++i)
+                keys.push_back(make_key(surface_, f, surface_.run.first_corner[f] + i));
         }
+        std::ranges::sort(keys);
+        std::vector<CornerKey> vertices;
+        for (const CornerKey& key : keys) {
+            if (vertices.empty() || vertices.back().value != key.value) vertices.push_back(key);
+            vertex_of_[key.corner] = static_cast<std::uint32_t>(vertices.size() - 1);
+        }
+        return vertices;
     }
-    std::vector<std::array<std::uint32_t, 3>> triangles;
-    for (const std::size_t f : faces) {
-        triangles.clear();
-        if (!triangulate_polygon(face_positions(surface, f), effort, triangles))
-            reader.warn(object, "a face crosses itself or is too intricate; it is cut into a fan of triangles");
+
+    void add_vertices(const std::vector<CornerKey>& vertices, Mesh& mesh) {
+        for (const CornerKey& key : vertices) {
+            mesh.vertex_points.push_back(key.value[0]);
+            mesh.positions.push_back(surface_.points[key.value[0]]);
+            if (!surface_.uv) continue;
+            const float* uv = surface_.uv->at(scope_item(surface_.uv_scope, surface_.run, key.face, key.corner));
+            mesh.uv[0].emplace_back(uv[0], 1.0f - uv[1]);
+        }
+        if (!surface_.normals) return;
+        const RunNormals& normals = *surface_.normals;
+        mesh.normals = vertex_normals(surface_, normals.samples.front(), vertices);
+        if (normals.samples.size() == 1) return;
+        reader_.archive.budget().charge(normals.samples.size() * vertices.size(), sizeof(glm::vec3));
+        mesh.normal_sampling = normals.sampling;
+        for (const ParameterSample& sample : normals.samples)
+            mesh.normal_samples.push_back(vertex_normals(surface_, sample, vertices));
+    }
+
+    void add_triangles(std::size_t face, Mesh& mesh) {
+        std::vector<std::array<std::uint32_t, 3>> triangles;
+        if (!triangulate_polygon(face_positions(surface_, face), effort_, triangles))
+            reader_.warn(object_, "a face crosses itself or is too intricate; it is cut into a fan of triangles");
+        const std::size_t first = surface_.run.first_corner[face];
         for (auto [a, b, c] : triangles) {
-            if (clockwise) std::swap(b, c);
-            const std::size_t first = run.first_corner[f];
-            mesh.triangles.emplace_back(vertex_of[first + a], vertex_of[first + b], vertex_of[first + c]);
+            if (surface_.clockwise) std::swap(b, c);
+            mesh.triangles.emplace_back(vertex_of_[first + a], vertex_of_[first + b], vertex_of_[first + c]);
         }
     }
-    return mesh;
-}
+
+    AlembicReader& reader_;
+    int object_;
+    const RunSurface& surface_;
+    std::uint64_t& effort_;
+    std::vector<std::uint32_t> vertex_of_;  ///< per corner of the surface
+};
 
 }  // namespace
 
@@ -212,6 +237,7 @@ std::vector<int> read_polygon_mesh(AlembicReader& reader, int object, const Alem
                            reader.part.point_caches[run.points].positions.front(),
                            read_normals(reader, object, geom, run, runs.size() == 1),
                            {},
+                           {},
                            {}};
         if (uv) {
             surface.uv = read_fitting(reader, object, *uv, run, run.begin, "its texture coordinates");
@@ -220,7 +246,7 @@ std::vector<int> read_polygon_mesh(AlembicReader& reader, int object, const Alem
                 reader.warn(object, "its texture coordinates change over time; their first state is used");
         }
         const SurfaceParts parts = read_parts(reader, object, top, run);
-        const bool clockwise = are_faces_clockwise(surface);
+        surface.clockwise = are_faces_clockwise(surface);
         std::vector<std::vector<std::size_t>> faces(parts.materials.size());
         for (std::size_t f = 0; f < run.face_counts.size(); ++f) {
             if (run.face_counts[f] >= 3) {
@@ -229,10 +255,10 @@ std::vector<int> read_polygon_mesh(AlembicReader& reader, int object, const Alem
                 reader.warn(object, "faces of fewer than 3 points are left out");
             }
         }
-        std::vector<std::uint32_t> vertex_of(run.corner_count());
+        SurfaceCutter cutter(reader, object, surface, effort);
         for (std::size_t part = 0; part < faces.size(); ++part) {
             if (faces[part].empty()) continue;
-            Mesh mesh = make_mesh(reader, object, surface, faces[part], clockwise, effort, vertex_of);
+            Mesh mesh = cutter.cut(faces[part]);
             mesh.material = parts.materials[part];
             meshes.push_back(static_cast<int>(reader.part.meshes.size()));
             reader.part.meshes.push_back(std::move(mesh));

@@ -20,7 +20,7 @@ std::string read_source(const AlembicReader& reader, int instance) {
     return read_text(reader, reader.archive.properties(instance), ".instanceSource");
 }
 
-/// The object that an instance stands for at last. @throws InputError where there is none
+/// The object that an instance stands for, through instances of instances. @throws InputError where there is none
 int resolve_instance(const AlembicReader& reader, int instance) {
     int object = instance;
     for (int hop = 0; object_at(reader, object).is_instance(); ++hop) {
@@ -43,7 +43,8 @@ class TreeReader {
     void read(int object, int name_of, int parent, std::size_t depth) {
         const AlembicObject& source = object_at(reader_, object);
         const std::string schema = source.schema();
-        if (schema == "AbcGeom_FaceSet_v1" || schema == "AbcMaterial_Material_v1") return;  // read with what names them
+        if (schema == "AbcGeom_FaceSet_v1" || schema == "AbcMaterial_Material_v1")
+            return;  // read where surfaces name them
         if (depth > max_alembic_depth)
             reader_.archive.fail(name_of, fmt::format("instances are nested deeper than {}", max_alembic_depth));
         if (reader_.part.nodes.size() >= max_alembic_objects)
@@ -53,7 +54,7 @@ class TreeReader {
         const int node = [&] {
             try {
                 return add_node(object, name_of, parent, schema);
-            } catch (const InputError& error) {  // the container knows bytes and properties; a user knows objects
+            } catch (const InputError& error) {  // names a byte or a property: the message also needs the object
                 if (error.place().starts_with('/')) throw;
                 reader_.archive.fail(object,
                                      error.place().empty() ? error.reason() : error.place() + ": " + error.reason());
@@ -73,7 +74,7 @@ class TreeReader {
         node.parent = parent;
         const AlembicCompound top = reader_.archive.properties(object);
         if (const AlembicProperty* visible = top.find("visible"); visible != nullptr && visible->sample_count > 0) {
-            // Ours: 0 hidden, 1 as the parent, 2 shown in any case.
+            // Node::visible: 0 hidden, 1 as the parent, 2 shown in any case.
             node.visible = read_whole_track(reader_, *visible, Interpolation::nearest, [](int v) {
                 return v == 0 ? 0.0 : v < 0 ? 1.0 : 2.0;
             });

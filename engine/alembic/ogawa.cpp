@@ -42,12 +42,12 @@ OgawaFile::OgawaFile(std::vector<std::uint8_t> bytes, std::string file)
                          "an Ogawa archive, the default since Alembic 1.5 (abcconvert -toOgawa)");
     }
     if (!starts_with("Ogawa", 5))
-        throw InputError(file_, "", "this is no Alembic archive: it does not begin \"Ogawa\"");
+        throw InputError(file_, "", "this is not an Alembic archive: it does not begin with \"Ogawa\"");
     if (bytes_.size() < header_size) throw InputError(file_, "header", "the file ends inside its header");
     if (bytes_[5] != 0xff) {
         throw InputError(file_, "header", "the archive was never finished: its writer stopped before closing it");
     }
-    if (const int version = bytes_[6] * 256 + bytes_[7]; version != 1) {  // the one field with its high byte first
+    if (const int version = bytes_[6] * 256 + bytes_[7]; version != 1) {  // the only field with its high byte first
         throw InputError(file_, "header", fmt::format("Ogawa version {} is not supported, only 1", version));
     }
     root_ = group_at(word(8));

@@ -1,6 +1,6 @@
 #pragma once
-// The container of Ogawa archives: groups and data blocks in a file, read-only. Nothing here trusts the file: every
-// offset and count is checked before it is used, and nothing is allocated from a claimed count.
+// The container of Ogawa archives: groups and data blocks in a file, read-only. Every offset and count is checked
+// before it is used, and no memory is taken for a count that the file only claims.
 
 #include <cstdint>
 #include <span>
@@ -9,7 +9,7 @@
 
 namespace aleph {
 
-/// Child words of a group; the empty group has none and lies nowhere (offset 0).
+/// Where a group's list of children lies. The empty group has no children and offset 0.
 struct OgawaGroup {
     std::uint64_t offset = 0;  ///< bytes from the start of the file
     std::uint64_t size = 0;    ///< children
@@ -17,14 +17,15 @@ struct OgawaGroup {
     bool operator==(const OgawaGroup&) const = default;
 };
 
-/// Payload of a data block. Blocks are shared: two with the same offset and size are the same bytes. The empty block
-/// has offset 0.
+/// Content of a data block. Properties may share blocks: same offset and size are the same bytes. The empty block has
+/// offset 0.
 struct OgawaData {
     std::uint64_t offset = 0;
     std::span<const std::uint8_t> bytes;
 };
 
-/// What a file may cost, so that a small one cannot ask for all memory: the same block can be reached by many ways.
+/// Limits the memory that reading a file takes. A small file could ask for all memory: many references may lead to the
+/// same block.
 class ReadBudget {
   public:
     ReadBudget(std::uint64_t limit, std::string file) : limit_(limit), left_(limit), file_(std::move(file)) {}
@@ -40,7 +41,7 @@ class ReadBudget {
 class OgawaFile {
   public:
     /// @param file  what messages call it
-    /// @throws InputError where it is no finished Ogawa archive of a known version (an HDF5 archive is named as such)
+    /// @throws InputError where it is not a complete Ogawa archive of version 1; the message says so of HDF5 archives
     OgawaFile(std::vector<std::uint8_t> bytes, std::string file);
 
     const std::string& file() const { return file_; }
@@ -49,7 +50,7 @@ class OgawaFile {
 
     bool is_data(const OgawaGroup& parent, std::uint64_t child) const;
 
-    /// @throws InputError where there is no such child, it is of the other kind, or it leaves the file
+    /// @throws InputError where there is no such child, it is of the other kind, or it lies outside the file
     OgawaGroup group(const OgawaGroup& parent, std::uint64_t child) const;
     OgawaData data(const OgawaGroup& parent, std::uint64_t child) const;
 
@@ -66,10 +67,10 @@ class OgawaFile {
     OgawaGroup root_;
 };
 
-/// Takes little-endian values off the front of a block, wherever they start.
+/// Takes little-endian values off the front of a block, one after another; no alignment is needed.
 class OgawaCursor {
   public:
-    /// @param what  the block's subject, for messages
+    /// @param what  names the block in messages
     OgawaCursor(std::span<const std::uint8_t> bytes, const std::string& file, std::string what)
         : bytes_(bytes), file_(file), what_(std::move(what)) {}
 

@@ -1,5 +1,5 @@
 #pragma once
-// The Alembic reader's parts: each turns one schema into scene elements. Only this folder uses them.
+// The parts of the Alembic reader: each reads one schema. Only this folder uses them.
 
 #include <limits>
 #include <map>
@@ -23,11 +23,11 @@ struct AlembicReader {
     std::map<std::string, int> material_of;                    ///< path as assigned -> material
     double first = std::numeric_limits<double>::infinity(), last = -first;  ///< s, of all that is sampled
 
-    /// Collected: the same text is said once, with the first place and how many more there are.
+    /// Warnings of the same text become one, with the first place and how many more there are.
     void warn(int object, const std::string& text);
     std::vector<std::string> list_warnings() const;
 
-    /// What a property's samples span counts for the scene's range.
+    /// Widens `first` to `last` by the span of a property's samples.
     void widen(const AlembicProperty& property);
 
   private:
@@ -47,9 +47,9 @@ std::vector<int> read_subdivision(AlembicReader& reader, int object, const Alemb
 
 int read_camera(AlembicReader& reader, int object, const AlembicCompound& top);
 
-/// The material that a path names; made neutral, with a warning, where the archive does not say how it looks.
+/// The material that a path names; a neutral gray one, with a warning, where the archive has none or gives no colour.
 int read_material(AlembicReader& reader, int object, const std::string& path);
-/// For surfaces without an assignment.
+/// The material of surfaces without one.
 int neutral_material(AlembicReader& reader);
 
 /// Index of the object at a path, through instances; -1 where there is none.

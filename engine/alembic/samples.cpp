@@ -1,4 +1,4 @@
-// Samples of an archive's properties: where they are stored, their values, and when they lie.
+// Samples of an archive's properties: where they are stored, and their values.
 
 #include <fmt/format.h>
 
@@ -15,7 +15,6 @@ namespace aleph {
 namespace {
 
 constexpr std::size_t digest_bytes = 16;  // before the values of every sample
-constexpr double reached = 1e-5;          // s; a sample this near after a time counts as reached
 constexpr std::uint64_t max_rank = 64;    // dimensions of one array
 
 /// Bytes of one plain value; text has none.
@@ -116,7 +115,7 @@ void append_utf8(std::string& text, std::uint32_t code) {
     }
 }
 
-/// Position among the stored samples; the caller knows that there are samples.
+/// Position among the stored samples, of which there is at least one.
 std::uint64_t slot_of(const AlembicProperty& property, std::uint64_t sample) {
     const std::uint64_t i = std::min(sample, property.sample_count - 1);
     const std::uint64_t first = property.first_changed, last = property.last_changed;
@@ -238,65 +237,6 @@ std::vector<std::string> AlembicArchive::texts(const AlembicProperty& property, 
         texts.push_back(std::move(text));
     }
     return texts;
-}
-
-AlembicSamples AlembicArchive::samples(const AlembicProperty& property) const {
-    AlembicSamples samples;
-    if (property.sample_count == 0) return samples;
-    if (property.is_constant()) {
-        samples.indices = {0};
-        return samples;
-    }
-    const TimeSampling& sampling = time_samplings_[property.time_sampling];
-    const std::uint64_t begin = property.first_changed - 1, end = property.last_changed + 1;
-    // Two children each for arrays; what the group does not hold is not there, whatever the header claims.
-    if (end - begin > property.group.size)
-        fail_at(file(), property, fmt::format("it claims {} samples and holds {}", end - begin, property.group.size));
-    if (sampling.kind == TimeSampling::Kind::acyclic && sampling.times.size() < end)
-        fail_at(file(), property, fmt::format("{} samples but only {} times", end, sampling.times.size()));
-    budget_.charge(end - begin, 16);
-
-    const bool whole_shutter = sampling.kind == TimeSampling::Kind::cyclic &&
-                               sampling.times.back() - sampling.times.front() >= sampling.period * (1.0 - 1e-6);
-    if (sampling.kind == TimeSampling::Kind::uniform) {
-        samples.sampling = sampling;
-        samples.sampling.start = sample_time(sampling, begin);
-        for (std::uint64_t i = begin; i < end; ++i) samples.indices.push_back(i);
-    } else if (sampling.kind == TimeSampling::Kind::cyclic && begin == 0 && !whole_shutter) {
-        samples.sampling = sampling;
-        for (std::uint64_t i = begin; i < end; ++i) samples.indices.push_back(i);
-    } else {
-        // A shutter as long as the frame ends when the next begins: the sample that comes first stays.
-        samples.sampling.kind = TimeSampling::Kind::acyclic;
-        std::vector<double>& times = samples.sampling.times;
-        for (std::uint64_t i = begin; i < end; ++i) {
-            const double time = sample_time(sampling, i);
-            if (whole_shutter && !times.empty() && time - times.back() < 1e-6 * sampling.period) continue;
-            times.push_back(time);
-            samples.indices.push_back(i);
-        }
-    }
-    validate(samples.sampling, samples.indices.size(), file(), printable(property.name));
-    return samples;
-}
-
-std::size_t alembic_floor(const TimeSampling& sampling, std::size_t count, double seconds) {
-    std::size_t floor = find_samples(sampling, count, seconds).floor;
-    const bool reaches_next = floor + 1 < count && seconds > sample_time(sampling, 0) &&
-                              sample_time(sampling, floor + 1) - seconds <= reached;
-    return reaches_next ? floor + 1 : floor;
-}
-
-std::size_t alembic_ceil(const TimeSampling& sampling, std::size_t count, double seconds) {
-    const std::size_t floor = alembic_floor(sampling, count, seconds);
-    if (floor + 1 >= count || std::abs(sample_time(sampling, floor) - seconds) <= reached) return floor;
-    return seconds <= sample_time(sampling, 0) ? 0 : floor + 1;
-}
-
-std::size_t alembic_near(const TimeSampling& sampling, std::size_t count, double seconds) {
-    const std::size_t floor = alembic_floor(sampling, count, seconds);
-    if (floor + 1 >= count) return floor;
-    return sample_time(sampling, floor + 1) - seconds < seconds - sample_time(sampling, floor) ? floor + 1 : floor;
 }
 
 }  // namespace aleph

@@ -13,8 +13,8 @@
 namespace aleph {
 namespace {
 
-constexpr std::uint64_t bytes_per_face = 1024;  // that refinement takes, about
-constexpr std::size_t many_faces = 30000;       // a cage so fine needs less of it to begin with
+constexpr std::uint64_t bytes_per_face = 1024;  // memory of refinement, about
+constexpr std::size_t many_faces = 30000;       // a finer cage begins at level 1
 
 /// An optional property's numbers at a time; empty where it is missing.
 template <class T>
@@ -53,7 +53,7 @@ Cage::Boundary read_boundary(AlembicReader& reader, int object, const AlembicCom
     }
 }
 
-/// RenderMan's numbers in OpenSubdiv's words.
+/// RenderMan's numbers as OpenSubdiv's rules.
 Cage::UvRule read_uv_rule(const AlembicReader& reader, const AlembicCompound& geom, double seconds) {
     const bool propagate = read_rule(reader, geom, ".faceVaryingPropagateCorners", seconds) != 0;
     switch (read_rule(reader, geom, ".faceVaryingInterpolateBoundary", seconds)) {
@@ -69,9 +69,8 @@ Cage::UvRule read_uv_rule(const AlembicReader& reader, const AlembicCompound& ge
 }
 
 /// Corners of a face counter-clockwise: the first stays, the others come backwards.
-std::size_t turned(const SurfaceRun& run, std::size_t face, std::size_t i) {
-    const auto count = static_cast<std::size_t>(run.face_counts[face]);
-    return run.first_corner[face] + (i == 0 ? 0 : count - i);
+std::size_t turned(const SurfaceRun& run, std::size_t face, int i) {
+    return run.first_corner[face] + (i == 0 ? 0 : run.face_counts[face] - i);
 }
 
 void add_uv(AlembicReader& reader, int object, const AlembicCompound& geom, const SurfaceRun& run, Cage& cage) {
@@ -86,7 +85,7 @@ void add_uv(AlembicReader& reader, int object, const AlembicCompound& geom, cons
     std::map<std::tuple<int, float, float>, int> known;
     for (std::size_t f = 0; f < run.face_counts.size(); ++f) {
         if (run.face_counts[f] < 3) continue;
-        for (std::size_t i = 0; i < static_cast<std::size_t>(run.face_counts[f]); ++i) {
+        for (int i = 0; i < run.face_counts[f]; ++i) {
             const std::size_t corner = turned(run, f, i);
             const float* uv = sample->at(scope_item(parameter->scope, run, f, corner));
             const auto [found, is_new] =
@@ -109,11 +108,10 @@ void add_faces(AlembicReader& reader, int object, const SurfaceRun& run, const S
         new_number[f] = static_cast<int>(cage.face_sizes.size());
         cage.face_sizes.push_back(run.face_counts[f]);
         if (parts.materials.size() > 1) cage.face_parts.push_back(parts.face_parts[f]);
-        for (std::size_t i = 0; i < static_cast<std::size_t>(run.face_counts[f]); ++i)
-            cage.face_points.push_back(run.face_points[turned(run, f, i)]);
+        for (int i = 0; i < run.face_counts[f]; ++i) cage.face_points.push_back(run.face_points[turned(run, f, i)]);
     }
     for (const int hole : holes) {
-        if (hole < 0 || static_cast<std::size_t>(hole) >= new_number.size()) {
+        if (hole < 0 || hole >= std::ssize(new_number)) {
             reader.warn(object, "holes are named for faces that the surface does not have");
         } else if (const int number = new_number[hole]; number >= 0) {
             cage.holes.push_back(number);
@@ -133,8 +131,8 @@ void warn_of_changes(AlembicReader& reader, int object, const AlembicCompound& g
     }
 }
 
-/// Makes the triangles. Archives leave the boundary rule out, or have it at its default, where it does not matter to
-/// their writer: a surface of which nothing would be drawn then keeps its edges.
+/// Makes the triangles. Many writers leave the boundary rule at its default, with which an open surface may have no
+/// face to draw: such a surface keeps its edges and corners.
 void tessellate(AlembicReader& reader, int object, int number) {
     Cage& cage = reader.part.cages[number];
     try {

@@ -11,7 +11,7 @@
 namespace aleph {
 namespace {
 
-constexpr double same_time = 1e-5;  // s; the format's own tolerance
+constexpr double same_time = 1e-5;  // s; as Alembic takes times for equal
 
 std::size_t element_count(const AlembicArchive& archive, const AlembicProperty& property, std::uint64_t sample) {
     const std::vector<std::uint64_t> sizes = archive.dimensions(property, sample);
@@ -42,7 +42,7 @@ std::optional<Sampled> find_sampled(AlembicReader& reader, int object, const Ale
     return Sampled{property, reader.archive.samples(*property)};
 }
 
-/// Every time at which points or topology have a sample; one time, any, where nothing changes.
+/// Every time at which points or topology have a sample; {0} where nothing changes.
 std::vector<double> merge_times(const std::vector<const Sampled*>& properties) {
     std::vector<double> times;
     for (const Sampled* sampled : properties) {
@@ -124,7 +124,7 @@ void read_point_cache(AlembicReader& reader, int object, const AlembicCompound& 
     reader.part.point_caches.push_back(std::move(cache));
 }
 
-/// Shown from its own start to that of the next.
+/// A run is shown from its begin to that of the next one.
 Track<double> make_presence(const std::vector<SurfaceRun>& runs, std::size_t run) {
     Track<double> track;
     track.interpolation = Interpolation::step;
@@ -139,10 +139,85 @@ Track<double> make_presence(const std::vector<SurfaceRun>& runs, std::size_t run
     return track;
 }
 
+/// What a surface is made of.
+struct SurfaceSamples {
+    Sampled points, counts, indices;
+};
+
+/// One topology of a surface as stored, with the blocks that hold it.
+struct Topology {
+    std::vector<int> face_counts, face_points;
+    std::uint64_t counts_block = 0, indices_block = 0;
+};
+
+/// Makes runs of a surface's samples, each with its topology and the samples of its points.
+class RunSplitter {
+  public:
+    RunSplitter(AlembicReader& reader, int object, const SurfaceSamples& samples)
+        : reader_(reader), object_(object), samples_(samples) {}
+
+    std::vector<SurfaceRun> split() {
+        for (const double time : merge_times({&samples_.points, &samples_.counts, &samples_.indices})) add(time);
+        for (SurfaceRun& run : runs_) run.sampling.kind = TimeSampling::Kind::acyclic;
+        const AlembicSamples& points = samples_.points.samples;
+        if (runs_.size() == 1 && runs_.front().point_samples == points.indices)
+            runs_.front().sampling = points.sampling;  // as the file has it
+        return std::move(runs_);
+    }
+
+  private:
+    void add(double time) {
+        const AlembicArchive& archive = reader_.archive;
+        const std::size_t at = samples_.points.floor(time);
+        const std::uint64_t point_sample = samples_.points.samples.indices[at];
+        const std::size_t point_count = element_count(archive, *samples_.points.property, point_sample);
+        // Sparse files leave points out where they do not change.
+        const bool has_faces = element_count(archive, *samples_.indices.property, samples_.indices.index_at(time)) > 0;
+        if (point_count == 0 && has_faces) return;
+        if (changes_topology(time, point_count)) {
+            SurfaceRun run;
+            run.begin = time;
+            run.point_count = point_count;
+            run.face_counts = std::move(next_.face_counts);
+            run.face_points = std::move(next_.face_points);
+            check_topology(reader_, object_, run);
+            archive.budget().charge(1, 1024);
+            runs_.push_back(std::move(run));
+        } else if (at == last_point_sample_) {
+            return;
+        }
+        last_point_sample_ = at;
+        runs_.back().point_samples.push_back(point_sample);
+        runs_.back().sampling.times.push_back(time);
+    }
+
+    /// Whether the topology at a time differs from that of the last run; it is in next_ then. Samples that share their
+    /// storage are not read again.
+    bool changes_topology(double time, std::size_t point_count) {
+        const AlembicArchive& archive = reader_.archive;
+        const std::uint64_t counts_sample = samples_.counts.index_at(time);
+        const std::uint64_t indices_sample = samples_.indices.index_at(time);
+        const std::uint64_t counts_block = archive.storage(*samples_.counts.property, counts_sample);
+        const std::uint64_t indices_block = archive.storage(*samples_.indices.property, indices_sample);
+        const bool same_points = !runs_.empty() && runs_.back().point_count == point_count;
+        if (same_points && counts_block == next_.counts_block && indices_block == next_.indices_block) return false;
+        next_ = {archive.numbers<int>(*samples_.counts.property, counts_sample),
+                 archive.numbers<int>(*samples_.indices.property, indices_sample), counts_block, indices_block};
+        return !same_points || next_.face_counts != runs_.back().face_counts ||
+               next_.face_points != runs_.back().face_points;
+    }
+
+    AlembicReader& reader_;
+    int object_;
+    const SurfaceSamples& samples_;
+    std::vector<SurfaceRun> runs_;
+    Topology next_;  ///< read last
+    std::size_t last_point_sample_ = 0;
+};
+
 }  // namespace
 
 std::vector<SurfaceRun> read_runs(AlembicReader& reader, int object, const AlembicCompound& geom) {
-    const AlembicArchive& archive = reader.archive;
     const auto points = find_sampled(reader, object, geom, "P", 3);
     const auto counts = find_sampled(reader, object, geom, ".faceCounts", 1);
     const auto indices = find_sampled(reader, object, geom, ".faceIndices", 1);
@@ -150,47 +225,8 @@ std::vector<SurfaceRun> read_runs(AlembicReader& reader, int object, const Alemb
         reader.warn(object, "a surface without points or faces");
         return {};
     }
-    std::vector<SurfaceRun> runs;
-    std::uint64_t counts_block = 0, indices_block = 0;
-    std::size_t last_point_sample = 0;
-    for (const double time : merge_times({&*points, &*counts, &*indices})) {
-        const std::size_t at = points->floor(time);
-        const std::uint64_t point_sample = points->samples.indices[at];
-        const std::uint64_t counts_sample = counts->index_at(time), indices_sample = indices->index_at(time);
-        const std::size_t point_count = element_count(archive, *points->property, point_sample);
-        // Sparse files leave points out where they do not change.
-        if (point_count == 0 && element_count(archive, *indices->property, indices_sample) > 0) continue;
-
-        const std::uint64_t new_counts = archive.storage(*counts->property, counts_sample);
-        const std::uint64_t new_indices = archive.storage(*indices->property, indices_sample);
-        bool same = !runs.empty() && runs.back().point_count == point_count;
-        std::vector<int> face_counts, face_points;
-        if (!same || new_counts != counts_block || new_indices != indices_block) {
-            face_counts = archive.numbers<int>(*counts->property, counts_sample);
-            face_points = archive.numbers<int>(*indices->property, indices_sample);
-            same = same && face_counts == runs.back().face_counts && face_points == runs.back().face_points;
-            counts_block = new_counts, indices_block = new_indices;
-        }
-        if (!same) {
-            SurfaceRun run;
-            run.begin = time;
-            run.point_count = point_count;
-            run.face_counts = std::move(face_counts);
-            run.face_points = std::move(face_points);
-            check_topology(reader, object, run);
-            archive.budget().charge(1, 1024);
-            runs.push_back(std::move(run));
-        } else if (at == last_point_sample) {
-            continue;
-        }
-        last_point_sample = at;
-        runs.back().point_samples.push_back(point_sample);
-        runs.back().sampling.times.push_back(time);
-    }
-    for (SurfaceRun& run : runs) run.sampling.kind = TimeSampling::Kind::acyclic;
-    if (runs.size() == 1 && runs.front().point_samples == points->samples.indices)
-        runs.front().sampling = points->samples.sampling;  // as the file has it
-
+    const SurfaceSamples samples{*points, *counts, *indices};
+    std::vector<SurfaceRun> runs = RunSplitter(reader, object, samples).split();
     if (runs.size() > 1) {
         reader.warn(object,
                     fmt::format("its topology changes {} times: there is no motion across a change", runs.size() - 1));
@@ -227,7 +263,7 @@ SurfaceParts read_parts(AlembicReader& reader, int object, const AlembicCompound
             reader.warn(child, "the face set changes over time; its first state is used until the topology changes");
         const int material = read_material(reader, child, assigned);
         for (const int face : archive.numbers<int>(*faces, sample_at(archive, *faces, run.begin))) {
-            if (face < 0 || static_cast<std::size_t>(face) >= face_materials.size()) {
+            if (face < 0 || face >= std::ssize(face_materials)) {
                 reader.warn(child, "the face set names faces that the surface does not have");
                 continue;
             }
@@ -237,7 +273,7 @@ SurfaceParts read_parts(AlembicReader& reader, int object, const AlembicCompound
     SurfaceParts parts;
     parts.face_parts.reserve(face_materials.size());
     for (std::size_t face = 0; face < face_materials.size(); ++face) {
-        if (run.face_counts[face] < 3) {  // not drawn: asks for no part
+        if (run.face_counts[face] < 3) {  // not drawn, so it needs no part
             parts.face_parts.push_back(0);
             continue;
         }

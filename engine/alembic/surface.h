@@ -1,6 +1,5 @@
 #pragma once
-// What polygon meshes and subdivision surfaces of an archive share: samples between changes of topology, geometry
-// parameters, face sets.
+// Polygon meshes and subdivision surfaces alike: samples between changes of topology, geometry parameters, face sets.
 
 #include <optional>
 #include <string>
@@ -26,7 +25,7 @@ struct SurfaceRun {
 };
 
 /// Splits a surface's samples at changes of topology, checks the topology, and makes a point cache for each run.
-/// Empty where the surface never has faces. Says in a warning where the topology changes.
+/// Empty where the surface never has faces. Warns where the topology changes.
 std::vector<SurfaceRun> read_runs(AlembicReader& reader, int object, const AlembicCompound& geom);
 
 enum class GeometryScope { constant, per_face, per_point, per_corner };
@@ -45,9 +44,7 @@ struct ParameterSample {
 
     std::size_t count() const { return indices.empty() ? values.size() / extent : indices.size(); }
     /// First value of item i.
-    const float* at(std::size_t i) const {
-        return values.data() + extent * (indices.empty() ? i : static_cast<std::size_t>(indices[i]));
-    }
+    const float* at(std::size_t i) const { return values.data() + extent * element(i); }
     /// Equal for items that the file stores once.
     std::size_t element(std::size_t i) const { return indices.empty() ? i : static_cast<std::size_t>(indices[i]); }
 };
@@ -69,14 +66,14 @@ std::size_t scope_count(GeometryScope scope, const SurfaceRun& run);
 /// The item of a scope at a corner.
 std::size_t scope_item(GeometryScope scope, const SurfaceRun& run, std::size_t face, std::size_t corner);
 
-/// The parameter at the start of a run, if it fits the surface; otherwise none, and a warning.
+/// The parameter at a time, if its size fits the surface; otherwise none, and a warning.
 std::optional<ParameterSample> read_fitting(AlembicReader& reader, int object, const GeometryParameter& parameter,
                                             const SurfaceRun& run, double seconds, std::string_view name);
 
-/// The sample of a property that counts at a time.
+/// The number of the sample that is valid at a time: the last one at or before it.
 std::uint64_t sample_at(const AlembicArchive& archive, const AlembicProperty& property, double seconds);
 
-/// Materials of a surface's faces: its own assignment, overruled by those of its face sets.
+/// Materials of a surface's faces. The assignment of a face set replaces that of the surface.
 struct SurfaceParts {
     std::vector<int> materials;   ///< of each part
     std::vector<int> face_parts;  ///< into materials, face by face

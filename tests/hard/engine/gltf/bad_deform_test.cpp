@@ -1,5 +1,4 @@
-// Broken and hostile glTF files of what deforms and multiplies meshes (HARD_CASES.md, sections 12 and 13): skins, morph
-// targets, sparse values, cubic keys, instances, animation pointers.
+// Broken and hostile glTF files: skins, morph targets, sparse values, cubic keys, instances, animation pointers.
 #include <gtest/gtest.h>
 
 #include <cstring>

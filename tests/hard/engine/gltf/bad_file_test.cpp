@@ -1,11 +1,10 @@
-// Broken and hostile glTF files below the JSON: containers, text, key values, URIs, damage, multiplication.
+// Broken and hostile glTF files below the JSON: containers, text, key values, URIs, multiplication.
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 
 #include <cstring>
 #include <functional>
 #include <limits>
-#include <random>
 
 #include "tests/support/gltf_bad_input.h"
 
@@ -99,7 +98,7 @@ TEST_F(GltfBadFile, S12_4_S13_1_Containers) {
     expect_bytes_refused(changed(12, json_length + 1), "no multiple of 4");
     expect_bytes_refused(changed(16, 0x004e4942), "the first chunk is not JSON");
     expect_bytes_refused(changed(20 + json_length + 4, 0x4e4f534a), "a second JSON chunk");
-    // HARD_CASES 12.4: the BIN chunk claims eight bytes too many.
+    // The BIN chunk claims eight bytes too many.
     expect_bytes_refused(changed(20 + json_length, get_u32(good, 20 + json_length) + 8), "bytes, ");
     expect_bytes_refused(Bytes(good.begin(), good.begin() + 15), "ends inside its header");
 
@@ -145,7 +144,7 @@ TEST_F(GltfBadFile, KF05_ZeroOrNaNRotationKey) {
     expect_draft_refused(nan, "/accessors/3", "element 1 is nan");
 }
 
-/// HARD_CASES 12.2 and 12.3. The files exist, so that only the rule can refuse them.
+/// The files exist, so that only the rule can refuse them.
 TEST_F(GltfBadFile, S12_2_S12_3_UrisStayInTheFilesFolder) {
     const Bytes data = triangle_draft().buffer;
     fs::create_directories(folder_ / "scene/inner");
@@ -239,69 +238,5 @@ TEST_F(GltfBadFile, S13_4_S13_5_SmallFilesThatMultiply) {
     for (Json& each : draft.json["meshes"][0]["primitives"]) each["attributes"]["POSITION"] = many;
     expect_draft_refused(draft, "/accessors/2", "too many bytes for its size");
 }
-
-/// Every way to cut the file, and thousands of random damages: an answer each time, never a crash. The same twice.
-TEST_F(GltfBadFile, S13_10_DamagedFilesLoadOrAreRefused) {
-    const Bytes good = textured_draft(folder_, false).to_glb();
-    const fs::path path = folder_ / "damaged.glb";
-    const auto verdict = [&](const Bytes& bytes) {
-        write_bytes(path, bytes);
-        Scene scene;
-        try {
-            append_gltf(path, scene, no_index, 0);
-            return std::string();
-        } catch (const InputError& error) {
-            EXPECT_EQ(error.file(), path.string());
-            return std::string(error.what());
-        }
-    };
-    ASSERT_EQ(verdict(good), "");
-    for (std::size_t length = 0; length < good.size(); length += 7) {
-        Bytes cut(good.begin(), good.begin() + static_cast<std::ptrdiff_t>(length));
-        EXPECT_NE(verdict(cut), "") << length;
-    }
-    std::mt19937 random(7);
-    int refused = 0;
-    for (int i = 0; i < 2000; ++i) {
-        Bytes bytes = good;
-        const int changes = 1 + static_cast<int>(random() % 4);
-        for (int k = 0; k < changes; ++k) bytes[random() % bytes.size()] = static_cast<std::uint8_t>(random());
-        const std::string first = verdict(bytes);
-        if (!first.empty()) ++refused;
-        if (i % 50 == 0) {
-            EXPECT_EQ(verdict(bytes), first);
-        }
-    }
-    EXPECT_GT(refused, 500);
-}
-
-/// Digits of the JSON replaced by others: well-formed files whose numbers lie.
-TEST_F(GltfBadFile, S12_9_LyingNumbersLoadOrAreRefused) {
-    GltfDraft base = textured_draft(folder_, false);
-    base.set_length();
-    const std::vector<Json> lies = {
-        -1,           0,     1,   2,   3,       7,    255,           65536,         2147483647,
-        4294967296ll, 1e300, 0.5, "1", nullptr, true, Json::array(), Json::object()};
-    const Json flat = base.json.flatten();
-    int tried = 0, refused = 0;
-    for (const auto& [pointer, value] : flat.items()) {
-        for (const Json& lie : lies) {
-            GltfDraft draft = base;
-            draft.json[Json::json_pointer(pointer)] = lie;
-            write_text(folder_ / "lie.gltf", draft.to_text());
-            Scene scene;
-            ++tried;
-            try {
-                append_gltf(folder_ / "lie.gltf", scene, no_index, 0);
-            } catch (const InputError& error) {
-                EXPECT_EQ(error.file(), (folder_ / "lie.gltf").string());
-                ++refused;
-            }
-        }
-    }
-    EXPECT_GT(tried, 1500);
-    EXPECT_GT(refused, tried / 2);
-}
-
 }  // namespace
 }  // namespace aleph

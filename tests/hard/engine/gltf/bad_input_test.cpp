@@ -1,4 +1,4 @@
-// Broken and hostile glTF files (HARD_CASES.md, sections 12 and 13): each breaks one rule of a file that loads, and
+// Broken and hostile glTF files: each breaks one rule of a file that loads, and
 // each must end in one InputError that names the file and the right place, soon, with the scene untouched.
 #include <gtest/gtest.h>
 
@@ -19,7 +19,7 @@ TEST(GltfBadInput, TheDraftsThemselvesLoad) {
         write_text(path, draft.to_text());
         Scene scene;
         append_gltf(path, scene, no_index, 0);
-        // The keys turn by 180 degrees on purpose; nothing else is worth a word.
+        // The keys turn by 180 degrees on purpose; there is no other warning.
         ASSERT_EQ(scene.warnings.size(), 1u);
         EXPECT_NE(scene.warnings[0].find("180.0 degrees"), std::string::npos) << scene.warnings[0];
     }

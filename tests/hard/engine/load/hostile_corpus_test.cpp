@@ -1,6 +1,6 @@
-// A corpus of hostile glTF and scene files, made here: every value of a file that holds one of everything is replaced
-// by what does harm, in turn, and files end early at every place. Each is loaded, posed and built for rays in a process
-// of its own and has to be refused in one sentence or to load, within 2 s and 512 MiB (HARD_CASES section 13).
+// Hostile glTF and scene files. Every value of a file that holds one element of each kind is replaced in turn by
+// hostile values, and files are cut off at many places. Each is loaded, posed and built for rays in its own process. It
+// must be refused in one sentence or load, within 2 s and 512 MiB.
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>

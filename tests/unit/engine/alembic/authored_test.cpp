@@ -1,5 +1,5 @@
-// Scene files authored after the truth beside two archives (tests/assets/abc/author_scenes.py) show the archives' first
-// hits and motion.
+// Scene files made from the truth of two archives (tests/assets/abc/author_scenes.py) have the same first hits and
+// motion as the archives.
 #include <cmath>
 #include <glm/geometric.hpp>
 

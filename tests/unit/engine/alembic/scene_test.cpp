@@ -37,7 +37,7 @@ Scene load(const std::string& name) {
     return load_scene(archive_path(name));
 }
 
-/// 1e-9 relative, element by element; truth has sines of right angles where ours may have 0.
+/// 1e-9 relative, element by element. The truth has rounded sines of right angles where the reader may have 0.
 void expect_matrix(const glm::dmat4& m, const json& truth, const std::string& where) {
     for (int i = 0; i < 16; ++i) {
         const double expected = truth[i];
@@ -207,7 +207,7 @@ const json& object_of(const json& truth, const std::string& path) {
     throw std::out_of_range("no object " + path);
 }
 
-/// All 16 numbers interpolate in the archive; ours are made of them.
+/// All 16 numbers interpolate in the archive; the camera of the scene follows from them.
 TEST(AlembicCameras, FieldOfViewAndShiftAtEveryQueryTime) {
     const Scene scene = load("camera_anim");
     const json truth = truth_of("camera_anim");
@@ -220,7 +220,7 @@ TEST(AlembicCameras, FieldOfViewAndShiftAtEveryQueryTime) {
             ASSERT_NE(values, frame.cameras.end());
             const double aperture = core[vertical_aperture], width = core[horizontal_aperture];
             EXPECT_NEAR(values->fov, 2.0 * std::atan(10.0 * aperture / (2.0 * core[focal_length])), 1e-7) << path;
-            // Offsets are of the film, ours of the picture: in its heights.
+            // Offsets are in units of the film, shifts in heights of the picture.
             EXPECT_NEAR(values->shift_x, core[horizontal_offset] / aperture, 1e-12);
             EXPECT_NEAR(values->shift_y, core[vertical_offset] / aperture, 1e-12);
             EXPECT_NEAR(values->focus_distance, core[focus_distance], 1e-12);

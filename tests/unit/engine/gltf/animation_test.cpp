@@ -42,7 +42,7 @@ TEST_F(GltfAnimation, RotationKeysTurnByTheShorterArc) {
     EXPECT_NEAR(frame.world[0][0].y, std::sin(angle), 1e-7);
 }
 
-/// 90 degrees about (1, 2, 2) / 3, rounded to integers: norms are off by up to 7e-3 and no word is lost on it.
+/// 90 degrees about (1, 2, 2) / 3, rounded to integers: lengths are off by up to 7e-3, which needs no warning.
 TEST_F(GltfAnimation, KF06_QuantisedQuaternionsBecomeUnit) {
     const double h = std::sqrt(0.5);
     const double parts[] = {h / 3.0, 2.0 * h / 3.0, 2.0 * h / 3.0, h};
@@ -65,7 +65,7 @@ TEST_F(GltfAnimation, KF06_QuantisedQuaternionsBecomeUnit) {
     check(std::int8_t{}, 8e-3);
 }
 
-/// Keys 2 s apart, tangents of 1 per second: half-way stands the mean plus 2 * (1 - -1) / 8.
+/// Keys 2 s apart with tangents of 1 per second: half-way the value is the mean plus 2 * (1 - -1) / 8.
 TEST_F(GltfAnimation, KF07_CubicTangentsCountTimesTheInterval) {
     GltfDraft draft = triangle_draft();
     draft.animate(0, "translation", {1.0f, 3.0f}, {0, 0, 0, 0, 0, 0, 1, 1, 0, -1, 0, 0, 4, 0, 0, 0, 0, 0},

@@ -1,4 +1,4 @@
-// Real files from other hands: each loads, or is refused for the reason given here.
+// Files made by other programs: each loads, or is refused for the reason given here.
 #include <gtest/gtest.h>
 
 #include <filesystem>

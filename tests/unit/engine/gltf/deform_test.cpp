@@ -1,4 +1,4 @@
-// glTF reader: morph targets, skins, and meshes that belong to one node each.
+// glTF reader: morph targets, skins, and meshes that are copied for each node.
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -164,7 +164,7 @@ void GlbWriter::add_material(const Material& source) {
     set(source.metallic_roughness_texture, pbr.metallicRoughnessTexture);
     set(source.emission_texture, material.emissiveTexture);
 
-    // glTF's factor stays within 1, the strength carries the rest.
+    // The factor of glTF is at most 1; the strength holds the rest.
     const double largest =
         std::max({material.emissiveFactor[0], material.emissiveFactor[1], material.emissiveFactor[2]});
     const double excess = std::max(largest, 1.0);

@@ -12,7 +12,7 @@ namespace {
 using GltfMesh = GltfFixture;
 using Triangles = std::vector<glm::uvec3>;
 
-/// Six vertices of which only the order matters.
+/// Six vertices; only their order is tested.
 GltfDraft six_vertices(int mode) {
     GltfDraft draft = triangle_draft();
     std::vector<float> points;
@@ -30,7 +30,7 @@ TEST_F(GltfMesh, TrianglesStripsAndFansWithoutIndices) {
 
 TEST_F(GltfMesh, StripsAndFansWithIndices) {
     GltfDraft strip = six_vertices(5), fan = six_vertices(6);
-    // A repeated index jumps: the triangles that have it twice are nothing, and the order goes on counting.
+    // A repeated index starts anew: triangles that have it twice are left out, and still count for the order.
     strip.primitive()["indices"] = strip.add_accessor<std::uint8_t>({5, 4, 3, 3, 2, 1}, "SCALAR", 1);
     EXPECT_EQ(load(strip).meshes[0].triangles, (Triangles{{5, 4, 3}, {3, 1, 2}}));
     fan.primitive()["indices"] = fan.add_accessor<std::uint16_t>({5, 0, 1, 2}, "SCALAR", 1);
@@ -86,7 +86,7 @@ TEST_F(GltfMesh, S12_10_SparseIndicesWithoutAView) {
                          {"indices", {{"bufferView", draft.add_view({1, 2})}, {"componentType", 5121}}},
                          {"values", {{"bufferView", draft.add_view({1, 0, 2, 0})}}}};
     EXPECT_EQ(load(draft).meshes[0].triangles, (Triangles{{0, 1, 2}}));
-    // A sparse value mends an index that would be out of range.
+    // A sparse value replaces an index that is out of range.
     GltfDraft mended = triangle_draft();
     mended.buffer[4] = 200;
     mended.json["accessors"][0]["sparse"] = {

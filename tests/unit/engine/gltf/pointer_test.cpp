@@ -1,4 +1,4 @@
-// glTF reader: KHR_animation_pointer, and what happens where several animations meet.
+// glTF reader: KHR_animation_pointer, and several animations of one property.
 #include <gtest/gtest.h>
 
 #include <cmath>

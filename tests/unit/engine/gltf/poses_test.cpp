@@ -1,22 +1,18 @@
-// Animated files from other hands against what their bytes say, worked out here from tinygltf's raw parse.
+// Animated files made by other programs, against poses worked out from tinygltf's raw parse.
 #include <gtest/gtest.h>
-#include <tiny_gltf.h>
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <filesystem>
 #include <glm/gtc/quaternion.hpp>
 
 #include "engine/gltf/gltf.h"
 #include "engine/pose/pose.h"
 #include "tests/support/paths.h"
+#include "tests/unit/engine/gltf/raw_gltf.h"
 
 namespace aleph {
 namespace {
-
-namespace fs = std::filesystem;
-namespace gltf = tinygltf;
 
 const fs::path assets = assets_folder() / "gltf";
 
@@ -28,142 +24,6 @@ Scene load(const fs::path& name) {
 
 #define SKIP_WITHOUT(name) \
     if (!fs::exists(assets / (name))) GTEST_SKIP() << "not here: " << (assets / (name))
-
-/// Images do not matter here.
-bool skip_image(gltf::Image*, const int, std::string*, std::string*, int, int, const unsigned char*, int, void*) {
-    return true;
-}
-
-/// The file as tinygltf alone reads it.
-struct Raw {
-    explicit Raw(const fs::path& name) {
-        gltf::TinyGLTF parser;
-        parser.SetImageLoader(skip_image, nullptr);
-        std::string error, warning;
-        const std::string path = (assets / name).string();
-        const bool read = name.extension() == ".glb" ? parser.LoadBinaryFromFile(&model, &error, &warning, path)
-                                                     : parser.LoadASCIIFromFile(&model, &error, &warning, path);
-        EXPECT_TRUE(read) << error;
-    }
-    /// Float values of a packed accessor.
-    std::vector<double> floats(int index) const {
-        const gltf::Accessor& accessor = model.accessors.at(static_cast<std::size_t>(index));
-        const gltf::BufferView& view = model.bufferViews.at(static_cast<std::size_t>(accessor.bufferView));
-        const auto components =
-            static_cast<std::size_t>(gltf::GetNumComponentsInType(static_cast<std::uint32_t>(accessor.type)));
-        EXPECT_EQ(accessor.componentType, TINYGLTF_COMPONENT_TYPE_FLOAT);
-        std::vector<float> values(accessor.count * components);
-        std::memcpy(
-            values.data(),
-            &model.buffers.at(static_cast<std::size_t>(view.buffer)).data.at(view.byteOffset + accessor.byteOffset),
-            values.size() * sizeof(float));
-        return {values.begin(), values.end()};
-    }
-    gltf::Model model;
-};
-
-/// A channel worked out from glTF 2.0, appendix C, without the engine.
-struct Keys {
-    std::vector<double> times, values;
-    std::size_t row = 1;
-    std::string interpolation;
-
-    Keys(const Raw& raw, const gltf::Animation& animation, const gltf::AnimationChannel& channel, std::size_t width)
-        : times(raw.floats(animation.samplers[channel.sampler].input)),
-          values(raw.floats(animation.samplers[channel.sampler].output)),
-          row(width),
-          interpolation(animation.samplers[channel.sampler].interpolation) {}
-
-    std::vector<double> value(std::size_t key, std::size_t part = 1) const {
-        const std::size_t first = (interpolation == "CUBICSPLINE" ? 3 * key + part : key) * row;
-        return {values.begin() + static_cast<std::ptrdiff_t>(first),
-                values.begin() + static_cast<std::ptrdiff_t>(first + row)};
-    }
-    std::vector<double> at(double t) const {
-        if (t <= times.front()) return value(0);
-        if (t >= times.back()) return value(times.size() - 1);
-        std::size_t k = 0;
-        while (times[k + 1] <= t) ++k;
-        const double interval = times[k + 1] - times[k], s = (t - times[k]) / interval;
-        const std::vector<double> a = value(k), b = value(k + 1);
-        std::vector<double> result = a;
-        if (interpolation == "STEP") return a;
-        if (interpolation == "CUBICSPLINE") {
-            const std::vector<double> leaving = value(k, 2), arriving = value(k + 1, 0);
-            for (std::size_t i = 0; i < row; ++i) {
-                result[i] = (2 * s * s * s - 3 * s * s + 1) * a[i] +
-                            interval * (s * s * s - 2 * s * s + s) * leaving[i] + (-2 * s * s * s + 3 * s * s) * b[i] +
-                            interval * (s * s * s - s * s) * arriving[i];
-            }
-            return row == 4 ? unit(result) : result;
-        }
-        if (row == 4) return slerp(a, b, s);
-        for (std::size_t i = 0; i < row; ++i) result[i] = a[i] + s * (b[i] - a[i]);
-        return result;
-    }
-    static std::vector<double> unit(std::vector<double> q) {
-        double length = 0.0;
-        for (const double c : q) length += c * c;
-        for (double& c : q) c /= std::sqrt(length);
-        return q;
-    }
-    static std::vector<double> slerp(std::vector<double> a, std::vector<double> b, double s) {
-        a = unit(a);
-        b = unit(b);
-        double dot = 0.0;
-        for (std::size_t i = 0; i < 4; ++i) dot += a[i] * b[i];
-        for (double& c : b) c *= dot < 0.0 ? -1.0 : 1.0;
-        double across = 0.0;  // acos of a number near 1 would lose half the digits
-        for (std::size_t i = 0; i < 4; ++i) across += std::pow(b[i] - std::abs(dot) * a[i], 2);
-        const double angle = std::atan2(std::sqrt(across), std::abs(dot));
-        if (angle < 1e-12) return a;
-        for (std::size_t i = 0; i < 4; ++i) {
-            a[i] = (a[i] * std::sin((1 - s) * angle) + b[i] * std::sin(s * angle)) / std::sin(angle);
-        }
-        return a;
-    }
-};
-
-glm::dmat4 local_matrix(const std::vector<double>& t, const std::vector<double>& r, const std::vector<double>& s) {
-    const glm::dmat3 turn = glm::mat3_cast(glm::dquat(r[3], r[0], r[1], r[2]));
-    return {glm::dvec4(turn[0] * s[0], 0.0), glm::dvec4(turn[1] * s[1], 0.0), glm::dvec4(turn[2] * s[2], 0.0),
-            glm::dvec4(t[0], t[1], t[2], 1.0)};
-}
-
-/// World matrices of all nodes at a time; of animations on one property the first counts.
-std::vector<glm::dmat4> world_matrices(const Raw& raw, double seconds) {
-    const gltf::Model& model = raw.model;
-    std::vector<glm::dmat4> local, world(model.nodes.size(), glm::dmat4(1.0));
-    std::vector<int> parents(model.nodes.size(), -1);
-    for (std::size_t i = 0; i < model.nodes.size(); ++i) {
-        const gltf::Node& node = model.nodes[i];
-        for (const int child : node.children) parents[child] = static_cast<int>(i);
-        std::vector<double> t{0, 0, 0}, r{0, 0, 0, 1}, s{1, 1, 1};
-        if (!node.translation.empty()) t = node.translation;
-        if (!node.rotation.empty()) r = Keys::unit(node.rotation);
-        if (!node.scale.empty()) s = node.scale;
-        for (auto animation = model.animations.rbegin(); animation != model.animations.rend(); ++animation) {
-            for (const gltf::AnimationChannel& channel : animation->channels) {
-                if (channel.target_node != static_cast<int>(i)) continue;
-                if (channel.target_path == "translation") t = Keys(raw, *animation, channel, 3).at(seconds);
-                if (channel.target_path == "scale") s = Keys(raw, *animation, channel, 3).at(seconds);
-                if (channel.target_path == "rotation") r = Keys::unit(Keys(raw, *animation, channel, 4).at(seconds));
-            }
-        }
-        glm::dmat4 matrix = local_matrix(t, r, s);
-        for (std::size_t k = 0; k < node.matrix.size(); ++k) {
-            matrix[static_cast<int>(k / 4)][static_cast<int>(k % 4)] = node.matrix[k];
-        }
-        local.push_back(matrix);
-    }
-    for (std::size_t i = 0; i < local.size(); ++i) {
-        world[i] = local[i];
-        for (int p = parents[i]; p >= 0; p = parents[p]) {
-            world[i] = local[p] * world[i];
-        }
-    }
-    return world;
-}
 
 /// Cubic keys of a rotation are floats, off from length 1 by 6e-8; the reader scales them, the formula above does not.
 constexpr double pose_tolerance = 1e-8;
@@ -332,7 +192,7 @@ TEST(GltfPoses, AnimatedMorphCubeAtKeysAndBetween) {
             for (int k = 0; k < 3; ++k) EXPECT_NEAR(posed.normals[i][k], normal[k], 1e-6) << seconds;
         }
     }
-    EXPECT_GT(largest_weight, 0.5) << "nothing morphs at these times: the comparison says nothing";
+    EXPECT_GT(largest_weight, 0.5) << "nothing morphs at these times, so nothing is compared";
 }
 
 TEST(GltfPoses, BoxSparseMorphsFromOneToTwoSeconds) {

@@ -1,4 +1,4 @@
-// A round trip of meaning: a scene saved as .glb by other code than the reader's shows the same.
+// A scene that is written as .glb by code of its own, and read again, gives the same hits and motion.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -18,7 +18,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Kept: tests/gltf_validator looks at what lies here.
+/// The files stay: tests/gltf_validator reads them.
 const fs::path folder = build_folder() / "round_trip";
 
 struct View {
@@ -39,7 +39,7 @@ View look(const Scene& scene, std::int64_t frame_number) {
     return seen;
 }
 
-/// Nodes may stand in another order: objects are known by their node's name and the mesh's place under it.
+/// Nodes may come in another order: objects are compared by node name and position of the mesh under the node.
 std::vector<std::pair<std::string, int>> object_names(const Scene& scene) {
     std::vector<std::pair<std::string, int>> names;
     for (const Instance& instance : list_instances(scene)) {

@@ -1,9 +1,8 @@
-// load_scene and save_scene on files: includes, pictures, what is added to scenes that lack it, bad files.
+// load_scene and save_scene on files: includes, pictures, the camera that is added, bad files.
 
 #include "engine/load/load_scene.h"
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <cmath>
 #include <filesystem>
@@ -11,15 +10,13 @@
 
 #include "engine/base/errors.h"
 #include "engine/image/image_file.h"
-#include "engine/load/warnings.h"
 #include "engine/pose/camera_view.h"
 #include "engine/pose/pose.h"
 #include "tests/support/paths.h"
+#include "tests/unit/engine/load/fixture.h"
 
 namespace aleph {
 namespace {
-
-namespace fs = std::filesystem;
 
 /// A triangle (0,0,0) (1,0,0) (0,1,0) under the node "mover", which goes from x = 0 to x = 10 m in one second.
 constexpr const char* moving_triangle = R"({"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}],
@@ -31,50 +28,12 @@ constexpr const char* moving_triangle = R"({"asset": {"version": "2.0"}, "scene"
         {"bufferView": 2, "componentType": 5126, "count": 2, "type": "VEC3"}, {"bufferView": 3, "componentType": 5123, "count": 3, "type": "SCALAR"}],
     "animations": [{"samplers": [{"input": 1, "output": 2}], "channels": [{"sampler": 0, "target": {"node": 0, "path": "translation"}}]}]})";
 
-class Archive : public testing::Test {
-  protected:
-    void SetUp() override {
-        const auto* test = testing::UnitTest::GetInstance()->current_test_info();
-        folder_ =
-            fs::path(testing::TempDir()) / (std::string("aleph_archive_") + test->name() + std::to_string(getpid()));
-        fs::remove_all(folder_);
-        fs::create_directories(folder_ / "lib");
-    }
-    void TearDown() override { fs::remove_all(folder_); }
-
-    fs::path write(const std::string& name, const std::string& text) const {
-        std::ofstream(folder_ / name, std::ios::binary) << text;
-        return folder_ / name;
-    }
-    fs::path write_scene(const std::string& body) const { return write("scene.json", "{\"aleph\": 1, " + body + "}"); }
-
-    void expect_refused(const fs::path& path, const std::string& place, const std::string& word) const {
-        try {
-            load_scene(path);
-            ADD_FAILURE() << path << " was read";
-        } catch (const InputError& error) {
-            EXPECT_EQ(error.file(), path.string()) << error.what();
-            EXPECT_EQ(error.place(), place) << error.what();
-            EXPECT_NE(error.reason().find(word), std::string::npos) << error.what();
-        }
-    }
-
-    fs::path folder_;
-};
-
-bool has_warning(const Scene& scene, const std::string& word) {
-    for (const std::string& warning : scene.warnings) {
-        if (warning.find(word) != std::string::npos) return true;
-    }
-    return false;
-}
-
 Scene without_file(Scene scene) {
     scene.file.clear();
     return scene;
 }
 
-TEST_F(Archive, PicturesAreDecoded) {
+TEST_F(LoadScene, PicturesAreDecoded) {
     Image<Rgb> picture(2, 1);
     picture(0, 0) = Rgb(1.0f, 0.0f, 0.0f);
     picture(1, 0) = Rgb(0.0f, 0.0f, 1.0f);
@@ -97,7 +56,7 @@ TEST_F(Archive, PicturesAreDecoded) {
     EXPECT_TRUE(without_file(load_scene(folder_ / "again.json")) == without_file(scene));
 }
 
-TEST_F(Archive, IncludesFollowTheScenesOwnElementsAndStayIncludes) {
+TEST_F(LoadScene, IncludesFollowTheScenesOwnElementsAndStayIncludes) {
     write("lib/triangle.gltf", moving_triangle);
     const Scene scene = load_scene(write_scene(R"("camera": "eye", "environment": [1, 1, 1], "nodes": [
         {"name": "left", "translation": [-5, 0, 0], "include": ["lib/triangle.gltf", "lib/../lib/triangle.gltf"]},
@@ -119,7 +78,7 @@ TEST_F(Archive, IncludesFollowTheScenesOwnElementsAndStayIncludes) {
     EXPECT_TRUE(without_file(load_scene(folder_ / "again.json")) == without_file(scene));
 }
 
-TEST_F(Archive, PathsChangeWithTheFolder) {
+TEST_F(LoadScene, PathsChangeWithTheFolder) {
     write("lib/triangle.gltf", moving_triangle);
     write_png(folder_ / "dot.png", Image<Rgb>(1, 1));
     const Scene scene = load_scene(write_scene(
@@ -132,7 +91,7 @@ TEST_F(Archive, PathsChangeWithTheFolder) {
     EXPECT_EQ(moved.images[0].bytes, scene.images[0].bytes);
 }
 
-TEST_F(Archive, GltfWithoutCameraGetsOneThatSeesEverythingAllTheTime) {
+TEST_F(LoadScene, GltfWithoutCameraGetsOneThatSeesEverythingAllTheTime) {
     const Scene scene = load_scene(write("moving.gltf", moving_triangle));
     EXPECT_TRUE(has_warning(scene, "no camera"));
     EXPECT_EQ(scene.name, "moving");
@@ -164,81 +123,7 @@ TEST_F(Archive, GltfWithoutCameraGetsOneThatSeesEverythingAllTheTime) {
     EXPECT_TRUE(again == scene);
 }
 
-TEST_F(Archive, SceneWithoutLightGetsAWhiteEnvironment) {
-    const Scene dark = load_scene(
-        write_scene(R"("materials": {"unused": {"emission": [1, 1, 1]}}, "lights": {"unused": {"type": "point"}},
-        "nodes": [{"shape": {"type": "box"}, "material": {"emission": [1, 0, 0], "emission_strength": 0}}])"));
-    EXPECT_EQ(dark.environment, Track<glm::dvec3>(glm::dvec3(1.0)));
-    EXPECT_TRUE(has_warning(dark, "no light"));
-    for (
-        const char* light :
-        {R"("environment": [0, 0, 0.1])", R"("environment": [0, 0, 0])",
-         R"("nodes": [{"light": {"type": "directional"}}])",
-         R"("nodes": [{"shape": {"type": "quad"}, "material": {"emission": {"keys": [[0, [0, 0, 0]], [9, [0, 1, 0]]]}}}])"}) {
-        const Scene lit = load_scene(write_scene(light));
-        EXPECT_FALSE(has_warning(lit, "no light")) << light;
-        EXPECT_NE(lit.environment, Track<glm::dvec3>(glm::dvec3(1.0))) << light;
-    }
-}
-
-TEST_F(Archive, WhatIsRenderedOpaqueIsSaid) {
-    const Scene holes = load_scene(write_scene(R"("environment": [1, 1, 1],
-        "materials": {"leaf": {"alpha_mode": "mask"}, "smoke": {"alpha_mode": "blend"}, "unused": {"alpha_mode": "blend"}},
-        "nodes": [{"shape": {"type": "quad"}, "material": "leaf"}, {"shape": {"type": "quad"}, "material": "smoke"}])"));
-    EXPECT_EQ(
-        holes.warnings,
-        (std::vector<std::string>{
-            "material \"smoke\": alpha mode \"blend\" is not in this version; what has an alpha below 0.5 is left "
-            "out, the rest is opaque"}));
-    Scene glass;
-    glass.materials.resize(1);
-    glass.materials[0].name = "glass";
-    glass.meshes.resize(1);
-    glass.meshes[0].material = 0;
-    glass.nodes.resize(1);
-    glass.nodes[0].meshes = {0};
-    add_surface_warnings(glass);
-    EXPECT_TRUE(glass.warnings.empty());
-    glass.materials[0].transmission = 0.5;
-    add_surface_warnings(glass);
-    EXPECT_TRUE(has_warning(glass, "\"glass\": transmission is not in this version"));
-}
-
-TEST_F(Archive, RP08_RotationKeysMoreThan170DegreesApartAreSaid) {
-    const auto load = [&](const std::string& rotation) {
-        return load_scene(write_scene(
-            "\"environment\": [1, 1, 1], \"nodes\": [{\"name\": \"arm\", \"rotation\": " + rotation + "}]"));
-    };
-    const auto keys = [](double degrees, const std::string& more) {
-        const double half = 0.5 * degrees * std::acos(-1.0) / 180.0;
-        return "{\"keys\": [[0, [0, 0, 0, 1]], [5, [0, 0, 0, 1]], [9, [0, " + std::to_string(std::sin(half)) + ", 0, " +
-               std::to_string(std::cos(half)) + "]]]" + more + "}";
-    };
-    const Scene scene = load(keys(171.0, ""));
-    ASSERT_EQ(scene.warnings.size(), 1u);
-    EXPECT_NE(scene.warnings[0].find("\"arm\": neighbouring rotation keys are 171"), std::string::npos)
-        << scene.warnings[0];
-    EXPECT_TRUE(has_warning(load(keys(180.0, "")), "180 degrees"));
-    EXPECT_TRUE(has_warning(load(keys(185.0, "")), "185 degrees"));
-    EXPECT_TRUE(has_warning(load(keys(270.0, "")), "270 degrees")) << "although the rotation takes the 90 back";
-    EXPECT_TRUE(load(keys(169.0, "")).warnings.empty());
-    EXPECT_TRUE(load(keys(180.0, ", \"interpolation\": \"step\"")).warnings.empty());
-    EXPECT_TRUE(load(R"({"axis": [0, 1, 0], "degrees": {"keys": [[0, 0], [5, 720]]}})").warnings.empty());
-}
-
-TEST_F(Archive, KF04_RotationsThatAreNotUnitAreSaid) {
-    const auto load = [&](const std::string& rotation) {
-        return load_scene(write_scene(
-            "\"environment\": [1, 1, 1], \"nodes\": [{\"name\": \"arm\", \"rotation\": " + rotation + "}]"));
-    };
-    EXPECT_TRUE(has_warning(load("[0, 0, 0, 2]"), "\"arm\": rotation key 0 has length 2"));
-    EXPECT_TRUE(has_warning(load("[0, 1.002, 0, 0]"), "length 1.002"));
-    EXPECT_TRUE(load("[0, 0.70711, 0, 0.70711]").warnings.empty());
-    const Scene tiny = load("[0, 1e-20, 0, 1e-20]");
-    EXPECT_NEAR(pose(tiny, 0.0).world[0][0].z, -1.0, 1e-12);  // a quarter turn about y takes x to -z
-}
-
-TEST_F(Archive, FilesThatCannotBeRead) {
+TEST_F(LoadScene, FilesThatCannotBeRead) {
     expect_refused(folder_ / "missing.json", "", "there is no file");
     expect_refused(folder_ / "missing.glb", "", "there is no file");
     fs::create_directories(folder_ / "folder.json");
@@ -255,7 +140,7 @@ TEST_F(Archive, FilesThatCannotBeRead) {
     expect_refused(folder_ / "huge.json", "", "larger than 64 MiB");
 }
 
-TEST_F(Archive, FilesThatASceneNamesAndThatCannotBeRead) {
+TEST_F(LoadScene, FilesThatASceneNamesAndThatCannotBeRead) {
     const auto refused = [&](const std::string& body, const std::string& place, const std::string& word) {
         expect_refused(write_scene(body), place, word);
     };
@@ -286,7 +171,7 @@ TEST_F(Archive, FilesThatASceneNamesAndThatCannotBeRead) {
     }
 }
 
-TEST_F(Archive, SaveIsAllOrNothing) {
+TEST_F(LoadScene, SaveIsAllOrNothing) {
     Scene scene;
     scene.name = "first";
     save_scene(scene, folder_ / "s.json");
@@ -299,7 +184,7 @@ TEST_F(Archive, SaveIsAllOrNothing) {
     EXPECT_EQ(std::distance(fs::directory_iterator(folder_), {}), 2);  // lib and s.json: nothing left over
 }
 
-TEST_F(Archive, ManyIncludesOfOneFileLoadAndSave) {
+TEST_F(LoadScene, ManyIncludesOfOneFileLoadAndSave) {
     write("lib/triangle.gltf", moving_triangle);
     std::string nodes;
     for (int i = 0; i < 50; ++i) nodes += std::string(i ? "," : "") + "{\"include\": \"lib/triangle.gltf\"}";
@@ -309,7 +194,7 @@ TEST_F(Archive, ManyIncludesOfOneFileLoadAndSave) {
     EXPECT_TRUE(without_file(load_scene(folder_ / "again.json")) == without_file(scene));
 }
 
-TEST_F(Archive, RealFilesLoadAsScenesAndAsIncludes) {
+TEST_F(LoadScene, RealFilesLoadAsScenesAndAsIncludes) {
     const fs::path assets = assets_folder();
     if (!fs::exists(assets)) GTEST_SKIP() << "the shared asset files are not here";
     for (const char* name : {"gltf/CesiumMilkTruck.glb", "gltf/CornellBox.glb", "room/room.glb"}) {

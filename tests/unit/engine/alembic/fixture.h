@@ -1,0 +1,62 @@
+#pragma once
+// Loads archives and drafts of archives, and finds elements of scenes and of the truth.
+
+#include <algorithm>
+#include <glm/geometric.hpp>
+#include <stdexcept>
+
+#include "engine/load/load_scene.h"
+#include "tests/support/alembic_draft.h"
+#include "tests/support/alembic_truth.h"
+#include "tests/support/scratch_folder.h"
+
+namespace aleph {
+
+inline Scene load(const std::string& name) {
+    return load_scene(archive_path(name));
+}
+
+inline Scene load(const std::vector<DraftObject>& objects, std::vector<double> times = {0.0}) {
+    const ScratchFolder folder;
+    OgawaDraft draft;
+    draft.times = std::move(times);
+    return load_scene(write_draft(folder / "draft.abc", draft.finish(objects)));
+}
+
+inline const Node& node_named(const Scene& scene, const std::string& name) {
+    const auto found = std::ranges::find(scene.nodes, name, &Node::name);
+    if (found == scene.nodes.end()) throw std::out_of_range("no node " + name);
+    return *found;
+}
+
+inline const Mesh& mesh_of(const Scene& scene, const std::string& node, std::size_t i = 0) {
+    return scene.meshes[node_named(scene, node).meshes.at(i)];
+}
+
+inline bool has_warning(const Scene& scene, const std::string& word) {
+    return std::ranges::any_of(scene.warnings,
+                               [&](const std::string& text) { return text.find(word) != std::string::npos; });
+}
+
+inline const json& object_of(const json& truth, const std::string& path) {
+    for (const json& object : truth["objects"])
+        if (object["path"] == path) return object;
+    throw std::out_of_range("no object " + path);
+}
+
+inline const json& property_of(const json& object, const std::string& name) {
+    for (const json& property : object["properties"][0]["properties"])
+        if (property["name"] == name) return property;
+    throw std::out_of_range("no property " + name);
+}
+
+inline glm::vec3 vec3_at(const json& values, std::size_t i) {
+    return {values[3 * i].get<float>(), values[3 * i + 1].get<float>(), values[3 * i + 2].get<float>()};
+}
+
+inline glm::dvec3 triangle_normal(const std::vector<glm::vec3>& positions, const glm::uvec3& t) {
+    const glm::dvec3 a = positions[t.x], b = positions[t.y], c = positions[t.z];
+    return glm::cross(b - a, c - a);
+}
+
+}  // namespace aleph
