@@ -4,26 +4,9 @@
 
 namespace aleph {
 
-SampleSpan look_up(const TimeSampling& sampling, std::size_t count, double seconds, Lookup lookup) {
-    const SampleSpan span = find_samples(sampling, count, seconds);
-    switch (lookup) {
-        case Lookup::floor:
-            return {span.floor, span.floor, 0.0};
-        case Lookup::ceil:
-            return {span.ceil, span.ceil, 0.0};
-        case Lookup::near: {
-            const std::size_t nearest = nearest_sample(sampling, count, seconds);
-            return {nearest, nearest, 0.0};
-        }
-        case Lookup::interpolated:
-            break;
-    }
-    return span;
-}
-
-std::vector<glm::dvec3> sample_points(const PointCache& cache, double seconds, Lookup lookup) {
+std::vector<glm::dvec3> sample_points(const PointCache& cache, double seconds) {
     if (cache.positions.empty()) return {};
-    const SampleSpan span = look_up(cache.sampling, cache.positions.size(), seconds, lookup);
+    const SampleSpan span = find_samples(cache.sampling, cache.positions.size(), seconds);
     const std::vector<glm::vec3>& a = cache.positions[span.floor];
     const std::vector<glm::vec3>& b = cache.positions[span.ceil];
     std::vector<glm::dvec3> points(a.begin(), a.end());

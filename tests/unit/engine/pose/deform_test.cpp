@@ -22,31 +22,18 @@ void expect_near(const glm::dvec3& a, const glm::dvec3& b, double tolerance = 1e
     for (int i = 0; i < 3; ++i) EXPECT_NEAR(a[i], b[i], tolerance);
 }
 
-TEST(Lookup, FloorCeilNearAndInterpolated) {
+TEST(SamplePoints, AreLinearBetweenSamplesAndHoldOutside) {
     PointCache cache;
     cache.sampling = {TimeSampling::Kind::acyclic, 0.0, 1.0, {0.0, 1.0, 3.0}};
     cache.positions = {{{0.0f, 0.0f, 0.0f}}, {{1.0f, 0.0f, 0.0f}}, {{5.0f, 0.0f, 0.0f}}};
-    const auto x = [&](double seconds, Lookup lookup) { return sample_points(cache, seconds, lookup)[0].x; };
-    EXPECT_EQ(x(1.5, Lookup::floor), 1.0);
-    EXPECT_EQ(x(1.5, Lookup::ceil), 5.0);
-    EXPECT_EQ(x(1.5, Lookup::near), 1.0);
-    EXPECT_EQ(x(2.5, Lookup::near), 5.0);
-    EXPECT_EQ(x(2.0, Lookup::near), 1.0);  // a tie
-    EXPECT_EQ(x(1.5, Lookup::interpolated), 2.0);
-    for (const Lookup lookup : {Lookup::floor, Lookup::ceil, Lookup::near, Lookup::interpolated}) {
-        EXPECT_EQ(x(-1.0, lookup), 0.0);
-        EXPECT_EQ(x(1.0, lookup), 1.0);
-        EXPECT_EQ(x(9.0, lookup), 5.0);
-    }
-    Track<double> track;
-    track.sampling = cache.sampling;
-    track.values = {0.0, 1.0, 5.0};
-    EXPECT_EQ(evaluate(track, 1.5, Lookup::floor), 1.0);
-    EXPECT_EQ(evaluate(track, 1.5, Lookup::ceil), 5.0);
-    EXPECT_EQ(evaluate(track, 1.5, Lookup::interpolated), 2.0);
+    const auto x = [&](double seconds) { return sample_points(cache, seconds)[0].x; };
+    EXPECT_EQ(x(1.5), 2.0);
+    EXPECT_EQ(x(-1.0), 0.0);
+    EXPECT_EQ(x(1.0), 1.0);
+    EXPECT_EQ(x(9.0), 5.0);
 }
 
-TEST(Lookup, CyclicSamplesRepeatTheirTimes) {
+TEST(SamplePoints, CyclicSamplesRepeatTheirTimes) {
     PointCache cache;
     cache.sampling = {TimeSampling::Kind::cyclic, 0.0, 1.0, {0.0, 0.25}};
     cache.positions = {{{0.0f, 0.0f, 0.0f}}, {{1.0f, 0.0f, 0.0f}}, {{2.0f, 0.0f, 0.0f}}, {{3.0f, 0.0f, 0.0f}}};
