@@ -1,10 +1,13 @@
-// The house: includes point one way, and nothing lies about at the top.
+// Rules for the source tree: includes point one way, files are short, and texts cite only what the repository holds.
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cctype>
+#include <cstddef>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <regex>
 #include <set>
 #include <string>
@@ -191,8 +194,7 @@ std::vector<std::string> find_strays(const fs::path& root) {
 }
 
 TEST(House, TopHoldsNothingElse) {
-    for (const std::string& name : find_strays(source_folder()))
-        ADD_FAILURE() << name << " does not belong at the top";
+    for (const std::string& name : find_strays(source_folder())) ADD_FAILURE() << name << " does not belong at the top";
     for (const char* name :
          {"CMakeLists.txt", "README.md", "engine", "motion", "perception", "render", "scenes", "tests"}) {
         EXPECT_TRUE(fs::exists(source_folder() / name)) << name;
@@ -208,6 +210,77 @@ TEST(House, StraysAreSeen) {
     std::ofstream(folder / ".clang-format") << "";
     EXPECT_EQ(find_strays(folder), (std::vector<std::string>{"docs"}));
     fs::remove_all(folder);
+}
+
+/// Calls visit(path from the root) for every file below a folder of the repository.
+template <class Visit>
+void for_each_file(const std::string& folder, const Visit& visit) {
+    const fs::path root = source_folder();
+    for (auto it = fs::recursive_directory_iterator(root / folder); it != fs::recursive_directory_iterator(); ++it) {
+        if (it->path().filename() == "node_modules") it.disable_recursion_pending();
+        if (it->is_regular_file()) visit(fs::relative(it->path(), root));
+    }
+}
+
+TEST(House, SourceFilesAreShort) {
+    std::vector<std::ptrdiff_t> lengths;
+    for (const char* folder : {"engine", "motion", "perception", "render"}) {
+        for_each_file(folder, [&](const fs::path& path) {
+            if (path.extension() != ".h" && path.extension() != ".cpp") return;
+            const std::string text = read_file(source_folder() / path);
+            lengths.push_back(std::count(text.begin(), text.end(), '\n'));
+            EXPECT_LE(lengths.back(), 300) << path << ": cut it by subject";
+        });
+    }
+    ASSERT_FALSE(lengths.empty());
+    const auto middle = lengths.begin() + std::ssize(lengths) / 2;
+    std::nth_element(lengths.begin(), middle, lengths.end());
+    EXPECT_LT(*middle, 120) << "lines in the median file";
+    RecordProperty("median_lines", static_cast<int>(*middle));
+}
+
+/// Names of documents that are not part of the repository, as far as a text has them as whole words.
+std::vector<std::string> find_outside_citations(const std::string& text) {
+    // In two parts, so that this file does not contain them.
+    static const std::vector<std::string> names = {
+        "HARD"
+        "_CASES",
+        "MOD"
+        "EL.md",
+        "DES"
+        "IGN",
+        "CONVEN"
+        "TIONS",
+        "PERFOR"
+        "MANCE"};
+    const auto in_word = [](char c) { return c == '_' || std::isalnum(static_cast<unsigned char>(c)) != 0; };
+    std::vector<std::string> found;
+    for (const std::string& name : names) {
+        for (auto at = text.find(name); at != std::string::npos; at = text.find(name, at + 1)) {
+            const auto end = at + name.size();
+            if ((at > 0 && in_word(text[at - 1])) || (end < text.size() && in_word(text[end]))) continue;
+            found.push_back(name);
+            break;
+        }
+    }
+    return found;
+}
+
+TEST(House, CitationsAreFound) {
+    EXPECT_EQ(find_outside_citations("// see HARD"
+                                     "_CASES DT-09")
+                  .size(),
+              1u);
+    EXPECT_EQ(find_outside_citations("DES"
+                                     "IGN \"A frame\", MOD"
+                                     "EL.md")
+                  .size(),
+              2u);
+    EXPECT_EQ(find_outside_citations("DES"
+                                     "IGNED MY_DES"
+                                     "IGN DT-09 (tests/hard/README.md)")
+                  .size(),
+              0u);
 }
 
 }  // namespace
