@@ -88,7 +88,7 @@ ChannelImage make_frame_image(const FrameOutput& output, bool maps, const Scene&
     file.metadata["whiteLuminance"] = scene.viewing.display_white;
     file.metadata["pixelsPerDegree"] = scene.viewing.pixels_per_degree;
     file.metadata["exposureFactor"] = exposure;
-    if (output.view.width > 0) {  // frames without a scene have no camera, and nobody sampled them here
+    if (output.view.width > 0) {  // pictures that were not rendered here have no camera and no samples
         file.metadata["samplesPerPixel"] = static_cast<double>(settings.spp);
         file.metadata["seed"] = static_cast<double>(settings.seed);
         file.metadata["worldToCamera"] = format_camera(output.view);

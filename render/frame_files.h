@@ -1,18 +1,20 @@
 #pragma once
-// A frame as files: channels and metadata (DESIGN "Command line", CONVENTIONS 2).
+// A frame as an EXR file, with channels and attributes, and the statistics of frames as JSON.
 
 #include "engine/image/image_file.h"
-#include "render/sequence.h"
+#include "engine/scene/scene.h"
+#include "render/frame_output.h"
+#include "render/settings.h"
 
 namespace aleph {
 
-/// R, G, B, A of the picture where it was rendered; with `maps` every map's channels as well.
-/// Maps that were not made (of geometry and rendering, for frames without a scene) have no channels.
-/// forward.u and forward.v are y up; the C++ MotionField is y down.
+/// The channels R, G, B, A if the picture was rendered, and with `maps` those of every map that was made.
+/// render/README.md describes the channels. forward.v is positive upwards; MotionField of C++ is positive downwards.
 ChannelImage make_frame_image(const FrameOutput& output, bool maps, const Scene& scene, const RenderSettings& settings,
                               double exposure);
 
-/// {"frames": [...], "settings": {...}, ...} as text. Times, host and threads stand here and nowhere else.
+/// {"frames": [...], "settings": {...}, ...} as text. Times, host and number of threads are only here, so that EXR
+/// files do not depend on them.
 std::string format_statistics(const std::vector<FrameStatistics>& frames, const Scene& scene,
                               const RenderSettings& settings, double exposure);
 

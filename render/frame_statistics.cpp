@@ -20,26 +20,43 @@ Json frame_json(const FrameStatistics& f) {
         {"frame", f.frame},
         {"seconds", seconds},
         {"rays",
-         {{"primary", f.rays.primary},
-          {"shadow", f.rays.shadow},
-          {"gather", f.rays.gather},
-          {"glossy", f.rays.glossy},
-          {"specular", f.rays.specular},
-          {"path", f.rays.path},
-          {"total", f.rays.total()},
+         {{"primary", f.counts.rays.primary},
+          {"shadow", f.counts.rays.shadow},
+          {"gather", f.counts.rays.gather},
+          {"glossy", f.counts.rays.glossy},
+          {"specular", f.counts.rays.specular},
+          {"path", f.counts.rays.path},
+          {"total", f.counts.rays.total()},
           {"traced", f.traced_rays},
           {"invalid", f.invalid_rays}}},
         {"cache",
-         {{"records", f.records}, {"lookups", f.cache.lookups}, {"hits", f.cache.hits}, {"rounds", f.cache.rounds}}},
-        {"samples", f.samples},
-        {"nan", f.nan_count},
-        {"estimate", {{"replaced", f.replaced}, {"clamped", f.clamped}, {"median_cd_m2", f.median_luminance}}},
+         {{"records", f.counts.records},
+          {"lookups", f.counts.cache.lookups},
+          {"hits", f.counts.cache.hits},
+          {"rounds", f.counts.cache.rounds}}},
+        {"samples", f.counts.samples},
+        {"nan", f.counts.invalid_samples},
+        {"estimate",
+         {{"replaced", f.sanitized.replaced}, {"clamped", f.sanitized.clamped}, {"median_cd_m2", f.median_luminance}}},
         {"saliency_fallback", f.saliency_fallback},
         {"instances_updated", f.instances_touched},
         {"peak_memory_mib", f.peak_memory_mib}};
 }
 
 }  // namespace
+
+std::array<std::pair<const char*, double>, 10> list_stages(const StageSeconds& s) {
+    return {{{"pose", s.pose},
+             {"update", s.update},
+             {"first_hits", s.first_hits},
+             {"estimate", s.estimate},
+             {"motion", s.motion},
+             {"perception", s.perception},
+             {"fill", s.fill},
+             {"shade", s.shade},
+             {"write", s.write},
+             {"total", s.total}}};
+}
 
 std::string format_statistics(const std::vector<FrameStatistics>& frames, const Scene& scene,
                               const RenderSettings& settings, double exposure) {

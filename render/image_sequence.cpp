@@ -7,10 +7,8 @@
 #include "engine/base/errors.h"
 #include "engine/image/image_file.h"
 #include "motion/image_motion.h"
-#include "motion/velocity.h"
 #include "perception/sanitize.h"
-#include "perception/threshold.h"
-#include "render/accuracy_map.h"
+#include "render/frame_vision.h"
 #include "render/measure.h"
 
 namespace aleph {
@@ -21,7 +19,7 @@ std::string display_name(const std::filesystem::path& path) {
     return printable(path.string(), 4096);
 }
 
-/// A picture that is ready to be looked at, and searched.
+/// A picture prepared for the model of vision and for the search of motion.
 struct LoadedFrame {
     Image<Rgb> estimate;
     SanitizeCounts sanitized;
@@ -79,12 +77,9 @@ OtherFrame find_other_frame(const FrameFiles& files, const std::vector<std::int6
 }
 
 struct ImageSequence::State {
+    Scene shot;
     FrameFiles files;
     RenderSettings settings;
-    ViewingConditions viewing;
-    FrameRate frame_rate;
-    std::vector<std::int64_t> cuts;
-    float exposure = 1.0f;
     std::map<std::int64_t, LoadedFrame> loaded;  ///< at most the two frames used last
     int width = 0, height = 0;
     std::string first_read;
@@ -104,6 +99,7 @@ struct ImageSequence::State {
                              fmt::format("this frame has {}x{} pixels, {} has {}x{}; all frames must have one size",
                                          made.estimate.width, made.estimate.height, first_read, width, height));
         }
+        const auto exposure = static_cast<float>(shot.exposure.value_or(1.0));
         for (Rgb& pixel : made.estimate.pixels) pixel *= exposure;
         made.sanitized = sanitize_estimate(made.estimate);
         made.census = make_census_pyramid(made.estimate);
@@ -111,16 +107,12 @@ struct ImageSequence::State {
     }
 };
 
-ImageSequence::ImageSequence(const Scene& shot, FrameFiles files, const RenderSettings& settings) {
+ImageSequence::ImageSequence(Scene shot, FrameFiles files, const RenderSettings& settings) {
     validate(settings);
-    state_.reset(new State{.files = std::move(files),
-                           .settings = settings,
-                           .viewing = shot.viewing,
-                           .frame_rate = shot.frame_rate,
-                           .cuts = shot.cuts,
-                           .exposure = static_cast<float>(shot.exposure.value_or(1.0)),
-                           .loaded = {},
-                           .first_read = {}});
+    state_ = std::make_unique<State>();
+    state_->shot = std::move(shot);
+    state_->files = std::move(files);
+    state_->settings = settings;
 }
 
 ImageSequence::~ImageSequence() = default;
@@ -133,27 +125,17 @@ FrameOutput ImageSequence::compute_maps(std::int64_t frame) {
     FrameStatistics& stats = out.statistics;
     stats.frame = frame;
 
-    const OtherFrame which = find_other_frame(s.files, s.cuts, frame);
+    const OtherFrame which = find_other_frame(s.files, s.shot.cuts, frame);
     const std::int64_t other_number = other_frame_number(frame, which);
     std::erase_if(s.loaded, [&](const auto& entry) { return entry.first != frame && entry.first != other_number; });
     const LoadedFrame& now = s.load(frame);
     const LoadedFrame* const other = which == OtherFrame::none ? nullptr : &s.load(other_number);
     out.estimate = now.estimate;
-    stats.replaced = now.sanitized.replaced;
-    stats.clamped = now.sanitized.clamped;
-    stats.median_luminance = median_luminance(out.estimate, s.viewing);
+    note_estimate(out, now.sanitized, s.shot.viewing);
     clock.add_to(stats.seconds.estimate);
 
     out.motion = compute_image_motion(now.census, other != nullptr ? other->census : CensusPyramid(), which);
-    out.velocity = compute_image_velocity(out.motion, s.viewing, s.frame_rate);
-    clock.add_to(stats.seconds.motion);
-
-    out.perception = compute_perception(out.estimate, out.velocity, s.viewing, s.frame_rate, s.settings.perception,
-                                        {.retinal_velocity = true, .conspicuity = true});
-    stats.saliency_fallback = out.perception.fallback;
-    out.threshold = compute_threshold(out.perception.aleph, compute_adaptation_luminance(out.estimate, s.viewing));
-    out.alpha = compute_accuracy_map(out.perception.aleph, s.settings);
-    clock.add_to(stats.seconds.perception);
+    compute_frame_vision(out, s.shot, s.settings, true, clock);
     stats.peak_memory_mib = peak_memory_mib();
     total.add_to(stats.seconds.total);
     return out;

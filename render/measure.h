@@ -1,5 +1,5 @@
 #pragma once
-// What the stages of a frame say about themselves: time, memory, brightness.
+// Measurements of a frame: time of each stage, memory, brightness.
 
 #include <chrono>
 
@@ -9,7 +9,7 @@
 
 namespace aleph {
 
-/// Adds the time since its last call (or since it was made) to a stage.
+/// Adds the seconds since the last call, or since it was constructed, to a stage.
 class StageClock {
   public:
     void add_to(double& stage) {
@@ -22,10 +22,10 @@ class StageClock {
     std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
 };
 
-/// The most that this process has held so far.
+/// Peak resident memory of this process so far, MiB.
 double peak_memory_mib();
 
-/// cd/m2, of every 16th pixel: enough to tell a wrong unit from a right one.
+/// Median luminance in cd/m2, of every 16th pixel: exact enough to notice a wrong unit.
 double median_luminance(const Image<Rgb>& estimate, const ViewingConditions& viewing);
 
 }  // namespace aleph

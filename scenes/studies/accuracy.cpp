@@ -46,8 +46,8 @@ struct Experiment {
 
 void print_row(double accuracy, const std::string& guide, const Experiment::Row& row) {
     fmt::print("| {:.3g} | {} | {:.2f} | {:.2f} | {} | {:.2e} | {:.3f} |\n", accuracy, guide,
-               row.statistics.seconds.total, static_cast<double>(row.statistics.rays.gather) * 1e-6,
-               row.statistics.records, row.error.relative_mse, row.error.percent_beyond);
+               row.statistics.seconds.total, static_cast<double>(row.statistics.counts.rays.gather) * 1e-6,
+               row.statistics.counts.records, row.error.relative_mse, row.error.percent_beyond);
     std::cout << std::flush;
 }
 

@@ -31,8 +31,8 @@ std::vector<Panel> make_panels(const FrameOutput& guided, const FrameOutput& ung
         difference.pixels[i] = 100.0f * std::abs(luminance(a.pixels[i]) - luminance(b.pixels[i])) /
                                std::max(guided.threshold.pixels[i], 1e-6f);
     }
-    return {color_panel(fmt::format("guided: {} irradiance values", guided.statistics.records), a),
-            color_panel(fmt::format("unguided: {} irradiance values", unguided.statistics.records), b),
+    return {color_panel(fmt::format("guided: {} irradiance values", guided.statistics.counts.records), a),
+            color_panel(fmt::format("unguided: {} irradiance values", unguided.statistics.counts.records), b),
             map_panel("difference over what a viewer tolerates, 0 to 1", difference, {}),
             map_panel("Aleph map, 1 to 250 (log): error that goes unseen", guided.perception.aleph, {1.0, 250.0, true}),
             records_panel("guided: where irradiance was computed", guided.shaded.records),
@@ -75,7 +75,7 @@ std::vector<Pair> render_pairs(const Scene& scene, RenderSettings settings, cons
 }
 
 void print_row(const std::string& name, const FrameStatistics& s) {
-    fmt::print("{:>5}  {:<9} {:>12} {:>9}", s.frame, name, s.rays.gather, s.records);
+    fmt::print("{:>5}  {:<9} {:>12} {:>9}", s.frame, name, s.counts.rays.gather, s.counts.records);
     for (const auto& [stage, seconds] : list_stages(s.seconds)) fmt::print(" {:>10.3f}", seconds);
     fmt::print("\n");
 }
@@ -91,7 +91,8 @@ void print_table(const std::vector<Pair>& pairs) {
         print_row("saliency", guided);
         print_row("none", unguided);
         fmt::print("       ratio: gather rays {:.2f}, records {:.2f}, seconds {:.2f}\n",
-                   ratio(unguided.rays.gather, guided.rays.gather), ratio(unguided.records, guided.records),
+                   ratio(unguided.counts.rays.gather, guided.counts.rays.gather),
+                   ratio(unguided.counts.records, guided.counts.records),
                    unguided.seconds.total / guided.seconds.total);
     }
 }

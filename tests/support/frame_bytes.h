@@ -1,12 +1,12 @@
 #pragma once
-// Frames as the bytes of their files, which must not change with the number of threads, the order or the run.
+// Frames as the bytes of their files, which must not change with threads, order or run.
 
 #include <cstdint>
 #include <string>
 
 #include "engine/load/load_scene.h"
 #include "render/frame_files.h"
-#include "tests/support/paths.h"
+#include "render/sequence.h"
 #include "tests/support/quick_settings.h"
 #include "tests/support/read_bytes.h"
 #include "tests/support/scratch_folder.h"

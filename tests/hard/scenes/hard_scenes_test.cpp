@@ -21,9 +21,9 @@ void expect_all_finite(const FrameOutput& output) {
     for (const float t : output.threshold.pixels) ASSERT_TRUE(t > 0.0f && std::isfinite(t)) << t;
     for (const glm::dvec2& d : output.motion.displacement.pixels)
         ASSERT_TRUE(glm::length(d) <= std::hypot(48.0, 36.0) + 1e-9) << d.x << " " << d.y;
-    EXPECT_EQ(output.statistics.nan_count, 0u);
+    EXPECT_EQ(output.statistics.counts.invalid_samples, 0u);
     EXPECT_EQ(output.statistics.invalid_rays, 0u);
-    EXPECT_EQ(output.statistics.traced_rays, output.statistics.rays.total());
+    EXPECT_EQ(output.statistics.traced_rays, output.statistics.counts.rays.total());
 }
 
 class EveryHardScene : public testing::TestWithParam<std::string> {};

@@ -60,9 +60,9 @@ TEST(AssetRender, TruckRollsItsWheelsAndNothingElse) {
     EXPECT_LE(fastest, 2.0 * 0.4278 * std::sin(step / 2.0) * output.view.pixels_per_unit / nearest);
 
     const FrameStatistics& statistics = output.statistics;
-    EXPECT_EQ(statistics.nan_count, 0u);
-    EXPECT_EQ(statistics.rays.total(), statistics.traced_rays);
-    EXPECT_GT(statistics.records, 0u);
+    EXPECT_EQ(statistics.counts.invalid_samples, 0u);
+    EXPECT_EQ(statistics.counts.rays.total(), statistics.traced_rays);
+    EXPECT_GT(statistics.counts.records, 0u);
     // The scene has no lights and gets a white environment, so the paint shows its texture's colour.
     double blueness = 0.0;
     for (std::size_t i = 0; i < output.shaded.color.size(); ++i) {
@@ -85,7 +85,7 @@ TEST(AssetRender, CornellBoxBleedsColour) {
         return Sequence(scene, s).render(0);
     };
     const FrameOutput direct = render(0), full = render(1);
-    EXPECT_EQ(direct.statistics.rays.gather, 0u);
+    EXPECT_EQ(direct.statistics.counts.rays.gather, 0u);
     // The light that the bounce adds has the walls' colours: reddish on one side of the picture, greenish on the other.
     Rgb left(0.0f), right(0.0f);
     for (int y = 0; y < 72; ++y) {

@@ -1,4 +1,4 @@
-// Frames as files: the channels that DESIGN names, motion to the last bit, statistics that add up.
+// Frames as files: their channels, motion to the last bit, statistics that add up.
 
 #include "render/frame_files.h"
 
@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "engine/load/load_scene.h"
+#include "render/sequence.h"
 #include "tests/support/scratch_folder.h"
 #include "tests/support/paths.h"
 
@@ -33,7 +34,7 @@ struct Rendered {
     ChannelImage image() const { return make_frame_image(output, true, scene, settings, exposure); }
 };
 
-TEST(FrameFiles, HoldEveryChannelOfTheDesign) {
+TEST(FrameFiles, HaveEveryChannel) {
     const ChannelImage file = Rendered(10).image();
     for (const char* name : {"R",
                              "G",
@@ -132,7 +133,7 @@ TEST(FrameFiles, StatisticsAddUp) {
     EXPECT_LE(stages, 1.01 * frame.at("seconds").at("total").get<double>());
     double records = 0.0;
     for (const float r : rendered.output.shaded.records.pixels) records += r;
-    EXPECT_EQ(records, static_cast<double>(rendered.output.statistics.records));
+    EXPECT_EQ(records, static_cast<double>(rendered.output.statistics.counts.records));
     RenderSettings back;
     SettingMap map;
     for (const auto& [key, value] : json.at("settings").items()) {

@@ -54,15 +54,15 @@ TEST(Frame, RaysByPurposeSumToWhatTheWrapperTraced) {
                 FrameRequest request;
                 request.maps = guide == Guide::saliency;
                 const FrameStatistics s = sequence.render(0, request).statistics;
-                EXPECT_EQ(s.rays.total(), s.traced_rays + s.invalid_rays);
+                EXPECT_EQ(s.counts.rays.total(), s.traced_rays + s.invalid_rays);
                 EXPECT_EQ(s.invalid_rays, 0u);
-                EXPECT_GT(s.rays.shadow, 0u);
-                EXPECT_GT(s.rays.glossy, 0u);
-                EXPECT_EQ(s.rays.gather % 16, 0u);
-                EXPECT_EQ(s.rays.gather, 16 * s.records);
-                EXPECT_EQ(s.rays.specular + s.rays.path, 0u);
-                EXPECT_EQ(s.samples, 40u * 30u * static_cast<unsigned>(spp));
-                EXPECT_EQ(s.nan_count, 0u);
+                EXPECT_GT(s.counts.rays.shadow, 0u);
+                EXPECT_GT(s.counts.rays.glossy, 0u);
+                EXPECT_EQ(s.counts.rays.gather % 16, 0u);
+                EXPECT_EQ(s.counts.rays.gather, 16 * s.counts.records);
+                EXPECT_EQ(s.counts.rays.specular + s.counts.rays.path, 0u);
+                EXPECT_EQ(s.counts.samples, 40u * 30u * static_cast<unsigned>(spp));
+                EXPECT_EQ(s.counts.invalid_samples, 0u);
             }
         }
     }
@@ -257,7 +257,7 @@ TEST(Frame, KF20_ScaleThroughZero) {
         FrameRequest request;
         request.maps = true;
         const FrameOutput out = sequence.render(frame, request);
-        EXPECT_EQ(out.statistics.nan_count, 0u);
+        EXPECT_EQ(out.statistics.counts.invalid_samples, 0u);
         bool box_seen = false;
         for (std::size_t i = 0; i < out.hits.size(); ++i) {
             box_seen = box_seen || out.hits.pixels[i].instance == 2;

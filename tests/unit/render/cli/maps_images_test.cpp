@@ -1,4 +1,4 @@
-// `aleph maps --images`: frames without a scene, from the files to the maps, and what is said where that cannot be.
+// `aleph maps --images`: maps of pictures without a scene, and its error messages.
 
 #include <gtest/gtest.h>
 #include <sys/wait.h>
@@ -10,7 +10,6 @@
 
 #include "engine/base/errors.h"
 #include "engine/image/image_file.h"
-#include "engine/load/load_scene.h"
 #include "motion/image_motion.h"
 #include "render/cli/commands.h"
 #include "render/cli/frame_pattern.h"
@@ -128,7 +127,7 @@ TEST(MapsImages, EqualsTheStagesByHand) {
         EXPECT_EQ(maps.find("forward.u")->pixels[i], field.displacement.pixels[i].x);
         EXPECT_EQ(maps.find("forward.v")->pixels[i], 0.0 - field.displacement.pixels[i].y);
     }
-    EXPECT_EQ(maps.find("saliency.Y"), nullptr);  // guide full asks for none
+    EXPECT_EQ(maps.find("saliency.Y"), nullptr);  // guide full has no saliency map
 }
 
 TEST(MapsImages, ASingleFrameStandsStill) {
@@ -306,71 +305,6 @@ TEST(MapsImages, UnreadablePicturesAreNamed) {
     depth.channels.push_back({"Z", Image<float>(width, height)});
     write_exr(frames.file(2), depth);
     expect_refusal({"--images", frames.pattern(), "-o", frames.out()}, {"f.0002.exr", "channels R, G and B"});
-}
-
-TEST(MapsImages, FindsFilesByPattern) {
-    const ScratchFolder folder;
-    for (const char* name : {"f.0001.exr", "f.0010.exr", "f.-003.exr", "f.12345.exr", "f.00011.exr", "f.1.exr",
-                             "f.0002.exr.part", "g.0001.exr", "f.x.exr", "f..exr"}) {
-        std::ofstream(folder / name) << "x";
-    }
-    std::vector<std::int64_t> numbers;
-    for (const auto& [number, path] : find_frame_files((folder / "f.####.exr").string())) {
-        numbers.push_back(number);
-        EXPECT_TRUE(fs::exists(path));
-    }
-    EXPECT_EQ(numbers, (std::vector<std::int64_t>{-3, 1, 10, 12345}));
-    EXPECT_EQ(find_frame_files((folder / "f.%d.exr").string()).size(), 2u);  // 1 and 12345
-}
-
-TEST(MapsImages, TheOtherFrameOfAFrame) {
-    FrameFiles files;
-    for (const int frame : {1, 2, 3, 10, 11}) files[frame] = "f";
-    const std::vector<std::int64_t> cuts = {10};
-    EXPECT_EQ(find_other_frame(files, cuts, 1), OtherFrame::next);
-    EXPECT_EQ(find_other_frame(files, cuts, 3), OtherFrame::none);
-    EXPECT_EQ(find_other_frame(files, cuts, 11), OtherFrame::previous);
-    EXPECT_THROW(find_other_frame(files, {}, 3), InputError);
-    EXPECT_THROW(find_other_frame(files, cuts, 4), InputError);
-    EXPECT_THROW(find_other_frame({}, cuts, 4), InputError);
-    EXPECT_EQ(find_other_frame({{5, "f"}}, {}, 5), OtherFrame::none);
-}
-
-TEST(SceneMotionFromImages, IsTheSearchBetweenTheQuickEstimates) {
-    const Scene scene = load_scene(source_folder() / "scenes/pool/scene.json");
-    RenderSettings settings;
-    settings.width = 80;
-    settings.height = 60;
-    settings.motion = MotionSource::image;
-    const FrameRequest request{.frame = false, .maps = true, .progress = {}};
-    Sequence sequence(scene, settings);
-    const FrameOutput now = sequence.render(20, request), next = sequence.render(21, request);
-    const MotionField truth = compute_image_motion(now.estimate, next.estimate);
-    EXPECT_EQ(now.motion.displacement, truth.displacement);
-    EXPECT_EQ(now.motion.validity, truth.validity);
-    EXPECT_EQ(now.statistics.rays.total(), now.statistics.traced_rays);
-    // The last frame looks back.
-    const FrameRange range = sequence.range();
-    const FrameOutput last = sequence.render(range.last, request), before = sequence.render(range.last - 1, request);
-    EXPECT_EQ(last.motion.displacement,
-              compute_image_motion(last.estimate, before.estimate, OtherFrame::previous).displacement);
-    // Geometry's maps are there; nothing is marked hidden.
-    EXPECT_FALSE(now.depth.empty());
-    settings.motion = MotionSource::model;
-    EXPECT_NE(Sequence(scene, settings).render(20, request).motion.displacement, truth.displacement);
-}
-
-TEST(SceneMotionFromImages, NoneAcrossACut) {
-    Scene scene = load_scene(source_folder() / "scenes/cornell/scene.json");
-    scene.cuts = {5};
-    RenderSettings settings;
-    settings.width = 40;
-    settings.height = 30;
-    settings.motion = MotionSource::image;
-    const FrameOutput output = Sequence(scene, settings).render(4, {.frame = false, .maps = true, .progress = {}});
-    for (const glm::dvec2& d : output.motion.displacement.pixels) EXPECT_EQ(d, glm::dvec2(0.0));
-    EXPECT_EQ(output.motion.validity.pixels.front(), MotionValidity::no_counterpart);
-    EXPECT_EQ(output.statistics.rays.total(), output.statistics.traced_rays);
 }
 
 }  // namespace

@@ -1,0 +1,60 @@
+#pragma once
+// What is requested of a frame, and what comes out: picture, maps, counts and times.
+
+#include <array>
+#include <cstdint>
+#include <utility>
+
+#include "engine/pose/camera_view.h"
+#include "motion/motion_field.h"
+#include "perception/perception.h"
+#include "perception/sanitize.h"
+#include "engine/rays/first_hits.h"
+#include "render/shaded_frame.h"
+
+namespace aleph {
+
+/// Seconds by stage, in the order in which they run. `total` includes `write` where the caller adds it.
+struct StageSeconds {
+    double pose = 0, update = 0, first_hits = 0, estimate = 0, motion = 0, perception = 0, fill = 0, shade = 0,
+           write = 0, total = 0;
+};
+/// The stages by name, in that order.
+std::array<std::pair<const char*, double>, 10> list_stages(const StageSeconds& seconds);
+
+struct FrameStatistics {
+    std::int64_t frame = 0;
+    StageSeconds seconds;
+    FrameCounts counts;              ///< of all stages
+    std::uint64_t traced_rays = 0;   ///< counted where rays are traced; equals counts.rays.total()
+    std::uint64_t invalid_rays = 0;  ///< not traced, because they were not finite
+    SanitizeCounts sanitized;        ///< pixels of the estimate
+    bool saliency_fallback = false;
+    double median_luminance = 0.0;  ///< of the estimate, cd/m2; thresholds of vision hold from 1e-3 to 1e4
+    std::size_t instances_touched = 0;
+    double peak_memory_mib = 0.0;
+};
+
+/// What is computed beyond the statistics.
+struct FrameRequest {
+    bool frame = true;       ///< the picture
+    bool maps = false;       ///< every map of perception and motion, with the hidden pixels in motion.validity
+    FrameProgress progress;  ///< may be empty
+};
+
+struct FrameOutput {
+    ShadedFrame shaded;  ///< filled if `frame`
+    CameraView view;
+    Image<Hit> hits;      ///< through the pixel centres
+    Image<Rgb> estimate;  ///< sanitized
+    MotionField motion;
+    Image<float> velocity;  ///< deg/s
+    PerceptionMaps perception;
+    Image<float> alpha;       ///< ambient accuracy
+    Image<float> threshold;   ///< cd/m2
+    Image<float> depth;       ///< planar, m; 1e30 for background. Filled if `maps`
+    Image<glm::vec3> normal;  ///< world, towards the viewer; 0 for background. Filled if `maps`
+    FrameStatistics statistics;
+};
+
+}  // namespace aleph

@@ -1,0 +1,27 @@
+#include "render/frame_vision.h"
+
+#include "motion/velocity.h"
+#include "perception/threshold.h"
+#include "render/accuracy_map.h"
+
+namespace aleph {
+
+void note_estimate(FrameOutput& out, const SanitizeCounts& sanitized, const ViewingConditions& viewing) {
+    out.statistics.sanitized = sanitized;
+    out.statistics.median_luminance = median_luminance(out.estimate, viewing);
+}
+
+void compute_frame_vision(FrameOutput& out, const Scene& shot, const RenderSettings& settings, bool maps,
+                          StageClock& clock) {
+    StageSeconds& seconds = out.statistics.seconds;
+    out.velocity = compute_image_velocity(out.motion, shot.viewing, shot.frame_rate);
+    clock.add_to(seconds.motion);
+    out.perception = compute_perception(out.estimate, out.velocity, shot.viewing, shot.frame_rate, settings.perception,
+                                        {.retinal_velocity = maps, .conspicuity = maps});
+    out.statistics.saliency_fallback = out.perception.fallback;
+    out.threshold = compute_threshold(out.perception.aleph, compute_adaptation_luminance(out.estimate, shot.viewing));
+    out.alpha = compute_accuracy_map(out.perception.aleph, settings);
+    clock.add_to(seconds.perception);
+}
+
+}  // namespace aleph

@@ -1,0 +1,119 @@
+// Single stages give the same bits for any number of threads: exposure, comparison, first hits.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+#include "engine/rays/first_hits.h"
+#include "render/compare.h"
+#include "render/estimate.h"
+#include "tests/support/with_threads.h"
+
+namespace aleph {
+namespace {
+
+/// Log-normal, so that the order of a single-precision sum would show (722093.8 or 722104.4 for 722104.5).
+Image<Rgb> make_log_normal_image(int width, int height) {
+    std::mt19937 engine(5);
+    std::normal_distribution<float> normal(0.0f, 2.0f);
+    Image<Rgb> image(width, height);
+    for (Rgb& pixel : image.pixels)
+        pixel = Rgb(std::exp(normal(engine)), std::exp(normal(engine)), std::exp(normal(engine)));
+    return image;
+}
+
+TEST(Determinism, DT02_ExposureIsAFixedOrderSumInDouble) {
+    const Image<Rgb> image = make_log_normal_image(400, 250);
+    long double sum = 0.0L;
+    for (const Rgb& pixel : image.pixels) sum += std::log(static_cast<long double>(luminance(pixel)));
+    const double truth = static_cast<double>(0.18L / std::exp(sum / 100000.0L));
+    const double one = with_threads(1, [&] { return compute_exposure(image); });
+    EXPECT_NEAR(one, truth, 1e-12 * truth);
+    for (const int threads : {2, 3, 8}) {
+        EXPECT_EQ(with_threads(threads, [&] { return compute_exposure(image); }), one) << threads << " threads";
+    }
+}
+
+TEST(Determinism, DT02_ErrorSumsOfAComparison) {
+    const Image<Rgb> values = make_log_normal_image(400, 250);
+    ChannelImage a, zero;
+    a.channels.push_back({"V", Image<float>(400, 250)});
+    zero.channels.push_back({"V", Image<float>(400, 250, 0.0f)});
+    long double squares = 0.0L;
+    for (std::size_t i = 0; i < values.size(); ++i) {
+        const float v = values.pixels[i].x;
+        a.channels[0].values.pixels[i] = v;
+        squares += static_cast<long double>(v) * v;
+    }
+    const double truth = static_cast<double>(std::sqrt(squares / 100000.0L));
+    const double one = with_threads(1, [&] { return compare_images(a, zero).all.rms; });
+    EXPECT_NEAR(one, truth, 1e-12 * truth);
+    EXPECT_EQ(with_threads(4, [&] { return compare_images(a, zero).all.rms; }), one);
+}
+
+/// 2e5 triangles: a wavy grid with long, overlapping slivers above it.
+Scene make_triangle_scene() {
+    Scene scene;
+    Mesh mesh;
+    mesh.name = "waves";
+    constexpr int cells = 312;
+    for (int y = 0; y <= cells; ++y) {
+        for (int x = 0; x <= cells; ++x) {
+            const float u = static_cast<float>(x) / cells, v = static_cast<float>(y) / cells;
+            mesh.positions.emplace_back(4.0f * u - 2.0f, 0.1f * std::sin(40.0f * u) * std::cos(31.0f * v),
+                                        4.0f * v - 2.0f);
+        }
+    }
+    constexpr std::uint32_t row = cells + 1;
+    for (std::uint32_t y = 0; y < cells; ++y) {
+        for (std::uint32_t x = 0; x < cells; ++x) {
+            const std::uint32_t i = y * row + x;
+            mesh.triangles.emplace_back(i, i + row, i + 1);
+            mesh.triangles.emplace_back(i + 1, i + row, i + row + 1);
+        }
+    }
+    std::mt19937 engine(7);
+    std::uniform_real_distribution<float> place(-2.0f, 2.0f), length(-0.4f, 0.4f), thin(-0.005f, 0.005f);
+    while (mesh.triangles.size() < 200000) {
+        const auto first = static_cast<std::uint32_t>(mesh.positions.size());
+        const glm::vec3 corner(place(engine), 0.2f + 0.05f * place(engine), place(engine));
+        mesh.positions.push_back(corner);
+        mesh.positions.push_back(corner + glm::vec3(length(engine), length(engine), length(engine)));
+        mesh.positions.push_back(corner + glm::vec3(thin(engine), thin(engine), thin(engine)));
+        mesh.triangles.emplace_back(first, first + 1, first + 2);
+    }
+    scene.meshes.push_back(mesh);
+    Node node;
+    node.name = "waves";
+    node.meshes = {0};
+    scene.nodes.push_back(node);
+    return scene;
+}
+
+TEST(Determinism, DT03_FirstHitsAreEqualForAnyNumberOfBuildThreads) {
+    const Scene scene = make_triangle_scene();
+    ASSERT_EQ(scene.meshes[0].triangles.size(), 200000u);
+    CameraView view;
+    view.width = 320;
+    view.height = 240;
+    view.pixels_per_unit = 300.0;
+    view.position = glm::dvec3(0.0, 3.0, 0.0);
+    view.axes = glm::dmat3(1, 0, 0, 0, 0, -1, 0, 1, 0);  // looks straight down
+    const ScenePose frame = pose(scene, 0.0);
+    const auto cast = [&](int threads) {
+        return with_threads(threads, [&] {
+            RayScene rays(scene);
+            rays.update(frame, compute_anchor(view));
+            return cast_first_hits(rays, view).pixels;
+        });
+    };
+    const std::vector<Hit> one = cast(1);
+    const auto misses = std::count_if(one.begin(), one.end(), [](const Hit& hit) { return hit.instance == no_index; });
+    EXPECT_EQ(misses, 0);
+    for (const int threads : {2, 4}) EXPECT_TRUE(cast(threads) == one) << threads << " threads";
+}
+
+}  // namespace
+}  // namespace aleph
