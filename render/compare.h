@@ -1,5 +1,5 @@
 #pragma once
-// How far one picture is from another: the numbers behind golden images, studies and `aleph compare`.
+// Differences between two pictures, for golden images, studies and `aleph compare`.
 
 #include <cstddef>
 #include <optional>
@@ -12,12 +12,12 @@ namespace aleph {
 
 struct CompareSettings {
     double tolerance = 0.0;             ///< largest allowed |a - b|, in the channel's unit
-    double relative = 0.0;              ///< allowed on top, times |b|
-    double share = 0.0;                 ///< percent of pixels that may lie beyond
+    double relative = 0.0;              ///< allowed in addition, times |b|
+    double share = 0.0;                 ///< percent of pixels that may differ by more, 0 to 100
     std::vector<std::string> channels;  ///< channels ("Z") or layers ("forward"); empty: all
 };
 
-/// Errors over a set of values; pairs with a NaN or an infinity are counted elsewhere and left out here.
+/// Errors over a set of values. Pairs with a NaN or an infinity are left out; NonFinite counts them.
 struct Difference {
     double max_abs = 0.0;
     double rms = 0.0;           ///< root of the mean squared difference
@@ -31,14 +31,14 @@ struct ChannelDifference {
     std::size_t beyond = 0;  ///< pixels beyond the tolerance
 };
 
-/// Against an Aleph map: pixels whose luminance differs by more than a viewer tolerates there.
+/// Against an Aleph map: pixels whose luminance differs by more than the map's threshold.
 struct ThresholdDifference {
     std::size_t beyond = 0;      ///< pixels with display_white |Y_a - Y_b| > threshold.Y, or without a finite threshold
     double display_white = 100;  ///< cd/m2 of Y = 1: `whiteLuminance` of b, else of a, else 100
     double worst = 0.0;          ///< the largest difference over its threshold
 };
 
-/// How many values of a picture are no numbers.
+/// Number of values of a picture that are not finite.
 struct NonFinite {
     std::size_t nan = 0, inf = 0;
     bool any() const { return nan + inf > 0; }
@@ -71,7 +71,7 @@ CompareResult compare_images(const ChannelImage& a, const ChannelImage& b, const
                              const ChannelImage* aleph_map = nullptr);
 
 /// The difference as a picture: |R|, |G|, |B| where both have them, else the largest of any channel as grey; the
-/// largest difference is white; magenta where a value is no number.
+/// largest difference is white; magenta where a value is not finite.
 /// @throws InputError as compare_images
 Image<Rgb> difference_picture(const ChannelImage& a, const ChannelImage& b, const CompareSettings& settings = {});
 

@@ -118,7 +118,7 @@ class FrameShading {
         const float accuracy = context_.accuracy(surface.x, surface.y);
         if (cached_ && accuracy > 0.0f) {
             const CacheQuery query{surface.point.position, surface.point.normal,
-                                   accuracy * static_cast<float>(context_.settings.shade_radius)};
+                                   accuracy * static_cast<float>(context_.settings.shade_reach)};
             ++task.lookups;
             if (const std::optional<Rgb> found = cache_.interpolate(query)) {
                 ++task.hits;

@@ -1,29 +1,28 @@
 #pragma once
-// What a user may choose about a render. The scene file's "settings", the command line and the C++ API fill this one
-// struct; scene keys, `--set` keys and long options have the same names.
+// Settings of a render. The scene file's "settings", the command line and C++ programs fill this one struct.
+// setting_table.h has the key, range and description of each.
 
 #include <cstdint>
 #include <string>
-#include <vector>
 
 #include "engine/scene/scene.h"
 #include "perception/perception_settings.h"
 
 namespace aleph {
 
-/// The cheap picture that the model of vision looks at.
+/// The quick estimate of a frame that the model of vision takes as its input.
 enum class EstimateKind {
     flat,    ///< base colour plus emission under constant white, no shadow rays
-    direct,  ///< direct light with shadows, from a fixed pattern of light points (no noise that would read as detail)
+    direct,  ///< direct light with shadows, from a fixed pattern of light points: without noise
 };
 
 /// Where a frame's motion comes from.
 enum class MotionSource {
     model,  ///< exact, from the scene (thesis 5.1.2)
-    image,  ///< from the quick estimates of two frames alone, as for frames without a scene (5.1.1)
+    image,  ///< from the quick estimates of two frames alone (5.1.1)
 };
 
-/// How the Aleph map becomes a per-pixel ambient accuracy.
+/// Formula from the Aleph map to the ambient accuracy of each pixel.
 enum class Adapter {
     compress,   ///< (6.7)
     scale_add,  ///< (6.8)
@@ -39,36 +38,31 @@ struct RenderSettings {
     double adapter_k = 100.0;        ///< K of (6.8)
     double accuracy = 0.15;          ///< ambient accuracy alpha_Acc; 0 gathers at every sample
     int gather = 1024;               ///< hemisphere samples per irradiance value
-    int bounces = 1;                 ///< of indirect diffuse light; 0 or 1 in this version
+    int bounces = 1;                 ///< of indirect diffuse light; 0 or 1
     int spp = 16;                    ///< samples per pixel; 1 is the pixel's centre
     int light_samples = 16;          ///< direct-light samples per pixel and light, shared out among its spp
-    double shade_radius = 1.4;       ///< shading reads records this much farther than filling does
-    double min_radius_pixels = 4.0;  ///< a record reaches at least this far at its own accuracy
-    int subdivision_level = -1;      ///< of every subdivision cage; -1: what pixels ask for (engine/pose/cage_level.h)
+    double shade_reach = 1.4;        ///< how far shading uses a record, as a multiple of how far filling does
+    double min_radius_pixels = 4.0;  ///< least reach of a record at its own accuracy, pixels
+    int subdivision_level = -1;      ///< of every subdivision cage; -1: as fine as the pixels need (cage_level.h)
 
     bool operator==(const RenderSettings&) const = default;
 };
 
-/// Every key that apply_settings takes, in the order in which help shows them.
-struct SettingKey {
-    std::string name;
-    std::string help;  ///< one line: meaning, unit, values
-};
-const std::vector<SettingKey>& setting_keys();
-
-/// Overrides `settings` by what the map holds.
-/// @param source  what messages call the origin: a file, "--set"
-/// @throws InputError naming the key: unknown, wrong type, out of range, or not in this version
+/// Overwrites the settings that the map has.
+/// @param source  where the map comes from, for messages: a file, "--set"
+/// @throws InputError naming the key, if it is unknown, or its value has another type, is out of range, or is not in
+/// this version. The settings before that key, in alphabetical order, have been overwritten.
 void apply_settings(RenderSettings& settings, const SettingMap& map, const std::string& source);
 
-/// All keys with their values, as a scene file would hold them; apply_settings of it gives back equal settings.
+/// All keys with their values, as in a scene file. apply_settings of the map gives equal settings.
 SettingMap setting_map(const RenderSettings& settings);
 
-/// "KEY=VALUE" to a map entry: true and false, numbers (classic locale), else text.
+/// Adds "KEY=VALUE" to the map. VALUE becomes a boolean (true, false) or a number (decimal point in every locale) if it
+/// reads as one, and text otherwise.
 /// @throws InputError if there is no '=' or no key
 void parse_setting(const std::string& text, SettingMap& into);
 
-/// Checks what single keys cannot: sizes, ranges. @throws InputError
+/// @throws InputError naming the first setting that is out of range
 void validate(const RenderSettings& settings);
 
 }  // namespace aleph

@@ -69,8 +69,8 @@ Image<float> blur(const Image<float>& image) {
 }
 
 struct Side {
-    Image<Rgb> colour;                           ///< not below black
-    std::array<Image<float>, levels> luminance;  ///< cd/m2, ever more blurred
+    Image<Rgb> colour;                           ///< not negative
+    std::array<Image<float>, levels> luminance;  ///< cd/m2, each level blurred once more
     Image<float> adaptation;                     ///< cd/m2
 };
 
@@ -86,7 +86,7 @@ Side prepare(const Image<Rgb>& picture, const ViewingConditions& viewing) {
     return side;
 }
 
-/// How many times the bare threshold goes unnoticed at pixel i: 1 to 10.
+/// Factor on the threshold at pixel i, by frequency and masking: 1 to 10.
 double elevation(const Side& a, const Side& b, std::size_t i, double adaptation,
                  const std::array<double, bands>& frequencies) {
     const double peak = barten_sensitivity(3.248, 100.0);  // its maximum over frequency at 100 cd/m2
@@ -111,7 +111,7 @@ bool differs(const Side& a, const Side& b, std::size_t i, const std::array<doubl
     const double factor = elevation(a, b, i, adaptation, frequencies);
     const double step = std::abs(double{a.luminance[0].pixels[i]} - double{b.luminance[0].pixels[i]});
     if (step > factor * tvi(adaptation)) return true;
-    // Cones fade out in the dark, and colour with them.
+    // In the dark cones, and with them colour vision, fade out.
     const double photopic = std::min(1.0, adaptation / 10.0);
     const auto lab_a = lab_colour(a.colour.pixels[i]), lab_b = lab_colour(b.colour.pixels[i]);
     const double da = lab_a[0] - lab_b[0], db = lab_a[1] - lab_b[1];

@@ -1,5 +1,5 @@
 #pragma once
-// The subcommands: each adds itself to the program and, when it is chosen, sets what is to be run.
+// The subcommands. Each function adds one to the program; when it is chosen, it sets the command that is to be run.
 
 #include "render/cli/options.h"
 

@@ -1,4 +1,4 @@
-// `aleph compare`: two pictures, a table or JSON, an exit code.
+// `aleph compare`: the difference of two pictures as a table or JSON, and as the exit code.
 
 #include <fmt/format.h>
 
@@ -103,33 +103,38 @@ int compare(const CompareOptions& options) {
 }  // namespace
 
 void add_compare_command(CLI::App& app, Command& command) {
-    CLI::App* compare_app = app.add_subcommand("compare", "say how far two pictures are from each other");
+    CLI::App* compare_app = app.add_subcommand("compare", "compare two pictures");
     const auto options = std::make_shared<CompareOptions>();
     compare_app->add_option("first", options->first, "a picture: EXR, PNG, JPEG or HDR")->required();
     compare_app->add_option("second", options->second, "the reference")->required();
     compare_app
         ->add_option("--threshold", options->threshold,
-                     "an EXR of `aleph maps`: count the pixels whose luminance differs by more than its "
-                     "threshold.Y; these, and not the tolerance, then decide")
+                     "an EXR file of `aleph maps`: the pictures differ where their luminance differs by more than its "
+                     "threshold.Y; replaces --tolerance and --relative")
         ->type_name("MAPS.exr");
     CompareSettings& settings = options->settings;
-    add_value(*compare_app, "--tolerance", settings.tolerance, "allowed difference, in the channel's unit");
-    add_value(*compare_app, "--relative", settings.relative, "allowed on top of that, times the reference's value");
-    add_value(*compare_app, "--share", settings.share, "percent of the pixels that may lie beyond");
-    compare_app->add_option("--channels", settings.channels, "only these channels (Z) or layers (forward)")
+    add_value(*compare_app, "--tolerance", settings.tolerance, "allowed difference, in the channel's unit, 0 and up");
+    add_value(*compare_app, "--relative", settings.relative,
+              "allowed in addition, as a factor on the reference's value, 0 and up");
+    add_value(*compare_app, "--share", settings.share, "percent of the pixels that may differ by more, 0 to 100");
+    compare_app
+        ->add_option("--channels", settings.channels,
+                     "compare only these channels (Z) or layers (forward); default: all")
         ->delimiter(',')
         ->allow_extra_args(false)
         ->type_name("A,B");
-    compare_app->add_option("--diff", options->difference, "write the difference as a picture, the largest as white")
+    compare_app
+        ->add_option("--diff", options->difference,
+                     "write the difference as a picture; white is the largest difference")
         ->type_name("OUT.png");
-    compare_app->add_flag("--json", options->json, "print JSON instead of the table");
-    compare_app->add_flag("-q,--quiet", options->quiet, "print nothing; the exit code tells");
+    compare_app->add_flag("--json", options->json, "print JSON in place of the table");
+    compare_app->add_flag("-q,--quiet", options->quiet, "print nothing; the exit code is the result");
     compare_app->footer(
-        "Exit code: 0 the same, 1 different (as is any NaN or infinity), 2 unreadable or of another size or "
+        "Exit code: 0 the same; 1 different, or a NaN or infinity in either; 2 unreadable, or other sizes or "
         "channels.\n\n"
         "Examples:\n"
         "  aleph compare new.exr golden.exr --relative 1e-4 --share 0.5\n"
-        "  aleph compare guided.exr dense.exr --threshold maps.exr      would a viewer notice?\n"
+        "  aleph compare guided.exr dense.exr --threshold maps.exr      which differences would a viewer see?\n"
         "  aleph compare a.exr b.exr --channels forward,Z --diff where.png");
     compare_app->callback([options, &command] {
         command = [options] {

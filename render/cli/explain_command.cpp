@@ -1,4 +1,4 @@
-// `aleph explain`: what a scene holds.
+// `aleph explain`: describes a scene.
 
 #include <fmt/format.h>
 
@@ -36,7 +36,7 @@ Scene load_or_list_missing(const std::string& file, const LoadLimits& limits) {
     }
 }
 
-/// JSON has no word for numbers that are not finite; names in a file may be no UTF-8.
+/// Names that are not UTF-8 are written with replacement characters.
 std::string to_text(const nlohmann::ordered_json& value) {
     return value.dump(1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }
@@ -59,24 +59,25 @@ int explain(const ExplainOptions& options) {
 }  // namespace
 
 void add_explain_command(CLI::App& app, Command& command) {
-    CLI::App* explain_app = app.add_subcommand("explain", "tell what a scene holds, without rendering it");
+    CLI::App* explain_app = app.add_subcommand("explain", "describe a scene without rendering it");
     const auto options = std::make_shared<ExplainOptions>();
-    explain_app->add_option("scene", options->scene, "a scene file (.json), .gltf, .glb or .abc")
+    explain_app->add_option("scene", options->scene, "scene file: .json, .gltf, .glb or .abc")
         ->required()
         ->type_name("SCENE");
-    explain_app->add_flag("--json", options->json, "everything, as JSON");
+    explain_app->add_flag("--json", options->json, "print everything as JSON");
     CLI::Option* at =
         add_value(*explain_app, "--at", options->at,
-                  "a time in seconds: world matrix, visibility, bounds and points of every object, as JSON");
-    add_value(*explain_app, "--objects", options->objects, "lines of the tree in the text; 0: all");
-    explain_app->add_option("--camera", options->camera, "name of a camera or of its node")->type_name("NAME");
+                  "print world matrix, visibility, bounds and points of every object at this time (s) as JSON");
+    add_value(*explain_app, "--objects", options->objects, "number of objects that the text lists; 0: all");
+    explain_app->add_option("--camera", options->camera, "name of a camera or of its node; default: the scene's choice")
+        ->type_name("NAME");
     add_load_limits(*explain_app, options->limits);
     explain_app->footer(
-        "Names every file that is missing, not only the first.\n\n"
+        "If files that the scene names are missing, all of them are listed.\n\n"
         "Examples:\n"
-        "  aleph explain scenes/pool/scene.json              the tree, what moves and when, counts, bounds, warnings\n"
-        "  aleph explain shot.abc --json > shot.json         the same for programs\n"
-        "  aleph explain shot.abc --at 0.5                   where everything is half a second in");
+        "  aleph explain scenes/pool/scene.json              objects, animation, counts, bounds, warnings\n"
+        "  aleph explain shot.abc --json > shot.json         the same and more, for programs\n"
+        "  aleph explain shot.abc --at 0.5                   all objects at 0.5 s");
     explain_app->callback([options, at, &command] {
         options->moment = at->count() > 0;
         command = [options] { return explain(*options); };

@@ -1,5 +1,5 @@
 #pragma once
-// Nodes, materials and images of a scene, described one by one, and values as JSON. Only explain*.cpp use them.
+// Parts of `aleph explain`: single nodes, materials and images as JSON.
 
 #include <nlohmann/json.hpp>
 #include <string>
@@ -16,7 +16,7 @@ nlohmann::ordered_json to_json(const Bounds& bounds);
 /// "kind 3" for an element without a name.
 std::string name_or_number(const std::string& name, const char* kind, std::size_t index);
 
-/// What moves a mesh's points; null where nothing does.
+/// What deforms a mesh; null if nothing does.
 const char* how_it_deforms(const Scene& scene, const Mesh& mesh);
 
 nlohmann::ordered_json describe_node(const Scene& scene, std::size_t index, const std::string& path);

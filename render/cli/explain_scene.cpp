@@ -1,4 +1,4 @@
-// A whole scene, described.
+// The description of a whole scene.
 
 #include <fmt/format.h>
 
@@ -20,8 +20,8 @@ namespace {
 
 using nlohmann::ordered_json;
 
-/// Bounds over the range are looked at on so many frames at most.
-constexpr std::int64_t most_bounds_frames = 33;
+/// Number of frames whose bounds are joined: every vertex of every frame would take longer than all the rest.
+constexpr std::int64_t max_bounds_frames = 33;
 
 ordered_json describe_frames(const Scene& scene) {
     const FrameRange range = frame_range(scene);
@@ -70,21 +70,20 @@ ordered_json count_elements(const Scene& scene) {
 ordered_json describe_bounds(const Scene& scene) {
     const FrameRange range = frame_range(scene);
     const auto at_frame = [&](std::int64_t number, Bounds& bounds) {
-        const ScenePose frame = pose(scene, scene.frame_rate.seconds_of(number));
-        for (std::size_t i = 0; i < frame.instances.size(); ++i)
-            if (frame.shown[i] != 0) add_instance(bounds, scene, frame, frame.instances[i]);
+        const ScenePose posed = pose(scene, scene.frame_rate.seconds_of(number));
+        for (std::size_t i = 0; i < posed.instances.size(); ++i)
+            if (posed.shown[i] != 0) add_instance(bounds, scene, posed, posed.instances[i]);
     };
     Bounds first, all;
     at_frame(range.first, first);
-    // Looking at every vertex on every frame would take longer than all the rest.
     const std::int64_t length = range.last - range.first;
-    const std::int64_t steps = is_world_animated(scene) ? std::min(length, most_bounds_frames - 1) : 0;
+    const std::int64_t steps = is_world_animated(scene) ? std::min(length, max_bounds_frames - 1) : 0;
     for (std::int64_t step = 0; step <= steps; ++step)
         at_frame(range.first + (steps == 0 ? 0 : length / steps * step + length % steps * step / steps), all);
     return {{"first_frame", to_json(first)}, {"range", to_json(all)}, {"range_frames_seen", steps + 1}};
 }
 
-/// The samplings that keyed properties use, each once, by how many use it.
+/// The time samplings of all keyed properties, each once, with the number of properties that use it.
 ordered_json collect_samplings(const ordered_json& objects, const ordered_json& materials) {
     std::map<std::string, std::pair<ordered_json, int>> found;
     const auto collect = [&](const ordered_json& tracks) {
@@ -146,7 +145,7 @@ ordered_json list_unused(const Scene& scene, const Use& use) {
     return out;
 }
 
-/// The camera and what needs one: a scene without any can still be told of.
+/// Camera and exposure; null and a warning for a scene without a camera.
 void describe_view(ordered_json& out, const Scene& scene, const RenderSettings& settings, const std::string& camera) {
     try {
         const Sequence sequence(scene, settings, camera);

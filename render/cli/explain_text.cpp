@@ -1,4 +1,4 @@
-// The explanation of a scene for people.
+// The description of a scene as text.
 
 #include <fmt/format.h>
 
@@ -30,7 +30,7 @@ std::string counted(const ordered_json& number, const char* one, const char* man
 }
 
 std::string box_text(const ordered_json& bounds) {
-    if (bounds.is_null()) return "nothing to see";
+    if (bounds.is_null()) return "nothing visible";
     const auto at = [&](const char* end, int k) { return bounds[end][k].get<double>(); };
     return fmt::format("{:.4g} x {:.4g} x {:.4g} m, from ({:.4g}, {:.4g}, {:.4g}) to ({:.4g}, {:.4g}, {:.4g})",
                        at("max", 0) - at("min", 0), at("max", 1) - at("min", 1), at("max", 2) - at("min", 2),
@@ -41,7 +41,7 @@ std::string track_text(const ordered_json& track) {
     return fmt::format("{} ({} {} keys, {:.4g} to {:.4g} s, {}{})", text_of(track["property"]),
                        track["keys"].get<std::size_t>(), text_of(track["sampling"]), track["first"].get<double>(),
                        track["last"].get<double>(), text_of(track["interpolation"]),
-                       track.contains("constant") ? ", all alike" : "");
+                       track.contains("constant") ? ", all equal" : "");
 }
 
 std::string tracks_text(const ordered_json& tracks) {
@@ -92,20 +92,20 @@ std::string object_text(const ordered_json& object) {
     return text;
 }
 
-/// The tree from the top; where it is cut, what moves further down is still named.
-std::string objects_text(const ordered_json& objects, std::size_t most) {
+/// The first objects of the tree, and the moving ones among the rest.
+std::string objects_text(const ordered_json& objects, std::size_t max_lines) {
     std::string text = "\nobjects\n";
-    for (std::size_t i = 0; i < std::min(most, objects.size()); ++i) text += object_text(objects[i]);
-    if (objects.size() <= most) return text;
-    text += fmt::format("  ... and {} more (--objects 0 shows all)\n", objects.size() - most);
+    for (std::size_t i = 0; i < std::min(max_lines, objects.size()); ++i) text += object_text(objects[i]);
+    if (objects.size() <= max_lines) return text;
+    text += fmt::format("  ... and {} more (--objects 0 shows all)\n", objects.size() - max_lines);
     std::size_t moving = 0;
     std::string lines;
-    for (std::size_t i = most; i < objects.size(); ++i) {
-        if (!objects[i].contains("animated") || ++moving > most) continue;
+    for (std::size_t i = max_lines; i < objects.size(); ++i) {
+        if (!objects[i].contains("animated") || ++moving > max_lines) continue;
         lines += fmt::format("  {}: {}\n", text_of(objects[i]["path"]), tracks_text(objects[i]["animated"]));
     }
     if (moving > 0) text.append("\nfurther objects that move\n").append(lines);
-    if (moving > most) text += fmt::format("  ... and {} more\n", moving - most);
+    if (moving > max_lines) text += fmt::format("  ... and {} more\n", moving - max_lines);
     return text;
 }
 
@@ -141,7 +141,7 @@ std::string counts_text(const ordered_json& counts) {
 
 }  // namespace
 
-std::string explain_text(const ordered_json& explained, std::size_t most_objects) {
+std::string explain_text(const ordered_json& explained, std::size_t max_objects) {
     std::string text = fmt::format("{}\n", printable(explained["file"].get<std::string>(), 300));
     text += "units     metres, seconds, degrees; y up\n";
     text += frames_text(explained["frames"]);
@@ -154,7 +154,7 @@ std::string explain_text(const ordered_json& explained, std::size_t most_objects
     text += counts_text(explained["counts"]);
     text += fmt::format("bounds    {}\n", box_text(explained["bounds"]["range"]));
 
-    text += objects_text(explained["objects"], most_objects == 0 ? explained["objects"].size() : most_objects);
+    text += objects_text(explained["objects"], max_objects == 0 ? explained["objects"].size() : max_objects);
     std::string materials;
     for (const ordered_json& material : explained["materials"]) {
         if (!material.contains("animated")) continue;

@@ -1,4 +1,4 @@
-// Keyed properties of a scene's elements, described.
+// The keyed properties of nodes, materials, lights and cameras.
 
 #include <fmt/format.h>
 
@@ -84,7 +84,7 @@ void add_transform(TrackList& list, const Node& node) {
 ordered_json list_tracks(const Scene& scene, const Node& node) {
     TrackList list;
     add_transform(list, node);
-    int points_told = no_index;
+    int points_listed = no_index;
     for (const int index : node.meshes) {
         const Mesh& mesh = scene.meshes[index];
         list.add("present", mesh.present);
@@ -92,8 +92,8 @@ ordered_json list_tracks(const Scene& scene, const Node& node) {
             list.add(fmt::format("weights[{}]", i), mesh.target_weights[i]);
         list.add("normals", mesh.normal_sampling, mesh.normal_samples.size(), Interpolation::linear, true);
         const int points = mesh.cage == no_index ? mesh.points : scene.cages[mesh.cage].points;
-        if (points == no_index || points == points_told) continue;
-        points_told = points;
+        if (points == no_index || points == points_listed) continue;
+        points_listed = points;
         const PointCache& cache = scene.point_caches[points];
         list.add("points", cache.sampling, cache.positions.size(), Interpolation::linear, is_animated(cache));
     }

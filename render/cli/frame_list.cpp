@@ -12,7 +12,7 @@ namespace aleph {
 
 namespace {
 
-constexpr std::int64_t most_frames = 10'000'000;
+constexpr std::int64_t max_frames = 10'000'000;
 
 [[noreturn]] void refuse(std::string_view item, const std::string& reason) {
     throw InputError("", "--frames", fmt::format("'{}': {}", printable(item), reason));
@@ -24,7 +24,7 @@ std::string_view trim(std::string_view text) {
     return text.substr(first, text.find_last_not_of(" \t") - first + 1);
 }
 
-/// Takes a number off the front of `rest`.
+/// Removes a number from the start of `rest`.
 int take_number(std::string_view item, std::string_view& rest) {
     int value = 0;
     const auto [end, error] = std::from_chars(rest.data(), rest.data() + rest.size(), value);
@@ -77,33 +77,13 @@ std::vector<int> parse_frame_list(std::string_view text) {
         if (item.empty()) refuse(text, "a frame is missing");
         const Range range = parse_item(item);
         named += range.count();
-        if (named > most_frames) refuse(text, fmt::format("more than {} frames", most_frames));
+        if (named > max_frames) refuse(text, fmt::format("more than {} frames", max_frames));
         for (std::int64_t frame = range.first; frame <= range.last; frame += range.step) {
             if (seen.insert(static_cast<int>(frame)).second) frames.push_back(static_cast<int>(frame));
         }
         begin = comma + 1;
     }
     return frames;
-}
-
-std::string format_frame_list(const std::vector<int>& frames) {
-    std::string text;
-    for (std::size_t i = 0; i < frames.size();) {
-        std::size_t end = i + 1;
-        std::int64_t step = 0;
-        if (end < frames.size()) step = std::int64_t{frames[end]} - frames[i];
-        while (step > 0 && end < frames.size() && std::int64_t{frames[end]} - frames[end - 1] == step) ++end;
-        if (!text.empty()) text += ',';
-        if (end - i >= 3) {
-            text += fmt::format("{}-{}", frames[i], frames[end - 1]);
-            if (step > 1) text += fmt::format("x{}", step);
-            i = end;
-        } else {
-            text += fmt::format("{}", frames[i]);
-            ++i;
-        }
-    }
-    return text;
 }
 
 }  // namespace aleph

@@ -1,18 +1,14 @@
 #pragma once
-// Frame ranges as people write them: "1-10,20-40x2".
+// Lists of frames: "1-10,20-40x2".
 
-#include <string>
 #include <string_view>
 #include <vector>
 
 namespace aleph {
 
 /// Frames of a comma list of N, A-B and A-BxS (every S-th from A), in the order given, without repeats. Frames may be
-/// negative: "-3-5", "-5--1". ':' is refused, as it means a step to some programs and a stagger to others.
+/// negative: "-3-5", "-5--1". ':' is refused, because programs differ in its meaning (a step, or a stagger).
 /// @throws InputError (place "--frames") on anything else, on more than 10 million frames, on frames beyond 32 bits
 std::vector<int> parse_frame_list(std::string_view text);
-
-/// The shortest list of that form that names these frames in this order; parse_frame_list of it gives them back.
-std::string format_frame_list(const std::vector<int>& frames);
 
 }  // namespace aleph

@@ -28,7 +28,7 @@ std::optional<NumberField> field_at(const std::string& name, std::size_t at) {
     return std::nullopt;
 }
 
-/// What stands in the number's place, if the rest of the name fits.
+/// The part of the name in the number's place, if the rest of the name fits.
 std::optional<std::string_view> text_of_number(std::string_view name, const std::string& pattern,
                                                const NumberField& field) {
     const std::string_view before = std::string_view(pattern).substr(0, field.begin);

@@ -1,4 +1,4 @@
-// The program `aleph`: names its subcommands and leaves the rest to them.
+// The program `aleph`. Each subcommand has a file of its own.
 
 #include <csignal>
 #include <iostream>
@@ -6,10 +6,11 @@
 #include "render/cli/commands.h"
 
 int main(int argc, char** argv) {
-    // A file-size limit then shows as a failed write, with a message, like a full disk.
+    // A write beyond the file size limit then fails with an error, as on a full disk, and does not end the program.
     std::signal(SIGXFSZ, SIG_IGN);
     CLI::App app{
-        "aleph renders animations with global illumination, and spends its effort where a viewer would notice."};
+        "aleph renders animations with global illumination. It computes less where a viewer would not see the "
+        "difference."};
     aleph::Command command;
     app.set_version_flag("--version", "aleph " ALEPH_VERSION);
     app.require_subcommand(0, 1);
@@ -17,6 +18,6 @@ int main(int argc, char** argv) {
     aleph::add_maps_command(app, command);
     aleph::add_explain_command(app, command);
     aleph::add_compare_command(app, command);
-    app.footer("`aleph COMMAND --help` shows a command's options, with examples.");
+    app.footer("`aleph COMMAND --help` lists the options of a command, with examples.");
     return aleph::run_program(app, command, argc, argv, std::cerr);
 }

@@ -11,7 +11,9 @@
 #include "render/cli/frame_pattern.h"
 #include "render/cli/output_path.h"
 #include "render/cli/scene_options.h"
+#include "render/cli/write_frames.h"
 #include "render/image_sequence.h"
+#include "render/setting_table.h"
 
 namespace aleph {
 
@@ -24,24 +26,46 @@ struct MapsOptions {
     std::optional<double> exposure;
 };
 
+constexpr const char* maps_footer =
+    "EXR channels (render: only of `aleph render`; scene: not with --images):\n"
+    "  forward.u forward.v      motion to frame N+1, in a shot's last frame from N-1; pixels, u right, v up\n"
+    "  motion.valid             1 valid, 0 background, -1 behind the camera, -2 leaves the picture,\n"
+    "                           -3 no counterpart, -4 hidden in frame N+1\n"
+    "  velocity.image           speed on the image, degrees per second\n"
+    "  velocity.retinal         speed on the retina, degrees per second\n"
+    "  saliency.Y               how likely viewers look here, 0 to 1 (--guide saliency)\n"
+    "  conspicuity.intensity conspicuity.color conspicuity.orientation conspicuity.motion\n"
+    "                           parts of saliency (--guide saliency)\n"
+    "  aleph.Y                  contrast elevation, 1 to 250.6\n"
+    "  alpha.acc                ambient accuracy, 0 to 1\n"
+    "  threshold.Y              luminance difference that goes unseen, cd/m2\n"
+    "  estimate.R estimate.G estimate.B\n"
+    "                           quick estimate, or the picture of --images; linear Rec.709\n"
+    "  Z                        planar depth, m; 1e30 for background (scene)\n"
+    "  N.X N.Y N.Z              normal in the world, towards the viewer (scene)\n"
+    "  objectId.X               number of the instance, -1 for background (scene)\n"
+    "  R G B A                  the picture and its coverage (render)\n"
+    "  samples.Y records.Y invalid.Y\n"
+    "                           samples, irradiance values, samples thrown away (render)\n"
+    "\n"
+    "With --images, frame rate (framesPerSecond), whiteLuminance and pixelsPerDegree come from the first EXR file if "
+    "it\n"
+    "has them. --fps, --set viewing.display_white=N and --set viewing.pixels_per_degree=N override them. Motion is\n"
+    "found by comparison: it is unreliable without detail in the picture, and beyond 53 pixels a frame.\n"
+    "\n"
+    "Examples:\n"
+    "  aleph maps scenes/pool/scene.json --frames 20 -o maps.exr\n"
+    "  aleph maps --images 'shot/frame.####.png' --fps 24 -o maps/\n"
+    "  aleph compare guided.exr dense.exr --threshold maps.exr      which differences would a viewer see?";
+
 FrameRequest maps_request() {
     return {.frame = false, .maps = true, .progress = {}};
 }
 
-/// Settings that mean something without a scene.
-const std::set<std::string>& image_settings() {
-    static const std::set<std::string> keys = {"guide",
-                                               "motion",
-                                               "bands",
-                                               "grid",
-                                               "adapter",
-                                               "neutral_opponent",
-                                               "adapter_k",
-                                               "accuracy",
-                                               "exposure",
-                                               "viewing.display_white",
-                                               "viewing.pixels_per_degree"};
-    return keys;
+/// Whether --set KEY is of use without a scene. Keys that do not exist are reported by apply_settings.
+bool needs_scene(const std::string& key) {
+    const auto found = std::ranges::find(setting_table(), key, &Setting::key);
+    return found != setting_table().end() && found->needs_scene;
 }
 
 void refuse_what_needs_a_scene(const MapsOptions& options) {
@@ -52,7 +76,7 @@ void refuse_what_needs_a_scene(const MapsOptions& options) {
     }
     if (!options.common.camera.empty()) throw InputError("", "--camera", "this needs a scene");
     for (const auto& [key, value] : options.common.settings) {
-        if (!image_settings().contains(key)) throw InputError("", key, "this setting needs a scene");
+        if (needs_scene(key)) throw InputError("", key, "this setting needs a scene");
         const auto* text = std::get_if<std::string>(&value);
         if (key == "motion" && text != nullptr && *text == "model") {
             throw InputError("", key, "model-based motion needs a scene");
@@ -154,8 +178,9 @@ void write_image_maps(const MapsOptions& options) {
     prepare_frames_output(prepared, options.common, true);
     const ThreadLimit limit(options.common.threads);
     ImageSequence sequence(prepared.scene, images.files, prepared.settings);
-    write_made_frames(prepared, options.common, maps_request(), true, "maps", *prepared.scene.exposure,
-                      [&](int frame, const FrameRequest&) { return sequence.compute_maps(frame); });
+    const auto make = [&](int frame, const FrameRequest&) { return sequence.compute_maps(frame); };
+    write_frames({prepared.scene, prepared.settings, *prepared.scene.exposure, prepared.frames, prepared.name, make},
+                 options.common, maps_request());
 }
 
 }  // namespace
@@ -181,18 +206,7 @@ void add_maps_command(CLI::App& app, Command& command) {
             "factor on the pictures' values, so that white is 1 (default: 1)")
         ->type_name("NUMBER")
         ->group(group);
-    maps->footer(
-        "Channels: forward.u/.v (pixels to frame N+1, y up), motion.valid, velocity.image/.retinal (deg/s), "
-        "saliency.Y, conspicuity.*, aleph.Y, alpha.acc, threshold.Y (cd/m2), estimate.*, and with a scene Z (m), N.*, "
-        "objectId.X.\n\n"
-        "With --images, estimate.* is the picture itself. Its frame rate (framesPerSecond), whiteLuminance and "
-        "pixelsPerDegree are taken from the first EXR where it has them; --fps and --set viewing.pixels_per_degree=N, "
-        "viewing.display_white=N say otherwise. Where a picture shows no detail, or more moves than 53 pixels a frame, "
-        "motion is a guess; with a scene, --motion model (the default) is exact.\n\n"
-        "Examples:\n"
-        "  aleph maps scenes/pool/scene.json --frames 20 -o maps.exr\n"
-        "  aleph maps --images 'shot/frame.####.png' --fps 24 -o maps/\n"
-        "  aleph compare guided.exr dense.exr --threshold maps.exr      would a viewer notice?");
+    maps->footer(maps_footer);
     maps->callback([options, &command] {
         if (options->images.empty()) {
             if (options->common.scene.empty()) {
@@ -205,7 +219,7 @@ void add_maps_command(CLI::App& app, Command& command) {
             if (!options->images.empty()) {
                 write_image_maps(*options);
             } else {
-                write_frames(prepare_scene(options->common), options->common, maps_request(), true, "maps");
+                render_frames(prepare_scene(options->common), options->common, maps_request());
             }
             return exit_done;
         };

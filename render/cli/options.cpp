@@ -14,26 +14,26 @@ namespace aleph {
 
 namespace {
 
-/// One line, safe to print, in the form of all our errors.
+/// Writes one line without control characters.
 void report(std::ostream& errors, const std::string& message) {
     errors << "aleph: error: " << printable(message, 4000) << "\n" << std::flush;
 }
 
-/// The end of a message about bad usage.
+/// What to do next after wrong usage; the end of the message.
 std::string where_to_look(const CLI::App& app) {
     const auto chosen = app.get_subcommands();
-    if (!chosen.empty()) return fmt::format("aleph {} --help shows what there is", chosen.front()->get_name());
+    if (!chosen.empty()) return fmt::format("aleph {} --help lists the options", chosen.front()->get_name());
     std::string names;
     for (const CLI::App* subcommand : app.get_subcommands([](const CLI::App*) { return true; })) {
         names += (names.empty() ? "" : ", ") + subcommand->get_name();
     }
-    return fmt::format("commands: {}; aleph --help shows more", names);
+    return fmt::format("commands: {}; aleph --help describes them", names);
 }
 
 template <class T>
 const char* kind_of() {
     if constexpr (std::is_floating_point_v<T>) return "a number";
-    if constexpr (std::is_unsigned_v<T>) return "a whole number from 0";
+    if constexpr (std::is_unsigned_v<T>) return "a whole number of at least 0";
     return "a whole number";
 }
 
@@ -107,7 +107,7 @@ int run_program(CLI::App& app, const Command& command, int argc, const char* con
         return exit_bad_input;
     }
     if (!command) {
-        report(errors, fmt::format("what is to be done? ({})", where_to_look(app)));
+        report(errors, fmt::format("a command is missing ({})", where_to_look(app)));
         return exit_bad_input;
     }
     return run_command(command, errors);

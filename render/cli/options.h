@@ -1,6 +1,5 @@
 #pragma once
-// What the subcommands share: options that read numbers the same way in every country, and the one place where
-// errors become messages and exit codes.
+// Shared by the subcommands: options that read numbers the same way in every locale; messages and exit codes of errors.
 
 #include <CLI/CLI.hpp>
 #include <functional>
@@ -10,34 +9,35 @@
 
 namespace aleph {
 
-/// A subcommand whose options have been read: does the work and returns the exit code.
+/// The work of a subcommand, to be done after its options have been read; returns the exit code.
 using Command = std::function<int()>;
 
 enum ExitCode : int {
     exit_done = 0,
-    exit_different = 1,  ///< `aleph compare` alone
+    exit_different = 1,  ///< of `aleph compare`
     exit_failed = 1,
-    exit_bad_input = 2,  ///< usage, scene, picture
+    exit_bad_input = 2,  ///< wrong usage, or a scene or picture that cannot be read
 };
 
-/// Numbers as JSON and C++ write them, whatever the locale (HARD_CASES DT-09): the whole text, finite, in range.
+/// A number as JSON and C++ write it, with a decimal point in every locale. The whole text has to be a finite number in
+/// the range of T.
 /// @throws CLI::ConversionError naming the option
 template <class T>
 T parse_value(std::string_view text, const std::string& option);
 
-/// An option that fills `value`, for int, std::uint32_t and double; what `value` holds now is shown as the default.
+/// Adds an option that fills `value` (int, std::uint32_t or double). Help shows its present value as the default.
 template <class T>
 CLI::Option* add_value(CLI::App& app, const std::string& option, T& value, const std::string& help);
 
-/// "640x480".
+/// Reads a size such as "640x480".
 /// @throws CLI::ConversionError naming the option
 void parse_size(std::string_view text, const std::string& option, int& width, int& height);
 
-/// Reads the command line, with `command` to be set by the subcommand that was chosen, runs it, and says what went
-/// wrong in one line: 2 for bad usage and InputError, 1 for everything else.
+/// Reads the command line, which sets `command`, and runs the command. An error is reported in one line on `errors`.
+/// @return the command's exit code, 2 for wrong usage and InputError, 1 for any other error
 int run_program(CLI::App& app, const Command& command, int argc, const char* const* argv, std::ostream& errors);
 
-/// Runs a command and turns errors into messages and exit codes.
+/// Runs a command; errors as in run_program.
 int run_command(const Command& command, std::ostream& errors);
 
 }  // namespace aleph

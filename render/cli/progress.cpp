@@ -13,8 +13,8 @@ namespace aleph {
 
 namespace {
 
-constexpr double redraw_interval = 0.1;      ///< seconds between two drawings of the bar
-constexpr double longest_line_interval = 5;  ///< seconds between two plain lines, at most; they start at a quarter
+constexpr double redraw_interval = 0.1;  ///< seconds between two drawings of the bar
+constexpr double max_line_interval = 5;  ///< seconds between two plain lines; the first interval is .25
 
 double steady_seconds() {
     return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
@@ -68,7 +68,7 @@ void Progress::update(double done, const std::string& what) {
     const bool bar = look_.style == ProgressStyle::bar;
     if (now - last_shown_ < (bar ? redraw_interval : interval_) && (shown_ || !bar)) return;
     last_shown_ = now;
-    interval_ = std::min(longest_line_interval, interval_ * 2.0);
+    interval_ = std::min(max_line_interval, interval_ * 2.0);
     show();
 }
 

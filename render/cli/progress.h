@@ -1,5 +1,5 @@
 #pragma once
-// How far a command is, and how long it will still take; on standard error, so that results can be piped.
+// Progress of a command and the time that remains, on standard error.
 
 #include <cstdio>
 #include <functional>
@@ -14,25 +14,25 @@ enum class ProgressStyle {
     bar,    ///< one line that is drawn again: terminals
 };
 
-/// How the bar looks; a test sets these by hand.
+/// Form of the output.
 struct ProgressLook {
     ProgressStyle style = ProgressStyle::none;
     bool colour = false;
     int columns = 80;
 };
 
-/// What suits standard error: nothing if quiet, a bar on a terminal (without colour under NO_COLOR), lines elsewhere.
+/// For standard error: none if quiet, a bar on a terminal (without colour if NO_COLOR is set), lines elsewhere.
 ProgressLook progress_look(bool quiet);
 
 /// "3.2s", "1m05s", "2h03m".
 std::string format_duration(double seconds);
 
-/// Shows progress while it lives. May be called from any thread.
+/// Shows progress until it is destroyed. Can be called from any thread.
 class Progress {
   public:
-    /// @param title  what is being done: "maps"
+    /// @param title  shown first in the line, such as "maps"
     /// @param total  the amount of work, in the caller's unit, such as frames
-    /// @param clock  seconds since any moment; for tests
+    /// @param clock  seconds since any start; for tests
     Progress(std::string title, double total, const ProgressLook& look, std::FILE* out = stderr,
              std::function<double()> clock = {});
     /// Shows the last state and ends the line.
@@ -41,7 +41,7 @@ class Progress {
     Progress& operator=(const Progress&) = delete;
 
     /// @param done  of `total`; fractions are fine
-    /// @param what  what is going on now: "frame 12: shade"
+    /// @param what  shown last, such as "frame 12: shade"
     void update(double done, const std::string& what = {});
 
   private:

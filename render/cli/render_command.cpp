@@ -1,19 +1,21 @@
-// `aleph render`: frames of a scene, guided by its Aleph maps.
+// `aleph render`: renders frames of a scene, with an accuracy that follows their Aleph maps.
 
 #include "render/cli/commands.h"
-#include "render/cli/scene_options.h"
+#include "render/cli/write_frames.h"
 
 namespace aleph {
 
 void add_render_command(CLI::App& app, Command& command) {
-    CLI::App* render = app.add_subcommand("render", "render frames of a scene");
+    CLI::App* render = app.add_subcommand("render", "render frames of a scene to EXR or PNG files");
     const auto options = std::make_shared<SceneOptions>();
     const auto aovs = std::make_shared<bool>(false);
     add_scene_options(*render, *options);
-    render->add_flag("--aovs", *aovs, "write every map beside the picture, as `aleph maps` does");
+    render->add_flag("--aovs", *aovs, "also write the channels of `aleph maps` (EXR only)");
     render->footer(
-        "Accuracy costs time: --accuracy is the error that irradiance caching may make where the viewer is strictest; "
-        "the Aleph map relaxes it elsewhere. --guide none keeps it the same everywhere.\n\n"
+        "--accuracy is the error that irradiance caching may make where the viewer is strictest. Elsewhere the Aleph "
+        "map "
+        "allows more, which saves time; with --guide none the accuracy is the same everywhere.\n"
+        "The file has the channels R, G, B and A. `aleph maps --help` describes those that --aovs adds.\n\n"
         "Examples:\n"
         "  aleph render scenes/pool/scene.json --frames 20 --spp 1 -o frame.png          a quick look\n"
         "  aleph render scenes/pool/scene.json -o out/ --stats out/stats.json            the whole shot\n"
@@ -21,8 +23,7 @@ void add_render_command(CLI::App& app, Command& command) {
         "  aleph render scenes/pool/scene.json --frames 20 --accuracy 0 --gather 4096 --spp 1 -o dense.exr");
     render->callback([options, aovs, &command] {
         command = [options, aovs] {
-            write_frames(prepare_scene(*options), *options, {.frame = true, .maps = *aovs, .progress = {}}, *aovs,
-                         "render");
+            render_frames(prepare_scene(*options), *options, {.frame = true, .maps = *aovs, .progress = {}});
             return exit_done;
         };
     });

@@ -1,18 +1,17 @@
 #include "render/cli/scene_options.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <charconv>
-#include <chrono>
 #include <filesystem>
 #include <iostream>
 
 #include "engine/base/errors.h"
 #include "engine/load/load_scene.h"
+#include "engine/pose/pose.h"
 #include "render/cli/frame_list.h"
-#include "render/cli/output_path.h"
-#include "render/cli/progress.h"
-#include "render/frame_files.h"
+#include "render/setting_table.h"
 
 namespace aleph {
 
@@ -55,9 +54,49 @@ std::string option_name(std::string key) {
     return "--" + key;
 }
 
-/// PNG for people, EXR for everything else; by the pattern's ending.
-bool is_png(const std::filesystem::path& path) {
-    return path.extension() == ".png";
+/// "WIDTHxHEIGHT", "N", "NUMBER", "flat|direct".
+std::string value_name(const Setting& setting) {
+    switch (setting.type) {
+        case SettingType::size:
+            return "WIDTHxHEIGHT";
+        case SettingType::whole_number:
+            return "N";
+        case SettingType::number:
+            return "NUMBER";
+        case SettingType::choice:
+            return fmt::format("{}", fmt::join(setting.choices, "|"));
+        case SettingType::boolean:
+            return "true|false";
+    }
+    return "VALUE";
+}
+
+/// What the setting does, with the range of a number and its unit.
+std::string setting_help(const Setting& setting) {
+    const std::string unit = setting.unit.empty() ? "" : " " + setting.unit;
+    switch (setting.type) {
+        case SettingType::size:
+        case SettingType::whole_number:
+            return fmt::format("{} ({:.0f} to {:.0f}{})", setting.help, setting.min, setting.max, unit);
+        case SettingType::number:
+            return fmt::format("{} ({:g} to {:g}{})", setting.help, setting.min, setting.max, unit);
+        case SettingType::choice:
+        case SettingType::boolean:
+            break;
+    }
+    return setting.help;
+}
+
+/// --KEY for a setting of the table.
+void add_setting_option(CLI::App& app, const Setting& setting, SettingMap& into) {
+    const SettingValue value = setting.get(RenderSettings());
+    app.add_option_function<std::string>(
+           option_name(setting.key),
+           [&into, key = setting.key](const std::string& text) { parse_setting(key + "=" + text, into); },
+           setting_help(setting))
+        ->type_name(value_name(setting))
+        ->default_str(std::visit([](const auto& v) { return fmt::format("{}", v); }, value))
+        ->group("Settings (a scene file's \"settings\" have the same names, with _ in place of -)");
 }
 
 }  // namespace
@@ -67,43 +106,39 @@ void add_load_limits(CLI::App& app, LoadLimits& limits) {
            "--load-memory",
            [&limits](const std::string& text) {
                const auto mebibytes = parse_value<std::uint32_t>(text, "--load-memory");
-               if (mebibytes < 16) throw CLI::ValidationError("--load-memory", "at least 16 MiB are needed");
+               if (mebibytes < 16) throw CLI::ValidationError("--load-memory", "expected at least 16 (MiB)");
                limits.memory = std::size_t{mebibytes} << 20;
            },
-           "most memory that a scene's text may take to load; raise it for large scene files of your own")
+           "memory that loading a scene's text may take, at least 16; raise it for a large scene file")
         ->type_name("MIB")
         ->default_str(fmt::format("{}", limits.memory >> 20));
 }
 
 void add_scene_options(CLI::App& app, SceneOptions& options) {
-    app.add_option("scene", options.scene, "a scene file (.json), .gltf, .glb or .abc")->required()->type_name("SCENE");
-    app.add_option("--frames", options.frames, "frames, such as 1-10,20-40x2 (default: the scene's range)")
+    app.add_option("scene", options.scene, "scene file: .json, .gltf, .glb or .abc")->required()->type_name("SCENE");
+    app.add_option("--frames", options.frames,
+                   "frames, such as 1-10,20-40x2 (x2: every second); default: the scene's range")
         ->type_name("LIST");
-    app.add_option("--fps", options.fps, "frames per second in place of the scene's: 30, 30000/1001")->type_name("N");
+    app.add_option("--fps", options.fps, "frames per second, such as 30 or 30000/1001; default: the scene's")
+        ->type_name("N");
     app.add_option("-o,--output", options.output,
-                   "name.####.exr, name.####.png or a folder (default: SCENE.####.exr here)")
+                   "output files: name.####.exr or name.####.png (#### is the frame number), or a folder; default: "
+                   "SCENE.####.exr in the current folder")
         ->type_name("PATTERN");
-    app.add_option("--camera", options.camera, "name of a camera or of its node")->type_name("NAME");
-    app.add_option("--stats", options.stats, "write counts and times of every frame")->type_name("FILE.json");
+    app.add_option("--camera", options.camera, "name of a camera or of its node; default: the scene's choice")
+        ->type_name("NAME");
+    app.add_option("--stats", options.stats, "write counts and times of every frame as JSON")->type_name("FILE.json");
     add_load_limits(app, options.limits);
-    add_value(app, "-t,--threads", options.threads, "threads; 0: all");
-    app.add_flag("-q,--quiet", options.quiet, "no progress, no warnings");
-    for (const SettingKey& key : setting_keys()) {
-        app.add_option_function<std::string>(
-               option_name(key.name),
-               [&options, name = key.name](const std::string& value) {
-                   parse_setting(name + "=" + value, options.settings);
-               },
-               key.help)
-            ->type_name("VALUE")
-            ->group("Settings (the scene file's \"settings\" have the same names)");
-    }
+    add_value(app, "-t,--threads", options.threads, "number of threads; 0: all processors");
+    app.add_flag("-q,--quiet", options.quiet, "print no progress and no warnings");
+    for (const Setting& setting : setting_table()) add_setting_option(app, setting, options.settings);
     app.add_option_function<std::vector<std::string>>(
            "--set",
            [&options](const std::vector<std::string>& texts) {
                for (const std::string& text : texts) parse_setting(text, options.settings);
            },
-           "any setting of the scene file; also exposure, viewing.pixels_per_degree, viewing.display_white")
+           "a setting by its key in scene files; also exposure, viewing.pixels_per_degree (pixels) and "
+           "viewing.display_white (cd/m2), numbers above 0")
         ->type_name("KEY=VALUE")
         ->allow_extra_args(false);
 }
@@ -136,66 +171,6 @@ PreparedScene prepare_scene(const SceneOptions& options) {
         prepared.name = std::filesystem::absolute(options.scene).parent_path().filename().string();
     }
     return prepared;
-}
-
-namespace {
-
-/// Thresholds are in cd/m2: a scene in other units would be all below or all above them (HARD_CASES CS-14).
-void warn_of_units(const FrameStatistics& frame) {
-    const double median = frame.median_luminance;
-    if (median == 0.0 || (median >= 1e-3 && median <= 1e4)) return;
-    std::cerr << fmt::format(
-        "aleph: warning: frame {}: the median luminance is {:.3g} cd/m2, outside 1e-3 to 1e4: check \"exposure\" and "
-        "\"display_white\" of the scene\n",
-        frame.frame, median);
-}
-
-}  // namespace
-
-void write_frames(const PreparedScene& prepared, const SceneOptions& options, const FrameRequest& request, bool maps,
-                  const std::string& title) {
-    prepare_frames_output(prepared, options, maps);
-    const ThreadLimit limit(options.threads);
-    Sequence sequence(prepared.scene, prepared.settings, options.camera);
-    write_made_frames(prepared, options, request, maps, title, sequence.exposure(),
-                      [&](int frame, const FrameRequest& asked) { return sequence.render(frame, asked); });
-}
-
-void prepare_frames_output(const PreparedScene& prepared, const SceneOptions& options, bool maps) {
-    prepare_output(options.output, prepared.name, prepared.frames.size());
-    if (maps && is_png(output_path(options.output, prepared.name, prepared.frames.front()))) {
-        throw InputError("--output", printable(options.output), "maps need channels: write .exr, not .png");
-    }
-}
-
-void write_made_frames(const PreparedScene& prepared, const SceneOptions& options, const FrameRequest& request,
-                       bool maps, const std::string& title, double exposure, const FrameMaker& make_frame) {
-    std::vector<FrameStatistics> statistics;
-    Progress progress(title, static_cast<double>(prepared.frames.size()), progress_look(options.quiet));
-    for (std::size_t i = 0; i < prepared.frames.size(); ++i) {
-        const int frame = prepared.frames[i];
-        FrameRequest asked = request;
-        asked.progress = [&](double fraction, const char* stage) {
-            progress.update(static_cast<double>(i) + fraction, fmt::format("frame {}: {}", frame, stage));
-        };
-        FrameOutput output = make_frame(frame, asked);
-        const auto start = std::chrono::steady_clock::now();
-        const std::filesystem::path path = output_path(options.output, prepared.name, frame);
-        if (is_png(path)) {
-            write_png(path, output.shaded.color);
-        } else {
-            write_exr(path, make_frame_image(output, maps, prepared.scene, prepared.settings, exposure));
-        }
-        StageSeconds& seconds = output.statistics.seconds;
-        seconds.write = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-        seconds.total += seconds.write;
-        if (i == 0 && !options.quiet) warn_of_units(output.statistics);
-        statistics.push_back(output.statistics);
-        progress.update(static_cast<double>(i + 1), fmt::format("frame {}", frame));
-    }
-    if (!options.stats.empty()) {
-        write_file(options.stats, format_statistics(statistics, prepared.scene, prepared.settings, exposure));
-    }
 }
 
 }  // namespace aleph

@@ -1,16 +1,16 @@
 #pragma once
-// Boxes around what stands in the world.
+// Bounds of instances in the world.
 
 #include "engine/base/bounds.h"
 #include "engine/pose/pose.h"
 
 namespace aleph {
 
-/// Adds the vertices of an instance, shown or not, as they stand at the frame's time.
-inline void add_instance(Bounds& bounds, const Scene& scene, const ScenePose& frame, const Instance& instance) {
-    const glm::dmat4& world = frame.world[instance.node];
+/// Adds the vertices of an instance, shown or hidden, at the time of the pose.
+inline void add_instance(Bounds& bounds, const Scene& scene, const ScenePose& posed_scene, const Instance& instance) {
+    const glm::dmat4& world = posed_scene.world[instance.node];
     const auto add = [&](const glm::dvec3& point) { bounds.add(glm::dvec3(world * glm::dvec4(point, 1.0))); };
-    const PosedMesh& posed = frame.meshes[instance.mesh];
+    const PosedMesh& posed = posed_scene.meshes[instance.mesh];
     if (!posed.positions.empty()) {
         for (const glm::dvec3& point : posed.positions) add(point);
     } else {

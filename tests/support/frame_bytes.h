@@ -7,6 +7,7 @@
 #include "engine/load/load_scene.h"
 #include "render/frame_files.h"
 #include "render/sequence.h"
+#include "tests/support/paths.h"
 #include "tests/support/quick_settings.h"
 #include "tests/support/read_bytes.h"
 #include "tests/support/scratch_folder.h"

@@ -1,18 +1,173 @@
-// The scene file's schema and the renderer know the same settings.
+// The table of settings, scene.schema.json and AUTHORING.md say the same about every render setting.
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
+
+#include <cmath>
+#include <fstream>
 
 #include "engine/base/errors.h"
 #include "engine/scene_file/scene_text.h"
 #include "engine/scene_file/schema.h"
-#include "render/settings.h"
+#include "render/setting_table.h"
+#include "tests/support/paths.h"
 
 namespace aleph {
 namespace {
 
-TEST(SceneSettings, EveryKeyOfTheRendererIsInTheSchema) {
-    const nlohmann::json& known = scene_schema()["definitions"]["settings"]["properties"];
-    for (const SettingKey& key : setting_keys()) EXPECT_TRUE(known.contains(key.name)) << key.name;
+using Json = nlohmann::ordered_json;
+
+Json to_json(const SettingValue& value) {
+    return std::visit([](const auto& v) { return Json(v); }, value);
+}
+
+/// A number as people write it: 1024, 0.15.
+Json short_number(double value) {
+    return value == std::floor(value) ? Json(static_cast<std::int64_t>(value)) : Json(value);
+}
+
+/// The default in JSON.
+Json default_of(const Setting& setting) {
+    const SettingValue value = setting.get(RenderSettings());
+    const double* const number = std::get_if<double>(&value);
+    return number != nullptr ? short_number(*number) : to_json(value);
+}
+
+/// "Least reach of a record (pixels)."
+std::string sentence(const Setting& setting) {
+    std::string text = setting.help;
+    text[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(text[0])));
+    return setting.unit.empty() ? text + "." : fmt::format("{} ({}).", text, setting.unit);
+}
+
+/// What the schema has to say of a setting.
+Json schema_of(const Setting& setting) {
+    Json schema{{"description", sentence(setting)}};
+    switch (setting.type) {
+        case SettingType::size: {
+            schema["title"] = "text like \"640x480\"";
+            schema["type"] = "string";
+            // 1 to 65536
+            const std::string side =
+                "0*([1-9][0-9]{0,3}|[1-5][0-9]{4}|6[0-4][0-9]{3}|65[0-4][0-9]{2}|655[0-2][0-9]|6553[0-6])";
+            schema["pattern"] = "^" + side + "x" + side + "$";
+            break;
+        }
+        case SettingType::whole_number:
+        case SettingType::number:
+            schema["type"] = setting.type == SettingType::number ? "number" : "integer";
+            schema["minimum"] = short_number(setting.min);
+            schema["maximum"] = short_number(setting.max);
+            break;
+        case SettingType::choice:
+            schema["enum"] = setting.choices;
+            break;
+        case SettingType::boolean:
+            schema["type"] = "boolean";
+            break;
+    }
+    schema["default"] = default_of(setting);
+    return schema;
+}
+
+/// The values of a setting as the table of AUTHORING.md shows them.
+std::string values_on_page(const Setting& setting) {
+    switch (setting.type) {
+        case SettingType::size:
+            return fmt::format("WIDTHxHEIGHT, {:.0f} to {:.0f} each", setting.min, setting.max);
+        case SettingType::whole_number:
+            return fmt::format("whole number, {:.0f} to {:.0f}", setting.min, setting.max);
+        case SettingType::number:
+            return fmt::format("number, {:g} to {:g}", setting.min, setting.max);
+        case SettingType::boolean:
+            return "`true`, `false`";
+        case SettingType::choice:
+            break;
+    }
+    std::string names;
+    for (const std::string& name : setting.choices) names += fmt::format("{}`{}`", names.empty() ? "" : ", ", name);
+    return names;
+}
+
+/// The table that AUTHORING.md has to show.
+std::string table_on_page() {
+    std::string text = "| key | values | unit | default | what it does |\n| --- | --- | --- | --- | --- |\n";
+    for (const Setting& setting : setting_table()) {
+        const Json value = default_of(setting);
+        text += fmt::format("| `{}` | {} | {} | {} | {} |\n", setting.key, values_on_page(setting), setting.unit,
+                            value.is_string() ? value.get<std::string>() : value.dump(), setting.help);
+    }
+    return text;
+}
+
+TEST(SceneSettings, TheSchemaHasTheTableOfSettings) {
+    Json expected = Json::object();
+    for (const Setting& setting : setting_table()) expected[setting.key] = schema_of(setting);
+    std::ifstream file(source_folder() / "scenes" / "scene.schema.json");
+    const Json found = Json::parse(file)["definitions"]["settings"]["properties"];
+    EXPECT_EQ(found.dump(2), expected.dump(2)) << "replace the settings of scenes/scene.schema.json by the latter";
+}
+
+TEST(SceneSettings, AuthoringHasTheTableOfSettings) {
+    std::ifstream file(source_folder() / "scenes" / "AUTHORING.md");
+    const std::string page{std::istreambuf_iterator<char>(file), {}};
+    const std::string expected = table_on_page();
+    EXPECT_NE(page.find("\n" + expected + "\n"), std::string::npos)
+        << "the table of settings in scenes/AUTHORING.md has to be\n"
+        << expected;
+}
+
+/// Values on both sides of every limit, of every type.
+std::vector<Json> probes(const Setting& setting) {
+    std::vector<Json> values{true,      false, 0,         1,         -1,        0.5,     "",  "1",        "true",
+                             "640x480", "0x0", "65536x1", "1x65537", "99999x1", "007x5", "x", "640x480 ", "-5x5"};
+    for (const double limit : {setting.min, setting.max}) {
+        for (const double step : {-1.0, 0.0, 1.0}) values.push_back(short_number(limit + step));
+    }
+    values.push_back(std::nextafter(setting.max, 1e300));
+    for (const auto& names : {setting.choices, setting.later_choices}) {
+        for (const std::string& name : names) {
+            values.push_back(name);
+            values.push_back(name + " ");
+        }
+    }
+    return values;
+}
+
+SettingValue to_setting(const Json& value) {
+    if (value.is_boolean()) return value.get<bool>();
+    if (value.is_number()) return value.get<double>();
+    return value.get<std::string>();
+}
+
+TEST(SceneSettings, TheSchemaAndTheCommandLineTakeTheSameValues) {
+    int taken = 0, refused = 0;
+    for (const Setting& setting : setting_table()) {
+        for (const Json& value : probes(setting)) {
+            const bool fits = find_mismatch(setting, to_setting(value)).empty();
+            const Json file{{"aleph", 1}, {"settings", {{setting.key, value}}}};
+            bool loads = true;
+            try {
+                read_scene_text(file.dump(), "a.json");
+            } catch (const InputError& e) {
+                loads = false;
+                EXPECT_EQ(e.place(), "/settings/" + setting.key);
+            }
+            EXPECT_EQ(loads, fits) << setting.key << " = " << value.dump();
+            ++(fits ? taken : refused);
+        }
+    }
+    EXPECT_GT(taken, 70);
+    EXPECT_GT(refused, 300);
+}
+
+TEST(SceneSettings, KeysThatNothingReadsAreRefused) {
+    for (const char* key : {"radius", "time_limit", "shade_radius"}) {
+        const Json file{{"aleph", 1}, {"settings", {{key, 1}}}};
+        EXPECT_THROW(read_scene_text(file.dump(), "a.json"), InputError) << key;
+        RenderSettings settings;
+        EXPECT_THROW(apply_settings(settings, {{key, 1.0}}, "--set"), InputError) << key;
+    }
 }
 
 TEST(SceneSettings, WhatTheRendererWritesComesBackThroughAFile) {

@@ -1,6 +1,6 @@
 // Render settings: every key there and back, and a refusal that names key and values for everything else.
 
-#include "render/settings.h"
+#include "render/setting_table.h"
 
 #include <gtest/gtest.h>
 
@@ -19,7 +19,7 @@ const std::map<std::string, SettingValue>& other_values() {
         {"motion", "image"},      {"bands", "measured"},  {"grid", "center"},         {"neutral_opponent", true},
         {"adapter", "scale-add"}, {"adapter_k", 50.0},    {"accuracy", 0.3},          {"gather", 64.0},
         {"bounces", 0.0},         {"spp", 4.0},           {"sampling", "uniform"},    {"integrator", "cache"},
-        {"light_samples", 7.0},   {"shade_radius", 1.1},  {"min_radius_pixels", 2.5}, {"subdivision_level", 3.0}};
+        {"light_samples", 7.0},   {"shade_reach", 1.1},   {"min_radius_pixels", 2.5}, {"subdivision_level", 3.0}};
     return values;
 }
 
@@ -40,26 +40,26 @@ std::string refusal(const std::string& key, const SettingValue& value) {
 
 TEST(Settings, EveryKeyRoundTrips) {
     std::set<std::string> keys;
-    for (const SettingKey& key : setting_keys()) {
-        keys.insert(key.name);
-        EXPECT_FALSE(key.help.empty());
-        ASSERT_TRUE(other_values().contains(key.name)) << key.name;
+    for (const Setting& setting : setting_table()) {
+        keys.insert(setting.key);
+        EXPECT_FALSE(setting.help.empty());
+        ASSERT_TRUE(other_values().contains(setting.key)) << setting.key;
         RenderSettings settings;
-        apply_settings(settings, {{key.name, other_values().at(key.name)}}, "test");
+        apply_settings(settings, {{setting.key, other_values().at(setting.key)}}, "test");
         const SettingMap map = setting_map(settings);
-        EXPECT_EQ(map.at(key.name), other_values().at(key.name)) << key.name;
+        EXPECT_EQ(map.at(setting.key), other_values().at(setting.key)) << setting.key;
         // One key changes one thing.
         const SettingMap defaults = setting_map(RenderSettings());
         for (const auto& [name, value] : map) {
-            if (name != key.name) {
-                EXPECT_EQ(value, defaults.at(name)) << key.name << " changed " << name;
+            if (name != setting.key) {
+                EXPECT_EQ(value, defaults.at(name)) << setting.key << " changed " << name;
             }
         }
         RenderSettings again;
         apply_settings(again, map, "test");
-        EXPECT_EQ(again, settings) << key.name;
+        EXPECT_EQ(again, settings) << setting.key;
     }
-    EXPECT_EQ(keys.size(), setting_keys().size()) << "a key is listed twice";
+    EXPECT_EQ(keys.size(), setting_table().size()) << "a key is listed twice";
     EXPECT_EQ(keys.size(), setting_map(RenderSettings()).size());
 }
 
@@ -91,7 +91,7 @@ TEST(Settings, FieldsReceiveWhatKeysSay) {
     EXPECT_EQ(s.bounces, 0);
     EXPECT_EQ(s.spp, 4);
     EXPECT_EQ(s.light_samples, 7);
-    EXPECT_EQ(s.shade_radius, 1.1);
+    EXPECT_EQ(s.shade_reach, 1.1);
     EXPECT_EQ(s.min_radius_pixels, 2.5);
     EXPECT_EQ(s.subdivision_level, 3);
 }
@@ -126,7 +126,7 @@ TEST(Settings, MC20_NumbersOutOfRangeOfAnyKind) {
                                                          {"spp", {0.0, 1.5, 65537.0, nan_value, infinite}},
                                                          {"light_samples", {0.0, nan_value, 1e9}},
                                                          {"seed", {-1.0, 4294967296.0, 0.5, nan_value}},
-                                                         {"shade_radius", {0.99, 2.01, nan_value}},
+                                                         {"shade_reach", {0.99, 2.01, nan_value}},
                                                          {"min_radius_pixels", {0.0, -1.0, 1001.0, nan_value}},
                                                          {"subdivision_level", {-2.0, 11.0, 0.5, nan_value}}};
     for (const auto& [key, values] : bad) {
@@ -158,7 +158,7 @@ TEST(Settings, UnknownKeysListTheKnown) {
         EXPECT_EQ(e.file(), "scene.json");
         EXPECT_NE(e.place().find("acuracy"), std::string::npos);
         EXPECT_EQ(e.place().find('\x01'), std::string::npos);
-        for (const SettingKey& key : setting_keys()) EXPECT_NE(e.reason().find(key.name), std::string::npos);
+        for (const Setting& setting : setting_table()) EXPECT_NE(e.reason().find(setting.key), std::string::npos);
     }
 }
 

@@ -1,4 +1,4 @@
-// The page on authoring scenes: every example on it loads, and every key of the schema stands in one.
+// The page on authoring scenes: every example on it loads and renders, and every key of the schema is in one.
 
 #include <gtest/gtest.h>
 
@@ -10,6 +10,7 @@
 #include <set>
 #include <sstream>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "engine/base/errors.h"
@@ -17,8 +18,9 @@
 #include "engine/load/load_scene.h"
 #include "engine/scene_file/scene_text.h"
 #include "engine/scene_file/schema.h"
-#include "tests/support/scratch_folder.h"
+#include "render/sequence.h"
 #include "tests/support/paths.h"
+#include "tests/support/scratch_folder.h"
 
 namespace aleph {
 namespace {
@@ -36,7 +38,8 @@ std::string read_text(const fs::path& path) {
 }
 
 struct Example {
-    int line = 0;  ///< of its fence
+    int line = 0;        ///< of its fence
+    std::string before;  ///< the page's text since the last example
     std::string text;
 };
 
@@ -44,10 +47,10 @@ struct Example {
 std::vector<Example> read_examples() {
     std::stringstream page(read_text(source / "scenes" / "AUTHORING.md"));
     std::vector<Example> examples;
-    std::string line, fence;
+    std::string line, fence, before;
     for (int number = 1; std::getline(page, line); ++number) {
         if (!line.starts_with("```")) {
-            if (!fence.empty()) examples.back().text += line + '\n';
+            (fence.empty() ? before : examples.back().text) += line + '\n';
             continue;
         }
         if (!fence.empty()) {
@@ -59,9 +62,32 @@ std::vector<Example> read_examples() {
         }
         fence = line;
         EXPECT_TRUE(fence == "```json" || fence == "```json node") << "line " << number << ": " << fence;
-        examples.push_back({number, ""});
+        examples.push_back({number, std::exchange(before, ""), ""});
     }
     return examples;
+}
+
+/// Loads an example from a file, with stand-ins for the files that it names.
+Scene load_example(const Example& example, const fs::path& folder) {
+    const Scene named = read_scene_text(example.text, "example.json").scene;
+    const auto put = [&](const std::string& path, const fs::path& from) {
+        fs::create_directories((folder / path).parent_path());
+        fs::copy_file(from, folder / path, fs::copy_options::overwrite_existing);
+    };
+    for (const SceneImage& image : named.images) {
+        put(image.path, source / "scenes" / "pool" / "textures" / "ball_01.png");
+    }
+    for (const Include& include : named.includes) {
+        if (include.path.ends_with(".glb")) {
+            put(include.path, source / "scenes" / "room" / "room.glb");
+        } else if (include.path.ends_with(".abc")) {
+            put(include.path, source / "tests" / "assets" / "abc" / "subd_creases.abc");
+        } else {
+            std::ofstream(folder / include.path) << R"({"asset": {"version": "2.0"}})";
+        }
+    }
+    std::ofstream(folder / "example.json") << example.text;
+    return load_scene(folder / "example.json");
 }
 
 TEST(Authoring, EveryExampleLoadsWithoutWarnings) {
@@ -71,25 +97,7 @@ TEST(Authoring, EveryExampleLoadsWithoutWarnings) {
     for (const Example& example : examples) {
         SCOPED_TRACE("AUTHORING.md, line " + std::to_string(example.line));
         try {
-            const Scene named = read_scene_text(example.text, "example.json").scene;
-            const auto put = [&](const std::string& path, const fs::path& from) {
-                fs::create_directories((folder.path() / path).parent_path());
-                fs::copy_file(from, folder.path() / path, fs::copy_options::overwrite_existing);
-            };
-            for (const SceneImage& image : named.images) {
-                put(image.path, source / "scenes" / "pool" / "textures" / "ball_01.png");
-            }
-            for (const Include& include : named.includes) {
-                if (include.path.ends_with(".glb")) {
-                    put(include.path, source / "scenes" / "room" / "room.glb");
-                } else if (include.path.ends_with(".abc")) {
-                    put(include.path, source / "tests" / "assets" / "abc" / "subd_creases.abc");
-                } else {
-                    std::ofstream(folder / include.path) << R"({"asset": {"version": "2.0"}})";
-                }
-            }
-            std::ofstream(folder.path() / "example.json") << example.text;
-            const Scene scene = load_scene(folder.path() / "example.json");
+            const Scene scene = load_example(example, folder.path());
             for (const std::string& warning : scene.warnings) {
                 EXPECT_NE(warning.find("no light"), std::string::npos) << warning;
             }
@@ -102,6 +110,58 @@ TEST(Authoring, EveryExampleLoadsWithoutWarnings) {
             ADD_FAILURE() << error.what();
         }
     }
+}
+
+/// The settings of an example, at a size and with sample counts that take milliseconds.
+RenderSettings small_settings(const Scene& scene) {
+    RenderSettings settings;
+    apply_settings(settings, scene.settings, "example.json");
+    settings.width = 16;
+    settings.height = 12;
+    settings.gather = 4;
+    settings.spp = 1;
+    settings.light_samples = 1;
+    return settings;
+}
+
+/// Most examples show a part of a scene, without a camera.
+void add_missing_camera(Scene& scene) {
+    const auto has_camera = [](const Node& node) { return node.camera != no_index; };
+    if (std::ranges::any_of(scene.nodes, has_camera)) return;
+    Node eye;
+    eye.name = "added camera";
+    eye.translation = glm::dvec3(0.0, 1.0, 6.0);
+    eye.camera = static_cast<int>(scene.cameras.size());
+    scene.cameras.emplace_back();
+    scene.nodes.push_back(std::move(eye));
+}
+
+TEST(Authoring, EveryExampleRendersWithItsSettings) {
+    const ScratchFolder folder;
+    int refused = 0;
+    for (const Example& example : read_examples()) {
+        SCOPED_TRACE("AUTHORING.md, line " + std::to_string(example.line));
+        try {
+            Scene scene = load_example(example, folder.path());
+            add_missing_camera(scene);
+            const RenderSettings settings = small_settings(scene);
+            Sequence sequence(std::move(scene), settings);
+            const std::int64_t frame = sequence.range().first;
+            EXPECT_EQ(sequence.render(frame, {.frame = false, .maps = true, .progress = {}}).alpha.width, 16);
+            try {
+                const FrameOutput output = sequence.render(frame);
+                EXPECT_EQ(output.shaded.color.width, 16);
+                EXPECT_EQ(output.shaded.counts.invalid_samples, 0u);
+            } catch (const InputError& error) {
+                ++refused;
+                EXPECT_NE(error.reason().find("not in this version"), std::string::npos) << error.what();
+                EXPECT_NE(example.before.find("not in this version"), std::string::npos) << "the page does not say so";
+            }
+        } catch (const std::exception& error) {
+            ADD_FAILURE() << error.what();
+        }
+    }
+    EXPECT_EQ(refused, 1) << "motion blur and depth of field";
 }
 
 TEST(Authoring, TheFirstExampleIsAShotThatCanBeRendered) {
@@ -204,7 +264,6 @@ TEST(Authoring, EveryWordOfTheSchemaIsOnThePage) {
         }
         if (!schema.is_object()) return;
         for (const auto& member : schema.items()) {
-            if (member.key() == "settings") continue;  // the command line explains their words
             if (member.key() == "enum" && member.value().is_array()) {
                 for (const json& word : member.value()) {
                     if (word.is_string()) words.insert(word.get<std::string>());

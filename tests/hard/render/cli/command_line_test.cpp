@@ -1,4 +1,4 @@
-// The built program from outside: exit codes, messages, files left behind.
+// The built program: exit codes, messages, and the files it leaves.
 
 #include <fcntl.h>
 #include <gtest/gtest.h>
@@ -31,7 +31,7 @@ std::string text_of(const std::filesystem::path& path) {
     return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
 }
 
-/// Runs the program; `file_limit` bytes are all that a file may have.
+/// Runs the program. @param file_limit  largest size of a file it may write, bytes
 Outcome run_aleph(std::vector<std::string> arguments, rlim_t file_limit = RLIM_INFINITY) {
     const ScratchFolder folder;
     const std::string out = folder / "out", err = folder / "err";

@@ -1,4 +1,4 @@
-// What `aleph explain` tells, against scenes whose answers are known.
+// `aleph explain` on scenes whose description is known.
 
 #include "render/cli/explain.h"
 

@@ -78,24 +78,6 @@ TEST(FrameList, TenMillionFramesAndNoMore) {
     EXPECT_NE(refusal("-2147483648-2147483647").find("more than"), std::string::npos);
 }
 
-TEST(FrameList, WritesCompactRanges) {
-    EXPECT_EQ(format_frame_list({}), "");
-    EXPECT_EQ(format_frame_list({3}), "3");
-    EXPECT_EQ(format_frame_list({3, 4}), "3,4");
-    EXPECT_EQ(format_frame_list({1, 2, 3, 7, 9, 11, 20}), "1-3,7-11x2,20");
-    EXPECT_EQ(format_frame_list({-3, -2, -1, 0}), "-3-0");
-    EXPECT_EQ(format_frame_list({-5, -3, -1}), "-5--1x2");
-    EXPECT_EQ(format_frame_list({5, 4, 3}), "5,4,3");
-    EXPECT_EQ(format_frame_list({INT_MIN, 0, INT_MAX}), "-2147483648,0,2147483647");
-}
-
-TEST(FrameList, RoundTrip) {
-    for (const Frames& frames : {Frames{1, 2, 4, 6, 8, 9, 10}, Frames{0, 10, 20, 5, 6, 7}, Frames{-4, -2, 0, 1, 2, 3},
-                                 Frames{INT_MIN, INT_MIN + 1, INT_MIN + 2, INT_MAX}}) {
-        EXPECT_EQ(parse_frame_list(format_frame_list(frames)), frames);
-    }
-}
-
 TEST(OutputPath, PutsTheNumberIn) {
     EXPECT_EQ(output_path("a.####.exr", "pool", 7), "a.0007.exr");
     EXPECT_EQ(output_path("a.%04d.exr", "pool", 7), "a.0007.exr");

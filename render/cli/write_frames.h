@@ -1,0 +1,34 @@
+#pragma once
+// Makes the frames of `aleph render` and `aleph maps` one by one, writes each to its file and shows progress.
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "render/cli/scene_options.h"
+#include "render/sequence.h"
+
+namespace aleph {
+
+/// Frames that are to be made, and what their files say of them.
+struct FrameJob {
+    const Scene& scene;  ///< its frame rate, viewing conditions and file
+    const RenderSettings& settings;
+    double exposure;  ///< factor on radiance
+    const std::vector<int>& frames;
+    const std::string& name;  ///< of the files, where --output does not say
+    std::function<FrameOutput(int frame, const FrameRequest& request)> make;
+};
+
+/// Checks --output and makes its folder; called before anything is computed.
+/// @param maps  the files have channels of maps, which PNG cannot hold
+/// @throws InputError (--output), OutputError
+void prepare_frames_output(const PreparedScene& prepared, const SceneOptions& options, bool maps);
+
+/// Makes every frame and writes it, then writes the statistics (--stats).
+void write_frames(const FrameJob& job, const SceneOptions& options, const FrameRequest& request);
+
+/// Renders the frames of a scene, or their maps, and writes them. The files have the channels of what is requested.
+void render_frames(PreparedScene prepared, const SceneOptions& options, const FrameRequest& request);
+
+}  // namespace aleph

@@ -1,0 +1,255 @@
+#include "render/setting_table.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <optional>
+
+namespace aleph {
+
+namespace {
+
+constexpr std::int64_t max_pixels = std::int64_t{1} << 28;
+
+Setting new_setting(std::string key, SettingType type, std::string help) {
+    Setting setting;
+    setting.key = std::move(key);
+    setting.type = type;
+    setting.help = std::move(help);
+    return setting;
+}
+
+Setting with_unit(Setting setting, std::string unit) {
+    setting.unit = std::move(unit);
+    return setting;
+}
+
+template <class Number>
+Setting number_setting(std::string key, std::string help, Number RenderSettings::*field, double min, double max) {
+    constexpr bool whole = std::is_integral_v<Number>;
+    Setting setting =
+        new_setting(std::move(key), whole ? SettingType::whole_number : SettingType::number, std::move(help));
+    setting.min = min;
+    setting.max = max;
+    setting.get = [field](const RenderSettings& s) { return SettingValue(static_cast<double>(s.*field)); };
+    setting.set = [field](RenderSettings& s, const SettingValue& value) {
+        s.*field = static_cast<Number>(std::get<double>(value));
+    };
+    return setting;
+}
+
+/// A choice among names.
+/// @param field  gives a reference to the value in the settings
+template <class Enum, class Field>
+Setting choice_setting(std::string key, std::string help, Field field,
+                       std::vector<std::pair<std::string, Enum>> values) {
+    Setting setting = new_setting(std::move(key), SettingType::choice, std::move(help));
+    for (const auto& [name, value] : values) setting.choices.push_back(name);
+    setting.get = [=](RenderSettings s) {
+        const auto found =
+            std::find_if(values.begin(), values.end(), [&](const auto& v) { return v.second == field(s); });
+        return SettingValue(found == values.end() ? std::string() : found->first);
+    };
+    setting.set = [=](RenderSettings& s, const SettingValue& chosen) {
+        for (const auto& [name, value] : values) {
+            if (name == std::get<std::string>(chosen)) field(s) = value;
+        }
+    };
+    return setting;
+}
+
+/// A choice of which this version has one value only.
+Setting fixed_setting(std::string key, std::string help, std::string only, std::vector<std::string> later) {
+    Setting setting = new_setting(std::move(key), SettingType::choice, std::move(help));
+    setting.choices = {only};
+    setting.later_choices = std::move(later);
+    setting.get = [only](const RenderSettings&) { return SettingValue(only); };
+    setting.set = [](RenderSettings&, const SettingValue&) {};
+    return setting;
+}
+
+Setting boolean_setting(std::string key, std::string help, bool PerceptionSettings::*field) {
+    Setting setting = new_setting(std::move(key), SettingType::boolean, std::move(help));
+    setting.get = [field](const RenderSettings& s) { return SettingValue(s.perception.*field); };
+    setting.set = [field](RenderSettings& s, const SettingValue& value) {
+        s.perception.*field = std::get<bool>(value);
+    };
+    return setting;
+}
+
+struct Size {
+    int width = 0, height = 0;
+};
+
+/// "640x480": two numbers of any range.
+std::optional<Size> parse_size_text(const std::string& text) {
+    Size size;
+    const char* const end = text.data() + text.size();
+    const auto [x, failure] = std::from_chars(text.data(), end, size.width);
+    if (failure != std::errc() || x == end || *x != 'x') return std::nullopt;
+    const auto [rest, failure_2] = std::from_chars(x + 1, end, size.height);
+    if (failure_2 != std::errc() || rest != end) return std::nullopt;
+    return size;
+}
+
+Setting size_setting() {
+    Setting setting = with_unit(new_setting("size", SettingType::size, "picture size"), "pixels");
+    setting.min = 1;
+    setting.max = 65536;
+    setting.get = [](const RenderSettings& s) { return SettingValue(fmt::format("{}x{}", s.width, s.height)); };
+    setting.set = [](RenderSettings& s, const SettingValue& value) {
+        const Size size = parse_size_text(std::get<std::string>(value)).value_or(Size{});
+        s.width = size.width;
+        s.height = size.height;
+    };
+    return setting;
+}
+
+Setting without_scene(Setting setting) {
+    setting.needs_scene = false;
+    return setting;
+}
+
+/// Settings of the model of vision, and of how its map becomes accuracy.
+void add_perception(std::vector<Setting>& table) {
+    using S = RenderSettings;
+    table.push_back(without_scene(choice_setting<Guide>(
+        "guide",
+        "what the Aleph map considers: nothing (none), contrast (spatial), contrast and motion (full), or also where "
+        "viewers look (saliency)",
+        [](S& s) -> Guide& { return s.perception.guide; },
+        {{"none", Guide::none}, {"spatial", Guide::spatial}, {"full", Guide::full}, {"saliency", Guide::saliency}})));
+    table.push_back(choice_setting<EstimateKind>("estimate",
+                                                 "quick estimate for the model of vision: base colour and emission "
+                                                 "(flat), or direct light with shadows (direct)",
+                                                 [](S& s) -> EstimateKind& { return s.estimate; },
+                                                 {{"flat", EstimateKind::flat}, {"direct", EstimateKind::direct}}));
+    table.push_back(without_scene(choice_setting<MotionSource>(
+        "motion", "source of motion: the scene, exact (model), or a comparison of two quick estimates (image)",
+        [](S& s) -> MotionSource& { return s.motion; },
+        {{"model", MotionSource::model}, {"image", MotionSource::image}})));
+    table.push_back(without_scene(choice_setting<Bands>(
+        "bands",
+        "frequencies of the contrast bands: as the thesis prints them (printed), or of these filters (measured)",
+        [](S& s) -> Bands& { return s.perception.bands; },
+        {{"printed", Bands::printed}, {"measured", Bands::measured}})));
+    table.push_back(without_scene(choice_setting<SaliencyGrid>(
+        "grid", "resolution at which saliency compares its maps: the picture's (full), or the centre level's, faster",
+        [](S& s) -> SaliencyGrid& { return s.perception.grid; },
+        {{"full", SaliencyGrid::full}, {"center", SaliencyGrid::center}})));
+    table.push_back(without_scene(boolean_setting("neutral_opponent",
+                                                  "true makes grey neutral in the opponent colour channels of saliency",
+                                                  &PerceptionSettings::neutral_opponent)));
+    table.push_back(without_scene(choice_setting<Adapter>(
+        "adapter", "formula from Aleph map to accuracy: thesis (6.7) (compress), or (6.8) (scale-add)",
+        [](S& s) -> Adapter& { return s.adapter; },
+        {{"compress", Adapter::compress}, {"scale-add", Adapter::scale_add}})));
+    table.push_back(
+        without_scene(number_setting("adapter_k", "K of the adapter scale-add", &S::adapter_k, 1e-6, 1e12)));
+}
+
+/// Settings of the light transport.
+void add_light(std::vector<Setting>& table) {
+    using S = RenderSettings;
+    table.push_back(without_scene(number_setting(
+        "accuracy",
+        "ambient accuracy: error that irradiance caching may make where the viewer is strictest; 0 gathers at every "
+        "sample",
+        &S::accuracy, 0.0, 1.0)));
+    table.push_back(with_unit(
+        number_setting("gather", "rays over the hemisphere for one irradiance value", &S::gather, 4, 1 << 20), "rays"));
+    table.push_back(number_setting("bounces", "bounces of indirect diffuse light", &S::bounces, 0, 1));
+    table.push_back(
+        with_unit(number_setting("spp", "samples per pixel; 1 is the pixel's centre", &S::spp, 1, 65536), "samples"));
+    table.push_back(fixed_setting("sampling", "how samples are shared out among pixels", "uniform",
+                                  {"consecutive", "variance", "protocol"}));
+    table.push_back(
+        fixed_setting("integrator", "method for indirect light: cache is an irradiance cache", "cache", {"path"}));
+    table.push_back(with_unit(
+        number_setting("light_samples", "samples of direct light per pixel and light, shared out among the pixel's spp",
+                       &S::light_samples, 1, 65536),
+        "samples"));
+    table.push_back(number_setting(
+        "shade_reach", "how far shading uses a cache record, as a multiple of how far filling the cache uses it",
+        &S::shade_reach, 1.0, 2.0));
+    table.push_back(with_unit(number_setting("min_radius_pixels", "least reach of a cache record at its own accuracy",
+                                             &S::min_radius_pixels, 0.1, 1000.0),
+                              "pixels"));
+    table.push_back(
+        number_setting("subdivision_level",
+                       "level of every subdivision cage, at most its own max_level; -1: as fine as the pixels need",
+                       &S::subdivision_level, -1, 10));
+}
+
+std::vector<Setting> make_table() {
+    std::vector<Setting> table{
+        size_setting(), number_setting("seed", "seed of all random numbers", &RenderSettings::seed, 0, 4294967295.0)};
+    add_perception(table);
+    add_light(table);
+    return table;
+}
+
+bool fits(const Setting& setting, const SettingValue& value) {
+    const double* const number = std::get_if<double>(&value);
+    const std::string* const text = std::get_if<std::string>(&value);
+    const auto in_range = [&](double v) { return v >= setting.min && v <= setting.max; };  // false for NaN
+    switch (setting.type) {
+        case SettingType::size: {
+            const auto size = text != nullptr ? parse_size_text(*text) : std::nullopt;
+            return size && in_range(size->width) && in_range(size->height);
+        }
+        case SettingType::whole_number:
+            return number != nullptr && in_range(*number) && *number == std::floor(*number);
+        case SettingType::number:
+            return number != nullptr && in_range(*number);
+        case SettingType::choice:
+            return text != nullptr && std::ranges::find(setting.choices, *text) != setting.choices.end();
+        case SettingType::boolean:
+            return std::holds_alternative<bool>(value);
+    }
+    return false;
+}
+
+}  // namespace
+
+const std::vector<Setting>& setting_table() {
+    static const std::vector<Setting> table = make_table();
+    return table;
+}
+
+std::string describe_values(const Setting& setting) {
+    switch (setting.type) {
+        case SettingType::size:
+            return fmt::format("WIDTHxHEIGHT in {}, each from {:.0f} to {:.0f}, such as 640x480", setting.unit,
+                               setting.min, setting.max);
+        case SettingType::whole_number:
+            return fmt::format("a whole number from {:.0f} to {:.0f}", setting.min, setting.max);
+        case SettingType::number:
+            return fmt::format("a number from {:g} to {:g}", setting.min, setting.max);
+        case SettingType::choice:
+            return fmt::format("{}{}", setting.choices.size() > 1 ? "one of " : "", fmt::join(setting.choices, ", "));
+        case SettingType::boolean:
+            return "true or false";
+    }
+    return {};
+}
+
+std::string find_mismatch(const Setting& setting, const SettingValue& value) {
+    const std::string* const text = std::get_if<std::string>(&value);
+    if (text != nullptr && std::ranges::find(setting.later_choices, *text) != setting.later_choices.end()) {
+        return "not in this version; use " + setting.choices.front();
+    }
+    if (!fits(setting, value)) return "expected " + describe_values(setting);
+    if (setting.type == SettingType::size) {
+        const Size size = parse_size_text(*text).value_or(Size{});
+        if (std::int64_t{size.width} * size.height > max_pixels) {
+            return "more than 2^28 pixels; expected " + describe_values(setting);
+        }
+    }
+    return {};
+}
+
+}  // namespace aleph
