@@ -7,7 +7,7 @@
 #include "engine/base/errors.h"
 #include "engine/base/files.h"
 #include "engine/gltf/files.h"
-#include "engine/json/json_ref.h"
+#include "engine/json/text.h"
 #include "engine/scene_file/scene_text.h"
 #include "render/cli/explain.h"
 
@@ -27,7 +27,7 @@ bool is_there(const fs::path& path) {
 void add_gltf_files(const fs::path& path, const LoadLimits& limits, std::vector<MissingFile>& missing) {
     const std::string file = path.string();
     const Bytes bytes = read_regular_file(path, file, "");
-    const nlohmann::json root = parse_untrusted_json(split_gltf(bytes, file).json, file, limits);
+    const nlohmann::json root = parse_strict_json(split_gltf(bytes, file).json, file, limits, "");
     if (!root.is_object()) return;
     for (const char* kind : {"buffers", "images"}) {
         if (!root.contains(kind) || !root[kind].is_array()) continue;
