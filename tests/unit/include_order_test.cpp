@@ -212,6 +212,12 @@ TEST(House, StraysAreSeen) {
     fs::remove_all(folder);
 }
 
+bool is_text(const fs::path& path) {
+    static const std::set<std::string> extensions = {".h",  ".cpp", ".md",   ".txt", ".cmake",
+                                                     ".in", ".sh",  ".json", ".js"};
+    return extensions.contains(path.extension().string());
+}
+
 /// Calls visit(path from the root) for every file below a folder of the repository.
 template <class Visit>
 void for_each_file(const std::string& folder, const Visit& visit) {
@@ -264,6 +270,17 @@ std::vector<std::string> find_outside_citations(const std::string& text) {
         }
     }
     return found;
+}
+
+TEST(House, CitationsStayInTheRepository) {
+    const auto check = [](const fs::path& path) {
+        if (!is_text(path)) return;
+        for (const std::string& name : find_outside_citations(read_file(source_folder() / path)))
+            ADD_FAILURE() << path << " cites " << name << ", which is not in the repository";
+    };
+    for (const char* folder : {"engine", "motion", "perception", "render", "scenes", "tests"})
+        for_each_file(folder, check);
+    for (const char* file : {"CMakeLists.txt", "README.md"}) check(file);
 }
 
 TEST(House, CitationsAreFound) {
