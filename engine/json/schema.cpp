@@ -1,8 +1,3 @@
-// g++ 12 sees overlapping copies in std::string::replace where there are none (GCC PR 105651).
-#if defined(__GNUC__) && !defined(__clang__)
-#pragma GCC diagnostic ignored "-Wrestrict"
-#endif
-
 #include "engine/json/schema.h"
 
 #include <fmt/format.h>

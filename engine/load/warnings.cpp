@@ -92,7 +92,7 @@ bool has_light(const Scene& scene) {
 void add_missing_light(Scene& scene) {
     if (has_light(scene) || scene.environment) return;  // a black environment is a choice
     scene.environment = Track<glm::dvec3>(glm::dvec3(1.0));
-    scene.warnings.push_back("there is no light: a constant white environment was added");
+    scene.warnings.emplace_back("there is no light: a constant white environment was added");
 }
 
 }  // namespace aleph

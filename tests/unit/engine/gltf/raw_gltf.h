@@ -13,6 +13,8 @@
 #include <string>
 #include <vector>
 
+#include "tests/support/paths.h"
+
 namespace aleph {
 
 namespace fs = std::filesystem;
@@ -24,13 +26,13 @@ inline bool skip_image(gltf::Image*, const int, std::string*, std::string*, int,
     return true;
 }
 
-/// The file as tinygltf reads it.
+/// A file of the glTF assets as tinygltf reads it.
 struct Raw {
     explicit Raw(const fs::path& name) {
         gltf::TinyGLTF parser;
         parser.SetImageLoader(skip_image, nullptr);
         std::string error, warning;
-        const std::string path = (assets / name).string();
+        const std::string path = (assets_folder() / "gltf" / name).string();
         const bool read = name.extension() == ".glb" ? parser.LoadBinaryFromFile(&model, &error, &warning, path)
                                                      : parser.LoadASCIIFromFile(&model, &error, &warning, path);
         EXPECT_TRUE(read) << error;
