@@ -11,7 +11,7 @@ packages=(
   libosd-dev           # subdivision surfaces
   libtinygltf-dev nlohmann-json3-dev libvalijson-dev   # scenes
   libglm-dev libtbb-dev libcli11-dev libfmt-dev
-  libgtest-dev libbenchmark-dev                        # tests, benchmarks
+  libgtest-dev libgmock-dev libbenchmark-dev           # tests, benchmarks
   fonts-dejavu-core    # labels on the pictures that studies draw
   locales              # the tests check that a comma locale changes nothing
 )
