@@ -20,7 +20,7 @@ TEST(HugeUv, TexturedPicturesStayFinite) {
         GltfDraft draft = textured_draft(folder, false);
         draft.primitive()["attributes"]["TEXCOORD_0"] =
             draft.add_accessor<float>({0, 0, huge, -huge, 0.5f * huge, huge}, "VEC2", 2);
-        draft.json["nodes"][2].erase("camera");  // one that sees the triangle is added
+        draft.json["nodes"][2] = Json::object();  // loading adds a camera that sees the triangle, and an environment
         write_text(folder / "huge.gltf", draft.to_text());
         const Scene scene = load_scene(folder / "huge.gltf");
         Sequence sequence(scene, quick_settings(24, 18));

@@ -67,6 +67,16 @@ std::vector<Example> read_examples() {
     return examples;
 }
 
+/// A glTF file with one triangle.
+constexpr const char* one_triangle = R"({
+  "asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0}],
+  "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}],
+  "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3", "min": [0, 0, 0], "max": [1, 1, 0]}],
+  "bufferViews": [{"buffer": 0, "byteLength": 36}],
+  "buffers": [{"byteLength": 36,
+    "uri": "data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA"}]
+})";
+
 /// Loads an example from a file, with stand-ins for the files that it names.
 Scene load_example(const Example& example, const fs::path& folder) {
     const Scene named = read_scene_text(example.text, "example.json").scene;
@@ -83,7 +93,7 @@ Scene load_example(const Example& example, const fs::path& folder) {
         } else if (include.path.ends_with(".abc")) {
             put(include.path, source / "tests" / "assets" / "abc" / "subd_creases.abc");
         } else {
-            std::ofstream(folder / include.path) << R"({"asset": {"version": "2.0"}})";
+            std::ofstream(folder / include.path) << one_triangle;
         }
     }
     std::ofstream(folder / "example.json") << example.text;

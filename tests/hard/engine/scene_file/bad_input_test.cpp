@@ -131,7 +131,7 @@ TEST(BadSceneFile, InfinityAnywhere) {
         "size": [@, 1, 1], "uv_scale": [@, 1]}}, {"scale": {"keys": [[@, 1], [5, @]]}, "rotation": {"axis": [@, 1, 1],
         "degrees": @}, "shape": {"type": "cylinder", "radius": @, "height": @}}, {"matrix": [@, 0, 0, @, 0, 1, 0, 0, 0, 0, 1, 0,
         0, 0, 0, 1], "visible": true}, {"translation": {"values": [[@, 0, 0]], "start": @, "period": @}}],
-        "settings": {"accuracy": @, "adapter_k": @, "time_limit": @}})";
+        "settings": {"accuracy": @, "adapter_k": @, "min_radius_pixels": @}})";
     std::string good = file;
     std::replace(good.begin(), good.end(), '@', '1');
     EXPECT_EQ(read_scene_text(good, "good.json").scene.nodes.size(), 4u);
