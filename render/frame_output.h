@@ -6,10 +6,10 @@
 #include <utility>
 
 #include "engine/pose/camera_view.h"
+#include "engine/rays/hit.h"
 #include "motion/motion_field.h"
 #include "perception/perception.h"
 #include "perception/sanitize.h"
-#include "engine/rays/first_hits.h"
 #include "render/shaded_frame.h"
 
 namespace aleph {

@@ -6,33 +6,15 @@
 #include <atomic>
 #include <cstdint>
 #include <glm/vec3.hpp>
-#include <limits>
 #include <memory>
 #include <span>
 #include <vector>
 
 #include "engine/pose/plan.h"
 #include "engine/pose/pose.h"
+#include "engine/rays/hit.h"
 
 namespace aleph {
-
-struct Ray {
-    glm::vec3 origin{0.0f};     ///< m, relative to the anchor
-    glm::vec3 direction{0.0f};  ///< need not be unit; distances are in its length
-    float near = 0.0f;
-    float far = std::numeric_limits<float>::infinity();
-};
-
-/// What a ray hits first. instance is an index into ScenePose::instances, primitive a triangle of its mesh;
-/// the point is (1 - u - v) p0 + u p1 + v p2.
-struct Hit {
-    int instance = no_index;  ///< no_index: nothing
-    int primitive = no_index;
-    float u = 0.0f, v = 0.0f;
-    float distance = 0.0f;  ///< in lengths of the ray's direction
-
-    bool operator==(const Hit&) const = default;
-};
 
 /// Rays with a component of this size or more are refused, in m or as a direction.
 inline constexpr float max_ray_component = 1e9f;
