@@ -1,69 +1,19 @@
 // Broken and hostile glTF files: skins, morph targets, sparse values, cubic keys, instances, animation pointers.
 #include <gtest/gtest.h>
 
+#include <cstdint>
 #include <cstring>
-#include <functional>
 #include <limits>
+#include <vector>
 
+#include "tests/hard/engine/gltf/bad_change.h"
+#include "tests/hard/engine/gltf/bad_deform_draft.h"
 #include "tests/support/gltf_bad_input.h"
-#include "tests/support/gltf_deform_draft.h"
 
 namespace aleph {
 namespace {
 
-namespace fs = std::filesystem;
-
-/// Both deformations, cubic keys, an instanced node and a pointer. Nodes: 0 skinned, 1 and 2 joints, 3 morphed, 4
-/// instanced. Accessors: 2 joints, 3 weights, 4 binds, 5 normals, 6 and 7 target 0, 8 target 1 (sparse, without a
-/// view), 9 and 10 weight keys, 11 and 12 rotation keys, 13 and 14 material keys, 15 instances.
-GltfDraft deform_draft() {
-    GltfDraft draft = skin_draft();
-    const Json skinned = draft.primitive();
-    const int normals = draft.add_accessor<float>({0, 0, 1, 0, 0, 1, 0, 0, 1}, "VEC3", 3);
-    const int moves = draft.add_accessor<float>({0, 0, 1, 0, 0, 2, 0, 0, 3}, "VEC3", 3);
-    const int turns = draft.add_accessor<float>({1, 0, 0, 0, 1, 0, 0, 0, 0}, "VEC3", 3);
-    const int at = draft.add_view({0, 2}), values = draft.add_view(Bytes(24));
-    draft.json["accessors"].push_back({{"componentType", 5126},
-                                       {"count", 3},
-                                       {"type", "VEC3"},
-                                       {"sparse",
-                                        {{"count", 2},
-                                         {"indices", {{"bufferView", at}, {"componentType", 5121}}},
-                                         {"values", {{"bufferView", values}}}}}});
-    Json morphed = {{"attributes", {{"POSITION", 1}, {"NORMAL", normals}}}};
-    morphed["targets"] = {{{"POSITION", moves}, {"NORMAL", turns}}, {{"POSITION", turns + 1}}};
-    draft.json["meshes"] = {{{"primitives", {skinned}}}, {{"primitives", {morphed}}, {"weights", {0, 1}}}};
-    draft.animate(3, "weights", {0, 1}, {0, 0, 1, 1});
-    draft.animate(2, "rotation", {0, 1}, {0, 0, 0, 0, 0, 0, 0, 1, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 1, 0, 0, 0, 0, 0},
-                  "CUBICSPLINE");
-    draft.json["materials"] = {Json::object()};
-    draft.animate_pointer("/materials/0/emissiveFactor", {0, 1}, {0, 0, 0, 1, 1, 1});
-    const int places = draft.add_accessor<float>({0, 0, 0, 1, 0, 0}, "VEC3", 3);
-    draft.json["nodes"].push_back({{"mesh", 1}, {"weights", {0, 1}}});
-    draft.json["nodes"].push_back(
-        {{"mesh", 1}, {"extensions", {{"EXT_mesh_gpu_instancing", {{"attributes", {{"TRANSLATION", places}}}}}}}});
-    draft.json["scenes"][0]["nodes"] = {0, 1, 3, 4};
-    return draft;
-}
-
-TEST(GltfBadDeformFiles, TheDraftItselfLoads) {
-    const ScratchFolder folder;
-    write_text(folder / "draft.gltf", deform_draft().to_text());
-    Scene scene;
-    append_gltf(folder / "draft.gltf", scene, no_index, 0);
-    EXPECT_TRUE(scene.warnings.empty()) << scene.warnings[0];
-    EXPECT_EQ(scene.nodes.size(), 7u);
-    EXPECT_EQ(scene.meshes.size(), 4u);  // the skinned one, and the morphed one for each of three nodes
-}
-
-struct BadDeform {
-    const char* name;
-    const char* place;
-    const char* reason;
-    std::function<void(GltfDraft&)> change;
-};
-
-class GltfBadDeform : public testing::TestWithParam<BadDeform> {};
+class GltfBadDeform : public testing::TestWithParam<BadChange> {};
 
 TEST_P(GltfBadDeform, IsRefused) {
     const ScratchFolder folder;
@@ -106,12 +56,7 @@ Json& pointer(GltfDraft& d) {
 
 constexpr float nan = std::numeric_limits<float>::quiet_NaN();
 
-#define BAD(name, place, reason, ...)                          \
-    BadDeform {                                                \
-        name, place, reason, [](GltfDraft& d) { __VA_ARGS__; } \
-    }
-
-const std::vector<BadDeform> bad_skins = {
+const std::vector<BadChange> bad_skins = {
     BAD("Joints", "/skins/0", "\"joints\" is missing", d.json["skins"][0].erase("joints")),
     BAD("JointsEmpty", "/skins/0/joints", "must not be empty", d.json["skins"][0]["joints"] = Json::array()),
     BAD("JointRange", "/skins/0/joints/1", "no node 99", d.json["skins"][0]["joints"][1] = 99),
@@ -148,7 +93,7 @@ const std::vector<BadDeform> bad_skins = {
         put_float(d, 3, 8, std::numeric_limits<float>::infinity())),
 };
 
-const std::vector<BadDeform> bad_morphs = {
+const std::vector<BadChange> bad_morphs = {
     BAD("TargetsEmpty", "/meshes/1/primitives/0/targets", "must not be empty", morphed(d)["targets"] = Json::array()),
     BAD("TargetNotObject", "/meshes/1/primitives/0/targets/0", "must be an object", morphed(d)["targets"][0] = 6),
     BAD("TargetRange", "/meshes/1/primitives/0/targets/0/POSITION", "no accessor 99",
@@ -181,7 +126,7 @@ const std::vector<BadDeform> bad_morphs = {
     BAD("KF05_CubicKeyZero", "/animations/1/samplers/0: node 2 \"node2\" key 1", "is zero", put_float(d, 12, 18, 0.0f)),
 };
 
-const std::vector<BadDeform> bad_sparse = {
+const std::vector<BadChange> bad_sparse = {
     BAD("CountZero", "/accessors/8/sparse/count", "must lie within", sparse(d)["count"] = 0),
     BAD("CountBeyond", "/accessors/8/sparse/count", "must lie within 1 and 3", sparse(d)["count"] = 4),
     BAD("CountGigabytes", "/accessors/8/sparse/count", "must lie within", sparse(d)["count"] = 2147483647),
@@ -211,7 +156,7 @@ const std::vector<BadDeform> bad_sparse = {
     BAD("CountWithoutView", "/accessors/8/count", "without a buffer view", d.json["accessors"][8]["count"] = 100000000),
 };
 
-const std::vector<BadDeform> bad_instances = {
+const std::vector<BadChange> bad_instances = {
     BAD("Attributes", "/nodes/4/extensions/EXT_mesh_gpu_instancing", "\"attributes\" is missing",
         instancing(d).erase("attributes")),
     BAD("NoAttribute", "/nodes/4/extensions/EXT_mesh_gpu_instancing/attributes", "no attribute",
@@ -251,79 +196,10 @@ const std::vector<BadDeform> bad_instances = {
         d.json["animations"][2]["samplers"][0].update({{"output", 9}, {"interpolation", "STEP"}})),
 };
 
-std::string bad_name(const testing::TestParamInfo<BadDeform>& info) {
-    return info.param.name;
-}
-
 INSTANTIATE_TEST_SUITE_P(Skins, GltfBadDeform, testing::ValuesIn(bad_skins), bad_name);
 INSTANTIATE_TEST_SUITE_P(Morphs, GltfBadDeform, testing::ValuesIn(bad_morphs), bad_name);
 INSTANTIATE_TEST_SUITE_P(Sparse, GltfBadDeform, testing::ValuesIn(bad_sparse), bad_name);
 INSTANTIATE_TEST_SUITE_P(Instances, GltfBadDeform, testing::ValuesIn(bad_instances), bad_name);
-
-TEST(GltfBadDeformFiles, S13_4_InstancesThatMultiplyAreLimited) {
-    const ScratchFolder folder;
-    GltfDraft draft = triangle_draft();
-    const int places = draft.add_accessor(std::vector<float>(300000, 0.0f), "VEC3", 3);
-    Json nodes = Json::array(), roots = Json::array();
-    for (int i = 0; i < 1000; ++i) {
-        nodes.push_back(
-            {{"mesh", 0}, {"extensions", {{"EXT_mesh_gpu_instancing", {{"attributes", {{"TRANSLATION", places}}}}}}}});
-        roots.push_back(i);
-    }
-    draft.json["nodes"] = nodes;
-    draft.json["scenes"][0]["nodes"] = roots;
-    write_text(folder / "many.gltf", draft.to_text());
-    Scene scene;
-    try {
-        append_gltf(folder / "many.gltf", scene, no_index, 0);
-        FAIL() << "was loaded";
-    } catch (const InputError& error) {
-        EXPECT_NE(error.reason().find("too many bytes for its size"), std::string::npos) << error.what();
-    }
-}
-
-TEST(GltfBadDeformFiles, S13_4_MorphedMeshUnderManyNodesIsLimited) {
-    const ScratchFolder folder;
-    GltfDraft draft = triangle_draft();
-    const int points = draft.add_accessor(std::vector<float>(30000, 1.0f), "VEC3", 3);
-    draft.primitive() = {{"attributes", {{"POSITION", points}}}, {"mode", 5}, {"targets", {{{"POSITION", points}}}}};
-    Json nodes = Json::array(), roots = Json::array();
-    for (int i = 0; i < 5000; ++i) {
-        nodes.push_back({{"mesh", 0}});
-        roots.push_back(i);
-    }
-    draft.json["nodes"] = nodes;
-    draft.json["scenes"][0]["nodes"] = roots;
-    write_text(folder / "many.gltf", draft.to_text());
-    expect_refused(folder / "many.gltf", "mesh \"mesh0\"", "too many bytes for its size");
-}
-
-/// Numbers of the JSON replaced by others, as in GltfBadFile: an answer each time, never a crash.
-TEST(GltfBadDeformFiles, LyingNumbersLoadOrAreRefused) {
-    const ScratchFolder folder;
-    GltfDraft base = deform_draft();
-    base.set_length();
-    const std::vector<Json> lies = {-1, 0, 1, 2, 3, 255, 2147483647, 4294967296ll, 0.5, "1", nullptr, Json::array()};
-    const Json flat = base.json.flatten();
-    int tried = 0, refused = 0;
-    for (const auto& [place, value] : flat.items()) {
-        for (const Json& lie : lies) {
-            GltfDraft draft = base;
-            draft.json[Json::json_pointer(place)] = lie;
-            write_text(folder / "lie.gltf", draft.to_text());
-            Scene scene;
-            ++tried;
-            try {
-                append_gltf(folder / "lie.gltf", scene, no_index, 0);
-            } catch (const InputError& error) {
-                EXPECT_EQ(error.file(), (folder / "lie.gltf").string());
-                ++refused;
-            }
-        }
-    }
-    EXPECT_GT(tried, 2000);
-    EXPECT_GT(refused, tried / 2);
-}
 
 }  // namespace
 }  // namespace aleph

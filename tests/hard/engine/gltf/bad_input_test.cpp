@@ -1,9 +1,13 @@
-// Broken and hostile glTF files: each breaks one rule of a file that loads, and
+// Broken and hostile glTF files, their structure and data: each breaks one rule of a file that loads, and
 // each must end in one InputError that names the file and the right place, soon, with the scene untouched.
 #include <gtest/gtest.h>
 
-#include <functional>
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
 
+#include "tests/hard/engine/gltf/bad_change.h"
 #include "tests/support/gltf_bad_input.h"
 
 namespace aleph {
@@ -25,15 +29,6 @@ TEST(GltfBadInput, TheDraftsThemselvesLoad) {
     }
 }
 
-struct BadJson {
-    const char* name;
-    const char* place;
-    const char* reason;
-    std::function<void(GltfDraft&)> change;
-};
-
-class GltfBadJson : public testing::TestWithParam<BadJson> {};
-
 TEST_P(GltfBadJson, IsRefused) {
     const ScratchFolder folder;
     GltfDraft draft = textured_draft(folder, false);
@@ -44,17 +39,12 @@ TEST_P(GltfBadJson, IsRefused) {
     expect_refused(path, GetParam().place, GetParam().reason);
 }
 
-#define BAD(name, place, reason, ...)                          \
-    BadJson {                                                  \
-        name, place, reason, [](GltfDraft& d) { __VA_ARGS__; } \
-    }
-
 const Json& huge_index() {
     static const Json value = std::uint64_t{1} << 32;
     return value;
 }
 
-const std::vector<BadJson> bad_structure = {
+const std::vector<BadChange> bad_structure = {
     BAD("AssetMissing", "", "\"asset\" is missing", d.json.erase("asset")),
     BAD("VersionMissing", "/asset", "\"version\" is missing", d.json["asset"] = Json::object()),
     BAD("VersionOne", "/asset/version", "\"1.0\"", d.json["asset"]["version"] = "1.0"),
@@ -119,7 +109,7 @@ const std::vector<BadJson> bad_structure = {
     BAD("SceneRootTwice", "/scenes/0/nodes/1", "listed twice", d.json["scenes"][0]["nodes"] = {0, 0}),
 };
 
-const std::vector<BadJson> bad_data = {
+const std::vector<BadChange> bad_data = {
     BAD("BufferLengthMissing", "/buffers/0", "\"byteLength\" is missing", d.json["buffers"][0].erase("byteLength")),
     BAD("BufferLengthZero", "/buffers/0/byteLength", "must lie within", d.json["buffers"][0]["byteLength"] = 0),
     BAD("BufferLengthHuge", "/buffers/0/byteLength", "must lie within",
@@ -200,145 +190,8 @@ const std::vector<BadJson> bad_data = {
     BAD("TextureSampler", "/textures/0/sampler", "no sampler -1", d.json["textures"][0]["sampler"] = -1),
 };
 
-const std::vector<BadJson> bad_use = {
-    BAD("MaterialTexture", "/materials/0/pbrMetallicRoughness/baseColorTexture/index", "no texture 5",
-        d.json["materials"][0]["pbrMetallicRoughness"]["baseColorTexture"]["index"] = 5),
-    BAD("MaterialTextureIndexMissing", "/materials/0/emissiveTexture", "\"index\" is missing",
-        d.json["materials"][0]["emissiveTexture"] = Json::object()),
-    BAD("MaterialUvSet", "/materials/0/pbrMetallicRoughness/baseColorTexture/texCoord", "sets 0 and 1",
-        d.json["materials"][0]["pbrMetallicRoughness"]["baseColorTexture"]["texCoord"] = 2),
-    BAD("TextureTransformOffset",
-        "/materials/0/pbrMetallicRoughness/baseColorTexture/extensions/KHR_texture_transform/offset", "needs 2 numbers",
-        d.json["materials"][0]["pbrMetallicRoughness"]["baseColorTexture"]["extensions"]["KHR_texture_transform"] =
-            {{"offset", {1, 2, 3}}}),
-    BAD("TextureTransformUvSet",
-        "/materials/0/pbrMetallicRoughness/baseColorTexture/extensions/KHR_texture_transform/texCoord", "sets 0 and 1",
-        d.json["materials"][0]["pbrMetallicRoughness"]["baseColorTexture"]["extensions"]["KHR_texture_transform"] =
-            {{"texCoord", 7}}),
-    BAD("MaterialAlphaCutoff", "/materials/0/alphaCutoff", "not be negative",
-        d.json["materials"][0]["alphaCutoff"] = -0.5),
-    BAD("S12_6_MaterialColourOfThree", "/materials/0/pbrMetallicRoughness/baseColorFactor", "needs 4 numbers",
-        d.json["materials"][0]["pbrMetallicRoughness"]["baseColorFactor"] = {1, 1, 1}),
-    BAD("MaterialEmissionOfFour", "/materials/0/emissiveFactor", "needs 3 numbers",
-        d.json["materials"][0]["emissiveFactor"] = {1, 1, 1, 1}),
-    BAD("MaterialMetallicText", "/materials/0/pbrMetallicRoughness/metallicFactor", "must be a number",
-        d.json["materials"][0]["pbrMetallicRoughness"]["metallicFactor"] = "1"),
-    BAD("MaterialDoubleSidedNumber", "/materials/0/doubleSided", "true or false",
-        d.json["materials"][0]["doubleSided"] = 1),
-    BAD("MaterialAlphaMode", "/materials/0/alphaMode", "no alpha mode", d.json["materials"][0]["alphaMode"] = "GLASS"),
-    BAD("MaterialSpecularText", "/materials/0/extensions/KHR_materials_specular/specularFactor", "must be a number",
-        d.json["materials"][0]["extensions"]["KHR_materials_specular"]["specularFactor"] = true),
-    BAD("MaterialExtensionsArray", "/materials/0/extensions", "must be an object",
-        d.json["materials"][0]["extensions"] = Json::array()),
-    BAD("CameraType", "/cameras/0/type", "no camera type", d.json["cameras"][0]["type"] = "fisheye"),
-    BAD("CameraLensMissing", "/cameras/0", "\"perspective\" is missing", d.json["cameras"][0].erase("perspective")),
-    BAD("CameraFovZero", "/cameras/0/perspective/yfov", "must be above 0",
-        d.json["cameras"][0]["perspective"]["yfov"] = 0),
-    BAD("CameraFovHalfTurn", "/cameras/0/perspective/yfov", "below pi",
-        d.json["cameras"][0]["perspective"]["yfov"] = 3.15),
-    BAD("CameraMagnificationZero", "/cameras/0/orthographic/ymag", "must be above 0",
-        d.json["cameras"][0] = {{"type", "orthographic"},
-                                {"orthographic", {{"xmag", 1}, {"ymag", 0}, {"znear", 0}, {"zfar", 1}}}}),
-    BAD("CameraWidthZero", "/cameras/0/orthographic/xmag", "must not be 0",
-        d.json["cameras"][0] = {{"type", "orthographic"},
-                                {"orthographic", {{"xmag", 0}, {"ymag", 1}, {"znear", 0}, {"zfar", 1}}}}),
-    BAD("CameraPlanesSwapped", "/cameras/0/perspective/zfar", "beyond znear",
-        d.json["cameras"][0]["perspective"]["zfar"] = 0.1),
-    BAD("LightSpotWithoutCone", "/extensions/KHR_lights_punctual/lights/0", "\"spot\" is missing",
-        d.json["extensions"]["KHR_lights_punctual"]["lights"][0]["type"] = "spot"),
-    BAD("LightConeInsideOut", "/extensions/KHR_lights_punctual/lights/0/spot", "narrower than the outer",
-        d.json["extensions"]["KHR_lights_punctual"]["lights"][0].update(
-            {{"type", "spot"}, {"spot", {{"innerConeAngle", 0.5}, {"outerConeAngle", 0.5}}}})),
-    BAD("LightConeTooWide", "/extensions/KHR_lights_punctual/lights/0/spot/outerConeAngle", "quarter turn",
-        d.json["extensions"]["KHR_lights_punctual"]["lights"][0].update(
-            {{"type", "spot"}, {"spot", {{"outerConeAngle", 1.6}}}})),
-    BAD("LightConeNegative", "/extensions/KHR_lights_punctual/lights/0/spot/innerConeAngle", "not be negative",
-        d.json["extensions"]["KHR_lights_punctual"]["lights"][0].update(
-            {{"type", "spot"}, {"spot", {{"innerConeAngle", -0.1}}}})),
-    BAD("LightType", "/extensions/KHR_lights_punctual/lights/0/type", "no light type",
-        d.json["extensions"]["KHR_lights_punctual"]["lights"][0]["type"] = "area"),
-    BAD("LightColour", "/extensions/KHR_lights_punctual/lights/0/color", "needs 3 numbers",
-        d.json["extensions"]["KHR_lights_punctual"]["lights"][0]["color"] = {1}),
-    BAD("LightRangeZero", "/extensions/KHR_lights_punctual/lights/0/range", "must be above 0",
-        d.json["extensions"]["KHR_lights_punctual"]["lights"][0]["range"] = 0),
-
-    BAD("MeshWithoutPrimitives", "/meshes/0/primitives", "must not be empty",
-        d.json["meshes"][0]["primitives"] = Json::array()),
-    BAD("KF29_MeshWeights", "/meshes/0/weights", "1 weights for 0 morph targets", d.json["meshes"][0]["weights"] = {0}),
-    BAD("PrimitiveStripTooShort", "/meshes/0/primitives/0/indices", "needs 3 indices", d.primitive()["mode"] = 5;
-        d.json["accessors"][0]["count"] = 2),
-    BAD("PrimitiveLinesOdd", "/meshes/0/primitives/0/indices", "whole lines", d.primitive()["mode"] = 1),
-    BAD("PrimitiveModeUnknown", "/meshes/0/primitives/0/mode", "must lie within", d.primitive()["mode"] = 7),
-    BAD("PrimitiveMaterial", "/meshes/0/primitives/0/material", "no material 2", d.primitive()["material"] = 2),
-    BAD("S12_6_PrimitiveWithoutAttributes", "/meshes/0/primitives/0", "\"attributes\" is missing",
-        d.primitive().erase("attributes")),
-    BAD("PrimitiveWithoutPosition", "/meshes/0/primitives/0/attributes", "\"POSITION\" is missing",
-        d.primitive()["attributes"].erase("POSITION")),
-    BAD("AttributeUnaligned", "/meshes/0/primitives/0/attributes/COLOR_0", "multiples of 4 bytes",
-        d.json["accessors"][3]["type"] = "VEC3"),
-    BAD("AttributeRange", "/meshes/0/primitives/0/attributes/NORMAL", "no accessor 77",
-        d.primitive()["attributes"]["NORMAL"] = 77),
-    BAD("AttributeFraction", "/meshes/0/primitives/0/attributes/POSITION", "must be an integer",
-        d.primitive()["attributes"]["POSITION"] = 1.5),
-    BAD("AttributeNameEscaped", "/meshes/0/primitives/0/attributes/a~1b~0", "no accessor 77",
-        d.primitive()["attributes"]["a/b~"] = 77),
-    BAD("AttributeCount", "/meshes/0/primitives/0/attributes/NORMAL", "2 elements, POSITION has 3",
-        d.json["accessors"][2]["count"] = 2),
-    BAD("PositionIsColour", "/meshes/0/primitives/0/attributes/POSITION", "float VEC3",
-        d.primitive()["attributes"]["POSITION"] = 3),
-    BAD("ColourNotNormalized", "/meshes/0/primitives/0/attributes/COLOR_0", "COLOR_0 must be",
-        d.json["accessors"][3].erase("normalized")),
-    BAD("UvIsVec3", "/meshes/0/primitives/0/attributes/TEXCOORD_1", "TEXCOORD_1 must be",
-        d.primitive()["attributes"]["TEXCOORD_1"] = 2),
-    BAD("IndicesAreFloats", "/meshes/0/primitives/0/indices", "unsigned integers", d.primitive()["indices"] = 4),
-    BAD("IndicesSigned", "/meshes/0/primitives/0/indices", "unsigned integers",
-        d.json["accessors"][0]["componentType"] = 5122),
-    BAD("IndicesStrided", "/meshes/0/primitives/0/indices", "byteStride",
-        d.json["bufferViews"][0].update({{"byteStride", 4}, {"byteLength", 12}})),
-    BAD("IndicesNotTriangles", "/meshes/0/primitives/0/indices", "whole triangles",
-        d.json["accessors"][0]["count"] = 2),
-
-    BAD("AnimationWithoutSamplers", "/animations/0", "\"samplers\" is missing",
-        d.json["animations"][0].erase("samplers")),
-    BAD("AnimationWithoutChannels", "/animations/0/channels", "must not be empty",
-        d.json["animations"][0]["channels"] = Json::array()),
-    BAD("ChannelSampler", "/animations/0/channels/0/sampler", "no sampler 1",
-        d.json["animations"][0]["channels"][0]["sampler"] = 1),
-    BAD("ChannelNode", "/animations/0/channels/0/target/node", "no node 8",
-        d.json["animations"][0]["channels"][0]["target"]["node"] = 8),
-    BAD("ChannelPath", "/animations/0/channels/0/target/path", "no animated property",
-        d.json["animations"][0]["channels"][0]["target"]["path"] = "colour"),
-    BAD("S12_6_ChannelPathMissing", "/animations/0/channels/0/target", "\"path\" is missing",
-        d.json["animations"][0]["channels"][0]["target"].erase("path")),
-    BAD("ChannelWeights", "/animations/0/channels/0/target/path", "no morph targets",
-        d.json["animations"][0]["channels"][0]["target"]["path"] = "weights"),
-    BAD("ChannelOnMatrixNode", "/animations/0/channels/0/target/path", "node 0 has a matrix",
-        d.json["nodes"][0]["matrix"] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
-        d.json["animations"][0]["channels"][0]["target"]["node"] = 0),
-    BAD("KF29_TwoChannelsOnOneProperty", "/animations/0/channels/1/target/path",
-        "a second channel of the animation moves /nodes/1/rotation",
-        d.json["animations"][0]["channels"].push_back(Json(d.json["animations"][0]["channels"][0]))),
-    BAD("SamplerInterpolation", "/animations/0/samplers/0/interpolation", "no interpolation",
-        d.json["animations"][0]["samplers"][0]["interpolation"] = "linear"),
-    BAD("SamplerCubic", "/animations/0/samplers/0/output", "2 values for 2 key times, expected 6",
-        d.json["animations"][0]["samplers"][0]["interpolation"] = "CUBICSPLINE"),
-    BAD("SamplerInputType", "/animations/0/samplers/0/input", "float SCALAR",
-        d.json["animations"][0]["samplers"][0]["input"] = 0),
-    BAD("SamplerOutputType", "/animations/0/samplers/0/output", "VEC4",
-        d.json["animations"][0]["samplers"][0]["output"] = 1),
-    BAD("SamplerOutputCount", "/animations/0/samplers/0/output", "1 values for 2 key times",
-        d.json["accessors"][5]["count"] = 1),
-    BAD("SamplerOutputIsColours", "/animations/1/samplers/0/output", "VEC3",
-        d.json["animations"][1]["samplers"][0]["output"] = 3),
-};
-
-std::string bad_name(const testing::TestParamInfo<BadJson>& info) {
-    return info.param.name;
-}
-
 INSTANTIATE_TEST_SUITE_P(Structure, GltfBadJson, testing::ValuesIn(bad_structure), bad_name);
 INSTANTIATE_TEST_SUITE_P(Data, GltfBadJson, testing::ValuesIn(bad_data), bad_name);
-INSTANTIATE_TEST_SUITE_P(Use, GltfBadJson, testing::ValuesIn(bad_use), bad_name);
 
 }  // namespace
 }  // namespace aleph
