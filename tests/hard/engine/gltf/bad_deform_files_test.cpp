@@ -1,4 +1,5 @@
 // glTF files whose instances or morphed meshes multiply, and deformations whose numbers lie.
+
 #include <gtest/gtest.h>
 
 #include <vector>

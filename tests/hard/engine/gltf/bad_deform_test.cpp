@@ -1,4 +1,5 @@
 // Broken and hostile glTF files: skins, morph targets, sparse values, cubic keys, instances, animation pointers.
+
 #include <gtest/gtest.h>
 
 #include <cstdint>

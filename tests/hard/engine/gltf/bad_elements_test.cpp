@@ -1,4 +1,5 @@
 // Broken and hostile glTF files: materials, cameras, lights, meshes and animations that break one rule each.
+
 #include <gtest/gtest.h>
 
 #include <vector>

@@ -1,5 +1,5 @@
-// Broken and hostile glTF files, their structure and data: each breaks one rule of a file that loads, and
-// each must end in one InputError that names the file and the right place, soon, with the scene untouched.
+// Broken and hostile glTF files: structure and data that break one rule each must end in an InputError with its place.
+
 #include <gtest/gtest.h>
 
 #include <cstdint>
