@@ -1,82 +1,25 @@
-// `aleph maps --images`: maps of pictures without a scene, and its error messages.
+// `aleph maps --images`: maps of pictures without a scene.
 
 #include <gtest/gtest.h>
-#include <sys/wait.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <sstream>
+#include <string>
+#include <variant>
+#include <vector>
 
-#include "engine/base/errors.h"
 #include "engine/image/image_file.h"
 #include "motion/image_motion.h"
-#include "render/cli/commands.h"
-#include "render/cli/frame_pattern.h"
-#include "render/frame_files.h"
 #include "render/image_sequence.h"
-#include "tests/support/image_patterns.h"
-#include "tests/support/paths.h"
 #include "tests/support/scratch_folder.h"
+#include "tests/unit/render/cli/maps_images.h"
 
 namespace aleph {
 namespace {
-
-namespace fs = std::filesystem;
-
-struct Ran {
-    int code = 0;
-    std::string errors;
-};
-
-/// `aleph maps -q ...` without starting a program.
-Ran run_maps(std::vector<std::string> arguments) {
-    CLI::App app{"test"};
-    Command command;
-    app.require_subcommand(0, 1);
-    add_maps_command(app, command);
-    arguments.insert(arguments.begin(), {"aleph", "maps", "-q"});
-    std::vector<const char*> argv;
-    for (const std::string& argument : arguments) argv.push_back(argument.c_str());
-    std::ostringstream errors;
-    Ran ran;
-    ran.code = run_program(app, command, static_cast<int>(argv.size()), argv.data(), errors);
-    ran.errors = errors.str();
-    return ran;
-}
-
-constexpr int width = 72, height = 56;
-
-/// A texture that moves by (4, 8) pixels a frame, y down.
-Image<Rgb> picture(int frame) {
-    return make_pattern(width, height,
-                        [&](int x, int y) { return smooth_texture(x - 4.0 * frame, y - 8.0 * frame, 10.0); });
-}
-
-ChannelImage as_channels(const Image<Rgb>& image) {
-    ChannelImage file;
-    for (int c = 0; c < 3; ++c) {
-        Channel channel{std::string(1, "RGB"[c]), Image<float>(image.width, image.height)};
-        for (std::size_t i = 0; i < image.size(); ++i) channel.values.pixels[i] = image.pixels[i][c];
-        file.channels.push_back(std::move(channel));
-    }
-    return file;
-}
-
-/// A folder with frames f.0001.exr and so on.
-struct Frames {
-    ScratchFolder folder;
-    Frames(int first, int last) {
-        for (int frame = first; frame <= last; ++frame) write(frame, picture(frame));
-    }
-    fs::path file(int frame) const { return folder / insert_number("f.####.exr", {2, 4, 4}, frame); }
-    void write(int frame, const Image<Rgb>& image) const { write_exr(file(frame), as_channels(image)); }
-    std::string pattern() const { return (folder / "f.####.exr").string(); }
-    std::string out() const { return (folder / "out").string(); }
-    ChannelImage maps(int frame) const {
-        return read_image(folder.path() / "out" / insert_number("f-maps.####.exr", {7, 4, 4}, frame));
-    }
-};
 
 float median_of(const Image<float>& image) {
     std::vector<float> values = image.pixels;
@@ -243,68 +186,6 @@ TEST(MapsImages, SameBytesForAnyThreadsOrderAndCompany) {
     const std::string alone = bytes_of_frame_2({"--frames", "2", "-t", "1"});
     EXPECT_EQ(alone, bytes_of_frame_2({"-t", "2"}));
     EXPECT_EQ(alone, bytes_of_frame_2({"--frames", "3,1,2"}));
-}
-
-/// Exit code 2, one line that holds every part.
-void expect_refusal(const std::vector<std::string>& arguments, const std::vector<std::string>& parts) {
-    const Ran ran = run_maps(arguments);
-    EXPECT_EQ(ran.code, 2) << ran.errors;
-    EXPECT_EQ(std::count(ran.errors.begin(), ran.errors.end(), '\n'), 1) << ran.errors;
-    for (const std::string& part : parts)
-        EXPECT_NE(ran.errors.find(part), std::string::npos) << part << ": " << ran.errors;
-}
-
-TEST(MapsImages, GapsAreRefusedByName) {
-    const Frames frames(1, 4);
-    fs::remove(frames.file(3));
-    const std::string out = frames.out();
-    expect_refusal({"--images", frames.pattern(), "-o", out},
-                   {"frame 3 is missing", "f.0002.exr", "f.0004.exr", "--cuts 4"});
-    expect_refusal({"--images", frames.pattern(), "-o", out, "--frames", "2"}, {"frame 3 is missing"});
-    expect_refusal({"--images", frames.pattern(), "-o", out, "--frames", "1-3"}, {"frame 3 is"});
-    expect_refusal({"--images", frames.pattern(), "-o", out, "--frames", "9"}, {"frame 9 is not there", "from 1 to 4"});
-    EXPECT_FALSE(fs::exists(out));
-    EXPECT_EQ(run_maps({"--images", frames.pattern(), "-o", out, "--frames", "1"}).code, 0);
-    EXPECT_EQ(run_maps({"--images", frames.pattern(), "-o", out, "--cuts", "4"}).code, 0);
-}
-
-TEST(MapsImages, SizesMustAgree) {
-    const Frames frames(1, 2);
-    frames.write(3, make_pattern(20, 10, [](int, int) { return 0.5; }));
-    expect_refusal({"--images", frames.pattern(), "-o", frames.out()}, {"f.0003.exr", "20x10", "f.0001.exr", "72x56"});
-}
-
-TEST(MapsImages, RefusesWhatItCannotMean) {
-    const Frames frames(1, 2);
-    const std::string pattern = frames.pattern(), folder = frames.folder.path().string();
-    expect_refusal({}, {"--images"});
-    expect_refusal({"--images", pattern, "scene.json"}, {"--images", "quotes"});
-    expect_refusal({"--images", frames.file(1).string(), frames.file(2).string()}, {"quotes"});
-    expect_refusal({"--images", folder}, {"folder", "name.####.exr"});
-    expect_refusal({"--images", folder + "/g.####.exr"}, {"no file fits"});
-    expect_refusal({"--images", folder + "/f.##.exr"}, {"f.0001.exr would"});
-    expect_refusal({"--images", folder + "/none.exr"}, {"no such file"});
-    expect_refusal({"--images", "/no/such/f.####.exr"}, {"no such folder"});
-    expect_refusal({"--images", folder + "/f.%x.exr"}, {"after '%'"});
-    expect_refusal({"--images", pattern, "--motion", "model"}, {"motion", "needs a scene"});
-    expect_refusal({"--images", pattern, "--size", "64x48"}, {"size", "needs a scene"});
-    expect_refusal({"--images", pattern, "--camera", "main"}, {"--camera"});
-    expect_refusal({"--images", pattern, "--exposure", "0"}, {"--exposure"});
-    expect_refusal({"--images", pattern, "--cuts", "x"}, {"--cuts"});
-    expect_refusal({"--images", pattern, "--fps", "0"}, {"--fps"});
-    expect_refusal({"--images", pattern, "-o", "maps.####.png"}, {"write .exr"});
-    expect_refusal({"--images", pattern, "-o", pattern}, {"pictures themselves"});
-    expect_refusal({"scene.json", "--cuts", "3"}, {"--cuts"});
-}
-
-TEST(MapsImages, UnreadablePicturesAreNamed) {
-    const Frames frames(1, 2);
-    std::ofstream(frames.file(2)) << "not a picture";
-    expect_refusal({"--images", frames.pattern(), "-o", frames.out()}, {"f.0002.exr"});
-    ChannelImage depth;
-    depth.channels.push_back({"Z", Image<float>(width, height)});
-    write_exr(frames.file(2), depth);
-    expect_refusal({"--images", frames.pattern(), "-o", frames.out()}, {"f.0002.exr", "channels R, G and B"});
 }
 
 }  // namespace

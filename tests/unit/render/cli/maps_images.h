@@ -1,0 +1,72 @@
+#pragma once
+// Runs `aleph maps` on pictures of a texture that moves.
+
+#include <filesystem>
+#include <sstream>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "engine/image/image_file.h"
+#include "render/cli/commands.h"
+#include "render/cli/frame_pattern.h"
+#include "tests/support/image_patterns.h"
+#include "tests/support/scratch_folder.h"
+
+namespace aleph {
+
+struct Ran {
+    int code = 0;
+    std::string errors;
+};
+
+/// `aleph maps -q ...` without starting a program.
+inline Ran run_maps(std::vector<std::string> arguments) {
+    CLI::App app{"test"};
+    Command command;
+    app.require_subcommand(0, 1);
+    add_maps_command(app, command);
+    arguments.insert(arguments.begin(), {"aleph", "maps", "-q"});
+    std::vector<const char*> argv;
+    for (const std::string& argument : arguments) argv.push_back(argument.c_str());
+    std::ostringstream errors;
+    Ran ran;
+    ran.code = run_program(app, command, static_cast<int>(argv.size()), argv.data(), errors);
+    ran.errors = errors.str();
+    return ran;
+}
+
+inline constexpr int width = 72, height = 56;
+
+/// A texture that moves by (4, 8) pixels a frame, y down.
+inline Image<Rgb> picture(int frame) {
+    return make_pattern(width, height,
+                        [&](int x, int y) { return smooth_texture(x - 4.0 * frame, y - 8.0 * frame, 10.0); });
+}
+
+inline ChannelImage as_channels(const Image<Rgb>& image) {
+    ChannelImage file;
+    for (int c = 0; c < 3; ++c) {
+        Channel channel{std::string(1, "RGB"[c]), Image<float>(image.width, image.height)};
+        for (std::size_t i = 0; i < image.size(); ++i) channel.values.pixels[i] = image.pixels[i][c];
+        file.channels.push_back(std::move(channel));
+    }
+    return file;
+}
+
+/// A folder with frames f.0001.exr and so on.
+struct Frames {
+    ScratchFolder folder;
+    Frames(int first, int last) {
+        for (int frame = first; frame <= last; ++frame) write(frame, picture(frame));
+    }
+    std::filesystem::path file(int frame) const { return folder / insert_number("f.####.exr", {2, 4, 4}, frame); }
+    void write(int frame, const Image<Rgb>& image) const { write_exr(file(frame), as_channels(image)); }
+    std::string pattern() const { return (folder / "f.####.exr").string(); }
+    std::string out() const { return (folder / "out").string(); }
+    ChannelImage maps(int frame) const {
+        return read_image(folder.path() / "out" / insert_number("f-maps.####.exr", {7, 4, 4}, frame));
+    }
+};
+
+}  // namespace aleph
