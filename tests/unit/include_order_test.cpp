@@ -1,19 +1,16 @@
-// Rules for the source tree: includes point one way, files are short, and texts cite only what the repository holds.
+// Rules for includes: they point one way, and every source folder is a layer.
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cctype>
-#include <cstddef>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <regex>
 #include <set>
 #include <string>
 #include <vector>
 
 #include "tests/support/paths.h"
+#include "tests/support/read_bytes.h"
 
 namespace aleph {
 namespace {
@@ -104,11 +101,6 @@ std::vector<std::string> find_violations(const std::string& file, const std::str
     return violations;
 }
 
-std::string read_file(const fs::path& path) {
-    std::ifstream in(path, std::ios::binary);
-    return {std::istreambuf_iterator<char>(in), {}};
-}
-
 TEST(House, IncludesPointOneWay) {
     const fs::path root = source_folder();
     int files = 0, own_includes = 0;
@@ -119,7 +111,7 @@ TEST(House, IncludesPointOneWay) {
             if (!entry.is_regular_file() || (entry.path().extension() != ".h" && entry.path().extension() != ".cpp"))
                 continue;
             ++files;
-            const std::string text = read_file(entry.path());
+            const std::string text = read_bytes(entry.path());
             for (const std::string& violation : find_violations(path, text)) ADD_FAILURE() << violation;
             for (const std::string& included : included_paths(text)) own_includes += layer_of(included) != nullptr;
         }
@@ -179,125 +171,6 @@ TEST(House, CheckerSeesEveryKindOfViolation) {
     EXPECT_EQ(count("motion/a.cpp", "#include \"engine/scene/scene.h\"\n"), 0u);
     EXPECT_EQ(count("render/cli/a.cpp", "#include \"render/settings.h\"\n#include \"render/cli/b.h\"\n"), 0u);
     EXPECT_EQ(count("render/a.cpp", "#include \"perception/perception.h\"\n#include \"motion/velocity.h\"\n"), 0u);
-}
-
-/// Visible entries of a folder that do not belong at the top of the repository.
-std::vector<std::string> find_strays(const fs::path& root) {
-    static const std::set<std::string> given = {"CMakeLists.txt", "README.md", "engine", "motion",
-                                                "perception",     "render",    "scenes", "tests"};
-    std::vector<std::string> strays;
-    for (const fs::directory_entry& entry : fs::directory_iterator(root)) {
-        const std::string name = entry.path().filename().string();
-        if (!name.starts_with(".") && !name.starts_with("build") && !given.contains(name)) strays.push_back(name);
-    }
-    return strays;
-}
-
-TEST(House, TopHoldsNothingElse) {
-    for (const std::string& name : find_strays(source_folder())) ADD_FAILURE() << name << " does not belong at the top";
-    for (const char* name :
-         {"CMakeLists.txt", "README.md", "engine", "motion", "perception", "render", "scenes", "tests"}) {
-        EXPECT_TRUE(fs::exists(source_folder() / name)) << name;
-    }
-}
-
-TEST(House, StraysAreSeen) {
-    const fs::path folder = fs::path(testing::TempDir()) / "aleph_house_test";
-    fs::remove_all(folder);
-    fs::create_directories(folder / "docs");
-    fs::create_directories(folder / "engine");
-    fs::create_directories(folder / "build-debug");
-    std::ofstream(folder / ".clang-format") << "";
-    EXPECT_EQ(find_strays(folder), (std::vector<std::string>{"docs"}));
-    fs::remove_all(folder);
-}
-
-bool is_text(const fs::path& path) {
-    static const std::set<std::string> extensions = {".h",  ".cpp", ".md",   ".txt", ".cmake",
-                                                     ".in", ".sh",  ".json", ".js"};
-    return extensions.contains(path.extension().string());
-}
-
-/// Calls visit(path from the root) for every file below a folder of the repository.
-template <class Visit>
-void for_each_file(const std::string& folder, const Visit& visit) {
-    const fs::path root = source_folder();
-    for (auto it = fs::recursive_directory_iterator(root / folder); it != fs::recursive_directory_iterator(); ++it) {
-        if (it->path().filename() == "node_modules") it.disable_recursion_pending();
-        if (it->is_regular_file()) visit(fs::relative(it->path(), root));
-    }
-}
-
-TEST(House, SourceFilesAreShort) {
-    std::vector<std::ptrdiff_t> lengths;
-    for (const char* folder : {"engine", "motion", "perception", "render"}) {
-        for_each_file(folder, [&](const fs::path& path) {
-            if (path.extension() != ".h" && path.extension() != ".cpp") return;
-            const std::string text = read_file(source_folder() / path);
-            lengths.push_back(std::count(text.begin(), text.end(), '\n'));
-            EXPECT_LE(lengths.back(), 300) << path << ": cut it by subject";
-        });
-    }
-    ASSERT_FALSE(lengths.empty());
-    const auto middle = lengths.begin() + std::ssize(lengths) / 2;
-    std::nth_element(lengths.begin(), middle, lengths.end());
-    EXPECT_LT(*middle, 120) << "lines in the median file";
-    RecordProperty("median_lines", static_cast<int>(*middle));
-}
-
-/// Names of documents that are not part of the repository, as far as a text has them as whole words.
-std::vector<std::string> find_outside_citations(const std::string& text) {
-    // In two parts, so that this file does not contain them.
-    static const std::vector<std::string> names = {
-        "HARD"
-        "_CASES",
-        "MOD"
-        "EL.md",
-        "DES"
-        "IGN",
-        "CONVEN"
-        "TIONS",
-        "PERFOR"
-        "MANCE"};
-    const auto in_word = [](char c) { return c == '_' || std::isalnum(static_cast<unsigned char>(c)) != 0; };
-    std::vector<std::string> found;
-    for (const std::string& name : names) {
-        for (auto at = text.find(name); at != std::string::npos; at = text.find(name, at + 1)) {
-            const auto end = at + name.size();
-            if ((at > 0 && in_word(text[at - 1])) || (end < text.size() && in_word(text[end]))) continue;
-            found.push_back(name);
-            break;
-        }
-    }
-    return found;
-}
-
-TEST(House, CitationsStayInTheRepository) {
-    const auto check = [](const fs::path& path) {
-        if (!is_text(path)) return;
-        for (const std::string& name : find_outside_citations(read_file(source_folder() / path)))
-            ADD_FAILURE() << path << " cites " << name << ", which is not in the repository";
-    };
-    for (const char* folder : {"engine", "motion", "perception", "render", "scenes", "tests"})
-        for_each_file(folder, check);
-    for (const char* file : {"CMakeLists.txt", "README.md"}) check(file);
-}
-
-TEST(House, CitationsAreFound) {
-    EXPECT_EQ(find_outside_citations("// see HARD"
-                                     "_CASES DT-09")
-                  .size(),
-              1u);
-    EXPECT_EQ(find_outside_citations("DES"
-                                     "IGN \"A frame\", MOD"
-                                     "EL.md")
-                  .size(),
-              2u);
-    EXPECT_EQ(find_outside_citations("DES"
-                                     "IGNED MY_DES"
-                                     "IGN DT-09 (tests/hard/README.md)")
-                  .size(),
-              0u);
 }
 
 }  // namespace
