@@ -7,6 +7,7 @@
 #include <fstream>
 #include <numbers>
 
+#include "engine/rays/ray_scene.h"
 #include "tests/hard/scenes/hard_scenes.h"
 
 namespace aleph {
