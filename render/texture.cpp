@@ -4,14 +4,13 @@
 #include <cmath>
 #include <numbers>
 
+#include "engine/scene/texture_limits.h"
 #include "render/texture_texels.h"
 
 namespace aleph {
 
 namespace {
 
-/// Beyond this, a float cannot hold fractions of a texel.
-constexpr float max_coordinate = 1e6f;
 /// Limits the cost of a look-up. Longer footprints are blurred across as well.
 constexpr int max_probes = 16;
 
@@ -117,7 +116,7 @@ Probes place_probes(const Texture& texture, const UvFootprint& footprint) {
 }
 
 bool is_place(float u) {
-    return std::abs(u) < max_coordinate;
+    return std::abs(u) < max_texture_coordinate;
 }
 
 }  // namespace

@@ -27,15 +27,15 @@ void check_camera_axes(const Scene& scene) {
     const std::vector<bool> holds = find_nodes_with_cameras(scene);
     std::vector<bool> has_axes(scene.nodes.size(), false);
     const FrameRange range = frame_range(scene);
-    ScenePose frame;
-    frame.world.resize(scene.nodes.size());
-    frame.visible.resize(scene.nodes.size());
+    ScenePose posed;
+    posed.world.resize(scene.nodes.size());
+    posed.visible.resize(scene.nodes.size());
     for (const std::int64_t number : {range.first, range.first + (range.last - range.first) / 2, range.last}) {
         const double seconds = scene.frame_rate.seconds_of(number);
         for (int i = 0; i < std::ssize(scene.nodes); ++i) {
             if (!holds[i]) continue;
-            place_node(scene, i, seconds, frame);
-            if (normal_matrix(frame.world[i]) != glm::dmat3(0.0)) has_axes[i] = true;
+            place_node(scene, i, seconds, posed);
+            if (normal_matrix(posed.world[i]) != glm::dmat3(0.0)) has_axes[i] = true;
         }
     }
     for (std::size_t i = 0; i < scene.nodes.size(); ++i) {

@@ -8,13 +8,11 @@
 
 #include "engine/base/errors.h"
 #include "engine/load/source_file.h"
+#include "engine/scene/texture_limits.h"
 
 namespace aleph {
 
 namespace {
-
-/// Texture look-ups take larger coordinates as 0 (sample_texture in render/texture.h).
-constexpr float max_texture_coordinate = 1e6f;
 
 /// The first of the meshes that a warning is about, and how many there are.
 struct Found {
@@ -53,7 +51,7 @@ bool is_degenerate(const Scene& scene, const Mesh& mesh) {
 bool has_huge_coordinates(const Mesh& mesh) {
     return std::ranges::any_of(mesh.uv, [](const std::vector<glm::vec2>& set) {
         return std::ranges::any_of(set, [](const glm::vec2& uv) {
-            return !(std::max(std::abs(uv.x), std::abs(uv.y)) <= max_texture_coordinate);
+            return !(std::max(std::abs(uv.x), std::abs(uv.y)) < max_texture_coordinate);
         });
     });
 }

@@ -125,14 +125,14 @@ double find_level_needed(const SurfaceShape& shape, const glm::dmat4& world, con
 
 /// Nodes and instances of the scene at a time, without its deforming meshes.
 ScenePose place_nodes(const Scene& scene, double seconds, std::vector<Instance> instances) {
-    ScenePose frame;
-    frame.seconds = seconds;
-    frame.world.resize(scene.nodes.size());
-    frame.visible.resize(scene.nodes.size());
-    frame.instances = std::move(instances);
+    ScenePose posed;
+    posed.seconds = seconds;
+    posed.world.resize(scene.nodes.size());
+    posed.visible.resize(scene.nodes.size());
+    posed.instances = std::move(instances);
     for (std::size_t node = 0; node < scene.nodes.size(); ++node)
-        place_node(scene, static_cast<int>(node), seconds, frame);
-    return frame;
+        place_node(scene, static_cast<int>(node), seconds, posed);
+    return posed;
 }
 
 int find_camera_node(const Scene& scene, int camera) {
@@ -203,15 +203,15 @@ std::vector<double> find_levels_needed(const Scene& scene, int camera_node, int 
     Shapes shapes(scene);
     for (const std::int64_t number : sample_frames(frame_range(scene), settings.samples)) {
         const double seconds = scene.frame_rate.seconds_of(number);
-        const ScenePose frame = place_nodes(scene, seconds, instances);
+        const ScenePose posed = place_nodes(scene, seconds, instances);
         const CameraView view =
-            make_camera_view(pose_camera(scene, camera_node, frame.world[camera_node], seconds), width, height);
+            make_camera_view(pose_camera(scene, camera_node, posed.world[camera_node], seconds), width, height);
         for (std::size_t i = 0; i < instances.size(); ++i) {
-            if (!is_shown(scene, frame, i)) continue;
+            if (!is_shown(scene, posed, i)) continue;
             const Mesh& mesh = scene.meshes[instances[i].mesh];
             double& needed = most[mesh.cage];
             needed = std::max(needed, find_level_needed(shapes.at(instances[i].mesh, seconds),
-                                                        frame.world[instances[i].node], view, settings));
+                                                        posed.world[instances[i].node], view, settings));
         }
     }
     return most;

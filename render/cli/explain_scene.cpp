@@ -149,9 +149,9 @@ ordered_json list_unused(const Scene& scene, const Use& use) {
 void describe_view(ordered_json& out, const Scene& scene, const RenderSettings& settings, const std::string& camera) {
     try {
         const Sequence sequence(scene, settings, camera);
-        const ScenePose frame = pose(scene, 0.0);
+        const ScenePose posed = pose(scene, 0.0);
         const int index = find_camera(scene, camera);
-        out["camera"] = scene.nodes[frame.cameras[index].node].name;
+        out["camera"] = scene.nodes[posed.cameras[index].node].name;
         out["exposure"] = {{"factor", sequence.exposure()}, {"from", scene.exposure ? "given" : "first frame"}};
     } catch (const InputError& error) {
         if (!camera.empty()) throw;

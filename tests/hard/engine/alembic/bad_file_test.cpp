@@ -22,7 +22,7 @@ TEST(AlembicBadFile, MalformedArchivesOfTheReferenceLibrary) {
         refused += !verdict(entry.path()).empty();
     }
     EXPECT_EQ(files, 12);
-    EXPECT_EQ(refused, 10);  // two are harmless: bad text, and a property that nobody asks for
+    EXPECT_EQ(refused, 10);  // two are harmless: bad text, and a property that the reader does not use
 }
 
 TEST(AlembicBadFile, WhatIsNoFinishedOgawaArchive) {
