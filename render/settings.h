@@ -28,6 +28,12 @@ enum class Adapter {
     scale_add,  ///< (6.8)
 };
 
+/// How a pixel's light is computed.
+enum class Integrator {
+    cache,  ///< indirect diffuse light from an irradiance cache, everything else by sampling
+    path,   ///< path tracing: unbiased
+};
+
 struct RenderSettings {
     int width = 640, height = 480;  ///< key "size": "640x480"
     std::uint32_t seed = 0;
@@ -35,10 +41,12 @@ struct RenderSettings {
     MotionSource motion = MotionSource::model;
     PerceptionSettings perception;  ///< keys guide, bands, grid, neutral_opponent
     Adapter adapter = Adapter::compress;
-    double adapter_k = 100.0;        ///< K of (6.8)
-    double accuracy = 0.15;          ///< ambient accuracy alpha_Acc; 0 gathers at every sample
-    int gather = 1024;               ///< hemisphere samples per irradiance value
-    int bounces = 1;                 ///< of indirect diffuse light; 0 or 1
+    double adapter_k = 100.0;  ///< K of (6.8)
+    double accuracy = 0.15;    ///< ambient accuracy alpha_Acc; 0 gathers at every sample
+    int gather = 1024;         ///< hemisphere samples per irradiance value
+    Integrator integrator = Integrator::cache;
+    int bounces = 1;                 ///< of indirect diffuse light; at most 1 with the cache
+    int depth = 32;                  ///< longest path: scattering events of all kinds
     int spp = 16;                    ///< samples per pixel; 1 is the pixel's centre
     int light_samples = 16;          ///< direct-light samples per pixel and light, shared out among its spp
     double shade_reach = 1.4;        ///< how far shading uses a record, as a multiple of how far filling does

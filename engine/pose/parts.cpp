@@ -78,6 +78,15 @@ MaterialValues pose_material(const Material& material, double seconds) {
     values.specular_color = Rgb(not_negative(material.specular_color, seconds));
     values.transmission = unit_range(material.transmission, seconds);
     values.ior = static_cast<float>(not_negative(material.ior, seconds));
+    values.thickness = static_cast<float>(not_negative(material.thickness, seconds));
+    values.attenuation_distance = static_cast<float>(not_negative(material.attenuation_distance, seconds));
+    values.attenuation_color = Rgb(glm::min(not_negative(material.attenuation_color, seconds), glm::dvec3(1.0)));
+    values.clearcoat = unit_range(material.clearcoat, seconds);
+    values.clearcoat_roughness = unit_range(material.clearcoat_roughness, seconds);
+    values.sheen_color = Rgb(glm::min(not_negative(material.sheen_color, seconds), glm::dvec3(1.0)));
+    values.sheen_roughness = unit_range(material.sheen_roughness, seconds);
+    values.anisotropy = unit_range(material.anisotropy, seconds);
+    values.anisotropy_rotation = static_cast<float>(evaluate(material.anisotropy_rotation, seconds));
     return values;
 }
 
@@ -114,8 +123,9 @@ CameraValues pose_camera(const Scene& scene, int node, const glm::dmat4& world, 
     return values;
 }
 
-Rgb pose_environment(const Scene& scene, double seconds) {
-    return scene.environment ? Rgb(not_negative(*scene.environment, seconds)) : Rgb(0.0f);
+void pose_environment(const Scene& scene, double seconds, ScenePose& posed) {
+    posed.environment = scene.environment ? Rgb(not_negative(*scene.environment, seconds)) : Rgb(0.0f);
+    posed.environment_rotation = glm::mat3_cast(evaluate(scene.environment_rotation, seconds));
 }
 
 }  // namespace aleph

@@ -16,6 +16,6 @@ bool is_shown(const Scene& scene, const ScenePose& posed, std::size_t instance);
 MaterialValues pose_material(const Material& material, double seconds);
 LightValues pose_light(const Scene& scene, int node, const glm::dmat4& world, double seconds);
 CameraValues pose_camera(const Scene& scene, int node, const glm::dmat4& world, double seconds);
-Rgb pose_environment(const Scene& scene, double seconds);
+void pose_environment(const Scene& scene, double seconds, ScenePose& posed);
 
 }  // namespace aleph

@@ -62,7 +62,8 @@ PosePlan make_pose_plan(const Scene& scene) {
     plan_instances(scene, plan);
     for (std::size_t i = 0; i < scene.materials.size(); ++i)
         if (has_animated_tracks(scene.materials[i])) plan.materials.push_back(static_cast<int>(i));
-    plan.environment = scene.environment && is_animated(*scene.environment);
+    plan.environment =
+        (scene.environment && is_animated(*scene.environment)) || is_animated(scene.environment_rotation);
     return plan;
 }
 
@@ -94,7 +95,7 @@ void update_pose(const Scene& scene, const PosePlan& plan, double seconds, Scene
         CameraValues& values = posed.cameras[camera];
         values = pose_camera(scene, values.node, posed.world[values.node], seconds);
     }
-    if (plan.environment) posed.environment = pose_environment(scene, seconds);
+    if (plan.environment) pose_environment(scene, seconds, posed);
 }
 
 }  // namespace aleph

@@ -33,7 +33,7 @@ ScenePose pose(const Scene& scene, double seconds) {
     deform(scene, deformers, shown, posed.world, seconds, true, posed.meshes);
     posed.materials.reserve(scene.materials.size());
     for (const Material& material : scene.materials) posed.materials.push_back(pose_material(material, seconds));
-    posed.environment = pose_environment(scene, seconds);
+    pose_environment(scene, seconds, posed);
     return posed;
 }
 

@@ -26,6 +26,13 @@ struct MaterialValues {
     Rgb specular_color{1.0f};
     float ior = 1.5f;
     float transmission = 0.0f;
+    float thickness = 0.0f;             ///< m; above 0: the mesh encloses a volume
+    float attenuation_distance = 0.0f;  ///< m; 0: no attenuation
+    Rgb attenuation_color{1.0f};
+    float clearcoat = 0.0f, clearcoat_roughness = 0.0f;
+    Rgb sheen_color{0.0f};
+    float sheen_roughness = 0.0f;
+    float anisotropy = 0.0f, anisotropy_rotation = 0.0f;  ///< rotation in radians
     bool operator==(const MaterialValues&) const = default;
 };
 
@@ -71,9 +78,10 @@ struct ScenePose {
     std::vector<std::uint8_t> shown;    ///< per instance: its node is visible and its mesh present
     std::vector<PosedMesh> meshes;      ///< per mesh of the scene
     std::vector<MaterialValues> materials;
-    std::vector<LightValues> lights;    ///< visible nodes that hold a light, in node order
-    std::vector<CameraValues> cameras;  ///< nodes that hold a camera, in node order
-    Rgb environment{0.0f};
+    std::vector<LightValues> lights;       ///< visible nodes that hold a light, in node order
+    std::vector<CameraValues> cameras;     ///< nodes that hold a camera, in node order
+    Rgb environment{0.0f};                 ///< radiance, or factor on Scene::environment_image
+    glm::dmat3 environment_rotation{1.0};  ///< picture to world
 };
 
 /// Every (node, mesh) pair in node order, visible or not.

@@ -67,6 +67,7 @@ FrameRange frame_range(const Scene& scene) {
     for (const Light& light : scene.lights) visit_tracks(light, visit);
     for (const Camera& camera : scene.cameras) visit_tracks(camera, visit);
     if (scene.environment) visit(*scene.environment);
+    visit(scene.environment_rotation);
     if (!(earliest <= latest)) return {};
 
     // A key within rounding of a frame is on it: single-precision times are off by up to 6e-8 of themselves.
@@ -122,6 +123,7 @@ bool is_world_animated(const Scene& scene) {
     for (const Material& material : scene.materials) visit_tracks(material, look);
     for (const Light& light : scene.lights) visit_tracks(light, look);
     if (scene.environment) look(*scene.environment);
+    look(scene.environment_rotation);
     return animated;
 }
 

@@ -54,17 +54,38 @@ struct Material {
     Track<glm::dvec3> specular_color{glm::dvec3(1.0)};
     Track<double> ior{1.5};
     Track<double> transmission{0.0};  ///< KHR_materials_transmission: share of light that passes the surface
+    /// KHR_materials_volume. Above 0: the mesh encloses a volume and light refracts; its value is not used further.
+    /// 0: the surface is a thin sheet, which light passes straight.
+    Track<double> thickness{0.0};                          ///< m, object space
+    Track<double> attenuation_distance{0.0};               ///< m, in which white becomes attenuation_color; 0: none
+    Track<glm::dvec3> attenuation_color{glm::dvec3(1.0)};  ///< of the volume, 0 to 1
+    Track<double> clearcoat{0.0};                          ///< KHR_materials_clearcoat: strength of the coat
+    Track<double> clearcoat_roughness{0.0};
+    Track<glm::dvec3> sheen_color{glm::dvec3(0.0)};  ///< KHR_materials_sheen
+    Track<double> sheen_roughness{0.0};
+    Track<double> anisotropy{0.0};           ///< KHR_materials_anisotropy: strength, 0 to 1
+    Track<double> anisotropy_rotation{0.0};  ///< radians, counter-clockwise from the tangent
+    double normal_scale = 1.0;               ///< factor on x and y of the normal map
+    double clearcoat_normal_scale = 1.0;
     enum class AlphaMode { opaque, mask, blend };
     AlphaMode alpha_mode = AlphaMode::opaque;
-    double alpha_cutoff = 0.5;              ///< mask: not there where alpha is below
-    bool unlit = false;                     ///< KHR_materials_unlit: shows its base colour, takes and gives no light
-    TextureRef base_color_texture;          ///< sRGB, with alpha
-    TextureRef metallic_roughness_texture;  ///< B metallic, G roughness, linear
-    TextureRef emission_texture;            ///< sRGB
-    TextureRef specular_texture;            ///< A, linear
-    TextureRef specular_color_texture;      ///< sRGB
-    TextureRef transmission_texture;        ///< R, linear
-    bool double_sided = false;              ///< lit and, where it emits, shining on both sides
+    double alpha_cutoff = 0.5;               ///< mask: not there where alpha is below
+    bool unlit = false;                      ///< KHR_materials_unlit: shows its base colour, takes and gives no light
+    TextureRef base_color_texture;           ///< sRGB, with alpha
+    TextureRef metallic_roughness_texture;   ///< B metallic, G roughness, linear
+    TextureRef emission_texture;             ///< sRGB
+    TextureRef specular_texture;             ///< A, linear
+    TextureRef specular_color_texture;       ///< sRGB
+    TextureRef transmission_texture;         ///< R, linear
+    TextureRef normal_texture;               ///< tangent space, linear; x along u, y against v, z outwards
+    TextureRef thickness_texture;            ///< G, linear
+    TextureRef clearcoat_texture;            ///< R, linear
+    TextureRef clearcoat_roughness_texture;  ///< G, linear
+    TextureRef clearcoat_normal_texture;     ///< as normal_texture, for the coat
+    TextureRef sheen_color_texture;          ///< sRGB
+    TextureRef sheen_roughness_texture;      ///< A, linear
+    TextureRef anisotropy_texture;           ///< RG direction, B strength, linear
+    bool double_sided = false;               ///< lit and, where it emits, shining on both sides
     int include = no_index;
 
     bool operator==(const Material&) const = default;
@@ -83,6 +104,14 @@ inline constexpr std::array material_textures{
     MaterialTexture{"specular_texture", &Material::specular_texture},
     MaterialTexture{"specular_color_texture", &Material::specular_color_texture},
     MaterialTexture{"transmission_texture", &Material::transmission_texture},
+    MaterialTexture{"normal_texture", &Material::normal_texture},
+    MaterialTexture{"thickness_texture", &Material::thickness_texture},
+    MaterialTexture{"clearcoat_texture", &Material::clearcoat_texture},
+    MaterialTexture{"clearcoat_roughness_texture", &Material::clearcoat_roughness_texture},
+    MaterialTexture{"clearcoat_normal_texture", &Material::clearcoat_normal_texture},
+    MaterialTexture{"sheen_color_texture", &Material::sheen_color_texture},
+    MaterialTexture{"sheen_roughness_texture", &Material::sheen_roughness_texture},
+    MaterialTexture{"anisotropy_texture", &Material::anisotropy_texture},
 };
 
 }  // namespace aleph

@@ -126,8 +126,12 @@ struct Scene {
     std::vector<std::int64_t> cuts;   ///< frames that begin a new shot: no motion from the frame before
     ViewingConditions viewing;
     std::optional<double> exposure;                ///< factor on radiance
-    std::optional<Track<glm::dvec3>> environment;  ///< constant radiance all around
-    std::string camera;                            ///< name of the camera or of its node; empty: the first
+    std::optional<Track<glm::dvec3>> environment;  ///< radiance all around; factor on environment_image where set
+    /// Index of an equirectangular picture that surrounds the scene: its middle column lies along -z, u grows towards
+    /// +x, its top row is +y. Needs `environment`.
+    int environment_image = no_index;
+    Track<glm::dquat> environment_rotation{glm::dquat(1.0, 0.0, 0.0, 0.0)};  ///< picture to world
+    std::string camera;  ///< name of the camera or of its node; empty: the first
 
     std::vector<Node> nodes;  ///< a parent stands before its children
     std::vector<Mesh> meshes;

@@ -26,9 +26,11 @@ void visit_tracks(const Node& node, const Visit& visit) {
 
 template <class Visit>
 void visit_tracks(const Material& m, const Visit& visit) {
-    for (const auto* track : {&m.base_color, &m.emission, &m.specular_color}) visit(*track);
-    for (const auto* track :
-         {&m.alpha, &m.metallic, &m.roughness, &m.emission_strength, &m.specular, &m.ior, &m.transmission})
+    for (const auto* track : {&m.base_color, &m.emission, &m.specular_color, &m.attenuation_color, &m.sheen_color})
+        visit(*track);
+    for (const auto* track : {&m.alpha, &m.metallic, &m.roughness, &m.emission_strength, &m.specular, &m.ior,
+                              &m.transmission, &m.thickness, &m.attenuation_distance, &m.clearcoat,
+                              &m.clearcoat_roughness, &m.sheen_roughness, &m.anisotropy, &m.anisotropy_rotation})
         visit(*track);
 }
 
