@@ -1,20 +1,10 @@
 #pragma once
 // Light that reaches a surface point straight from the lights.
 
-#include "engine/base/sampling.h"
-#include "render/bsdf.h"
 #include "render/lattice.h"
-#include "render/lights.h"
-#include "render/ray_task.h"
+#include "render/path.h"
 
 namespace aleph {
-
-/// The parts of a posed scene that shading needs.
-struct LightingContext {
-    const ShadingScene& shading;
-    const LightSet& lights;
-    const RayScene& rays;
-};
 
 /// The points on each light: part `part` of `parts`. With the same shift, all parts together are one lattice of
 /// count * parts points, and each part is even by itself.
@@ -26,12 +16,19 @@ struct LightPoints {
     glm::vec2 at(int i, const glm::vec2& shift) const { return lattice_point(i * parts + part, count * parts, shift); }
 };
 
-/// Outgoing radiance from direct light, without the surface's own emission. The Lambert layer samples lights; the
-/// glossy layer combines light and visible-normal sampling by the power heuristic (Veach 1997). Unbiased.
-/// @param points  per light that has an area, and as many samples of the glossy lobe
+/// Radiance that a surface scatters from the lights, without its own emission. The Lambert layer samples lights only; the
+/// other lobes combine light and lobe sampling by the power heuristic (Veach 1997). Unbiased.
+/// @param points  per light that has an area, and as many samples of the lobes
 /// @param random  moved on by a fixed number of dimensions per call
 Rgb compute_direct_light(const LightingContext& context, RayTask& task, const ViewedSurface& surface,
                          const LightPoints& points, RandomStream& random);
+
+/// The same, and what the rays that are sampled from the lobes find beyond lamps: reflections and what glass shows, by
+/// paths within the limits of `beyond`.
+/// @param path_random  for those paths
+Rgb compute_sampled_light(const LightingContext& context, RayTask& task, const ViewedSurface& surface,
+                          const LightPoints& points, RandomStream& random, const PathState& beyond,
+                          RandomStream& path_random);
 
 /// Direct light from a fixed pattern of points on each light. The pattern is the same for every pixel, so the result
 /// has no noise that the model of vision would take for detail. Biased: penumbrae come in steps, and narrow highlights

@@ -13,53 +13,9 @@ namespace aleph {
 namespace {
 
 constexpr float pi = std::numbers::pi_v<float>;
-constexpr int max_candidates = 16;       // lights compared at a hit
 constexpr float min_distance = 1e-20f;   // m; keeps gradients finite if the median distance is 0
 constexpr float min_ray_cosine = 0.05f;  // limits the solid angle of cells at the horizon
 constexpr float infinite = std::numeric_limits<float>::infinity();
-
-/// The light that one hit reflects back along its ray, before its shadow ray is cast.
-struct Reflected {
-    Ray shadow_ray;
-    Rgb radiance{0.0f};
-};
-
-/// Chooses one light with a probability in proportion to the light it would bring without shadow, out of at most
-/// max_candidates (stratified among all lights).
-Reflected choose_light(const LightingContext& context, const SurfacePoint& point, const SurfaceMaterial& material,
-                       const glm::vec3& view, RandomStream& random) {
-    const int lights = context.lights.count();
-    if (!material.has_diffuse() || lights == 0) return {};
-    const int candidates = std::min(lights, max_candidates);
-    const float share = static_cast<float>(lights) / static_cast<float>(candidates);
-    const float cos_view = std::max(glm::dot(point.normal, view), 0.0f);
-    std::array<Reflected, max_candidates> reflected;
-    std::array<float, max_candidates> cumulative{};
-    float total = 0.0f;
-    for (int c = 0; c < candidates; ++c) {
-        const int light = candidates == lights
-                              ? c
-                              : std::min(static_cast<int>((static_cast<float>(c) + random.next()) * share), lights - 1);
-        const LightSample sample =
-            sample_light(context.shading, context.lights, light, {point.ray_origin(), point.normal}, random.next_2d());
-        const float cosine = glm::dot(point.normal, sample.direction);
-        if (cosine > 0.0f && glm::dot(point.geometric, sample.direction) > 0.0f) {
-            reflected[c].radiance = evaluate_diffuse(material, cos_view, cosine) * sample.incoming * (cosine * share);
-            reflected[c].shadow_ray = {point.ray_origin(), sample.direction, 0.0f, sample.distance};
-            total += luminance(reflected[c].radiance);
-        }
-        cumulative[c] = total;
-    }
-    if (!(total > 0.0f)) return {};
-    const float pick = random.next() * total;
-    int chosen = 0;
-    while (chosen + 1 < candidates && cumulative[chosen] <= pick) ++chosen;
-    Reflected& picked = reflected[chosen];
-    const float weight = luminance(picked.radiance);
-    if (!(weight > 0.0f)) return {};
-    picked.radiance *= total / weight;
-    return picked;
-}
 
 /// Angles of a row of strata, measured from the normal.
 struct Row {
@@ -175,12 +131,25 @@ void place_rays(const HemisphereStrata& strata, const Basis& basis, const glm::v
     scratch.hits.resize(scratch.rays.size());
 }
 
-/// Fills in distances, unshadowed radiance and shadow rays of all hits.
-void light_hits(const LightingContext& context, const SurfacePoint& point, RandomStream& random,
-                GatherScratch& scratch) {
+/// Light that comes back along a path which leaves a hit by another lobe than the Lambert layer's. Lamps that it sees
+/// straight through sheets of glass are direct light, which is computed elsewhere.
+Rgb follow_lobes(const LightingContext& context, RayTask& task, const LitSurface& lit, const LobeShares& shares,
+                 int depth, RandomStream& random) {
+    const ScatterSample sample = sample_scatter(lit, shares, random.next(), random.next_2d(), random.next());
+    if (sample.lobe == Lobe::diffuse) return Rgb(0.0f);
+    PathState state;
+    state.left.depth = depth;
+    state.emission = EmissionWeight::none;
+    return follow_sample(context, task, lit, sample, state, random);
+}
+
+/// Fills in distances, and for all hits unshadowed radiance with its shadow rays, and the light of longer paths.
+void light_hits(const LightingContext& context, RayTask& task, const SurfacePoint& point, int depth,
+                RandomStream& random, GatherScratch& scratch) {
     const std::size_t count = scratch.rays.size();
     scratch.distances.resize(count);
     scratch.radiance.assign(count, Rgb(0.0f));
+    scratch.beyond.assign(count, Rgb(0.0f));
     scratch.shadow_rays.clear();
     scratch.shadow_owner.clear();
     // sr, of a cell around the normal; cells towards the horizon are 1 / cosine larger.
@@ -193,17 +162,30 @@ void light_hits(const LightingContext& context, const SurfacePoint& point, Rando
         const SurfacePoint met = make_surface_point(context.shading, hit, direction);
         const float cosine = std::max(glm::dot(point.normal, direction), min_ray_cosine);
         const RayFootprint footprint = make_cone_footprint(met, direction, hit.distance, cell_angle / cosine);
-        const Reflected reflected =
-            choose_light(context, met, evaluate_material(context.shading, met, footprint), -direction, random);
-        if (reflected.radiance == Rgb(0.0f)) continue;
-        scratch.radiance[i] = reflected.radiance;
-        scratch.shadow_rays.push_back(reflected.shadow_ray);
+        const ViewedSurface surface = view_surface(context.shading, met, -direction, footprint);
+        const LitSurface lit(surface);
+        LobeShares shares{};
+        if (depth > 0 && surface.material.has_specular()) {
+            shares = share_lobes(lit, LobeSet::all);
+            scratch.beyond[i] = follow_lobes(context, task, lit, shares, depth, random);
+            shares[static_cast<int>(Lobe::diffuse)] = 0.0f;
+        }
+        const ScatteredLight scattered = choose_light(context, lit, shares, random);
+        if (scattered.radiance == Rgb(0.0f)) continue;
+        scratch.radiance[i] = scattered.radiance;
+        scratch.shadow_rays.push_back(scattered.shadow_ray);
         scratch.shadow_owner.push_back(static_cast<int>(i));
     }
 }
 
 /// Casts the shadow rays; the radiance of hits in shadow becomes 0.
-void remove_shadowed(RayTask& task, GatherScratch& scratch) {
+void remove_shadowed(const LightingContext& context, RayTask& task, GatherScratch& scratch) {
+    if (context.shading.has_sheets) {
+        for (std::size_t s = 0; s < scratch.shadow_rays.size(); ++s) {
+            scratch.radiance[scratch.shadow_owner[s]] *= find_transmittance(context, task, scratch.shadow_rays[s]);
+        }
+        return;
+    }
     scratch.blocked.resize(scratch.shadow_rays.size());
     task.tracer.occluded(scratch.shadow_rays, scratch.blocked);
     task.counts.shadow += scratch.shadow_rays.size();
@@ -233,14 +215,16 @@ HemisphereStrata choose_strata(int samples) {
 }
 
 IrradianceSample gather_irradiance(const LightingContext& context, RayTask& task, const SurfacePoint& point,
-                                   const HemisphereStrata& strata, const RandomKey& key, GatherScratch& scratch) {
+                                   const HemisphereStrata& strata, const RandomKey& key, GatherScratch& scratch,
+                                   int depth) {
     RandomStream random(key);
     const Basis basis = make_basis(point.normal);
     place_rays(strata, basis, point.ray_origin(), random.next_2d(), scratch);
     task.tracer.intersect(scratch.rays, scratch.hits, true);
     task.counts.gather += scratch.rays.size();
-    light_hits(context, point, random, scratch);
-    remove_shadowed(task, scratch);
+    light_hits(context, task, point, depth, random, scratch);
+    remove_shadowed(context, task, scratch);
+    for (std::size_t i = 0; i < scratch.radiance.size(); ++i) scratch.radiance[i] += scratch.beyond[i];
 
     IrradianceSample out;
     glm::dvec3 sum(0.0);

@@ -62,6 +62,7 @@ struct GatherScratch {
     std::vector<Ray> rays;         ///< one per cell of the strata, row by row
     std::vector<Hit> hits;         ///< of `rays`
     std::vector<Rgb> radiance;     ///< along `rays`
+    std::vector<Rgb> beyond;       ///< the part of it that comes by longer paths
     std::vector<float> distances;  ///< of `hits`, m; infinite for a miss
     std::vector<Ray> shadow_rays;
     std::vector<int> shadow_owner;  ///< per shadow ray: index into `rays`
@@ -69,10 +70,13 @@ struct GatherScratch {
     std::vector<float> sorted;
 };
 
-/// Gathers the light that other surfaces reflect to a point after one bounce. At each hit one light is chosen in
-/// proportion to its unshadowed contribution, and one shadow ray is cast towards it.
-/// @param key  all random numbers depend on it
+/// Gathers the light that other surfaces scatter to a point after one bounce. At each hit one light is chosen in
+/// proportion to its unshadowed contribution, and one shadow ray is cast towards it. Where the surface that is hit
+/// reflects or passes light by more than its Lambert layer, a path goes on with that share as its probability.
+/// @param key    all random numbers depend on it
+/// @param depth  surfaces that may scatter after the first on such a path; 0: none
 IrradianceSample gather_irradiance(const LightingContext& context, RayTask& task, const SurfacePoint& point,
-                                   const HemisphereStrata& strata, const RandomKey& key, GatherScratch& scratch);
+                                   const HemisphereStrata& strata, const RandomKey& key, GatherScratch& scratch,
+                                   int depth = 0);
 
 }  // namespace aleph

@@ -8,8 +8,9 @@
 #include <span>
 
 #include "engine/base/sampling.h"
-#include "render/bsdf.h"
+#include "render/environment_map.h"
 #include "render/spherical_triangle.h"
+#include "render/surface_material.h"
 
 namespace aleph {
 
@@ -195,7 +196,30 @@ LightSample sample_punctual(const PunctualLight& light, const glm::vec3& positio
     return sample;
 }
 
+LightSample sample_surroundings(const ShadingScene& shading, const Receiver& receiver, const glm::vec2& u) {
+    LightSample sample;
+    sample.distance = std::numeric_limits<float>::infinity();
+    if (shading.environment_map != nullptr) {
+        const EnvironmentSample picture = sample_environment(*shading.environment_map, u);
+        sample.direction = shading.environment_rotation * picture.direction;
+        sample.pdf = picture.pdf;
+    } else {
+        const glm::vec3 local = sample_cosine_hemisphere(u);
+        sample.direction = make_basis(receiver.normal).to_world(local);
+        sample.pdf = pdf_cosine_hemisphere(local.z);
+    }
+    if (sample.pdf > 0.0f) sample.incoming = environment_radiance(shading, sample.direction) / sample.pdf;
+    return sample;
+}
+
 }  // namespace
+
+float pdf_environment(const ShadingScene& shading, const Receiver& receiver, const glm::vec3& direction) {
+    if (shading.environment_map != nullptr) {
+        return pdf_environment(*shading.environment_map, direction * shading.environment_rotation);
+    }
+    return pdf_cosine_hemisphere(glm::dot(receiver.normal, direction));
+}
 
 float pdf_emitter(const Emitter& emitter, const glm::vec3& position, float cos_at_light, float distance) {
     if (!(cos_at_light > 0.0f)) return 0.0f;
@@ -221,8 +245,8 @@ LightSet make_light_set(const ShadingScene& shading) {
                                    light.intensity, static_cast<float>(light.range), versine(light.inner_cone),
                                    versine(light.outer_cone)});
     }
-    lights.environment = shading.environment;
-    lights.has_environment = shading.environment != Rgb(0.0f);
+    lights.has_environment = shading.environment != Rgb(0.0f) &&
+                             (shading.environment_map == nullptr || !shading.environment_map->black);
     return lights;
 }
 
@@ -232,13 +256,7 @@ LightSample sample_light(const ShadingScene& shading, const LightSet& lights, in
     if (light < emitters) return sample_emitter(shading, lights.emitters[light], receiver.position, u, share);
     const int punctual = light - emitters;
     if (punctual < std::ssize(lights.punctual)) return sample_punctual(lights.punctual[punctual], receiver.position);
-    LightSample sample;
-    const glm::vec3 local = sample_cosine_hemisphere(u);
-    sample.direction = make_basis(receiver.normal).to_world(local);
-    sample.distance = std::numeric_limits<float>::infinity();
-    sample.pdf = pdf_cosine_hemisphere(local.z);
-    if (sample.pdf > 0.0f) sample.incoming = lights.environment / sample.pdf;
-    return sample;
+    return sample_surroundings(shading, receiver, u);
 }
 
 }  // namespace aleph

@@ -40,8 +40,7 @@ struct PunctualLight {
 struct LightSet {
     std::vector<Emitter> emitters;
     std::vector<PunctualLight> punctual;
-    Rgb environment{0.0f};
-    bool has_environment = false;
+    bool has_environment = false;  ///< one that is not black
     std::vector<int> emitter_of_instance;  ///< per ScenePose instance: its emitter or no_index
 
     /// Lights are numbered: emitters, then punctual lights, then the environment.
@@ -65,9 +64,12 @@ struct Receiver {
     glm::vec3 normal{0.0f};  ///< unit
 };
 
+/// Density per steradian of sample_light for the environment.
+float pdf_environment(const ShadingScene& shading, const Receiver& receiver, const glm::vec3& direction);
+
 /// A sample of one light as a point sees it, u in [0,1)^2. `incoming` is 0 if the light cannot reach the point even
-/// without obstacles (behind an emitter, zero area, out of range, outside a spot's cone). The environment is sampled by
-/// cosine around the receiver's normal.
+/// without obstacles (behind an emitter, zero area, out of range, outside a spot's cone). A constant environment is
+/// sampled by cosine around the receiver's normal, a picture by its luminance.
 /// @param share  of an area light's area that the sample represents: its texture is averaged over that much of it.
 ///               0: the texture is read at the sampled point
 LightSample sample_light(const ShadingScene& shading, const LightSet& lights, int light, const Receiver& receiver,

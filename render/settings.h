@@ -46,7 +46,7 @@ struct RenderSettings {
     int gather = 1024;         ///< hemisphere samples per irradiance value
     Integrator integrator = Integrator::cache;
     int bounces = 1;                 ///< of indirect diffuse light; at most 1 with the cache
-    int depth = 32;                  ///< longest path: scattering events of all kinds
+    int path_depth = 32;             ///< longest path: surfaces that scatter, of all kinds
     int spp = 16;                    ///< samples per pixel; 1 is the pixel's centre
     int light_samples = 16;          ///< direct-light samples per pixel and light, shared out among its spp
     double shade_reach = 1.4;        ///< how far shading uses a record, as a multiple of how far filling does

@@ -4,6 +4,8 @@
 #include <cmath>
 
 #include "engine/scene/transforms.h"
+#include "render/environment_map.h"
+#include "render/texture.h"
 
 namespace aleph {
 
@@ -42,7 +44,18 @@ bool can_emit(const Material& material) {
 ShadingMaterial make_material(const Scene& scene, const ScenePose& pose, int i) {
     const MaterialValues& values = pose.materials[i];
     return {values, &scene.materials[i], scene.materials[i].double_sided,
-            values.emission != Rgb(0.0f) && !scene.materials[i].unlit};
+            values.emission != Rgb(0.0f) && !scene.materials[i].unlit,
+            values.clearcoat > 0.0f || values.sheen_color != Rgb(0.0f) || values.anisotropy > 0.0f};
+}
+
+/// What the pose says of the whole scene's light.
+void set_surroundings(ShadingScene& shading) {
+    const ScenePose& pose = *shading.pose;
+    shading.environment = pose.environment;
+    shading.environment_rotation = glm::mat3(pose.environment_rotation);
+    shading.has_sheets = std::ranges::any_of(pose.materials, [](const MaterialValues& values) {
+        return values.transmission > 0.0f && values.thickness == 0.0f;
+    });
 }
 
 PosedInstance make_instance(const ShadingScene& shading, int i) {
@@ -72,7 +85,8 @@ ShadingScene make_shading_scene(const Scene& scene, const ScenePose& pose, const
     shading.pose = &pose;
     shading.textures = &textures;
     shading.anchor = anchor;
-    shading.environment = pose.environment;
+    if (!textures.environment.empty()) shading.environment_map = &textures.environment;
+    set_surroundings(shading);
     std::vector<bool> can_shine;
     for (int i = 0; i < std::ssize(scene.materials); ++i) {
         shading.materials.push_back(make_material(scene, pose, i));
@@ -105,7 +119,7 @@ void update_shading_scene(ShadingScene& shading, const PosePlan& plan, const glm
         }
         shading.still_bounds = still;
     }
-    shading.environment = pose.environment;
+    set_surroundings(shading);
     for (const int i : plan.materials) shading.materials[i] = make_material(*shading.scene, pose, i);
     shading.bounds = *shading.still_bounds;
     for (const int i : plan.instances) {
@@ -113,6 +127,12 @@ void update_shading_scene(ShadingScene& shading, const PosePlan& plan, const glm
         instance = make_instance(shading, i);
         add(shading.bounds, instance);
     }
+}
+
+Rgb environment_radiance(const ShadingScene& shading, const glm::vec3& direction) {
+    if (shading.environment_map == nullptr) return shading.environment;
+    // Transposed: its inverse, since it is a rotation.
+    return shading.environment * look_up(*shading.environment_map, direction * shading.environment_rotation);
 }
 
 SurfacePoint make_surface_point(const ShadingScene& shading, const Hit& hit, const glm::vec3& direction) {

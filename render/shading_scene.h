@@ -13,6 +13,7 @@
 
 namespace aleph {
 
+struct EnvironmentMap;
 struct TextureSet;
 
 struct PosedInstance {
@@ -39,6 +40,7 @@ struct ShadingMaterial {
     const Material* material = nullptr;  ///< null: glTF's default
     bool double_sided = false;
     bool emits = false;
+    bool layered = false;  ///< has a coat, sheen or anisotropy
 };
 
 /// m, relative to the anchor. If empty, `low` is infinite.
@@ -53,7 +55,10 @@ struct ShadingScene {
     glm::dvec3 anchor{0.0};
     std::vector<PosedInstance> instances;  ///< as ScenePose::instances
     std::vector<ShadingMaterial> materials;
-    Rgb environment{0.0f};
+    Rgb environment{0.0f};  ///< radiance all around, or factor on environment_map
+    const EnvironmentMap* environment_map = nullptr;  ///< null: none
+    glm::mat3 environment_rotation{1.0f};             ///< of environment_map, to the world
+    bool has_sheets = false;                          ///< some material may pass light straight: shadows depend on it
     std::vector<int> emitting;  ///< instances whose material emits at some time
     SceneBounds bounds;         ///< of the visible instances
 
@@ -68,6 +73,10 @@ ShadingScene make_shading_scene(const Scene& scene, const ScenePose& pose, const
 /// Updates it after update_pose(plan) changed *shading.pose. The result equals that of make_shading_scene, but only the
 /// instances and materials that the plan names are computed again; if the anchor moved, everything is.
 void update_shading_scene(ShadingScene& shading, const PosePlan& plan, const glm::dvec3& anchor);
+
+/// Radiance that a ray meets which hits nothing.
+/// @param direction  unit, world
+Rgb environment_radiance(const ShadingScene& shading, const glm::vec3& direction);
 
 /// A point of a surface, seen from a direction.
 struct SurfacePoint {

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "engine/scene/scene.h"
+#include "render/environment_map.h"
 
 namespace aleph {
 
@@ -38,14 +39,17 @@ struct TextureUse {
 };
 
 struct MaterialTextures {
-    TextureUse base_color, metallic_roughness, emission, specular, specular_color;
-    bool any = false;
+    TextureUse base_color, metallic_roughness, emission, specular, specular_color, transmission, thickness;
+    TextureUse normal, clearcoat, clearcoat_roughness, clearcoat_normal, sheen_color, sheen_roughness, anisotropy;
+    bool any = false;           ///< one of them is used
+    bool maps_normals = false;  ///< normal or clearcoat_normal is used
 };
 
 /// All textures of a scene. Made once (make_texture_set); look-ups only read it.
 struct TextureSet {
     std::vector<Texture> textures;            ///< one for each image and space that materials use
     std::vector<MaterialTextures> materials;  ///< as Scene::materials, and one without textures at the end
+    EnvironmentMap environment;               ///< empty: the scene has none
 };
 
 /// Builds the pyramids, in parallel. Keeps pointers to the scene's images: the scene must outlive the set.

@@ -1,0 +1,43 @@
+#pragma once
+// An equirectangular picture that surrounds the scene, sampled in proportion to its luminance.
+
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <vector>
+
+#include "engine/base/color.h"
+#include "engine/scene/material.h"
+
+namespace aleph {
+
+/// In the picture's own frame: its middle column lies along -z, u grows towards +x, its top row is +y.
+struct EnvironmentMap {
+    Image<Rgb> texels;  ///< radiance, linear; finite and not negative
+    /// Per row and column: cumulative probabilities. A texel's probability is in proportion to its solid angle times the
+    /// mean luminance of the bilinear picture over it, so that sampling covers whatever a look-up can return.
+    std::vector<float> rows;           ///< height values; the last is 1
+    std::vector<float> columns;        ///< width values per row; the last of a row is 1
+    std::vector<float> probabilities;  ///< per texel
+    std::size_t cleaned = 0;           ///< texels that were NaN, infinite or negative; those values became 0
+    bool black = true;                 ///< every texel is 0
+
+    bool empty() const { return texels.empty(); }
+};
+
+/// 8-bit pictures are decoded from sRGB.
+EnvironmentMap make_environment_map(const SceneImage& image);
+
+/// Bilinear; wraps around the seam.
+/// @param direction  unit
+Rgb look_up(const EnvironmentMap& map, const glm::vec3& direction);
+
+struct EnvironmentSample {
+    glm::vec3 direction{0.0f};  ///< unit
+    float pdf = 0.0f;           ///< per steradian; 0: the map is black
+};
+
+EnvironmentSample sample_environment(const EnvironmentMap& map, const glm::vec2& u);
+/// Density of sample_environment.
+float pdf_environment(const EnvironmentMap& map, const glm::vec3& direction);
+
+}  // namespace aleph

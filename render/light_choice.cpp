@@ -1,0 +1,73 @@
+#include "render/light_choice.h"
+
+#include <algorithm>
+#include <array>
+
+namespace aleph {
+
+namespace {
+
+constexpr int max_candidates = 16;  // lights compared at a point
+constexpr int max_sheets = 64;      // sheets that a shadow ray passes
+
+}  // namespace
+
+ScatteredLight choose_light(const LightingContext& context, const LitSurface& lit, const LobeShares& shares,
+                            RandomStream& random) {
+    const int lights = context.lights.count();
+    if (lights == 0) return {};
+    const int candidates = std::min(lights, max_candidates);
+    const float share = static_cast<float>(lights) / static_cast<float>(candidates);
+    const Receiver receiver{lit.point.ray_origin(), lit.point.normal};
+    std::array<ScatteredLight, max_candidates> scattered;
+    std::array<float, max_candidates> cumulative{};
+    float total = 0.0f;
+    for (int c = 0; c < candidates; ++c) {
+        const int light = candidates == lights
+                              ? c
+                              : std::min(static_cast<int>((static_cast<float>(c) + random.next()) * share), lights - 1);
+        const LightSample sample = sample_light(context.shading, context.lights, light, receiver, random.next_2d());
+        if (sample.incoming != Rgb(0.0f) && lit.is_reached(sample.direction)) {
+            scattered[c].radiance =
+                scatter_towards(lit, sample.direction, sample.pdf, shares) * sample.incoming * share;
+            scattered[c].shadow_ray = {lit.ray_origin(sample.direction), sample.direction, 0.0f, sample.distance};
+            const float brings = luminance(scattered[c].radiance);
+            if (brings > 0.0f) total += brings;
+        }
+        cumulative[c] = total;
+    }
+    if (!(total > 0.0f)) return {};
+    const float pick = random.next() * total;
+    int chosen = 0;
+    while (chosen + 1 < candidates && cumulative[chosen] <= pick) ++chosen;
+    ScatteredLight& picked = scattered[chosen];
+    const float weight = luminance(picked.radiance);
+    if (!(weight > 0.0f)) return {};
+    picked.radiance *= total / weight;
+    return picked;
+}
+
+Rgb find_transmittance(const LightingContext& context, RayTask& task, const Ray& ray) {
+    if (!context.shading.has_sheets) {
+        ++task.counts.shadow;
+        return Rgb(task.tracer.occluded(ray) ? 0.0f : 1.0f);
+    }
+    Rgb passed(1.0f);
+    Ray left = ray;
+    for (int sheet = 0; sheet < max_sheets; ++sheet) {
+        ++task.counts.shadow;
+        const Hit hit = task.tracer.intersect(left);
+        if (hit.instance == no_index) return passed;
+        const SurfacePoint point = make_surface_point(context.shading, hit, left.direction);
+        const ViewedSurface surface = view_surface(context.shading, point, -left.direction, {});
+        if (!surface.material.passes_straight()) return Rgb(0.0f);
+        const LitSurface lit(surface);
+        passed *= sheet_transmittance(lit);
+        if (passed == Rgb(0.0f)) return passed;
+        left.origin = lit.ray_origin(left.direction);
+        left.far = std::max(0.0f, left.far - hit.distance);
+    }
+    return Rgb(0.0f);
+}
+
+}  // namespace aleph

@@ -1,0 +1,32 @@
+#pragma once
+// One light for a surface point, chosen among all, and whether it reaches the point.
+
+#include "render/lights.h"
+#include "render/ray_task.h"
+#include "render/scatter.h"
+
+namespace aleph {
+
+/// The parts of a posed scene that shading needs.
+struct LightingContext {
+    const ShadingScene& shading;
+    const LightSet& lights;
+    const RayScene& rays;
+};
+
+/// Light of one light that a surface scatters towards its viewer, before its shadow ray is cast.
+struct ScatteredLight {
+    Ray shadow_ray;
+    Rgb radiance{0.0f};
+};
+
+/// Chooses one light with a probability in proportion to what it would bring without shadow, out of at most 16
+/// (stratified among all lights): resampled importance sampling (Talbot et al. 2005), unbiased for the sum of all lights.
+/// @param shares  of the lobes from which directions are sampled as well, for the weights of scatter_towards
+ScatteredLight choose_light(const LightingContext& context, const LitSurface& lit, const LobeShares& shares,
+                            RandomStream& random);
+
+/// Share of light that passes along a shadow ray: smooth sheets of glass pass some, everything else stops it.
+Rgb find_transmittance(const LightingContext& context, RayTask& task, const Ray& ray);
+
+}  // namespace aleph
