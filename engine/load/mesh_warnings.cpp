@@ -124,8 +124,9 @@ void add_mesh_warnings(Scene& scene) {
             if (found.count == 0) return;
             warn_of_missing_uv(scene, i, *find(scene.materials[i], scene.meshes[found.first]), found, effect);
         };
-        warn(without_uv[i], [](const Material& m, const Mesh& mesh) { return find_texture_without_uv(m, mesh, false); },
-             "one texel of the picture colours all of it");
+        warn(
+            without_uv[i], [](const Material& m, const Mesh& mesh) { return find_texture_without_uv(m, mesh, false); },
+            "one texel of the picture colours all of it");
         warn(without_directions[i], find_direction_without_uv, "it has no effect there");
     }
     if (huge.count > 0) {

@@ -40,7 +40,8 @@ std::optional<JsonRef> read_angle(const JsonRef& at, const AngleField<Element>& 
     if (degrees) element.*field.member = read_degrees(*degrees, rate, field.range);
     if (radians) {
         const ValueRange& range = field.range;
-        element.*field.member = read_number(*radians, rate, {to_radians(range.low), to_radians(range.high), range.open});
+        element.*field.member =
+            read_number(*radians, rate, {to_radians(range.low), to_radians(range.high), range.open});
     }
     return degrees ? degrees : radians;
 }

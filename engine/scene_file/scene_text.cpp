@@ -112,8 +112,7 @@ void read_environment_picture(SceneReader& reader, const JsonRef& root) {
     if (const auto rotation = root.find("environment_rotation")) {
         if (!picture) rotation->fail("\"environment_rotation\" turns \"environment_image\", which is not given");
         scene.environment_axis_rotation = read_axis_rotation(*rotation, scene.frame_rate);
-        if (!scene.environment_axis_rotation)
-            scene.environment_rotation = read_quaternion(*rotation, scene.frame_rate);
+        if (!scene.environment_axis_rotation) scene.environment_rotation = read_quaternion(*rotation, scene.frame_rate);
     }
     if (!picture) return;
     scene.environment_image = read_image_use(reader, *picture);
