@@ -22,6 +22,7 @@ struct PosedInstance {
     glm::mat3 linear{1.0f};       ///< object to world
     glm::vec3 translation{0.0f};  ///< m, relative to the anchor
     glm::mat3 normals{1.0f};      ///< object to world for normals (cofactors), not normalised
+    glm::mat3 rounding{1.0f};  ///< |linear| |linear^-1|: growth of a rounding error on the way to object space and back
     bool visible = false;
     const PosedMesh* deformed = nullptr;  ///< in place of the mesh's own points and normals; null: rigid
 

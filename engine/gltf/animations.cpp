@@ -1,6 +1,7 @@
 // glTF reader: animations: each channel's keys go to the property that it moves.
 #include <fmt/format.h>
 
+#include <array>
 #include <map>
 
 #include "engine/base/errors.h"
@@ -99,41 +100,44 @@ void read_light_channel(GltfReader& reader, const Channel& channel) {
     }
 }
 
+template <class T>
+struct MaterialTrack {
+    GltfProperty property;
+    Track<T> Material::*track;
+};
+constexpr std::array material_numbers{
+    MaterialTrack<double>{GltfProperty::material_metallic, &Material::metallic},
+    MaterialTrack<double>{GltfProperty::material_roughness, &Material::roughness},
+    MaterialTrack<double>{GltfProperty::material_emission_strength, &Material::emission_strength},
+    MaterialTrack<double>{GltfProperty::material_ior, &Material::ior},
+    MaterialTrack<double>{GltfProperty::material_specular, &Material::specular},
+    MaterialTrack<double>{GltfProperty::material_transmission, &Material::transmission},
+    MaterialTrack<double>{GltfProperty::material_thickness, &Material::thickness},
+    MaterialTrack<double>{GltfProperty::material_attenuation_distance, &Material::attenuation_distance},
+    MaterialTrack<double>{GltfProperty::material_clearcoat, &Material::clearcoat},
+    MaterialTrack<double>{GltfProperty::material_clearcoat_roughness, &Material::clearcoat_roughness},
+    MaterialTrack<double>{GltfProperty::material_sheen_roughness, &Material::sheen_roughness},
+    MaterialTrack<double>{GltfProperty::material_anisotropy, &Material::anisotropy},
+    MaterialTrack<double>{GltfProperty::material_anisotropy_rotation, &Material::anisotropy_rotation},
+};
+constexpr std::array material_colors{
+    MaterialTrack<glm::dvec3>{GltfProperty::material_base_color, &Material::base_color},
+    MaterialTrack<glm::dvec3>{GltfProperty::material_emission, &Material::emission},
+    MaterialTrack<glm::dvec3>{GltfProperty::material_specular_color, &Material::specular_color},
+    MaterialTrack<glm::dvec3>{GltfProperty::material_attenuation_color, &Material::attenuation_color},
+    MaterialTrack<glm::dvec3>{GltfProperty::material_sheen_color, &Material::sheen_color},
+};
+
 void read_material_channel(GltfReader& reader, const Channel& channel) {
     Material& material = reader.part.materials[channel.target.index];
     GltfKeys keys = read_keys(reader, channel.sampler, channel.place);
     clamp_to_range(reader, keys, channel);
-    const auto number = [&](std::size_t column = 0) { return number_track(reader, keys, channel.place, column); };
-    const auto vector = [&] { return vector_track(reader, keys, channel.place); };
-    switch (channel.target.info->property) {
-        case GltfProperty::material_base_color:
-            material.base_color = vector();
-            material.alpha = number(3);
-            break;
-        case GltfProperty::material_metallic:
-            material.metallic = number();
-            break;
-        case GltfProperty::material_roughness:
-            material.roughness = number();
-            break;
-        case GltfProperty::material_emission:
-            material.emission = vector();
-            break;
-        case GltfProperty::material_emission_strength:
-            material.emission_strength = number();
-            break;
-        case GltfProperty::material_ior:
-            material.ior = number();
-            break;
-        case GltfProperty::material_specular:
-            material.specular = number();
-            break;
-        case GltfProperty::material_specular_color:
-            material.specular_color = vector();
-            break;
-        default:
-            material.transmission = number();
-    }
+    const GltfProperty property = channel.target.info->property;
+    for (const auto& entry : material_numbers)
+        if (entry.property == property) material.*entry.track = number_track(reader, keys, channel.place);
+    for (const auto& entry : material_colors)
+        if (entry.property == property) material.*entry.track = vector_track(reader, keys, channel.place);
+    if (property == GltfProperty::material_base_color) material.alpha = number_track(reader, keys, channel.place, 3);
 }
 
 void read_channel(GltfReader& reader, const Channel& channel) {

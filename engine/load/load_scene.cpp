@@ -15,6 +15,7 @@
 #include "engine/json/json_ref.h"
 #include "engine/json/text.h"
 #include "engine/load/camera_check.h"
+#include "engine/load/environment_picture.h"
 #include "engine/load/framing_camera.h"
 #include "engine/load/mesh_warnings.h"
 #include "engine/load/warnings.h"
@@ -101,6 +102,7 @@ Scene load_scene_file(const fs::path& path, const std::string& file, const LoadL
         check_regular_file(folder / scene.includes[i].path, file, text.include_places[i]);
     }
     load_images(text, folder, file);
+    make_environment_linear(scene);
     for (std::size_t i = 0; i < scene.includes.size(); ++i) {
         append_asset(folder / scene.includes[i].path, scene, scene.includes[i].node, static_cast<int>(i), limits);
     }
@@ -159,7 +161,6 @@ Scene load_scene(const std::filesystem::path& path, const LoadLimits& limits) {
         extension_of(path) == ".json" ? load_scene_file(path, file, limits) : load_asset_file(path, file, limits);
     check_camera_axes(scene);
     add_rotation_warnings(scene);
-    add_surface_warnings(scene);
     add_mesh_warnings(scene);
     add_missing_light(scene);
     return scene;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <optional>
 
 #include "engine/base/errors.h"
 #include "engine/load/source_file.h"
@@ -56,22 +57,44 @@ bool has_huge_coordinates(const Mesh& mesh) {
     });
 }
 
-/// The first texture of the material whose set of coordinates the mesh does not have; nothing where it has them all.
-const MaterialTexture* find_texture_without_uv(const Material& material, const Mesh& mesh) {
-    const auto found = std::ranges::find_if(material_textures, [&](const MaterialTexture& texture) {
-        const TextureRef& reference = material.*texture.member;
-        return reference.image != no_index && mesh.uv[reference.uv_set].empty();
-    });
-    return found == material_textures.end() ? nullptr : &*found;
+/// A property of a material, and the set of texture coordinates that it needs.
+struct UvNeed {
+    const char* key;
+    int uv_set = 0;
+};
+
+/// Whether a texture gives directions: those are relative to the directions of u and v.
+bool is_directional(const MaterialTexture& texture) {
+    return texture.member == &Material::normal_texture || texture.member == &Material::clearcoat_normal_texture ||
+           texture.member == &Material::anisotropy_texture;
 }
 
-void warn_of_missing_uv(Scene& scene, std::size_t material_index, const Found& found) {
-    const Material& material = scene.materials[material_index];
-    const MaterialTexture* texture = find_texture_without_uv(material, scene.meshes[found.first]);
-    scene.warnings.push_back(fmt::format(
-        "{}: no texture coordinates {} for the {} of material \"{}\"; one texel of "
-        "the picture colours all of it",
-        name_meshes(scene, found), (material.*texture->member).uv_set, texture->key, printable(material.name)));
+/// The first texture of the material whose set of coordinates the mesh does not have; nothing where it has them all.
+std::optional<UvNeed> find_texture_without_uv(const Material& material, const Mesh& mesh, bool directional) {
+    for (const MaterialTexture& texture : material_textures) {
+        const TextureRef& reference = material.*texture.member;
+        if (is_directional(texture) == directional && reference.image != no_index && mesh.uv[reference.uv_set].empty())
+            return UvNeed{texture.key, reference.uv_set};
+    }
+    return std::nullopt;
+}
+
+/// The same for what needs the directions of u and v: normal maps and anisotropy.
+std::optional<UvNeed> find_direction_without_uv(const Material& material, const Mesh& mesh) {
+    if (const auto texture = find_texture_without_uv(material, mesh, true)) return texture;
+    const bool stretched = std::ranges::any_of(material.anisotropy.values, [](double v) { return v > 0.0; });
+    // Without a texture of its own it is relative to the normal map's coordinates (KHR_materials_anisotropy).
+    const bool has_own = material.anisotropy_texture.image != no_index;
+    const int set = has_own ? material.anisotropy_texture.uv_set : material.normal_texture.uv_set;
+    if (stretched && mesh.uv[set].empty()) return UvNeed{"anisotropy", set};
+    return std::nullopt;
+}
+
+void warn_of_missing_uv(Scene& scene, std::size_t material_index, const UvNeed& need, const Found& found,
+                        const char* effect) {
+    scene.warnings.push_back(fmt::format("{}: no texture coordinates {} for the {} of material \"{}\"; {}",
+                                         name_meshes(scene, found), need.uv_set, need.key,
+                                         printable(scene.materials[material_index].name), effect));
 }
 
 }  // namespace
@@ -81,21 +104,31 @@ void add_mesh_warnings(Scene& scene) {
     for (const Node& node : scene.nodes)
         for (const int mesh : node.meshes) used[mesh] = true;
     Found degenerate, huge;
-    std::vector<Found> without_uv(scene.materials.size());
+    std::vector<Found> without_uv(scene.materials.size()), without_directions(scene.materials.size());
     for (int i = 0; i < std::ssize(scene.meshes); ++i) {
         if (!used[i]) continue;
         const Mesh& mesh = scene.meshes[i];
         if (is_degenerate(scene, mesh)) degenerate.add(i);
         if (has_huge_coordinates(mesh)) huge.add(i);
-        if (mesh.material != no_index && find_texture_without_uv(scene.materials[mesh.material], mesh) != nullptr)
-            without_uv[mesh.material].add(i);
+        if (mesh.material == no_index) continue;
+        const Material& material = scene.materials[mesh.material];
+        if (find_texture_without_uv(material, mesh, false)) without_uv[mesh.material].add(i);
+        if (find_direction_without_uv(material, mesh)) without_directions[mesh.material].add(i);
     }
     if (degenerate.count > 0) {
         scene.warnings.push_back(name_meshes(scene, degenerate) +
                                  ": no triangle has an area, so nothing of it can be seen");
     }
-    for (std::size_t i = 0; i < without_uv.size(); ++i)
-        if (without_uv[i].count > 0) warn_of_missing_uv(scene, i, without_uv[i]);
+    for (std::size_t i = 0; i < scene.materials.size(); ++i) {
+        const auto warn = [&](const Found& found, const auto& find, const char* effect) {
+            if (found.count == 0) return;
+            warn_of_missing_uv(scene, i, *find(scene.materials[i], scene.meshes[found.first]), found, effect);
+        };
+        warn(
+            without_uv[i], [](const Material& m, const Mesh& mesh) { return find_texture_without_uv(m, mesh, false); },
+            "one texel of the picture colours all of it");
+        warn(without_directions[i], find_direction_without_uv, "it has no effect there");
+    }
     if (huge.count > 0) {
         scene.warnings.push_back(
             fmt::format("{}: texture coordinates go beyond {:g}, where single precision holds no "

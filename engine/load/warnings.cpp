@@ -11,9 +11,9 @@ namespace aleph {
 
 namespace {
 
-void add_rotation_warnings(const Node& node, std::vector<std::string>& warnings) {
-    const Track<glm::dquat>& track = node.rotation;
-    const std::string name = fmt::format("node \"{}\"", printable(node.name));
+/// @param name  of what turns, for messages
+void add_rotation_warnings(const Track<glm::dquat>& track, const std::string& name,
+                           std::vector<std::string>& warnings) {
     for (std::size_t key = 0; key < track.key_count(); ++key) {
         const double length = glm::length(key_value(track, key));
         if (std::abs(length - 1.0) <= 1e-3) continue;
@@ -47,33 +47,10 @@ void add_rotation_warnings(Scene& scene) {
     for (const Node& node : scene.nodes) {
         // Other readers warn of their own nodes, with the place in the file.
         if (node.include == no_index && !node.matrix && !node.axis_rotation)
-            add_rotation_warnings(node, scene.warnings);
+            add_rotation_warnings(node.rotation, fmt::format("node \"{}\"", printable(node.name)), scene.warnings);
     }
-}
-
-void add_surface_warnings(Scene& scene) {
-    std::vector<bool> drawn(scene.materials.size());
-    for (const Node& node : scene.nodes) {
-        for (const int mesh : node.meshes) {
-            const int material = scene.meshes[mesh].material;
-            if (material != no_index) drawn[material] = true;
-        }
-    }
-    for (std::size_t i = 0; i < scene.materials.size(); ++i) {
-        if (!drawn[i]) continue;
-        const Material& material = scene.materials[i];
-        if (is_positive_somewhere(material.transmission)) {
-            scene.warnings.push_back(
-                fmt::format("material \"{}\": transmission is not in this version; it is rendered opaque",
-                            printable(material.name)));
-        }
-        if (material.alpha_mode == Material::AlphaMode::blend) {
-            scene.warnings.push_back(fmt::format(
-                "material \"{}\": alpha mode \"blend\" is not in this version; what has an alpha below 0.5 is "
-                "left out, the rest is opaque",
-                printable(material.name)));
-        }
-    }
+    if (!scene.environment_axis_rotation)
+        add_rotation_warnings(scene.environment_rotation, "environment_rotation", scene.warnings);
 }
 
 bool has_light(const Scene& scene) {

@@ -6,11 +6,9 @@
 namespace aleph {
 
 /// Warns of rotation keys that are more than 170 degrees apart, as interpolation takes the short way and the other may
-/// be meant, and of rotations whose length is off by more than 1e-3 (they count at length 1).
+/// be meant, and of rotations whose length is off by more than 1e-3 (they count at length 1). Nodes, and the
+/// environment's picture.
 void add_rotation_warnings(Scene& scene);
-
-/// Warns of materials of drawn meshes with transmission or alpha mode "blend", which are rendered opaque.
-void add_surface_warnings(Scene& scene);
 
 /// True if something gives light at some time: a light on a node, an environment, a used material that emits.
 bool has_light(const Scene& scene);

@@ -24,17 +24,19 @@ glm::dvec3 not_negative(const Track<glm::dvec3>& track, double seconds) {
     return glm::max(evaluate(track, seconds), glm::dvec3(0.0));
 }
 
-glm::dquat local_rotation(const Node& node, double seconds) {
-    if (!node.axis_rotation) return evaluate(node.rotation, seconds);
-    const glm::dvec3 axis = safe_normalize(node.axis_rotation->axis);
-    const double half = 0.5 * evaluate(node.axis_rotation->angle, seconds);
+/// @param about_axis  stands in place of `rotation` where it is set
+glm::dquat rotation_at(const Track<glm::dquat>& rotation, const std::optional<AxisRotation>& about_axis,
+                       double seconds) {
+    if (!about_axis) return evaluate(rotation, seconds);
+    const glm::dvec3 axis = safe_normalize(about_axis->axis);
+    const double half = 0.5 * evaluate(about_axis->angle, seconds);
     return safe_normalize(glm::dquat(std::cos(half), axis * std::sin(half)));
 }
 
 glm::dmat4 local_transform(const Node& node, double seconds) {
     if (node.operations) return evaluate(*node.operations, seconds);
     if (node.matrix) return evaluate(*node.matrix, seconds);
-    const glm::dmat3 rotation = glm::mat3_cast(local_rotation(node, seconds));
+    const glm::dmat3 rotation = glm::mat3_cast(rotation_at(node.rotation, node.axis_rotation, seconds));
     const glm::dvec3 scale = evaluate(node.scale, seconds);
     return {glm::dvec4(rotation[0] * scale.x, 0.0), glm::dvec4(rotation[1] * scale.y, 0.0),
             glm::dvec4(rotation[2] * scale.z, 0.0), glm::dvec4(evaluate(node.translation, seconds), 1.0)};
@@ -125,7 +127,8 @@ CameraValues pose_camera(const Scene& scene, int node, const glm::dmat4& world, 
 
 void pose_environment(const Scene& scene, double seconds, ScenePose& posed) {
     posed.environment = scene.environment ? Rgb(not_negative(*scene.environment, seconds)) : Rgb(0.0f);
-    posed.environment_rotation = glm::mat3_cast(evaluate(scene.environment_rotation, seconds));
+    posed.environment_rotation =
+        glm::mat3_cast(rotation_at(scene.environment_rotation, scene.environment_axis_rotation, seconds));
 }
 
 }  // namespace aleph

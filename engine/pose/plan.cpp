@@ -62,8 +62,7 @@ PosePlan make_pose_plan(const Scene& scene) {
     plan_instances(scene, plan);
     for (std::size_t i = 0; i < scene.materials.size(); ++i)
         if (has_animated_tracks(scene.materials[i])) plan.materials.push_back(static_cast<int>(i));
-    plan.environment =
-        (scene.environment && is_animated(*scene.environment)) || is_animated(scene.environment_rotation);
+    visit_environment(scene, [&](const auto& track) { plan.environment = plan.environment || is_animated(track); });
     return plan;
 }
 

@@ -66,8 +66,7 @@ FrameRange frame_range(const Scene& scene) {
     for (const Material& material : scene.materials) visit_tracks(material, visit);
     for (const Light& light : scene.lights) visit_tracks(light, visit);
     for (const Camera& camera : scene.cameras) visit_tracks(camera, visit);
-    if (scene.environment) visit(*scene.environment);
-    visit(scene.environment_rotation);
+    visit_environment(scene, visit);
     if (!(earliest <= latest)) return {};
 
     // A key within rounding of a frame is on it: single-precision times are off by up to 6e-8 of themselves.
@@ -122,8 +121,7 @@ bool is_world_animated(const Scene& scene) {
     for (const PointCache& cache : scene.point_caches) look(cache);
     for (const Material& material : scene.materials) visit_tracks(material, look);
     for (const Light& light : scene.lights) visit_tracks(light, look);
-    if (scene.environment) look(*scene.environment);
-    look(scene.environment_rotation);
+    visit_environment(scene, look);
     return animated;
 }
 

@@ -30,6 +30,19 @@ T between(const std::vector<T>& values, const glm::uvec3& t, float u, float v) {
     return values[t.x] * (1.0f - u - v) + values[t.y] * u + values[t.z] * v;
 }
 
+bool is_opaque(const SceneImage& image) {
+    return std::ranges::all_of(image.bytes.pixels, [](const glm::u8vec4& p) { return p.w == 255; }) &&
+           std::ranges::all_of(image.floats.pixels, [](const glm::vec4& p) { return p.w == 1.0f; });
+}
+
+/// Whether alpha is 1 everywhere, at every time.
+bool is_opaque(const Scene& scene, const Mesh& mesh, const Material& material) {
+    const int image = material.base_color_texture.image;
+    return !is_animated(material.alpha) && evaluate(material.alpha, 0.0) == 1.0 &&
+           std::ranges::all_of(mesh.colors, [](const glm::vec4& color) { return color.w == 1.0f; }) &&
+           (image == no_index || is_opaque(scene.images[image]));
+}
+
 }  // namespace
 
 float AlphaTexture::sample(const glm::vec2& given) const {
@@ -73,23 +86,37 @@ AlphaTexture make_alpha_texture(const Scene& scene, const TextureRef& reference)
     return texture;
 }
 
-bool AlphaCutout::is_hole(float material_alpha, unsigned primitive, float u, float v) const {
+float AlphaCutout::alpha_at(float material_alpha, unsigned primitive, float u, float v) const {
     const glm::uvec3& t = triangles[primitive];
     float alpha = material_alpha * texture.sample(uv.empty() ? glm::vec2(0.0f) : between(uv, t, u, v));
     if (!vertex_alpha.empty()) alpha *= between(vertex_alpha, t, u, v);
-    return alpha < cutoff;
+    return alpha;
 }
 
 bool has_cutout(const Scene& scene, const Mesh& mesh) {
     if (mesh.material == no_index) return false;
-    return scene.materials[mesh.material].alpha_mode != Material::AlphaMode::opaque;
+    const Material& material = scene.materials[mesh.material];
+    if (material.alpha_mode == Material::AlphaMode::opaque) return false;
+    const bool one_is_whole = material.alpha_mode == Material::AlphaMode::blend || material.alpha_cutoff <= 1.0;
+    return !(one_is_whole && is_opaque(scene, mesh, material));
+}
+
+bool has_blended(const Scene& scene) {
+    return std::ranges::any_of(scene.nodes, [&](const Node& node) {
+        return std::ranges::any_of(node.meshes, [&](int index) {
+            const Mesh& mesh = scene.meshes[index];
+            return mesh.material != no_index &&
+                   scene.materials[mesh.material].alpha_mode == Material::AlphaMode::blend && has_cutout(scene, mesh);
+        });
+    });
 }
 
 AlphaCutout make_alpha_cutout(const Scene& scene, const Mesh& mesh) {
     const Material& material = scene.materials[mesh.material];
     AlphaCutout cutout;
     cutout.material = mesh.material;
-    if (material.alpha_mode == Material::AlphaMode::mask) cutout.cutoff = static_cast<float>(material.alpha_cutoff);
+    cutout.blended = material.alpha_mode == Material::AlphaMode::blend;
+    if (!cutout.blended) cutout.cutoff = static_cast<float>(material.alpha_cutoff);
     cutout.texture = make_alpha_texture(scene, material.base_color_texture);
     cutout.triangles = mesh.triangles;
     cutout.uv = mesh.uv[material.base_color_texture.uv_set == 1 ? 1 : 0];

@@ -1,5 +1,6 @@
 #pragma once
-// Holes in surfaces: materials with an alpha mask let rays pass. Blended materials are treated as a mask at .5.
+// Holes in surfaces: materials with an alpha mask let rays pass, blended ones let a share of the rays pass (Blend in
+// ray_scene.h says which).
 
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
@@ -25,18 +26,22 @@ AlphaTexture make_alpha_texture(const Scene& scene, const TextureRef& reference)
 struct AlphaCutout {
     int material = no_index;
     float cutoff = 0.5f;
+    bool blended = false;
     AlphaTexture texture;
     std::vector<glm::uvec3> triangles;
     std::vector<glm::vec2> uv;        ///< per vertex, of the texture's set; may be empty
     std::vector<float> vertex_alpha;  ///< may be empty
 
-    /// Whether a ray passes at barycentrics u, v of a triangle.
+    /// Alpha at barycentrics u, v of a triangle.
     /// @param material_alpha  MaterialValues::alpha now
-    bool is_hole(float material_alpha, unsigned primitive, float u, float v) const;
+    float alpha_at(float material_alpha, unsigned primitive, float u, float v) const;
 };
 
-/// False for meshes without holes: those cost nothing.
+/// False for meshes without holes: those cost nothing. So are masked and blended ones whose alpha is 1 everywhere.
 bool has_cutout(const Scene& scene, const Mesh& mesh);
+
+/// Whether a mesh that some node carries has a blended material, and an alpha that can differ from 1.
+bool has_blended(const Scene& scene);
 
 /// For a mesh that has_cutout.
 AlphaCutout make_alpha_cutout(const Scene& scene, const Mesh& mesh);

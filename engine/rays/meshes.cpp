@@ -165,6 +165,7 @@ MeshStructures::MeshStructures(const Scene& scene, const PosePlan& plan, std::un
         if (!has_cutout(scene, scene.meshes[i])) continue;
         cutouts[i] = std::make_unique<const AlphaCutout>(make_alpha_cutout(scene, scene.meshes[i]));
         any_cutout = true;
+        any_blended = any_blended || cutouts[i]->blended;
     }
     ObjectMaker maker(*this, scene, plan);
     for (std::size_t n = 0; n < scene.nodes.size(); ++n) maker.add_node(static_cast<int>(n));

@@ -63,10 +63,20 @@ class RayScene {
     std::unique_ptr<State> state_;
 };
 
+/// What surfaces of materials with AlphaMode::blend do to rays. Alpha masks are the same in both.
+enum class Blend {
+    cutout,  ///< rays pass where alpha is below .5: no noise, for maps and quick pictures
+    /// At each surface a ray passes with probability 1 - alpha, so that pictures and shadows are right on average. The
+    /// choice is a hash of the ray's origin and direction, the instance and the triangle: the same whenever the same
+    /// ray is cast, alone or in a packet, on any thread, and independent between different rays and between the
+    /// surfaces that one ray meets. Rays with equal origin and direction share their choices: vary them per sample.
+    random,
+};
+
 /// Casts rays. Make one per task: it is cheap, counts locally, and adds its counts to the RayScene when destroyed.
 class Tracer {
   public:
-    explicit Tracer(const RayScene& scene);
+    explicit Tracer(const RayScene& scene, Blend blend = Blend::cutout);
     ~Tracer();
     Tracer(const Tracer&) = delete;
     Tracer& operator=(const Tracer&) = delete;
@@ -80,6 +90,7 @@ class Tracer {
 
   private:
     RayScene::State& state_;
+    Blend blend_;
     std::uint64_t traced_ = 0, invalid_ = 0;
 };
 

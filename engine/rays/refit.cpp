@@ -5,6 +5,7 @@
 #include <limits>
 #include <numeric>
 
+#include "engine/rays/filters.h"
 #include "engine/rays/state.h"
 
 namespace aleph {

@@ -15,14 +15,6 @@ namespace aleph {
 /// Embree silently drops geometry beyond this; we refuse it with an error.
 inline constexpr float max_coordinate = 1.844e18f;
 
-/// Embree's filter on every geometry: of hits at one distance it keeps the lowest (instance, primitive), so that the
-/// result does not depend on the order in which a tree finds them.
-void keep_lowest_of_nearest(const RTCFilterFunctionNArguments* arguments);
-
-/// The filters of meshes with an alpha mask (their user data is the AlphaCutout): rays pass through the holes.
-void keep_lowest_of_nearest_but_holes(const RTCFilterFunctionNArguments* arguments);
-void pass_holes(const RTCFilterFunctionNArguments* arguments);
-
 /// Embree's structures of every mesh in object space, built once and shared by the RayScenes of neighbouring frames,
 /// and which instances they belong to.
 struct MeshStructures {
@@ -53,6 +45,7 @@ struct MeshStructures {
     std::vector<DeformingMesh> deforming;
     std::vector<std::unique_ptr<const AlphaCutout>> cutouts;  ///< as Scene::meshes; null: no holes
     bool any_cutout = false;
+    bool any_blended = false;  ///< of the cutouts
     std::size_t degenerate_triangles = 0;
 };
 

@@ -2,12 +2,10 @@
 // first: an invalid one is counted and is a miss.
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <limits>
-#include <utility>
 
 #include "engine/base/errors.h"
+#include "engine/rays/filters.h"
 #include "engine/rays/ray_scene.h"
 #include "engine/rays/state.h"
 
@@ -30,44 +28,6 @@ bool is_valid(const Ray& ray) {
     };
     return fits(ray.origin) && fits(ray.direction) && ray.near >= 0.0f && ray.near < max_ray_component &&
            ray.far >= ray.near && embree_direction(ray) != glm::vec3(0.0f);
-}
-
-constexpr int max_packet_width = 16;
-
-/// Distances this near each other, relatively, count as equal: about 30 roundings. Embree's single rays, packets and
-/// processors differ by up to 1.8e-6 of a distance.
-constexpr float tie = 0x1p-19f;
-
-/// Embree passes its context to the filters; this is what they find in it.
-struct RayContext {
-    RTCIntersectContext embree;
-    const RayScene::State* state;
-
-    RayContext(const RayScene::State& of, bool coherent) : state(&of) {
-        rtcInitIntersectContext(&embree);
-        embree.flags = coherent ? RTC_INTERSECT_CONTEXT_FLAG_COHERENT : RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
-    }
-};
-
-/// What the filters of first hits know about the rays being traced.
-struct FilterContext {
-    RayContext common;  ///< first
-    /// The hit that each ray has accepted so far: the hit part of the packet that Embree was given.
-    RTCHitN* accepted;
-    std::array<float, max_packet_width> far;       ///< where each ray ends by itself
-    std::array<float, max_packet_width> nearest;   ///< distance of the nearest hit offered
-    std::array<float, max_packet_width> distance;  ///< of the one accepted, which ties with it
-
-    FilterContext(const RayScene::State& state, bool coherent, void* hits)
-        : common(state, coherent), accepted(static_cast<RTCHitN*>(hits)) {
-        nearest.fill(std::numeric_limits<float>::infinity());
-    }
-};
-
-/// Instance and primitive of lane i of `count`.
-std::pair<int, unsigned> identify(const MeshStructures& meshes, RTCHitN* hits, unsigned count, unsigned i) {
-    const MeshStructures::Object& object = meshes.objects[RTCHitN_instID(hits, count, i, 0)];
-    return {object.first_instance + static_cast<int>(RTCHitN_geomID(hits, count, i)), RTCHitN_primID(hits, count, i)};
 }
 
 Hit make_hit(const MeshStructures& meshes, unsigned object, unsigned geometry, unsigned primitive, float u, float v,
@@ -122,8 +82,8 @@ void fill_lane(Rays& packet, int* valid, int lane, const Ray* ray, PacketCounts&
 }
 
 template <int Width>
-PacketCounts intersect_packets(const RayScene::State& state, std::span<const Ray> rays, std::span<Hit> hits,
-                               bool coherent) {
+PacketCounts intersect_packets(const RayScene::State& state, Blend blend, std::span<const Ray> rays,
+                               std::span<Hit> hits, bool coherent) {
     PacketCounts counts;
     alignas(64) int valid[Width];
     alignas(64) typename Packet<Width>::RayHits packet;
@@ -134,11 +94,12 @@ PacketCounts intersect_packets(const RayScene::State& state, std::span<const Ray
             packet.hit.geomID[lane] = RTC_INVALID_GEOMETRY_ID;
             packet.hit.instID[0][lane] = RTC_INVALID_GEOMETRY_ID;
         }
-        FilterContext context(state, coherent, &packet.hit);
+        const std::size_t count = std::min<std::size_t>(Width, rays.size() - begin);
+        FilterContext context(state, blend, coherent, &packet.hit);
+        context.common.set_rays(rays.subspan(begin, count));
         std::copy_n(packet.ray.tfar, Width, context.far.begin());
         for (const Layer* layer : state.layers())
             if (layer->enabled > 0) Packet<Width>::intersect(valid, layer->top.get(), &context.common.embree, &packet);
-        const std::size_t count = std::min<std::size_t>(Width, rays.size() - begin);
         for (std::size_t lane = 0; lane < count; ++lane) {
             hits[begin + lane] =
                 make_hit(*state.meshes, packet.hit.instID[0][lane], packet.hit.geomID[lane], packet.hit.primID[lane],
@@ -149,11 +110,11 @@ PacketCounts intersect_packets(const RayScene::State& state, std::span<const Ray
 }
 
 template <int Width>
-PacketCounts occluded_packets(const RayScene::State& state, std::span<const Ray> rays,
+PacketCounts occluded_packets(const RayScene::State& state, Blend blend, std::span<const Ray> rays,
                               std::span<std::uint8_t> blocked) {
     PacketCounts counts;
     // Never "coherent": with that flag this Embree's occlusion packets can loop for ever over instances.
-    RayContext context(state, false);
+    RayContext context(state, blend, false);
     alignas(64) int valid[Width];
     alignas(64) typename Packet<Width>::Rays packet;
     for (std::size_t begin = 0; begin < rays.size(); begin += Width) {
@@ -162,6 +123,7 @@ PacketCounts occluded_packets(const RayScene::State& state, std::span<const Ray>
             fill_lane(packet, valid, lane, i < rays.size() ? &rays[i] : nullptr, counts);
         }
         const std::size_t count = std::min<std::size_t>(Width, rays.size() - begin);
+        context.set_rays(rays.subspan(begin, count));
         for (const Layer* layer : state.layers()) {
             if (layer->enabled == 0) continue;
             Packet<Width>::occluded(valid, layer->top.get(), &context.embree, &packet);
@@ -179,61 +141,7 @@ PacketCounts occluded_packets(const RayScene::State& state, std::span<const Ray>
 
 }  // namespace
 
-void keep_lowest_of_nearest(const RTCFilterFunctionNArguments* arguments) {
-    FilterContext& context = *reinterpret_cast<FilterContext*>(arguments->context);
-    const MeshStructures& meshes = *context.common.state->meshes;
-    const unsigned count = arguments->N;  // lane i of the packet is ray i of ours
-    int* const valid = arguments->valid;
-    float* const offered = &RTCRayN_tfar(arguments->ray, count, 0);
-    constexpr float beyond = 1.0f + tie;
-    int close = 0;
-    for (unsigned i = 0; i < count; ++i) close |= valid[i] & (offered[i] * beyond < context.nearest[i] ? 0 : -1);
-    if (close == 0) {  // as a rule: whatever was accepted before lies clearly farther
-        for (unsigned i = 0; i < count; ++i) {
-            const bool accept = valid[i] != 0;
-            context.nearest[i] = accept ? offered[i] : context.nearest[i];
-            context.distance[i] = accept ? offered[i] : context.distance[i];
-            offered[i] = accept ? std::min(offered[i] * beyond, context.far[i]) : offered[i];
-        }
-        return;
-    }
-    for (unsigned i = 0; i < count; ++i) {
-        if (valid[i] == 0) continue;
-        const bool lost = !(offered[i] * beyond < context.nearest[i]) &&
-                          RTCHitN_geomID(context.accepted, count, i) != RTC_INVALID_GEOMETRY_ID &&
-                          (offered[i] > context.nearest[i] * beyond ||
-                           identify(meshes, arguments->hit, count, i) >= identify(meshes, context.accepted, count, i));
-        context.nearest[i] = std::min(context.nearest[i], offered[i]);
-        if (lost) {
-            valid[i] = 0;
-            continue;
-        }
-        context.distance[i] = offered[i];
-        // A little more than the hit: what ties with it must be offered too, whichever comes first.
-        offered[i] = std::min(context.nearest[i] * beyond, context.far[i]);
-    }
-}
-
-void pass_holes(const RTCFilterFunctionNArguments* arguments) {
-    const RayContext& context = *reinterpret_cast<const RayContext*>(arguments->context);
-    const AlphaCutout& cutout = *static_cast<const AlphaCutout*>(arguments->geometryUserPtr);
-    const float alpha = context.state->alpha[cutout.material];
-    const unsigned count = arguments->N;
-    for (unsigned i = 0; i < count; ++i) {
-        if (arguments->valid[i] != 0 &&
-            cutout.is_hole(alpha, RTCHitN_primID(arguments->hit, count, i), RTCHitN_u(arguments->hit, count, i),
-                           RTCHitN_v(arguments->hit, count, i))) {
-            arguments->valid[i] = 0;
-        }
-    }
-}
-
-void keep_lowest_of_nearest_but_holes(const RTCFilterFunctionNArguments* arguments) {
-    pass_holes(arguments);
-    keep_lowest_of_nearest(arguments);
-}
-
-Tracer::Tracer(const RayScene& scene) : state_(*scene.state_) {}
+Tracer::Tracer(const RayScene& scene, Blend blend) : state_(*scene.state_), blend_(blend) {}
 
 Tracer::~Tracer() {
     if (traced_ > 0) state_.rays_traced.fetch_add(traced_, std::memory_order_relaxed);
@@ -252,7 +160,8 @@ Hit Tracer::intersect(const Ray& ray) {
                  direction.z,  0.0f,         ray.far,      ~0u,      0,           0};
     query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
     query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
-    FilterContext context(state_, false, &query.hit);
+    FilterContext context(state_, blend_, false, &query.hit);
+    context.common.set_rays({&ray, 1});
     context.far[0] = ray.far;
     for (const Layer* layer : state_.layers())
         if (layer->enabled > 0) rtcIntersect1(layer->top.get(), &context.common.embree, &query);
@@ -266,7 +175,8 @@ bool Tracer::occluded(const Ray& ray) {
         return false;
     }
     ++traced_;
-    RayContext context(state_, false);
+    RayContext context(state_, blend_, false);
+    context.set_rays({&ray, 1});
     const glm::vec3 direction = embree_direction(ray);
     RTCRay query = {ray.origin.x, ray.origin.y, ray.origin.z, ray.near, direction.x, direction.y,
                     direction.z,  0.0f,         ray.far,      ~0u,      0,           0};
@@ -279,8 +189,9 @@ bool Tracer::occluded(const Ray& ray) {
 
 void Tracer::intersect(std::span<const Ray> rays, std::span<Hit> hits, bool coherent) {
     ALEPH_CHECK(rays.size() == hits.size(), std::to_string(rays.size()) + " rays, " + std::to_string(hits.size()));
-    const PacketCounts counts = state_.meshes->packet_width == 16 ? intersect_packets<16>(state_, rays, hits, coherent)
-                                                                  : intersect_packets<8>(state_, rays, hits, coherent);
+    const PacketCounts counts = state_.meshes->packet_width == 16
+                                    ? intersect_packets<16>(state_, blend_, rays, hits, coherent)
+                                    : intersect_packets<8>(state_, blend_, rays, hits, coherent);
     traced_ += counts.traced;
     invalid_ += counts.invalid;
 }
@@ -288,8 +199,8 @@ void Tracer::intersect(std::span<const Ray> rays, std::span<Hit> hits, bool cohe
 void Tracer::occluded(std::span<const Ray> rays, std::span<std::uint8_t> blocked) {
     ALEPH_CHECK(rays.size() == blocked.size(),
                 std::to_string(rays.size()) + " rays, " + std::to_string(blocked.size()));
-    const PacketCounts counts = state_.meshes->packet_width == 16 ? occluded_packets<16>(state_, rays, blocked)
-                                                                  : occluded_packets<8>(state_, rays, blocked);
+    const PacketCounts counts = state_.meshes->packet_width == 16 ? occluded_packets<16>(state_, blend_, rays, blocked)
+                                                                  : occluded_packets<8>(state_, blend_, rays, blocked);
     traced_ += counts.traced;
     invalid_ += counts.invalid;
 }

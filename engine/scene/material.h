@@ -14,7 +14,8 @@
 
 namespace aleph {
 
-/// A decoded picture. Eight bits a channel, or float for EXR and HDR; one of the two is empty.
+/// A decoded picture. Eight bits a channel, or float for EXR and HDR and for the picture of the environment; one of the
+/// two is empty.
 struct SceneImage {
     std::string name;
     std::string path;  ///< relative to the scene file; empty where it was embedded

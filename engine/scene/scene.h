@@ -128,9 +128,10 @@ struct Scene {
     std::optional<double> exposure;                ///< factor on radiance
     std::optional<Track<glm::dvec3>> environment;  ///< radiance all around; factor on environment_image where set
     /// Index of an equirectangular picture that surrounds the scene: its middle column lies along -z, u grows towards
-    /// +x, its top row is +y. Needs `environment`.
+    /// +x, its top row is +y. Its pixels are floats, linear radiance. Needs `environment`.
     int environment_image = no_index;
     Track<glm::dquat> environment_rotation{glm::dquat(1.0, 0.0, 0.0, 0.0)};  ///< picture to world
+    std::optional<AxisRotation> environment_axis_rotation;                   ///< in place of `environment_rotation`
     std::string camera;  ///< name of the camera or of its node; empty: the first
 
     std::vector<Node> nodes;  ///< a parent stands before its children

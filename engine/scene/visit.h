@@ -34,6 +34,16 @@ void visit_tracks(const Material& m, const Visit& visit) {
         visit(*track);
 }
 
+/// The environment's radiance, and the rotation of its picture.
+template <class Visit>
+void visit_environment(const Scene& scene, const Visit& visit) {
+    if (scene.environment) visit(*scene.environment);
+    if (scene.environment_axis_rotation)
+        visit(scene.environment_axis_rotation->angle);
+    else
+        visit(scene.environment_rotation);
+}
+
 template <class Visit>
 void visit_tracks(const Light& light, const Visit& visit) {
     visit(light.color);

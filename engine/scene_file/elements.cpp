@@ -29,11 +29,21 @@ int add_image(SceneReader& reader, const JsonRef& at, const std::string& name) {
     return index;
 }
 
-int read_image_use(SceneReader& reader, const JsonRef& at) {
-    if (const auto named = reader.images.find(at.string())) return *named;
-    if (const auto known = reader.image_of_path.find(at.string()); known != reader.image_of_path.end())
-        return known->second;
-    return add_image(reader, at, at.string());
+/// Reads an angle that stands under one of the field's two keys. @return its place; nothing where both are absent
+template <class Element>
+std::optional<JsonRef> read_angle(const JsonRef& at, const AngleField<Element>& field, const FrameRate& rate,
+                                  Element& element) {
+    auto degrees = at.find(field.key), radians = at.find(field.key_in_radians);
+    if (degrees && radians) {
+        radians->fail(fmt::format("either \"{}\" or \"{}\", not both", field.key, field.key_in_radians));
+    }
+    if (degrees) element.*field.member = read_degrees(*degrees, rate, field.range);
+    if (radians) {
+        const ValueRange& range = field.range;
+        element.*field.member =
+            read_number(*radians, rate, {to_radians(range.low), to_radians(range.high), range.open});
+    }
+    return degrees ? degrees : radians;
 }
 
 TextureRef read_texture(SceneReader& reader, const JsonRef& at) {
@@ -75,6 +85,10 @@ int add_material(SceneReader& reader, const JsonRef& at, const std::string& name
     for (const auto& field : material_colors) {
         if (const auto value = at.find(field.key)) material.*field.member = read_vector(*value, rate, field.range);
     }
+    for (const auto& field : material_angles) read_angle(at, field, rate, material);
+    for (const auto& field : material_scales) {
+        if (const auto value = at.find(field.key)) material.*field.member = value->number();
+    }
     for (const auto& field : material_textures) {
         if (const auto value = at.find(field.key)) material.*field.member = read_texture(reader, *value);
     }
@@ -106,14 +120,8 @@ int add_light(SceneReader& reader, const JsonRef& at, const std::string& name) {
         if (light.kind == Light::Kind::directional) value->fail("a directional light has no range");
     }
     for (const auto& field : light_cones) {
-        const auto degrees = at.find(field.key), radians = at.find(field.key_in_radians);
-        if (degrees && radians) {
-            radians->fail(fmt::format("either \"{}\" or \"{}\", not both", field.key, field.key_in_radians));
-        }
-        if (!degrees && !radians) continue;
-        if (light.kind != Light::Kind::spot) (degrees ? *degrees : *radians).fail("only a spot light has cones");
-        light.*field.member = degrees ? read_degrees(*degrees, rate, cone_degrees)
-                                      : read_number(*radians, rate, {0.0, std::numbers::pi / 2.0, false});
+        const auto angle = read_angle(at, field, rate, light);
+        if (angle && light.kind != Light::Kind::spot) angle->fail("only a spot light has cones");
     }
     const bool constant = light.inner_cone.values.size() == 1 && light.outer_cone.values.size() == 1;
     if (constant && light.inner_cone.values[0] > light.outer_cone.values[0]) {
@@ -127,10 +135,8 @@ int add_camera(SceneReader& reader, const JsonRef& at, const std::string& name) 
     reader.charge(sizeof(Camera) + 400, at, "it has too many cameras");
     Camera camera;
     camera.name = name;
-    const auto fov = at.find("fov"), fov_radians = at.find("fov_radians"), orthographic = at.find("orthographic");
-    if (fov && fov_radians) fov_radians->fail("either \"fov\" or \"fov_radians\", not both");
-    if (fov) camera.fov = read_degrees(*fov, rate, field_of_view_degrees);
-    if (fov_radians) camera.fov = read_number(*fov_radians, rate, {0.0, std::numbers::pi, true});
+    for (const auto& field : camera_angles) read_angle(at, field, rate, camera);
+    const auto orthographic = at.find("orthographic");
     if (orthographic) camera.orthographic = orthographic->boolean();
     for (const auto& field : camera_numbers) {
         if (const auto value = at.find(field.key)) camera.*field.member = read_number(*value, rate, field.range);
@@ -168,6 +174,13 @@ std::string path_fault(std::string_view path) {
     if (path.front() == '/' || path.front() == '~') return "a path is relative to the scene file, not absolute";
     const auto scheme = path.substr(0, path.find('/')).find(':');
     return scheme == std::string_view::npos ? "" : "a path is relative to the scene file: no drives and no addresses";
+}
+
+int read_image_use(SceneReader& reader, const JsonRef& at) {
+    if (const auto named = reader.images.find(at.string())) return *named;
+    if (const auto known = reader.image_of_path.find(at.string()); known != reader.image_of_path.end())
+        return known->second;
+    return add_image(reader, at, at.string());
 }
 
 int read_material_use(SceneReader& reader, const JsonRef& at, const std::string& name) {

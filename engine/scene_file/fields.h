@@ -41,11 +41,19 @@ inline constexpr std::array material_numbers{
     TrackField<Material, double>{"ior", &Material::ior, at_least_one},
     TrackField<Material, double>{"emission_strength", &Material::emission_strength, not_negative},
     TrackField<Material, double>{"transmission", &Material::transmission, zero_to_one},
+    TrackField<Material, double>{"thickness", &Material::thickness, not_negative},
+    TrackField<Material, double>{"attenuation_distance", &Material::attenuation_distance, not_negative},
+    TrackField<Material, double>{"clearcoat", &Material::clearcoat, zero_to_one},
+    TrackField<Material, double>{"clearcoat_roughness", &Material::clearcoat_roughness, zero_to_one},
+    TrackField<Material, double>{"sheen_roughness", &Material::sheen_roughness, zero_to_one},
+    TrackField<Material, double>{"anisotropy", &Material::anisotropy, zero_to_one},
 };
 inline constexpr std::array material_colors{
     TrackField<Material, glm::dvec3>{"base_color", &Material::base_color, zero_to_one},
     TrackField<Material, glm::dvec3>{"specular_color", &Material::specular_color, not_negative},
     TrackField<Material, glm::dvec3>{"emission", &Material::emission, not_negative},
+    TrackField<Material, glm::dvec3>{"attenuation_color", &Material::attenuation_color, zero_to_one},
+    TrackField<Material, glm::dvec3>{"sheen_color", &Material::sheen_color, zero_to_one},
 };
 /// A value that does not change over time.
 template <class Element, class T>
@@ -62,14 +70,35 @@ inline constexpr std::array camera_numbers{
     TrackField<Camera, double>{"focus", &Camera::focus_distance, above_zero},
 };
 
-struct ConeField {
-    const char* key;
-    const char* key_in_radians;
-    Track<double> Light::*member;
+inline constexpr std::array material_scales{
+    Field<Material, double>{"normal_scale", &Material::normal_scale},
+    Field<Material, double>{"clearcoat_normal_scale", &Material::clearcoat_normal_scale},
+};
+inline constexpr std::array viewing_numbers{
+    Field<ViewingConditions, double>{"pixels_per_degree", &ViewingConditions::pixels_per_degree},
+    Field<ViewingConditions, double>{"display_white", &ViewingConditions::display_white},
+    Field<ViewingConditions, double>{"persistence", &ViewingConditions::persistence},
+};
+
+/// An angle under one of two keys.
+template <class Element>
+struct AngleField {
+    const char* key;             ///< degrees
+    const char* key_in_radians;  ///< where programs need every bit
+    Track<double> Element::*member;
+    ValueRange range;  ///< degrees
+};
+
+inline constexpr std::array camera_angles{
+    AngleField<Camera>{"fov", "fov_radians", &Camera::fov, field_of_view_degrees},
 };
 inline constexpr std::array light_cones{
-    ConeField{"inner_cone", "inner_cone_radians", &Light::inner_cone},
-    ConeField{"outer_cone", "outer_cone_radians", &Light::outer_cone},
+    AngleField<Light>{"inner_cone", "inner_cone_radians", &Light::inner_cone, cone_degrees},
+    AngleField<Light>{"outer_cone", "outer_cone_radians", &Light::outer_cone, cone_degrees},
+};
+inline constexpr std::array material_angles{
+    AngleField<Material>{"anisotropy_rotation", "anisotropy_rotation_radians", &Material::anisotropy_rotation,
+                         any_value},
 };
 
 inline constexpr std::array shape_numbers{

@@ -5,7 +5,6 @@
 #include <unordered_set>
 
 #include "engine/base/errors.h"
-#include "engine/scene/transforms.h"
 #include "engine/scene_file/operations.h"
 #include "engine/scene_file/reader.h"
 #include "engine/scene_file/tracks.h"
@@ -97,26 +96,10 @@ class NodeReader {
         if (const auto value = at.find("operations")) node.operations = read_operations(*value, rate);
         if (const auto value = at.find("translation")) node.translation = read_vector(*value, rate, any_value);
         if (const auto value = at.find("scale")) node.scale = read_scale(*value, rate);
-        if (const auto value = at.find("rotation")) read_rotation(*value, node);
-    }
-
-    void read_rotation(const JsonRef& at, Node& node) const {
-        const auto axis = at.json().is_object() ? at.find("axis") : std::nullopt;
-        if (!axis) {
-            node.rotation = read_quaternion(at, scene_.frame_rate);
-            return;
+        if (const auto value = at.find("rotation")) {
+            node.axis_rotation = read_axis_rotation(*value, rate);
+            if (!node.axis_rotation) node.rotation = read_quaternion(*value, rate);
         }
-        AxisRotation rotation;
-        const glm::dvec3 given = read_dvec3(*axis);
-        const double length = glm::length(safe_normalize(given));
-        if (length == 0.0) axis->fail("the axis cannot be zero");
-        // An axis that is unit within rounding keeps its bits.
-        rotation.axis = std::abs(glm::length(given) - 1.0) < 1e-15 ? given : safe_normalize(given);
-        const auto degrees = at.find("degrees"), radians = at.find("radians");
-        if (degrees.has_value() == radians.has_value()) at.fail("an axis goes with either \"degrees\" or \"radians\"");
-        rotation.angle = degrees ? read_degrees(*degrees, scene_.frame_rate, any_value)
-                                 : read_number(*radians, scene_.frame_rate, any_value);
-        node.axis_rotation = std::move(rotation);
     }
 
     void read_meshes(const JsonRef& at, Node& node, const std::string& name) {

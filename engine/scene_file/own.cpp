@@ -42,6 +42,9 @@ Scene without_includes(const Scene& scene, const std::string& file) {
     own.viewing = scene.viewing;
     own.exposure = scene.exposure;
     own.environment = scene.environment;
+    own.environment_image = scene.environment_image;
+    own.environment_rotation = scene.environment_rotation;
+    own.environment_axis_rotation = scene.environment_axis_rotation;
     own.camera = scene.camera;
     own.nodes = own_part("node", scene.nodes, file);
     own.meshes = own_part("mesh", scene.meshes, file);

@@ -56,6 +56,9 @@ struct SceneReader {
 
 using KeyOrder = std::map<std::string, std::vector<std::string>>;
 
+/// The root's picture of the environment and its rotation. After read_elements: it may name one of the images.
+void read_environment_picture(SceneReader& reader, const JsonRef& root);
+
 /// The root's images, materials, meshes, lights and cameras, in the order of the file.
 void read_elements(SceneReader& reader, const JsonRef& root, const KeyOrder& key_order);
 
@@ -64,6 +67,9 @@ int read_material_use(SceneReader& reader, const JsonRef& at, const std::string&
 int read_light_use(SceneReader& reader, const JsonRef& at, const std::string& name);
 int read_camera_use(SceneReader& reader, const JsonRef& at, const std::string& name);
 int read_cage_use(SceneReader& reader, const JsonRef& at, const std::string& name);
+
+/// The image that a text names: a name from "images", or a path, which becomes an image.
+int read_image_use(SceneReader& reader, const JsonRef& at);
 
 /// The enumerator that the text names. @param words  in the order of the enumerators
 template <class Enum, class Words>

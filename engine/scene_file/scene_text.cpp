@@ -48,8 +48,8 @@ void read_header(Scene& scene, const JsonRef& root) {
         }
     }
     if (const auto viewing = root.find("viewing")) {
-        if (const auto value = viewing->find("pixels_per_degree")) scene.viewing.pixels_per_degree = value->number();
-        if (const auto value = viewing->find("display_white")) scene.viewing.display_white = value->number();
+        for (const auto& field : viewing_numbers)
+            if (const auto value = viewing->find(field.key)) scene.viewing.*field.member = value->number();
     }
     if (const auto exposure = root.find("exposure")) scene.exposure = exposure->number();
     if (const auto value = root.find("environment")) {
@@ -106,6 +106,19 @@ int NameIndex::require(const JsonRef& at) const {
         fmt::format("there is no {} called \"{}\"{}", kind_, printable(at.string()), suggestion(at.string(), names_)));
 }
 
+void read_environment_picture(SceneReader& reader, const JsonRef& root) {
+    Scene& scene = reader.scene;
+    const auto picture = root.find("environment_image");
+    if (const auto rotation = root.find("environment_rotation")) {
+        if (!picture) rotation->fail("\"environment_rotation\" turns \"environment_image\", which is not given");
+        scene.environment_axis_rotation = read_axis_rotation(*rotation, scene.frame_rate);
+        if (!scene.environment_axis_rotation) scene.environment_rotation = read_quaternion(*rotation, scene.frame_rate);
+    }
+    if (!picture) return;
+    scene.environment_image = read_image_use(reader, *picture);
+    if (!scene.environment) scene.environment = Track<glm::dvec3>(glm::dvec3(1.0));
+}
+
 void SceneReader::charge(std::size_t bytes, const JsonRef& at, const char* advice) {
     memory += bytes;
     if (memory <= limits.scene()) return;
@@ -123,6 +136,7 @@ SceneText read_scene_text(std::string_view text, const std::string& file, const 
     reader.limits = limits;
     read_header(reader.scene, root);
     read_elements(reader, root, parsed.key_order);
+    read_environment_picture(reader, root);
     read_nodes(reader, root);
     read_includes(reader, root, no_index);
     read_settings(reader.scene, root);

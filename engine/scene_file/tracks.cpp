@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "engine/base/errors.h"
+#include "engine/scene/transforms.h"
 
 namespace aleph {
 
@@ -254,6 +255,21 @@ Track<glm::dvec3> read_scale(const JsonRef& at, const FrameRate& rate) {
 
 Track<glm::dquat> read_quaternion(const JsonRef& at, const FrameRate& rate) {
     return read_track<glm::dquat>(at, rate, {read_four});
+}
+
+std::optional<AxisRotation> read_axis_rotation(const JsonRef& at, const FrameRate& rate) {
+    const auto axis = at.json().is_object() ? at.find("axis") : std::nullopt;
+    if (!axis) return std::nullopt;
+    AxisRotation rotation;
+    const glm::dvec3 given = read_dvec3(*axis);
+    const glm::dvec3 unit = safe_normalize(given);
+    if (unit == glm::dvec3(0.0)) axis->fail("the axis cannot be zero");
+    // An axis that is unit within rounding keeps its bits.
+    rotation.axis = std::abs(glm::length(given) - 1.0) < 1e-15 ? given : unit;
+    const auto degrees = at.find("degrees"), radians = at.find("radians");
+    if (degrees.has_value() == radians.has_value()) at.fail("an axis goes with either \"degrees\" or \"radians\"");
+    rotation.angle = degrees ? read_degrees(*degrees, rate, any_value) : read_number(*radians, rate, any_value);
+    return rotation;
 }
 
 Track<glm::dmat4> read_matrix(const JsonRef& at, const FrameRate& rate) {

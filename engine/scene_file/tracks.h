@@ -16,6 +16,9 @@ Track<double> read_number(const JsonRef& at, const FrameRate& rate, const ValueR
 Track<glm::dvec3> read_vector(const JsonRef& at, const FrameRate& rate, const ValueRange& range);
 Track<glm::dvec3> read_scale(const JsonRef& at, const FrameRate& rate);
 Track<glm::dquat> read_quaternion(const JsonRef& at, const FrameRate& rate);
+/// A rotation about a fixed axis, with degrees or radians; nothing where the value is no object with an axis: then it
+/// is a quaternion.
+std::optional<AxisRotation> read_axis_rotation(const JsonRef& at, const FrameRate& rate);
 Track<glm::dmat4> read_matrix(const JsonRef& at, const FrameRate& rate);
 /// false, true and "always" as 0, 1 and 2; step.
 Track<double> read_visibility(const JsonRef& at, const FrameRate& rate);

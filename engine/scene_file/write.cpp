@@ -95,11 +95,9 @@ class Writer {
         }
         if (scene_.range) out_["frames"] = {scene_.range->first, scene_.range->last};
         if (!scene_.cuts.empty()) out_["cuts"] = scene_.cuts;
-        if (scene_.viewing.pixels_per_degree != absent.viewing.pixels_per_degree) {
-            out_["viewing"]["pixels_per_degree"] = scene_.viewing.pixels_per_degree;
-        }
-        if (scene_.viewing.display_white != absent.viewing.display_white) {
-            out_["viewing"]["display_white"] = scene_.viewing.display_white;
+        for (const auto& field : viewing_numbers) {
+            const double value = scene_.viewing.*field.member;
+            if (value != absent.viewing.*field.member) out_["viewing"][field.key] = value;
         }
         if (scene_.exposure) out_["exposure"] = *scene_.exposure;
         if (!scene_.camera.empty()) out_["camera"] = scene_.camera;
@@ -108,9 +106,20 @@ class Writer {
             validate(*scene_.environment, at_.file, at_.place);
             out_["environment"] = write_vector(*scene_.environment, at_.rate());
         }
+        write_environment_picture();
         for (const auto& [key, value] : scene_.settings) {
             std::visit([&, name = key](const auto& v) { out_["settings"][name] = v; }, value);
         }
+    }
+
+    void write_environment_picture() {
+        at_.place = "environment_image";
+        if (scene_.environment_image != no_index) {
+            if (!scene_.environment) at_.refuse("needs `environment`, the factor on the picture");
+            out_["environment_image"] = at_.name_in(scene_.images, scene_.environment_image);
+        }
+        at_.place = "environment";
+        at_.rotation(out_, "environment_rotation", scene_.environment_rotation, scene_.environment_axis_rotation);
     }
 
     ordered_json write_mesh(const Mesh& mesh) const {
@@ -170,12 +179,7 @@ class Writer {
             out["parent"] = parent;
         }
         at_.track(out, "translation", node.translation, absent.translation, write_vector);
-        if (node.axis_rotation) {
-            out["rotation"]["axis"] = write_dvec3(node.axis_rotation->axis);
-            at_.angle(out["rotation"], "degrees", "radians", node.axis_rotation->angle);
-        } else {
-            at_.track(out, "rotation", node.rotation, absent.rotation, write_quaternion);
-        }
+        at_.rotation(out, "rotation", node.rotation, node.axis_rotation);
         at_.track(out, "scale", node.scale, absent.scale, write_scale);
         if (node.matrix) {
             validate(*node.matrix, at_.file, at_.place + " matrix");

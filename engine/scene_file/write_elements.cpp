@@ -41,6 +41,16 @@ void SceneWriting::angle(ordered_json& out, const char* degrees_key, const char*
     }
 }
 
+void SceneWriting::rotation(ordered_json& out, const char* key, const Track<glm::dquat>& value,
+                            const std::optional<AxisRotation>& about_axis) const {
+    if (about_axis) {
+        out[key]["axis"] = write_dvec3(about_axis->axis);
+        angle(out[key], "degrees", "radians", about_axis->angle);
+    } else {
+        track(out, key, value, Node{}.rotation, write_quaternion);
+    }
+}
+
 ordered_json write_material(const SceneWriting& at, const Material& material) {
     const Material absent = absent_material();
     ordered_json out = ordered_json::object();
@@ -49,6 +59,10 @@ ordered_json write_material(const SceneWriting& at, const Material& material) {
     }
     for (const auto& field : material_numbers) {
         at.track(out, field.key, material.*field.member, absent.*field.member, write_number);
+    }
+    at.angles(out, material, absent, material_angles);
+    for (const auto& field : material_scales) {
+        if (material.*field.member != absent.*field.member) out[field.key] = material.*field.member;
     }
     for (const auto& field : material_textures) {
         if ((material.*field.member).image != no_index) out[field.key] = write_texture(at, material.*field.member);
@@ -68,18 +82,14 @@ ordered_json write_light(const SceneWriting& at, const Light& light) {
     at.track(out, "color", light.color, absent.color, write_vector);
     at.track(out, "intensity", light.intensity, absent.intensity, write_number);
     at.track(out, "range", light.range, absent.range, write_number);
-    for (const auto& field : light_cones) {
-        if (light.*field.member != absent.*field.member) {
-            at.angle(out, field.key, field.key_in_radians, light.*field.member);
-        }
-    }
+    at.angles(out, light, absent, light_cones);
     return out;
 }
 
 ordered_json write_camera(const SceneWriting& at, const Camera& camera) {
     const Camera absent;
     ordered_json out = ordered_json::object();
-    if (camera.fov != absent.fov) at.angle(out, "fov", "fov_radians", camera.fov);
+    at.angles(out, camera, absent, camera_angles);
     if (camera.orthographic || camera.half_height != absent.half_height) out["orthographic"] = camera.orthographic;
     for (const auto& field : camera_numbers) {
         at.track(out, field.key, camera.*field.member, absent.*field.member, write_number);

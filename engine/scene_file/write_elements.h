@@ -39,6 +39,18 @@ struct SceneWriting {
     /// Writes degrees where they give back every bit, else radians.
     void angle(nlohmann::ordered_json& out, const char* degrees_key, const char* radians_key,
                const Track<double>& value) const;
+    template <class Element, class Fields>
+    void angles(nlohmann::ordered_json& out, const Element& element, const Element& absent,
+                const Fields& fields) const {
+        for (const auto& field : fields) {
+            if (element.*field.member != absent.*field.member)
+                angle(out, field.key, field.key_in_radians, element.*field.member);
+        }
+    }
+
+    /// Writes the rotation about an axis where it is set, else the quaternion unless it is that of an absent key.
+    void rotation(nlohmann::ordered_json& out, const char* key, const Track<glm::dquat>& value,
+                  const std::optional<AxisRotation>& about_axis) const;
 };
 
 nlohmann::ordered_json write_material(const SceneWriting& at, const Material& material);

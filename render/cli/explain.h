@@ -15,14 +15,16 @@ namespace aleph {
 /// "/group/child" per node: the names from the root down. Nodes with equal paths get "#2", "#3", ... in node order.
 std::vector<std::string> node_paths(const Scene& scene);
 
-/// The keyed properties of a node and its meshes, of a material, a light or a camera: name as in scene files, kind of
-/// sampling, number of keys, first and last time, interpolation, and `constant` if all keys are equal.
+/// The keyed properties of a node and its meshes, of a material, a light, a camera or the environment: name as in scene
+/// files, kind of sampling, number of keys, first and last time, interpolation, and `constant` if all keys are equal.
 nlohmann::ordered_json list_tracks(const Scene& scene, const Node& node);
 nlohmann::ordered_json list_tracks(const Material& material);
 nlohmann::ordered_json list_tracks(const Light& light);
 nlohmann::ordered_json list_tracks(const Camera& camera);
+nlohmann::ordered_json list_environment_tracks(const Scene& scene);
 
-/// Frames, camera, exposure, counts, bounds, objects, time samplings, materials, images, unused elements, warnings.
+/// Frames, camera, exposure, environment, counts, bounds, objects, time samplings, materials, images, unused elements,
+/// warnings.
 /// @param camera  name, or empty for the scene's own choice
 nlohmann::ordered_json explain_scene(const Scene& scene, const RenderSettings& settings, const std::string& camera);
 

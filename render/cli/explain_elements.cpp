@@ -20,6 +20,16 @@ std::string texture_name(const std::string& key) {
     return key.substr(0, key.rfind("_texture"));
 }
 
+std::string path_or_name(const Scene& scene, int index) {
+    const SceneImage& image = scene.images[index];
+    return image.path.empty() ? name_or_number(image.name, "image", static_cast<std::size_t>(index)) : image.path;
+}
+
+ordered_json size_of(const SceneImage& image) {
+    if (image.bytes.empty()) return {image.floats.width, image.floats.height};
+    return {image.bytes.width, image.bytes.height};
+}
+
 }  // namespace
 
 ordered_json to_json(const glm::dvec3& v) {
@@ -102,9 +112,7 @@ ordered_json describe_materials(const Scene& scene) {
         for (const auto& field : material_textures) {
             const int index = (material.*field.member).image;
             if (index == no_index) continue;
-            const SceneImage& image = scene.images[index];
-            item["textures"][texture_name(field.key)] =
-                image.path.empty() ? name_or_number(image.name, "image", static_cast<std::size_t>(index)) : image.path;
+            item["textures"][texture_name(field.key)] = path_or_name(scene, index);
         }
         if (ordered_json animated = list_tracks(material); !animated.empty()) item["animated"] = std::move(animated);
         out.push_back(std::move(item));
@@ -116,14 +124,26 @@ ordered_json describe_images(const Scene& scene) {
     ordered_json out = ordered_json::array();
     for (std::size_t i = 0; i < scene.images.size(); ++i) {
         const SceneImage& image = scene.images[i];
-        const bool eight = !image.bytes.empty();
-        out.push_back(
-            {{"name", name_or_number(image.name, "image", i)},
-             {"path", image.path},
-             {"size",
-              {eight ? image.bytes.width : image.floats.width, eight ? image.bytes.height : image.floats.height}},
-             {"channel", eight ? "8 bits" : "float"}});
+        out.push_back({{"name", name_or_number(image.name, "image", i)},
+                       {"path", image.path},
+                       {"size", size_of(image)},
+                       {"channel", image.bytes.empty() ? "float" : "8 bits"}});
     }
+    return out;
+}
+
+ordered_json describe_environment(const Scene& scene) {
+    if (!scene.environment) return nullptr;
+    const ordered_json radiance = to_json(key_value(*scene.environment, 0));
+    ordered_json out = {{"radiance", radiance}};
+    if (scene.environment_image != no_index) {
+        const auto& about_axis = scene.environment_axis_rotation;
+        out = {{"factor", radiance},
+               {"image", path_or_name(scene, scene.environment_image)},
+               {"size", size_of(scene.images[scene.environment_image])},
+               {"rotates", about_axis ? is_animated(about_axis->angle) : is_animated(scene.environment_rotation)}};
+    }
+    out["animated"] = list_environment_tracks(scene);
     return out;
 }
 

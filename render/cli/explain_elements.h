@@ -23,4 +23,8 @@ nlohmann::ordered_json describe_node(const Scene& scene, std::size_t index, cons
 nlohmann::ordered_json describe_materials(const Scene& scene);
 nlohmann::ordered_json describe_images(const Scene& scene);
 
+/// Radiance (or factor on the picture) at the first key, picture and its size, whether the picture turns; null for a
+/// scene without an environment.
+nlohmann::ordered_json describe_environment(const Scene& scene);
+
 }  // namespace aleph

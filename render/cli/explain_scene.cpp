@@ -84,7 +84,8 @@ ordered_json describe_bounds(const Scene& scene) {
 }
 
 /// The time samplings of all keyed properties, each once, with the number of properties that use it.
-ordered_json collect_samplings(const ordered_json& objects, const ordered_json& materials) {
+ordered_json collect_samplings(const ordered_json& objects, const ordered_json& materials,
+                               const ordered_json& environment) {
     std::map<std::string, std::pair<ordered_json, int>> found;
     const auto collect = [&](const ordered_json& tracks) {
         for (ordered_json track : tracks) {
@@ -103,6 +104,7 @@ ordered_json collect_samplings(const ordered_json& objects, const ordered_json& 
     }
     for (const ordered_json& material : materials)
         if (material.contains("animated")) collect(material["animated"]);
+    if (environment.is_object()) collect(environment["animated"]);
     ordered_json out = ordered_json::array();
     for (auto& [text, entry] : found) {
         entry.first["properties"] = entry.second;
@@ -122,6 +124,7 @@ Use find_use(const Scene& scene) {
         use.lights.insert(node.light);
         use.cameras.insert(node.camera);
     }
+    use.images.insert(scene.environment_image);
     for (const int mesh : use.meshes) use.materials.insert(scene.meshes[mesh].material);
     for (const int material : use.materials) {
         if (material == no_index) continue;
@@ -182,13 +185,14 @@ ordered_json explain_scene(const Scene& scene, const RenderSettings& settings, c
     out["warnings"] = scene.warnings;
     out["frames"] = describe_frames(scene);
     describe_view(out, scene, settings, camera);
+    out["environment"] = describe_environment(scene);
     out["counts"] = count_elements(scene);
     out["bounds"] = describe_bounds(scene);
     const std::vector<std::string> paths = node_paths(scene);
     ordered_json objects = ordered_json::array();
     for (std::size_t i = 0; i < scene.nodes.size(); ++i) objects.push_back(describe_node(scene, i, paths[i]));
     ordered_json materials = describe_materials(scene);
-    out["time_samplings"] = collect_samplings(objects, materials);
+    out["time_samplings"] = collect_samplings(objects, materials, out["environment"]);
     out["objects"] = std::move(objects);
     out["materials"] = std::move(materials);
     out["images"] = describe_images(scene);

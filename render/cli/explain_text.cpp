@@ -126,6 +126,24 @@ std::string frames_text(const ordered_json& frames) {
     return text;
 }
 
+std::string environment_text(const ordered_json& environment) {
+    if (environment.is_null()) return {};
+    std::string text = "light     environment";
+    const auto color = [&](const char* key) {
+        const ordered_json& c = environment[key];
+        return fmt::format("({:.4g}, {:.4g}, {:.4g})", c[0].get<double>(), c[1].get<double>(), c[2].get<double>());
+    };
+    if (environment.contains("image")) {
+        const ordered_json& size = environment["size"];
+        text += fmt::format(" picture {}, {} x {}, {}, times {}", text_of(environment["image"]), size[0].get<int>(),
+                            size[1].get<int>(), environment["rotates"] ? "rotating" : "not rotating", color("factor"));
+    } else {
+        text += fmt::format(" of radiance {}", color("radiance"));
+    }
+    if (!environment["animated"].empty()) text += "; animated " + tracks_text(environment["animated"]);
+    return text + '\n';
+}
+
 std::string counts_text(const ordered_json& counts) {
     return fmt::format(
         "holds     {} ({} animated, {} hidden), {} in {}; {} in {}\n          {}, {}, {}, {}, {}, {}\n",
@@ -151,6 +169,7 @@ std::string explain_text(const ordered_json& explained, std::size_t max_objects)
         text += fmt::format("exposure  {:.6g}, {}\n", exposure["factor"].get<double>(),
                             exposure["from"] == "given" ? "as the scene says" : "from its first frame");
     }
+    text += environment_text(explained["environment"]);
     text += counts_text(explained["counts"]);
     text += fmt::format("bounds    {}\n", box_text(explained["bounds"]["range"]));
 

@@ -60,6 +60,15 @@ class TrackList {
     ordered_json tracks_ = ordered_json::array();
 };
 
+void add_rotation(TrackList& list, const std::string& key, const Track<glm::dquat>& rotation,
+                  const std::optional<AxisRotation>& about_axis) {
+    if (about_axis) {
+        list.add(key + ".degrees", about_axis->angle);
+    } else {
+        list.add(key, rotation);
+    }
+}
+
 void add_transform(TrackList& list, const Node& node) {
     if (node.operations) {
         list.add("operations", node.operations->sampling, sample_count(*node.operations), Interpolation::linear,
@@ -68,11 +77,7 @@ void add_transform(TrackList& list, const Node& node) {
         list.add("matrix", *node.matrix);
     } else {
         list.add("translation", node.translation);
-        if (node.axis_rotation) {
-            list.add("rotation.degrees", node.axis_rotation->angle);
-        } else {
-            list.add("rotation", node.rotation);
-        }
+        add_rotation(list, "rotation", node.rotation, node.axis_rotation);
         list.add("scale", node.scale);
     }
     list.add("inherits", node.inherits);
@@ -104,6 +109,14 @@ ordered_json list_tracks(const Material& material) {
     TrackList list;
     list.add_all(material, material_colors);
     list.add_all(material, material_numbers);
+    list.add_all(material, material_angles);
+    return list.take();
+}
+
+ordered_json list_environment_tracks(const Scene& scene) {
+    TrackList list;
+    if (scene.environment) list.add("environment", *scene.environment);
+    add_rotation(list, "environment_rotation", scene.environment_rotation, scene.environment_axis_rotation);
     return list.take();
 }
 
@@ -118,7 +131,7 @@ ordered_json list_tracks(const Light& light) {
 
 ordered_json list_tracks(const Camera& camera) {
     TrackList list;
-    list.add("fov", camera.fov);
+    list.add_all(camera, camera_angles);
     list.add_all(camera, camera_numbers);
     return list.take();
 }

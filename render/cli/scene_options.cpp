@@ -45,6 +45,10 @@ void set_scene_numbers(Scene& scene, SettingMap& settings) {
     take("exposure", [&](double v) { scene.exposure = v; });
     take("viewing.pixels_per_degree", [&](double v) { scene.viewing.pixels_per_degree = v; });
     take("viewing.display_white", [&](double v) { scene.viewing.display_white = v; });
+    take("viewing.persistence", [&](double v) {
+        if (v > 1.0) throw InputError("--set", "viewing.persistence", "expected a number above 0, at most 1");
+        scene.viewing.persistence = v;
+    });
 }
 
 namespace {
@@ -137,8 +141,8 @@ void add_scene_options(CLI::App& app, SceneOptions& options) {
            [&options](const std::vector<std::string>& texts) {
                for (const std::string& text : texts) parse_setting(text, options.settings);
            },
-           "a setting by its key in scene files; also exposure, viewing.pixels_per_degree (pixels) and "
-           "viewing.display_white (cd/m2), numbers above 0")
+           "a setting by its key in scene files; also exposure, viewing.pixels_per_degree (pixels), "
+           "viewing.display_white (cd/m2) and viewing.persistence (at most 1), numbers above 0")
         ->type_name("KEY=VALUE")
         ->allow_extra_args(false);
 }

@@ -29,8 +29,8 @@ void add_load_limits(CLI::App& app, LoadLimits& limits);
 /// @throws InputError (--fps)
 FrameRate parse_fps(const std::string& text);
 
-/// Moves exposure, viewing.pixels_per_degree and viewing.display_white from the map to the scene: --set takes them, but
-/// they are no render settings.
+/// Moves exposure and the viewing conditions (viewing.pixels_per_degree, ...) from the map to the scene: --set takes
+/// them, but they are no render settings.
 /// @throws InputError (--set)
 void set_scene_numbers(Scene& scene, SettingMap& settings);
 

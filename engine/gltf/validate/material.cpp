@@ -30,6 +30,12 @@ void check_texture_info(const GltfCheck& check, const JsonRef& owner, std::strin
     }
 }
 
+void check_normal_map(const GltfCheck& check, const JsonRef& owner, std::string_view key) {
+    check_texture_info(check, owner, key);
+    if (const std::optional<JsonRef> info = owner.find(key)) info->check_number("scale");
+}
+
+/// Types, and ranges beyond which no value near is meant; the reader clamps factors.
 void check_material_extensions(const GltfCheck& check, const JsonRef& material) {
     if (const ExtensionRef strength(material, "KHR_materials_emissive_strength"); strength) {
         strength->check_number("emissiveStrength");
@@ -45,6 +51,30 @@ void check_material_extensions(const GltfCheck& check, const JsonRef& material) 
         specular->check_numbers("specularColorFactor", 3);
         check_texture_info(check, *specular, "specularTexture");
         check_texture_info(check, *specular, "specularColorTexture");
+    }
+    if (const ExtensionRef volume(material, "KHR_materials_volume"); volume) {
+        volume->check_number("thicknessFactor");
+        check_texture_info(check, *volume, "thicknessTexture");
+        if (const auto distance = volume->find("attenuationDistance")) distance->number_above(0.0);
+        volume->check_numbers("attenuationColor", 3);
+    }
+    if (const ExtensionRef coat(material, "KHR_materials_clearcoat"); coat) {
+        coat->check_number("clearcoatFactor");
+        check_texture_info(check, *coat, "clearcoatTexture");
+        coat->check_number("clearcoatRoughnessFactor");
+        check_texture_info(check, *coat, "clearcoatRoughnessTexture");
+        check_normal_map(check, *coat, "clearcoatNormalTexture");
+    }
+    if (const ExtensionRef sheen(material, "KHR_materials_sheen"); sheen) {
+        sheen->check_numbers("sheenColorFactor", 3);
+        check_texture_info(check, *sheen, "sheenColorTexture");
+        sheen->check_number("sheenRoughnessFactor");
+        check_texture_info(check, *sheen, "sheenRoughnessTexture");
+    }
+    if (const ExtensionRef anisotropy(material, "KHR_materials_anisotropy"); anisotropy) {
+        anisotropy->check_number("anisotropyStrength");
+        anisotropy->check_number("anisotropyRotation");
+        check_texture_info(check, *anisotropy, "anisotropyTexture");
     }
 }
 
@@ -125,7 +155,7 @@ void check_materials(GltfCheck& check) {
         }
         material.check_numbers("emissiveFactor", 3);
         check_texture_info(check, material, "emissiveTexture");
-        check_texture_info(check, material, "normalTexture");
+        check_normal_map(check, material, "normalTexture");
         check_texture_info(check, material, "occlusionTexture");
         material.check_boolean("doubleSided");
         if (const std::optional<JsonRef> cutoff = material.find("alphaCutoff"); cutoff && cutoff->number() < 0.0) {

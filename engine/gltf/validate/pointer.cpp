@@ -12,7 +12,7 @@ namespace {
 
 constexpr double unlimited = std::numeric_limits<double>::max();
 
-constexpr std::array<GltfPropertyInfo, 21> properties = {{
+constexpr std::array<GltfPropertyInfo, 30> properties = {{
     {GltfProperty::node_translation, GltfOwner::node, "/nodes/{}/translation", "VEC3", -unlimited, unlimited},
     {GltfProperty::node_rotation, GltfOwner::node, "/nodes/{}/rotation", "VEC4", -unlimited, unlimited},
     {GltfProperty::node_scale, GltfOwner::node, "/nodes/{}/scale", "VEC3", -unlimited, unlimited},
@@ -48,6 +48,24 @@ constexpr std::array<GltfPropertyInfo, 21> properties = {{
      "/materials/{}/extensions/KHR_materials_specular/specularColorFactor", "VEC3", 0, unlimited},
     {GltfProperty::material_transmission, GltfOwner::material,
      "/materials/{}/extensions/KHR_materials_transmission/transmissionFactor", "SCALAR", 0, 1},
+    {GltfProperty::material_thickness, GltfOwner::material,
+     "/materials/{}/extensions/KHR_materials_volume/thicknessFactor", "SCALAR", 0, unlimited},
+    {GltfProperty::material_attenuation_distance, GltfOwner::material,
+     "/materials/{}/extensions/KHR_materials_volume/attenuationDistance", "SCALAR", min_gltf_size, unlimited},
+    {GltfProperty::material_attenuation_color, GltfOwner::material,
+     "/materials/{}/extensions/KHR_materials_volume/attenuationColor", "VEC3", 0, 1},
+    {GltfProperty::material_clearcoat, GltfOwner::material,
+     "/materials/{}/extensions/KHR_materials_clearcoat/clearcoatFactor", "SCALAR", 0, 1},
+    {GltfProperty::material_clearcoat_roughness, GltfOwner::material,
+     "/materials/{}/extensions/KHR_materials_clearcoat/clearcoatRoughnessFactor", "SCALAR", 0, 1},
+    {GltfProperty::material_sheen_color, GltfOwner::material,
+     "/materials/{}/extensions/KHR_materials_sheen/sheenColorFactor", "VEC3", 0, 1},
+    {GltfProperty::material_sheen_roughness, GltfOwner::material,
+     "/materials/{}/extensions/KHR_materials_sheen/sheenRoughnessFactor", "SCALAR", 0, 1},
+    {GltfProperty::material_anisotropy, GltfOwner::material,
+     "/materials/{}/extensions/KHR_materials_anisotropy/anisotropyStrength", "SCALAR", 0, 1},
+    {GltfProperty::material_anisotropy_rotation, GltfOwner::material,
+     "/materials/{}/extensions/KHR_materials_anisotropy/anisotropyRotation", "SCALAR", -unlimited, unlimited},
 }};
 
 std::optional<std::size_t> parse_index(std::string_view digits) {

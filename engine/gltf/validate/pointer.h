@@ -31,10 +31,19 @@ enum class GltfProperty {
     material_specular,
     material_specular_color,
     material_transmission,
+    material_thickness,
+    material_attenuation_distance,
+    material_attenuation_color,
+    material_clearcoat,
+    material_clearcoat_roughness,
+    material_sheen_color,
+    material_sheen_roughness,
+    material_anisotropy,
+    material_anisotropy_rotation,
 };
 
-/// The smallest field of view (radians), half height (m), range (m) or cone (radians): smaller keys are clamped to it.
-/// Below it the rays of neighbouring pixels are the same in single precision.
+/// The smallest field of view (radians), half height (m), range (m), attenuation distance (m) or cone (radians):
+/// smaller keys are clamped to it. Below it the rays of neighbouring pixels are the same in single precision.
 inline constexpr double min_gltf_size = 1e-6;
 
 /// What owns a property: the array whose length limits the pointer's index.

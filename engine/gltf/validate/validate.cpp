@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <set>
 
@@ -12,10 +13,26 @@ namespace aleph {
 
 namespace {
 
-constexpr std::array<std::string_view, 11> supported_extensions = {
-    "EXT_mesh_gpu_instancing", "KHR_animation_pointer",  "KHR_lights_punctual",  "KHR_materials_emissive_strength",
-    "KHR_materials_ior",       "KHR_materials_specular", "KHR_materials_unlit",  "KHR_materials_transmission",
-    "KHR_mesh_quantization",   "KHR_node_visibility",    "KHR_texture_transform"};
+constexpr std::array<std::string_view, 15> supported_extensions = {
+    "EXT_mesh_gpu_instancing",    "KHR_animation_pointer",   "KHR_lights_punctual",
+    "KHR_materials_anisotropy",   "KHR_materials_clearcoat", "KHR_materials_emissive_strength",
+    "KHR_materials_ior",          "KHR_materials_sheen",     "KHR_materials_specular",
+    "KHR_materials_transmission", "KHR_materials_unlit",     "KHR_materials_volume",
+    "KHR_mesh_quantization",      "KHR_node_visibility",     "KHR_texture_transform"};
+
+/// An extension that changes the look of things and is not supported, and what is missing without it.
+struct MissingLook {
+    std::string_view extension, missing;
+};
+constexpr std::array<MissingLook, 7> missing_looks = {{
+    {"EXT_lights_image_based", "the light of its pictures"},
+    {"KHR_materials_diffuse_transmission", "light that diffuses through thin surfaces"},
+    {"KHR_materials_dispersion", "the separation of colours in refraction"},
+    {"KHR_materials_iridescence", "the colours of thin films"},
+    {"KHR_materials_pbrSpecularGlossiness", "its colours, with the metallic-roughness values of the file"},
+    {"KHR_materials_variants", "other variants than the first materials"},
+    {"KHR_materials_volume_scatter", "the scattering of light inside volumes"},
+}};
 
 /// Compressed data is needed even where the file calls the extension optional.
 constexpr std::array<std::string_view, 2> refused_extensions = {"EXT_meshopt_compression",
@@ -99,9 +116,13 @@ void check_extensions(GltfCheck& check) {
         if (contains(refused_extensions, name)) {
             throw InputError(check.root.file(), "extensions", fmt::format("the extension {} is not supported", name));
         }
-        if (!contains(supported_extensions, name)) {
-            check.warn(check.root, fmt::format("the extension {} is ignored", printable(name)));
-        }
+        if (contains(supported_extensions, name)) continue;
+        const auto look = std::find_if(missing_looks.begin(), missing_looks.end(),
+                                       [&](const MissingLook& missing) { return missing.extension == name; });
+        check.warn(check.root, look == missing_looks.end()
+                                   ? fmt::format("the extension {} is ignored", printable(name))
+                                   : fmt::format("the extension {} is not supported: the file is rendered without {}",
+                                                 name, look->missing));
     }
 }
 

@@ -1,0 +1,236 @@
+// Blended surfaces as a share of the rays that they stop.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "engine/base/parallel.h"
+#include "engine/rays/alpha_cutout.h"
+#include "engine/rays/ray_scene.h"
+#include "tests/support/deforming_scenes.h"
+
+namespace aleph {
+namespace {
+
+constexpr std::size_t ray_count = 40'000;
+
+/// Sheets of blended material behind one another, all of one mesh, in the planes z = 0, -1, -2, ...
+Scene make_blended(double alpha, std::size_t layers) {
+    Scene scene = make_sheet_scene(2);
+    scene.materials.resize(1);
+    scene.materials[0].alpha_mode = Material::AlphaMode::blend;
+    scene.materials[0].alpha = alpha;
+    scene.meshes[0].material = 0;
+    scene.nodes.resize(layers, scene.nodes[0]);
+    for (std::size_t i = 0; i < layers; ++i) scene.nodes[i].translation = glm::dvec3(0.0, 0.0, -static_cast<double>(i));
+    return scene;
+}
+
+struct Placed {
+    RayScene rays;
+    explicit Placed(const Scene& scene) : rays(scene) { rays.update(pose(scene, 0.0), glm::dvec3(0.0)); }
+};
+
+/// Rays downwards through random points of the sheets.
+std::vector<Ray> make_rays(std::size_t count = ray_count) {
+    std::mt19937 random(7);
+    std::uniform_real_distribution<float> place(-0.95f, 0.95f);
+    std::vector<Ray> rays(count);
+    for (Ray& ray : rays) {
+        ray.origin = {place(random), place(random), 5.0f};
+        ray.direction = {0.0f, 0.0f, -1.0f};
+    }
+    return rays;
+}
+
+std::vector<Hit> cast(const RayScene& scene, const std::vector<Ray>& rays, Blend blend = Blend::random) {
+    std::vector<Hit> hits(rays.size());
+    Tracer(scene, blend).intersect(rays, hits, true);
+    return hits;
+}
+
+/// Share of the hits on an instance; no_index: that miss.
+double share_on(const std::vector<Hit>& hits, int instance) {
+    return static_cast<double>(std::ranges::count(hits, instance, &Hit::instance)) / static_cast<double>(hits.size());
+}
+
+/// Three standard errors of a share.
+double tolerance(double p, std::size_t count = ray_count) {
+    return 3.0 * std::sqrt(p * (1.0 - p) / static_cast<double>(count));
+}
+
+TEST(AlphaBlend, StopsItsShareOfTheRays) {
+    const std::vector<Ray> rays = make_rays();
+    for (const double alpha : {0.02, 0.3, 0.5, 0.97}) {
+        const Placed one(make_blended(alpha, 1));
+        EXPECT_NEAR(share_on(cast(one.rays, rays), 0), alpha, tolerance(alpha));
+    }
+    for (const double alpha : {0.0, 1.0}) {
+        const Placed one(make_blended(alpha, 1));
+        EXPECT_EQ(share_on(cast(one.rays, rays), 0), alpha);
+    }
+}
+
+TEST(AlphaBlend, LayersAreIndependent) {
+    constexpr double alpha = 0.3;
+    const Placed three(make_blended(alpha, 3));
+    const std::vector<Hit> hits = cast(three.rays, make_rays());
+    double passed = 1.0;
+    for (int layer = 0; layer < 3; ++layer) {
+        EXPECT_NEAR(share_on(hits, layer), passed * alpha, tolerance(passed * alpha)) << layer;
+        passed *= 1.0 - alpha;
+    }
+    EXPECT_NEAR(share_on(hits, no_index), passed, tolerance(passed));
+}
+
+TEST(AlphaBlend, CoincidentSurfacesAreIndependentToo) {
+    // Two meshes of one node in one plane, and both sides of a folded sheet: triangles of one mesh.
+    Scene scene = make_blended(0.3, 1);
+    Mesh& mesh = scene.meshes[0];
+    const std::size_t triangles = mesh.triangles.size();
+    for (std::size_t t = 0; t < triangles; ++t) mesh.triangles.push_back(mesh.triangles[t]);
+    scene.nodes[0].meshes = {0, 0};
+    const Placed placed(scene);
+    const double open = std::pow(0.7, 4);
+    EXPECT_NEAR(share_on(cast(placed.rays, make_rays()), no_index), open, tolerance(open));
+}
+
+TEST(AlphaBlend, ShadowsArePartial) {
+    const Placed two(make_blended(0.4, 2));
+    const std::vector<Ray> rays = make_rays();
+    std::vector<std::uint8_t> blocked(rays.size());
+    Tracer(two.rays, Blend::random).occluded(rays, blocked);
+    const double lit = static_cast<double>(std::ranges::count(blocked, 0)) / static_cast<double>(rays.size());
+    EXPECT_NEAR(lit, 0.36, tolerance(0.36));
+}
+
+TEST(AlphaBlend, NearlyEqualRaysAreIndependent) {
+    const Placed one(make_blended(0.5, 1));
+    std::vector<Ray> rays(ray_count);
+    for (std::size_t i = 0; i < rays.size(); ++i) {  // neighbouring floats, in direction and in origin
+        rays[i].origin = {0.25f, 0.25f, 5.0f};
+        rays[i].direction = {0.0f, 0.0f, -1.0f};
+        rays[i].direction.x = 1e-3f + static_cast<float>(i / 2) * 1e-9f;
+        if (i % 2 == 1) rays[i].origin.y = std::nextafter(0.25f, 1.0f);
+    }
+    const std::vector<Hit> hits = cast(one.rays, rays);
+    EXPECT_NEAR(share_on(hits, 0), 0.5, tolerance(0.5));
+    std::size_t alike = 0;
+    for (std::size_t i = 0; i < rays.size(); i += 2) alike += hits[i].instance == hits[i + 1].instance;
+    EXPECT_NEAR(static_cast<double>(alike) / (ray_count / 2), 0.5, tolerance(0.5, ray_count / 2));
+}
+
+TEST(AlphaBlend, TextureVertexColourAndFactorMultiply) {
+    Scene scene = make_blended(0.8, 1);
+    SceneImage image;
+    image.bytes = Image<glm::u8vec4>(2, 1, glm::u8vec4(255));
+    image.bytes(0, 0).w = 51;  // .2 on the left, 1 on the right
+    scene.images = {image};
+    scene.materials[0].base_color_texture.image = 0;
+    scene.materials[0].base_color_texture.nearest = true;
+    Mesh& mesh = scene.meshes[0];
+    for (const glm::vec3& p : mesh.positions) mesh.uv[0].emplace_back(0.5f * (p.x + 1.0f), 0.5f * (1.0f - p.y));
+    mesh.colors.assign(mesh.positions.size(), glm::vec4(1.0f, 1.0f, 1.0f, 0.5f));
+    const Placed placed(scene);
+    const std::vector<Ray> rays = make_rays();
+    const std::vector<Hit> hits = cast(placed.rays, rays);
+    for (const bool right : {false, true}) {
+        std::size_t count = 0, met = 0;
+        for (std::size_t i = 0; i < rays.size(); ++i) {
+            if ((rays[i].origin.x > 0.0f) != right) continue;
+            ++count;
+            met += hits[i].instance == 0;
+        }
+        const double expected = right ? 0.4 : 0.08;
+        EXPECT_NEAR(static_cast<double>(met) / static_cast<double>(count), expected, tolerance(expected, count));
+    }
+}
+
+TEST(AlphaBlend, OneRayHasOneAnswer) {
+    // Alone, in packets of any kind and place, on any thread, twice; for first hits and for occlusion.
+    Scene scene = make_blended(0.5, 3);
+    scene.nodes[1].rotation = glm::dquat(std::cos(0.2), std::sin(0.2), 0.0, 0.0);
+    scene.nodes[1].scale = glm::dvec3(1.3, 0.7, 2.0);
+    const Placed placed(scene);
+    const std::vector<Ray> rays = make_rays(4001);
+    const std::vector<Hit> hits = cast(placed.rays, rays);
+    EXPECT_EQ(cast(placed.rays, rays), hits);
+    const std::vector<Ray> rest(rays.begin() + 3, rays.end());
+    const std::vector<Hit> shifted = cast(placed.rays, rest);
+    std::vector<Hit> scattered(rays.size());
+    std::vector<std::uint8_t> blocked(rays.size());
+    Tracer tracer(placed.rays, Blend::random);
+    tracer.intersect(rays, scattered, false);
+    tracer.occluded(rays, blocked);
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+        const Hit alone = tracer.intersect(rays[i]);
+        ASSERT_EQ(hits[i].instance, alone.instance) << i;
+        ASSERT_EQ(hits[i].primitive, alone.primitive) << i;
+        ASSERT_EQ(scattered[i].instance, alone.instance) << i;
+        if (i >= 3) {
+            ASSERT_EQ(shifted[i - 3].instance, alone.instance) << i;
+        }
+        ASSERT_EQ(blocked[i] != 0, alone.instance != no_index) << i;
+        ASSERT_EQ(tracer.occluded(rays[i]), alone.instance != no_index) << i;
+    }
+    for (const int threads : {1, 2, 3}) {
+        const ThreadLimit limit(threads);
+        std::vector<Hit> parallel(rays.size());
+        parallel_for(rays.size(), 100, [&](std::size_t begin, std::size_t end) {
+            Tracer mine(placed.rays, Blend::random);
+            mine.intersect(std::span(rays).subspan(begin, end - begin), std::span(parallel).subspan(begin, end - begin),
+                           true);
+        });
+        for (std::size_t i = 0; i < rays.size(); ++i) ASSERT_EQ(parallel[i].instance, hits[i].instance) << i;
+    }
+}
+
+TEST(AlphaBlend, CutoutsAndMasksAreNotRandom) {
+    const std::vector<Ray> rays = make_rays(1000);
+    for (const auto& [alpha, met] : {std::pair(0.49, 0.0), std::pair(0.51, 1.0)}) {
+        Scene scene = make_blended(alpha, 2);
+        EXPECT_EQ(share_on(cast(Placed(scene).rays, rays, Blend::cutout), 0), met);
+        scene.materials.push_back(scene.materials[0]);  // a mask beside a blended surface
+        scene.materials[0].alpha_mode = Material::AlphaMode::mask;
+        scene.meshes.push_back(scene.meshes[0]);
+        scene.meshes[1].material = 1;
+        scene.nodes[1].meshes = {1};
+        const Placed placed(scene);
+        EXPECT_EQ(share_on(cast(placed.rays, rays), 0), met);
+        EXPECT_EQ(share_on(cast(placed.rays, rays, Blend::cutout), 0), met);
+    }
+}
+
+TEST(AlphaBlend, OnlySurfacesThatLetRaysPassCount) {
+    Scene scene = make_blended(1.0, 1);
+    EXPECT_FALSE(has_blended(scene));
+    EXPECT_FALSE(has_cutout(scene, scene.meshes[0]));
+    scene.materials[0].alpha = keyed<double>({0.0, 1.0}, {1.0, 0.5});
+    EXPECT_TRUE(has_blended(scene));
+    scene.nodes[0].meshes.clear();  // not drawn
+    EXPECT_FALSE(has_blended(scene));
+    scene = make_blended(1.0, 1);
+    scene.meshes[0].colors.assign(9, glm::vec4(1.0f));
+    EXPECT_FALSE(has_blended(scene));
+    scene.meshes[0].colors[4].w = 0.5f;
+    EXPECT_TRUE(has_blended(scene));
+    scene = make_blended(1.0, 1);
+    scene.images.resize(1);
+    scene.images[0].floats = Image<glm::vec4>(2, 2, glm::vec4(1.0f));
+    scene.materials[0].base_color_texture.image = 0;
+    EXPECT_FALSE(has_blended(scene));
+    scene.images[0].floats(1, 1).w = 0.9f;
+    EXPECT_TRUE(has_blended(scene));
+    scene.materials[0].alpha_mode = Material::AlphaMode::mask;
+    EXPECT_FALSE(has_blended(scene));
+    EXPECT_TRUE(has_cutout(scene, scene.meshes[0]));
+    scene = make_blended(1.0, 1);
+    scene.materials[0].alpha_mode = Material::AlphaMode::mask;
+    EXPECT_FALSE(has_cutout(scene, scene.meshes[0]));
+    scene.materials[0].alpha_cutoff = 1.1;  // nothing is there
+    EXPECT_TRUE(has_cutout(scene, scene.meshes[0]));
+}
+
+}  // namespace
+}  // namespace aleph
