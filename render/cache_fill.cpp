@@ -164,7 +164,7 @@ RadiusBounds radius_bounds(const IndirectContext& context, const PixelSurface& s
 
 void fill_cache(IrradianceCache& cache, const IndirectContext& context, const SampleHits& sample, FrameTally& tally) {
     const int width = sample.hits.width, height = sample.hits.height;
-    const bool first_pass = sample.index == 0;
+    const bool first_pass = sample.place.index == 0;
     for (int stride = first_pass ? first_stride : 1; stride >= 1; stride /= 2) {
         fill_tiles(cache, context, sample, list_tiles(width, height, stride, first_pass), tally);
     }

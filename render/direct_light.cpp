@@ -115,8 +115,7 @@ Rgb compute_sampled_light(const LightingContext& context, RayTask& task, const V
     Rgb met(0.0f);
     for (int i = 0; i < points.count; ++i) {
         const float pick = fraction(pick_shift + static_cast<float>(i * points.parts + points.part) * 0.75487767f);
-        const ScatterSample sample =
-            sample_scatter(lit, shares, pick, points.at(i, shift), path_random.next());
+        const ScatterSample sample = sample_scatter(lit, shares, pick, points.at(i, shift), path_random.next());
         met += follow_sample(context, task, lit, sample, beyond, path_random);
     }
     return sum + met / static_cast<float>(points.count);

@@ -16,8 +16,8 @@ struct LightPoints {
     glm::vec2 at(int i, const glm::vec2& shift) const { return lattice_point(i * parts + part, count * parts, shift); }
 };
 
-/// Radiance that a surface scatters from the lights, without its own emission. The Lambert layer samples lights only; the
-/// other lobes combine light and lobe sampling by the power heuristic (Veach 1997). Unbiased.
+/// Radiance that a surface scatters from the lights, without its own emission. The Lambert layer samples lights only;
+/// the other lobes combine light and lobe sampling by the power heuristic (Veach 1997). Unbiased.
 /// @param points  per light that has an area, and as many samples of the lobes
 /// @param random  moved on by a fixed number of dimensions per call
 Rgb compute_direct_light(const LightingContext& context, RayTask& task, const ViewedSurface& surface,

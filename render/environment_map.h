@@ -13,8 +13,8 @@ namespace aleph {
 /// In the picture's own frame: its middle column lies along -z, u grows towards +x, its top row is +y.
 struct EnvironmentMap {
     Image<Rgb> texels;  ///< radiance, linear; finite and not negative
-    /// Per row and column: cumulative probabilities. A texel's probability is in proportion to its solid angle times the
-    /// mean luminance of the bilinear picture over it, so that sampling covers whatever a look-up can return.
+    /// Per row and column: cumulative probabilities. A texel's probability is in proportion to its solid angle times
+    /// the mean luminance of the bilinear picture over it, so that sampling covers whatever a look-up can return.
     std::vector<float> rows;           ///< height values; the last is 1
     std::vector<float> columns;        ///< width values per row; the last of a row is 1
     std::vector<float> probabilities;  ///< per texel

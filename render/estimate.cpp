@@ -24,11 +24,16 @@ Image<Rgb> compute_estimate(const LightingContext& context, const CameraView& vi
     const int points = points_per_light(context.lights);
     std::mutex counts_mutex;
     parallel_rows(view.height, 4, [&](int begin, int end) {
-        RayTask task(context.rays);
+        RayTask task(context.rays, Blend::cutout);  // without noise
         for (int y = begin; y < end; ++y) {
             for (int x = 0; x < view.width; ++x) {
-                Rgb radiance = kind == EstimateKind::flat ? Rgb(1.0f) : context.shading.environment;
-                if (centers.hits(x, y).instance != no_index) {
+                Rgb radiance = Rgb(1.0f);
+                const bool hit = centers.hits(x, y).instance != no_index;
+                if (!hit && kind == EstimateKind::direct) {
+                    radiance = environment_radiance(context.shading,
+                                                    glm::vec3(make_camera_ray(view, x + 0.5, y + 0.5).direction));
+                }
+                if (hit) {
                     const PixelSurface s = make_pixel_surface(context.shading, view, centers, x, y);
                     radiance = s.material.emission;
                     if (kind == EstimateKind::flat) {

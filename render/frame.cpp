@@ -12,6 +12,9 @@ namespace {
 
 constexpr double fill_share = 0.6;  // of a frame's time, for progress only
 
+/// Keeps the random numbers of paths apart from those of direct light and of gathers (cache_fill.cpp).
+constexpr std::uint32_t path_seed_mask = 0x70617468u;
+
 double seconds_since(std::chrono::steady_clock::time_point start) {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
@@ -20,6 +23,18 @@ double seconds_since(std::chrono::steady_clock::time_point start) {
 struct PixelSum {
     glm::dvec3 radiance{0.0};
     int samples = 0, hits = 0;
+    double mean_luminance = 0.0, squares = 0.0;  ///< squared differences from the mean (Welford 1962)
+
+    void add(const Rgb& sample, bool hit) {
+        radiance += glm::dvec3(sample);
+        ++samples;
+        if (hit) ++hits;
+        const double y = luminance(sample), difference = y - mean_luminance;
+        mean_luminance += difference / samples;
+        squares += difference * (y - mean_luminance);
+    }
+    /// Of the mean luminance.
+    double variance() const { return squares / (static_cast<double>(samples - 1) * samples); }
 };
 
 /// The work of one task: its rays, and what it counts.
@@ -32,11 +47,14 @@ struct ShadingTask : RayTask {
 
 class FrameShading {
   public:
-    FrameShading(const IndirectContext& context, const SampleHits& centers, ShadedFrame& out)
+    FrameShading(const IndirectContext& context, const SampleHits& centers, const SampleOptions& options,
+                 ShadedFrame& out)
         : context_(context),
           centers_(centers),
+          options_(options),
           out_(out),
-          cached_(context.settings.bounces > 0 && context.settings.accuracy > 0.0),
+          by_paths_(context.settings.integrator == Integrator::path || options.at_sample),
+          cached_(!by_paths_ && context.settings.bounces > 0 && context.settings.accuracy > 0.0),
           cache_(make_cache(context.lighting.shading)),
           sums_(context.view.width, context.view.height) {}
 
@@ -44,12 +62,15 @@ class FrameShading {
         const int spp = context_.settings.spp;
         for (int i = 0; cached_ && i < spp; ++i) {
             if (context_.progress) context_.progress(fill_share * i / spp, "fill");
-            fill_cache(cache_, context_, cast(i), out_);
+            fill_cache(cache_, context_, cast(still(), i), out_);
         }
     }
 
     void shade() {
-        for (int i = 0; i < context_.settings.spp; ++i) add_sample(cast(i));
+        for (int i = 0; i < context_.settings.spp; ++i) {
+            const SampleMoment moment = options_.at_sample ? options_.at_sample(i) : still();
+            add_sample(moment, cast(moment, i));
+        }
     }
 
     /// Divides the sums by the numbers of valid samples.
@@ -61,53 +82,93 @@ class FrameShading {
             const float valid = static_cast<float>(sum.samples);
             out_.color.pixels[p] = Rgb(sum.radiance) * (scale / valid);
             out_.coverage.pixels[p] = static_cast<float>(sum.hits) / valid;
+            if (!out_.variance.empty() && sum.samples > 1) {
+                out_.variance.pixels[p] = static_cast<float>(sum.variance() * exposure * exposure);
+            }
         }
     }
 
   private:
-    SampleHits cast(int i) {
-        const int spp = context_.settings.spp;
-        if (spp == 1) return centers_;
-        return cast_sample(context_.lighting.rays, context_.view, i, spp, &out_.counts.rays.primary);
+    SampleMoment still() const { return {context_.lighting, context_.view}; }
+
+    SampleHits cast(const SampleMoment& moment, int i) {
+        const RenderSettings& settings = context_.settings;
+        const bool as_centers = !options_.at_sample && !options_.blended && !(options_.lens.radius > 0.0);
+        if (settings.spp == 1 && as_centers) return centers_;
+        const SamplePlace place{i,
+                                settings.spp,
+                                options_.lens,
+                                settings.seed,
+                                context_.frame,
+                                options_.blended ? Blend::random : Blend::cutout};
+        return cast_sample(moment.lighting.rays, moment.view, place, &out_.counts.rays.primary);
     }
 
     /// Shades one sample of every pixel.
-    void add_sample(const SampleHits& sample) {
+    void add_sample(const SampleMoment& moment, const SampleHits& sample) {
         parallel_rows(context_.view.height, 1, [&](int begin, int end) {
             thread_local GatherScratch scratch;
-            ShadingTask task(context_.lighting.rays, scratch);
+            ShadingTask task(moment.lighting.rays, scratch);
             for (int y = begin; y < end; ++y) {
-                for (int x = 0; x < context_.view.width; ++x) add_pixel(task, sample, x, y);
+                for (int x = 0; x < context_.view.width; ++x) add_pixel(moment, task, sample, x, y);
             }
             finish(task);
         });
     }
 
-    void add_pixel(ShadingTask& task, const SampleHits& sample, int x, int y) {
+    void add_pixel(const SampleMoment& moment, ShadingTask& task, const SampleHits& sample, int x, int y) {
         const bool hit = sample.hits(x, y).instance != no_index;
-        const Rgb radiance = hit ? shade_hit(task, sample, x, y) : context_.lighting.shading.environment;
+        const ShadingScene& shading = moment.lighting.shading;
+        Rgb radiance;
+        if (!hit) {
+            radiance = environment_radiance(shading, glm::vec3(make_sample_ray(moment.view, sample, x, y).direction));
+        } else {
+            const PixelSurface surface = make_pixel_surface(shading, moment.view, sample, x, y);
+            radiance = by_paths_ ? shade_by_paths(moment, task, surface) : shade_cached(task, surface);
+            // The camera may stand in what it sees from inside.
+            if (const Rgb loss = Media().attenuation(surface); loss != Rgb(0.0f)) {
+                radiance *= glm::exp(-loss * surface.distance);
+            }
+        }
         if (!is_finite(radiance)) {
             out_.invalid_samples(x, y) += 1.0f;
             ++task.invalid;
             return;
         }
-        PixelSum& sum = sums_(x, y);
-        sum.radiance += glm::dvec3(radiance);
-        ++sum.samples;
-        if (hit) ++sum.hits;
+        sums_(x, y).add(radiance, hit);
     }
 
-    Rgb shade_hit(ShadingTask& task, const SampleHits& sample, int x, int y) {
+    RandomStream path_stream(const PixelSurface& surface) const {
+        return RandomStream({context_.settings.seed ^ path_seed_mask, context_.frame, surface.pixel,
+                             static_cast<std::uint32_t>(surface.sample)});
+    }
+
+    PathState start_path() const {
+        PathState state;
+        state.left = {context_.settings.bounces, context_.settings.path_depth};
+        return state;
+    }
+
+    Rgb shade_by_paths(const SampleMoment& moment, ShadingTask& task, const PixelSurface& surface) const {
+        RandomStream random = path_stream(surface);
+        return surface.material.emission + scatter_light(moment.lighting, task, surface, start_path(), random);
+    }
+
+    Rgb shade_cached(ShadingTask& task, const PixelSurface& surface) {
         const RenderSettings& settings = context_.settings;
-        const PixelSurface surface = make_pixel_surface(context_.lighting.shading, context_.view, sample, x, y);
         RandomStream random({settings.seed, context_.frame, surface.pixel, 0});  // one lattice for all samples
+        RandomStream path_random = path_stream(surface);
+        PathState beyond = start_path();
+        --beyond.left.depth;
+        beyond.roulette_after = 0;  // most lobes reflect little, and there are many samples
         const int light_samples = (settings.light_samples + settings.spp - 1) / settings.spp;
+        const LightPoints points{light_samples, surface.sample, settings.spp};
         Rgb radiance = surface.material.emission;
-        radiance += compute_direct_light(context_.lighting, task, surface,
-                                         {light_samples, surface.sample, settings.spp}, random);
+        radiance += compute_sampled_light(context_.lighting, task, surface, points, random, beyond, path_random);
         if (settings.bounces > 0 && surface.material.has_diffuse()) {
-            const float cos_view = std::max(glm::dot(surface.point.normal, surface.view), 0.0f);
-            radiance += diffuse_radiance(surface.material, cos_view, find_irradiance(task, surface));
+            const LitSurface lit(surface);
+            radiance +=
+                diffuse_radiance(surface.material, lit.cos_view, find_irradiance(task, surface)) * lit.below_sheen;
         }
         return radiance;
     }
@@ -141,14 +202,16 @@ class FrameShading {
         ++rows_done_;
         if (context_.progress && rows_done_ % 16 == 0) {
             const double rows = static_cast<double>(context_.view.height) * context_.settings.spp;
-            context_.progress(fill_share + (1.0 - fill_share) * static_cast<double>(rows_done_) / rows, "shade");
+            const double begin = cached_ ? fill_share : 0.0;
+            context_.progress(begin + (1.0 - begin) * static_cast<double>(rows_done_) / rows, "shade");
         }
     }
 
     const IndirectContext& context_;
     const SampleHits& centers_;
+    const SampleOptions& options_;
     ShadedFrame& out_;
-    bool cached_;
+    bool by_paths_, cached_;
     IrradianceCache cache_;
     Image<PixelSum> sums_;
     std::mutex mutex_;
@@ -157,14 +220,16 @@ class FrameShading {
 
 }  // namespace
 
-ShadedFrame shade_frame(const IndirectContext& context, const SampleHits& centers, double exposure) {
+ShadedFrame shade_frame(const IndirectContext& context, const SampleHits& centers, double exposure,
+                        const SampleOptions& options) {
     const int width = context.view.width, height = context.view.height, spp = context.settings.spp;
     ShadedFrame out;
     out.color = Image<Rgb>(width, height);
     out.coverage = out.records = out.invalid_samples = Image<float>(width, height);
     out.samples = Image<float>(width, height, static_cast<float>(spp));
     out.counts.samples = out.color.size() * static_cast<std::uint64_t>(spp);
-    FrameShading shading(context, centers, out);
+    if (context.settings.integrator == Integrator::path && spp > 1) out.variance = Image<float>(width, height);
+    FrameShading shading(context, centers, options, out);
     const auto fill_start = std::chrono::steady_clock::now();
     shading.fill();
     out.fill_seconds = seconds_since(fill_start);

@@ -6,8 +6,24 @@
 
 namespace aleph {
 
-/// Fills a cache for the frame and shades it. With accuracy 0, irradiance is gathered at every sample instead.
+/// The scene while one of a frame's samples is taken.
+struct SampleMoment {
+    LightingContext lighting;
+    const CameraView& view;
+};
+
+/// How a frame's samples differ from its pixel centres.
+struct SampleOptions {
+    Lens lens;
+    bool blended = false;  ///< blended surfaces are in the scene
+    /// The scene at a sample's time, valid until the next call; empty: the shutter opens for no time.
+    std::function<SampleMoment(int sample)> at_sample;
+};
+
+/// Shades a frame. With Integrator::cache it fills a cache first; with accuracy 0, irradiance is gathered at every
+/// sample instead. While the shutter is open the scene changes from sample to sample, and all light is found by paths.
 /// @param centers  hits through the pixel centres, which are the samples if spp is 1
-ShadedFrame shade_frame(const IndirectContext& context, const SampleHits& centers, double exposure);
+ShadedFrame shade_frame(const IndirectContext& context, const SampleHits& centers, double exposure,
+                        const SampleOptions& options = {});
 
 }  // namespace aleph

@@ -79,6 +79,7 @@ ChannelImage make_frame_image(const FrameOutput& output, bool maps, const Scene&
     if (!output.shaded.color.empty()) {
         add_color(file, "", output.shaded.color);
         add(file, "A", output.shaded.coverage);
+        add(file, "variance.Y", output.shaded.variance);
     }
     if (maps) add_maps(file, output);
     file.metadata["software"] = "aleph " ALEPH_VERSION;

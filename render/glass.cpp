@@ -62,8 +62,7 @@ GlassValue evaluate_glass(const SurfaceMaterial& material, const glm::vec3& view
 
 GlassSample sample_glass(const SurfaceMaterial& material, const glm::vec3& view, const glm::vec2& u, float side) {
     const bool smooth = material.is_glass_smooth();
-    const glm::vec3 h =
-        smooth ? glm::vec3(0.0f, 0.0f, 1.0f) : sample_visible_normal(material.widths(), view, u);
+    const glm::vec3 h = smooth ? glm::vec3(0.0f, 0.0f, 1.0f) : sample_visible_normal(material.widths(), view, u);
     const float vh = glm::dot(view, h);
     const glm::vec3 reflected = 2.0f * vh * h - view;
     if (side < reflectance(material, vh)) {

@@ -1,8 +1,8 @@
 #pragma once
-// A dielectric interface that light passes (KHR_materials_transmission): microfacets that reflect and refract (Walter et
-// al. 2007). A mesh with a volume (KHR_materials_volume) refracts by its index of refraction; without one it is a thin
-// sheet, which light leaves in the direction in which it came, spread by the roughness.
-// Directions are unit, in the shading frame; the viewer's is above the surface.
+// A dielectric interface that light passes (KHR_materials_transmission): microfacets that reflect and refract (Walter
+// et al. 2007). A mesh with a volume (KHR_materials_volume) refracts by its index of refraction; without one it is a
+// thin sheet, which light leaves in the direction in which it came, spread by the roughness. Directions are unit, in
+// the shading frame; the viewer's is above the surface.
 
 #include "render/surface_material.h"
 

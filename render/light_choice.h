@@ -21,7 +21,8 @@ struct ScatteredLight {
 };
 
 /// Chooses one light with a probability in proportion to what it would bring without shadow, out of at most 16
-/// (stratified among all lights): resampled importance sampling (Talbot et al. 2005), unbiased for the sum of all lights.
+/// (stratified among all lights): resampled importance sampling (Talbot et al. 2005), unbiased for the sum of all
+/// lights.
 /// @param shares  of the lobes from which directions are sampled as well, for the weights of scatter_towards
 ScatteredLight choose_light(const LightingContext& context, const LitSurface& lit, const LobeShares& shares,
                             RandomStream& random);

@@ -245,8 +245,8 @@ LightSet make_light_set(const ShadingScene& shading) {
                                    light.intensity, static_cast<float>(light.range), versine(light.inner_cone),
                                    versine(light.outer_cone)});
     }
-    lights.has_environment = shading.environment != Rgb(0.0f) &&
-                             (shading.environment_map == nullptr || !shading.environment_map->black);
+    lights.has_environment =
+        shading.environment != Rgb(0.0f) && (shading.environment_map == nullptr || !shading.environment_map->black);
     return lights;
 }
 

@@ -40,7 +40,7 @@ struct PunctualLight {
 struct LightSet {
     std::vector<Emitter> emitters;
     std::vector<PunctualLight> punctual;
-    bool has_environment = false;  ///< one that is not black
+    bool has_environment = false;          ///< one that is not black
     std::vector<int> emitter_of_instance;  ///< per ScenePose instance: its emitter or no_index
 
     /// Lights are numbered: emitters, then punctual lights, then the environment.

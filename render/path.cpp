@@ -66,8 +66,7 @@ class Path {
             const LobeShares shares = share_lobes(lit, LobeSet::all);
             const bool diffuse_ends = state_.left.bounces <= 0;
             add_direct(lit, shares, diffuse_ends);
-            const ScatterSample sample =
-                sample_scatter(lit, shares, random_.next(), random_.next_2d(), random_.next());
+            const ScatterSample sample = sample_scatter(lit, shares, random_.next(), random_.next_2d(), random_.next());
             if (diffuse_ends && sample.lobe == Lobe::diffuse) return;
             if (!follow(lit, sample, surface)) return;
         }
@@ -126,11 +125,13 @@ class Path {
                 const float pdf = state_.emission == EmissionWeight::weighted
                                       ? pdf_environment(context_.shading, state_.from, ray.direction)
                                       : 0.0f;
-                light_ += state_.throughput * environment_radiance(context_.shading, ray.direction) * weigh(state_, pdf);
+                light_ +=
+                    state_.throughput * environment_radiance(context_.shading, ray.direction) * weigh(state_, pdf);
             }
             return false;
         }
-        next = view_surface(context_.shading, make_surface_point(context_.shading, hit, ray.direction), -ray.direction, {});
+        next = view_surface(context_.shading, make_surface_point(context_.shading, hit, ray.direction), -ray.direction,
+                            {});
         const Rgb attenuation = state_.media.attenuation(next);
         if (attenuation != Rgb(0.0f)) state_.throughput *= glm::exp(-attenuation * hit.distance);
         light_ += state_.throughput * met_emission(context_, state_, next, hit.instance);

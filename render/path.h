@@ -52,8 +52,8 @@ struct PathState {
     PathLimits left;
     Rgb throughput{1.0f};
     EmissionWeight emission = EmissionWeight::full;
-    float pdf = 0.0f;   ///< density of the last turn, per steradian, if `weighted`
-    Receiver from;      ///< where it turned
+    float pdf = 0.0f;        ///< density of the last turn, per steradian, if `weighted`
+    Receiver from;           ///< where it turned
     int roulette_after = 4;  ///< surfaces that scatter before Russian roulette may end the path
     Media media;
 };

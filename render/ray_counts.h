@@ -9,9 +9,9 @@ struct RayCounts {
     std::uint64_t primary = 0;   ///< through pixels
     std::uint64_t shadow = 0;    ///< towards lights, from pixels and from the hits of gather rays
     std::uint64_t gather = 0;    ///< over hemispheres, for irradiance values
-    std::uint64_t glossy = 0;    ///< sampled from the glossy lobe, to find lights
-    std::uint64_t specular = 0;  ///< 0 in this version
-    std::uint64_t path = 0;      ///< 0 in this version
+    std::uint64_t glossy = 0;    ///< sampled from glossy lobes, coats, sheen and rough glass
+    std::uint64_t specular = 0;  ///< reflected by mirrors, refracted and passed by smooth glass
+    std::uint64_t path = 0;      ///< sampled from Lambert layers along paths
 
     std::uint64_t total() const { return primary + shadow + gather + glossy + specular + path; }
     RayCounts& operator+=(const RayCounts& o) {

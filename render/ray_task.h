@@ -8,7 +8,8 @@ namespace aleph {
 
 /// Make one per task: it is cheap, and nothing in it is shared with other threads.
 struct RayTask {
-    explicit RayTask(const RayScene& rays) : tracer(rays) {}
+    /// @param blend  what blended surfaces do to the rays; `random` is unbiased
+    explicit RayTask(const RayScene& rays, Blend blend = Blend::random) : tracer(rays, blend) {}
 
     Tracer tracer;
     RayCounts counts;  ///< of the rays that `tracer` cast, by purpose

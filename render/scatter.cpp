@@ -45,9 +45,8 @@ LobeValue evaluate_coat(const LitSurface& lit, const glm::vec3& direction) {
     if (material.is_coat_mirror() || !(light.z > 0.0f && lit.coat_view.z > 0.0f)) return {};
     const glm::vec2 widths(material.coat_alpha);
     const glm::vec3 h = glm::normalize(lit.coat_view + light);
-    const float value =
-        ggx_d(widths, h) * smith_g2(widths, lit.coat_view, light) / (4.0f * lit.coat_view.z) *
-        coat_reflectance(material, glm::dot(lit.coat_view, h));
+    const float value = ggx_d(widths, h) * smith_g2(widths, lit.coat_view, light) / (4.0f * lit.coat_view.z) *
+                        coat_reflectance(material, glm::dot(lit.coat_view, h));
     return {Rgb(value), pdf_reflected(widths, lit.coat_view, h)};
 }
 

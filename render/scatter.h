@@ -36,9 +36,9 @@ struct LitSurface {
 
     const SurfacePoint& point;
     const SurfaceMaterial& material;
-    Basis basis;      ///< z along the shading normal, x along the tangent of anisotropy
-    glm::vec3 view;   ///< in it
-    float cos_view;   ///< view.z, at least 0
+    Basis basis;     ///< z along the shading normal, x along the tangent of anisotropy
+    glm::vec3 view;  ///< in it
+    float cos_view;  ///< view.z, at least 0
     Basis coat_basis;
     glm::vec3 coat_view;
     float below_coat = 1.0f, below_sheen = 1.0f;  ///< share of light that the layers above leave, by view
@@ -61,7 +61,7 @@ Rgb scatter_towards(const LitSurface& lit, const glm::vec3& direction, float pdf
 struct ScatterSample {
     glm::vec3 direction{0.0f};  ///< unit, world
     Rgb weight{0.0f};           ///< f cos / density; 0: nothing is scattered
-    float pdf = 0.0f;           ///< per steradian, of this lobe times its share; 0 for a mirror, glass without roughness
+    float pdf = 0.0f;  ///< per steradian, of this lobe times its share; 0 for a mirror, glass without roughness
     Lobe lobe = Lobe::diffuse;
     bool passes = false;    ///< through the surface
     bool straight = false;  ///< through a smooth sheet, without a turn

@@ -7,6 +7,7 @@
 #include "engine/base/parallel.h"
 #include "engine/pose/cage_level.h"
 #include "engine/pose/posed_view.h"
+#include "engine/rays/alpha_cutout.h"
 #include "motion/image_motion.h"
 #include "motion/model_motion.h"
 #include "perception/sanitize.h"
@@ -15,6 +16,7 @@
 #include "render/frame.h"
 #include "render/frame_vision.h"
 #include "render/measure.h"
+#include "render/shutter.h"
 #include "render/texture.h"
 
 namespace aleph {
@@ -22,18 +24,16 @@ namespace aleph {
 namespace {
 
 constexpr int exposure_columns = 160;
+constexpr std::uint32_t shutter_seed_mask = 0x73687574u;  // keeps the shutter apart from other uses of the same key
 constexpr float background_depth = 1e30f;
 
-void refuse_later_effects(const Scene& scene, const CameraValues& camera) {
-    const std::string name = scene.nodes[camera.node].name;
-    if (camera.shutter.x != camera.shutter.y) {
-        throw InputError(scene.file, "camera of node " + printable(name),
-                         "motion blur (an open shutter) is not in this version");
+Lens find_lens(const Scene& scene, const CameraValues& camera) {
+    if (!(camera.aperture > 0.0)) return {};
+    if (!(camera.focus_distance > 0.0)) {
+        throw InputError(scene.file, "camera of node " + printable(scene.nodes[camera.node].name),
+                         "with an aperture, its focus distance has to be above 0");
     }
-    if (camera.aperture > 0.0) {
-        throw InputError(scene.file, "camera of node " + printable(name),
-                         "depth of field (an aperture) is not in this version");
-    }
+    return {camera.aperture, camera.focus_distance};
 }
 
 /// The scene with its subdivision cages at the levels that the picture needs.
@@ -59,7 +59,8 @@ struct Sequence::State {
           range(frame_range(scene)),
           textures(make_texture_set(scene)),
           pose_plan(make_pose_plan(scene)),
-          rays(scene, pose_plan) {}
+          rays(scene, pose_plan),
+          blended(has_blended(scene)) {}
 
     void move_to_frame(std::optional<PosedView>& posed, std::int64_t frame) const;
     Image<Rgb> estimate_view(const RayScene& view_rays, const PosedView& posed, EstimateKind kind,
@@ -67,7 +68,12 @@ struct Sequence::State {
     std::size_t update_rays_and_shading();
     void update_other_rays();
     void compute_motion(const SampleHits& centers, OtherFrame which, bool maps, StageClock& clock, FrameOutput& out);
-    std::uint64_t rays_traced() const { return rays.rays_traced() + (other_rays ? other_rays->rays_traced() : 0); }
+    bool can_change() const { return is_world_animated(scene) || !pose_plan.cameras.empty(); }
+    SampleMoment move_to_moment(double at_frame);
+    std::uint64_t rays_traced() const {
+        return rays.rays_traced() + (other_rays ? other_rays->rays_traced() : 0) +
+               (open ? open->rays.rays_traced() : 0);
+    }
 
     const Scene scene;
     const RenderSettings settings;
@@ -81,6 +87,17 @@ struct Sequence::State {
     std::optional<ShadingScene> shading;  ///< of `now`
     std::optional<ModelMotion> model_motion;
     std::unique_ptr<RayScene> other_rays;  ///< for visibility in the other frame, or its quick estimate
+    bool blended = false;                  ///< blended surfaces are in the scene
+
+    /// The scene at one time while the shutter is open.
+    struct Moment {
+        explicit Moment(const RayScene& shared) : rays(shared.share_meshes()) {}
+        RayScene rays;
+        std::optional<PosedView> posed;
+        std::optional<ShadingScene> shading;
+        LightSet lights;
+    };
+    std::unique_ptr<Moment> open;
     double exposure = 1.0;
 };
 
@@ -99,7 +116,7 @@ Image<Rgb> Sequence::State::estimate_view(const RayScene& view_rays, const Posed
                                           RayCounts& counts) const {
     const ShadingScene view_shading = make_shading_scene(scene, posed.pose, view_rays.anchor(), textures);
     const LightSet lights = make_light_set(view_shading);
-    const SampleHits centers = cast_sample(view_rays, posed.view, 0, 1, &counts.primary);
+    const SampleHits centers = cast_centers(view_rays, posed.view, &counts.primary);
     return compute_estimate({view_shading, lights, view_rays}, posed.view, centers, kind, exposure, counts);
 }
 
@@ -113,6 +130,27 @@ std::size_t Sequence::State::update_rays_and_shading() {
         shading = make_shading_scene(scene, now->pose, anchor, textures);
     }
     return touched;
+}
+
+/// Takes `open` to a time, in frames.
+SampleMoment Sequence::State::move_to_moment(double at_frame) {
+    if (!open) open = std::make_unique<Moment>(rays);
+    Moment& m = *open;
+    const double seconds = at_frame / scene.frame_rate.per_second();
+    if (m.posed) {
+        update_posed_view(scene, pose_plan, seconds, camera, *m.posed);
+    } else {
+        m.posed = make_posed_view(scene, seconds, camera, settings.width, settings.height);
+    }
+    const glm::dvec3 anchor = compute_anchor(m.posed->view);
+    m.rays.update_moving(m.posed->pose, anchor);
+    if (m.shading) {
+        update_shading_scene(*m.shading, pose_plan, anchor);
+    } else {
+        m.shading = make_shading_scene(scene, m.posed->pose, anchor, textures);
+    }
+    m.lights = make_light_set(*m.shading);
+    return {{*m.shading, m.lights, m.rays}, m.posed->view};
 }
 
 /// Brings other_rays to `other`.
@@ -202,8 +240,9 @@ void fill_geometry_maps(const ShadingScene& shading, const SampleHits& centers, 
 }
 
 /// Fills the cache, shades the picture and adds their times and counts to the frame's statistics.
-void shade(const IndirectContext& context, const SampleHits& centers, double exposure, FrameOutput& out) {
-    out.shaded = shade_frame(context, centers, exposure);
+void shade(const IndirectContext& context, const SampleHits& centers, double exposure, const SampleOptions& options,
+           FrameOutput& out) {
+    out.shaded = shade_frame(context, centers, exposure, options);
     FrameStatistics& stats = out.statistics;
     stats.seconds.fill = out.shaded.fill_seconds;
     stats.seconds.shade = out.shaded.shade_seconds;
@@ -225,7 +264,9 @@ FrameOutput Sequence::render(std::int64_t frame, const FrameRequest& request) {
     StageClock clock, total;
 
     s.move_to_frame(s.now, frame);
-    if (request.frame) refuse_later_effects(s.scene, s.now->pose.cameras[s.camera]);
+    const CameraValues& camera = s.now->pose.cameras[s.camera];
+    SampleOptions options;
+    if (request.frame) options.lens = find_lens(s.scene, camera);
     if (which != OtherFrame::none) s.move_to_frame(s.other, other_frame_number(frame, which));
     out.view = s.now->view;
     clock.add_to(stats.seconds.pose);
@@ -235,7 +276,7 @@ FrameOutput Sequence::render(std::int64_t frame, const FrameRequest& request) {
     const LightingContext lighting{*s.shading, lights, s.rays};
     clock.add_to(stats.seconds.update);
 
-    const SampleHits centers = cast_sample(s.rays, out.view, 0, 1, &stats.counts.rays.primary);
+    const SampleHits centers = cast_centers(s.rays, out.view, &stats.counts.rays.primary);
     clock.add_to(stats.seconds.first_hits);
 
     if (perceive) {
@@ -251,8 +292,15 @@ FrameOutput Sequence::render(std::int64_t frame, const FrameRequest& request) {
     }
     if (request.frame) {
         const auto random_frame = static_cast<std::uint32_t>(frame);
+        options.blended = s.blended;
+        if (const auto shutter = find_shutter(s.scene, camera, frame); shutter && s.can_change()) {
+            const double shift = RandomStream({s.settings.seed ^ shutter_seed_mask, random_frame, 0, 0}).next();
+            options.at_sample = [&s, shutter, shift](int sample) {
+                return s.move_to_moment(place_in_shutter(*shutter, sample, shift));
+            };
+        }
         shade({lighting, out.view, s.settings, out.alpha, random_frame, scene_radius(*s.shading), request.progress},
-              centers, s.exposure, out);
+              centers, s.exposure, options, out);
     }
     if (request.maps) fill_geometry_maps(*s.shading, centers, out);
     out.hits = centers.hits;

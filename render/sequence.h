@@ -22,7 +22,7 @@ class Sequence {
     ~Sequence();
     Sequence(Sequence&&) noexcept;
 
-    /// @throws InputError if a picture is requested and the camera has an effect that is not in this version
+    /// @throws InputError if a picture is requested and the camera has an aperture without a focus distance
     FrameOutput render(std::int64_t frame, const FrameRequest& request = {});
 
     /// The scene, its subdivision cages at the levels that are rendered.

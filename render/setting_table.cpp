@@ -161,13 +161,20 @@ void add_light(std::vector<Setting>& table) {
         &S::accuracy, 0.0, 1.0)));
     table.push_back(with_unit(
         number_setting("gather", "rays over the hemisphere for one irradiance value", &S::gather, 4, 1 << 20), "rays"));
-    table.push_back(number_setting("bounces", "bounces of indirect diffuse light", &S::bounces, 0, 1));
+    table.push_back(number_setting(
+        "bounces", "bounces of indirect diffuse light; more than 1 needs the integrator path", &S::bounces, 0, 1000));
+    table.push_back(with_unit(
+        number_setting("path_depth", "longest path of light that mirrors and glass may make", &S::path_depth, 1, 10000),
+        "surfaces"));
     table.push_back(
         with_unit(number_setting("spp", "samples per pixel; 1 is the pixel's centre", &S::spp, 1, 65536), "samples"));
     table.push_back(fixed_setting("sampling", "how samples are shared out among pixels", "uniform",
                                   {"consecutive", "variance", "protocol"}));
-    table.push_back(
-        fixed_setting("integrator", "method for indirect light: cache is an irradiance cache", "cache", {"path"}));
+    table.push_back(choice_setting<Integrator>(
+        "integrator",
+        "method for the picture's light: an irradiance cache for indirect diffuse light (cache), or path tracing, "
+        "unbiased, with the variance of each pixel (path)",
+        [](S& s) -> Integrator& { return s.integrator; }, {{"cache", Integrator::cache}, {"path", Integrator::path}}));
     table.push_back(with_unit(
         number_setting("light_samples", "samples of direct light per pixel and light, shared out among the pixel's spp",
                        &S::light_samples, 1, 65536),

@@ -37,6 +37,9 @@ struct ShadedFrame : FrameTally {
     Image<Rgb> color;       ///< mean of the valid samples, linear, exposure applied; 0 if no sample is valid
     Image<float> coverage;  ///< share of the valid samples that hit a surface
     Image<float> samples;   ///< pixel samples taken
+    /// Variance of the pixel's mean luminance, exposure applied, from its samples. With Integrator::path and 2 samples
+    /// or more; otherwise empty, since samples that share a cache do not tell its error.
+    Image<float> variance;
     double fill_seconds = 0.0, shade_seconds = 0.0;
 };
 

@@ -56,12 +56,12 @@ struct ShadingScene {
     glm::dvec3 anchor{0.0};
     std::vector<PosedInstance> instances;  ///< as ScenePose::instances
     std::vector<ShadingMaterial> materials;
-    Rgb environment{0.0f};  ///< radiance all around, or factor on environment_map
+    Rgb environment{0.0f};                            ///< radiance all around, or factor on environment_map
     const EnvironmentMap* environment_map = nullptr;  ///< null: none
     glm::mat3 environment_rotation{1.0f};             ///< of environment_map, to the world
     bool has_sheets = false;                          ///< some material may pass light straight: shadows depend on it
-    std::vector<int> emitting;  ///< instances whose material emits at some time
-    SceneBounds bounds;         ///< of the visible instances
+    std::vector<int> emitting;                        ///< instances whose material emits at some time
+    SceneBounds bounds;                               ///< of the visible instances
 
     std::optional<SceneBounds> still_bounds;  ///< of visible instances that updates do not change; set by the first one
 };

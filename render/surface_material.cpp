@@ -15,9 +15,7 @@ struct Lookup {
 
     Lookup(const ShadingScene& s, const SurfacePoint& p) : shading(s), point(p) {}
     Lookup(const ShadingScene& s, const SurfacePoint& p, const RayFootprint& footprint)
-        : shading(s),
-          point(p),
-          footprints{make_uv_footprint(p, footprint, 0), make_uv_footprint(p, footprint, 1)} {}
+        : shading(s), point(p), footprints{make_uv_footprint(p, footprint, 0), make_uv_footprint(p, footprint, 1)} {}
 
     glm::vec4 operator()(const TextureUse& use) const {
         return sample_texture(*shading.textures, use, point.uv[use.uv_set], footprints[use.uv_set]);
@@ -204,11 +202,10 @@ ViewedSurface view_surface(const ShadingScene& shading, const SurfacePoint& poin
     if (!textures.maps_normals || material == nullptr) return surface;
     const Lookup look_up(shading, point, footprint);
     if (surface.material.has_coat()) {
-        surface.material.coat_normal =
-            is_used(textures.clearcoat_normal)
-                ? map_normal(look_up, textures.clearcoat_normal,
-                             static_cast<float>(material->clearcoat_normal_scale), view)
-                : point.normal;
+        surface.material.coat_normal = is_used(textures.clearcoat_normal)
+                                           ? map_normal(look_up, textures.clearcoat_normal,
+                                                        static_cast<float>(material->clearcoat_normal_scale), view)
+                                           : point.normal;
     }
     if (is_used(textures.normal)) {
         surface.point.normal = map_normal(look_up, textures.normal, static_cast<float>(material->normal_scale), view);

@@ -15,27 +15,27 @@ namespace aleph {
 
 /// The layers, from below: Lambert and glass side by side, the glossy layer, sheen, coat.
 struct SurfaceMaterial {
-    Rgb diffuse{0.0f};    ///< albedo of the Lambert layer
-    Rgb f0{0.0f};         ///< reflectance of the glossy layer at normal incidence
-    float f90 = 0.0f;     ///< reflectance of the glossy layer at grazing incidence
+    Rgb diffuse{0.0f};  ///< albedo of the Lambert layer
+    Rgb f0{0.0f};       ///< reflectance of the glossy layer at normal incidence
+    float f90 = 0.0f;   ///< reflectance of the glossy layer at grazing incidence
     /// Largest channel of the dielectric f0, and the reflectance at grazing incidence where it exceeds f90: light that
     /// does not reach the Lambert layer.
     float f0_max = 0.0f, f90_max = 0.0f;
-    float alpha = 1.0f;   ///< GGX width: roughness squared. Below min_ggx_alpha the glossy layer is a mirror
-    float stretch = 0.0f;       ///< anisotropy: widens the lobe along `tangent` from alpha towards 1
-    glm::vec3 tangent{0.0f};    ///< world, unit, if stretch > 0
-    Rgb emission{0.0f};         ///< radiance that leaves the visible side
-    float glass = 0.0f;         ///< share of the surface that is a clear dielectric interface
-    Rgb glass_tint{1.0f};       ///< of the light that passes it
+    float alpha = 1.0f;           ///< GGX width: roughness squared. Below min_ggx_alpha the glossy layer is a mirror
+    float stretch = 0.0f;         ///< anisotropy: widens the lobe along `tangent` from alpha towards 1
+    glm::vec3 tangent{0.0f};      ///< world, unit, if stretch > 0
+    Rgb emission{0.0f};           ///< radiance that leaves the visible side
+    float glass = 0.0f;           ///< share of the surface that is a clear dielectric interface
+    Rgb glass_tint{1.0f};         ///< of the light that passes it
     float glass_specular = 1.0f;  ///< factor on its reflectance (KHR_materials_specular)
     float ior = 1.5f;
-    bool volume = false;      ///< light that passes refracts, into what the mesh encloses; else the surface is a sheet
-    float ior_ratio = 1.5f;   ///< index of refraction of the far side over that of the viewer's side
-    Rgb attenuation{0.0f};    ///< of the volume, 1/m
-    Rgb sheen{0.0f};          ///< colour of the sheen layer
+    bool volume = false;     ///< light that passes refracts, into what the mesh encloses; else the surface is a sheet
+    float ior_ratio = 1.5f;  ///< index of refraction of the far side over that of the viewer's side
+    Rgb attenuation{0.0f};   ///< of the volume, 1/m
+    Rgb sheen{0.0f};         ///< colour of the sheen layer
     float sheen_alpha = 1.0f;
-    float coat = 0.0f;        ///< strength of the clear coat
-    float coat_alpha = 0.0f;  ///< its GGX width
+    float coat = 0.0f;            ///< strength of the clear coat
+    float coat_alpha = 0.0f;      ///< its GGX width
     glm::vec3 coat_normal{0.0f};  ///< world, unit; 0: as the surface's shading normal
 
     bool has_diffuse() const { return diffuse != Rgb(0.0f); }

@@ -149,8 +149,7 @@ TextureSet make_texture_set(const Scene& scene) {
         take(&M::sheen_color, material.sheen_color_texture, srgb);
         take(&M::sheen_roughness, material.sheen_roughness_texture, linear);
         take(&M::anisotropy, material.anisotropy_texture, linear);
-        textures.maps_normals =
-            textures.normal.texture != no_index || textures.clearcoat_normal.texture != no_index;
+        textures.maps_normals = textures.normal.texture != no_index || textures.clearcoat_normal.texture != no_index;
         set.materials.push_back(textures);
     }
     set.materials.emplace_back();

@@ -13,25 +13,23 @@ constexpr int block = 4;  // 4 x 4 neighbouring pixels share a packet
 
 }  // namespace
 
-Image<Hit> cast_first_hits(const RayScene& scene, const CameraView& view, double offset_x, double offset_y,
-                           std::uint64_t* rays_cast) {
-    Image<Hit> hits(view.width, view.height);
-    const glm::vec3 origin(view.position - scene.anchor());
-    const int bands = (view.height + block - 1) / block;
+void cast_rays(const RayScene& scene, const std::function<CameraRay(int x, int y)>& make_ray, Blend blend,
+               Image<Hit>& hits) {
+    const int bands = (hits.height + block - 1) / block;
     parallel_for(static_cast<std::size_t>(bands), 1, [&](std::size_t band_begin, std::size_t band_end) {
-        Tracer tracer(scene);
+        Tracer tracer(scene, blend);
         for (std::size_t band = band_begin; band < band_end; ++band) {
             const int y0 = static_cast<int>(band) * block;
-            for (int x0 = 0; x0 < view.width; x0 += block) {
+            for (int x0 = 0; x0 < hits.width; x0 += block) {
                 std::array<Ray, block * block> rays;
                 std::array<Hit, block * block> found;
                 std::size_t count = 0;
-                const int y1 = std::min(y0 + block, view.height), x1 = std::min(x0 + block, view.width);
+                const int y1 = std::min(y0 + block, hits.height), x1 = std::min(x0 + block, hits.width);
                 for (int y = y0; y < y1; ++y) {
                     for (int x = x0; x < x1; ++x) {
-                        const CameraRay ray = make_camera_ray(view, x + offset_x, y + offset_y);
+                        const CameraRay ray = make_ray(x, y);
                         rays[count].direction = glm::vec3(ray.direction);
-                        rays[count++].origin = view.orthographic ? glm::vec3(ray.origin - scene.anchor()) : origin;
+                        rays[count++].origin = glm::vec3(ray.origin - scene.anchor());
                     }
                 }
                 tracer.intersect(std::span(rays.data(), count), std::span(found.data(), count), true);
@@ -42,6 +40,13 @@ Image<Hit> cast_first_hits(const RayScene& scene, const CameraView& view, double
             }
         }
     });
+}
+
+Image<Hit> cast_first_hits(const RayScene& scene, const CameraView& view, double offset_x, double offset_y,
+                           std::uint64_t* rays_cast) {
+    Image<Hit> hits(view.width, view.height);
+    cast_rays(
+        scene, [&](int x, int y) { return make_camera_ray(view, x + offset_x, y + offset_y); }, Blend::cutout, hits);
     if (rays_cast != nullptr) *rays_cast += hits.size();
     return hits;
 }

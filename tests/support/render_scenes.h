@@ -183,7 +183,7 @@ inline ShadedFrame shade(const Stage& stage, const RenderSettings& settings) {
     const Image<float> accuracy(stage.view.width, stage.view.height, static_cast<float>(settings.accuracy));
     const LightingContext lighting = stage.lighting();
     const IndirectContext context{lighting, stage.view, settings, accuracy, 0, scene_radius(stage.shading), {}};
-    return shade_frame(context, cast_sample(stage.rays, stage.view, 0, 1, nullptr), 1.0);
+    return shade_frame(context, cast_centers(stage.rays, stage.view, nullptr), 1.0);
 }
 
 /// Mean and standard error of independent values.

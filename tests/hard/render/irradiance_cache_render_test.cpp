@@ -163,7 +163,7 @@ TEST(IrradianceCache, IC13_TheSameRecordsFromAnyNumberOfThreads) {
     }
     const LightingContext lighting = stage.lighting();
     const IndirectContext context{lighting, stage.view, settings, accuracy, 0, scene_radius(stage.shading), {}};
-    const SampleHits centers = cast_sample(stage.rays, stage.view, 0, 1, nullptr);
+    const SampleHits centers = cast_centers(stage.rays, stage.view, nullptr);
     std::vector<IrradianceRecord> first;
     Image<Rgb> first_picture;
     for (const int threads : {1, 2, 4, 8}) {

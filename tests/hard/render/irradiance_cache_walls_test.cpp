@@ -37,7 +37,7 @@ DarkRoom render_two_rooms(double thickness, double accuracy, double min_radius_p
     RenderSettings settings = plain_settings(accuracy, accuracy > 0.0 ? 1024 : 64);  // the default gather
     settings.min_radius_pixels = min_radius_pixels;
     const ShadedFrame out = shade(stage, settings);
-    const SampleHits hits = cast_sample(stage.rays, stage.view, 0, 1, nullptr);
+    const SampleHits hits = cast_centers(stage.rays, stage.view, nullptr);
     DarkRoom found;
     for (int y = 0; y < 48; ++y) {
         for (int x = 0; x < 64; ++x) {
@@ -97,7 +97,7 @@ TEST(IrradianceCache, IC08_BarsBeforeAShiningPaneStayDark) {
     for (int i = -6; i <= 6; ++i) add_mesh(scene, make_box({0.04, 3.0, 0.02}, wood), {0.3 * i, 0.0, 0.08});
     add_camera(scene, {0.0, 0.0, 3.0}, glm::dvec3(0.0), 0.9);
     const Stage stage(std::move(scene), 96, 72);
-    const SampleHits hits = cast_sample(stage.rays, stage.view, 0, 1, nullptr);
+    const SampleHits hits = cast_centers(stage.rays, stage.view, nullptr);
     for (const double accuracy : {0.05, 0.15, 0.3, 0.5}) {
         const ShadedFrame out = shade(stage, plain_settings(accuracy, 256));
         int fronts = 0, leaking = 0;

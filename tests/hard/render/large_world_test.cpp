@@ -36,8 +36,8 @@ Compared compare_with_origin(const glm::dvec3& place) {
     const Stage near(make_room_at(glm::dvec3(0.0)), width, height), far(make_room_at(place), width, height);
     const RenderSettings settings = plain_settings(0.2, 2048);  // records may differ by noise only
     const Image<Rgb> a = shade(near, settings).color, b = shade(far, settings).color;
-    const SampleHits near_hits = cast_sample(near.rays, near.view, 0, 1, nullptr);
-    const SampleHits far_hits = cast_sample(far.rays, far.view, 0, 1, nullptr);
+    const SampleHits near_hits = cast_centers(near.rays, near.view, nullptr);
+    const SampleHits far_hits = cast_centers(far.rays, far.view, nullptr);
     Compared result;
     double sum = 0.0, difference = 0.0;
     for (int y = 0; y < height; ++y) {

@@ -24,7 +24,7 @@ struct Fill {
           lighting(stage.lighting()),
           settings(plain_settings(accuracy, 64)),
           alpha(width, height, static_cast<float>(accuracy)),
-          centers(cast_sample(stage.rays, stage.view, 0, 1, nullptr)),
+          centers(cast_centers(stage.rays, stage.view, nullptr)),
           context{lighting, stage.view, settings, alpha, 0, scene_radius(stage.shading), {}} {}
 
     FrameTally make_tally() const {

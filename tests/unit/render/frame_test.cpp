@@ -103,7 +103,7 @@ TEST(Frame, EmissionCoverageAndBackground) {
         const Image<float> accuracy(16, 12, 0.15f);
         const LightingContext lighting = stage.lighting();
         const IndirectContext context{lighting, stage.view, settings, accuracy, 0, 1.0f, {}};
-        const ShadedFrame out = shade_frame(context, cast_sample(stage.rays, stage.view, 0, 1, nullptr), 3.0);
+        const ShadedFrame out = shade_frame(context, cast_centers(stage.rays, stage.view, nullptr), 3.0);
         // The lamp covers columns 8 (its edge lies on the pixels' border) to 8 + half the frame's height in m.
         EXPECT_EQ(out.color(9, 6), Rgb(6.0f, 12.0f, 24.0f));
         EXPECT_EQ(out.coverage(9, 6), 1.0f);
@@ -188,7 +188,7 @@ TEST(Frame, KF17_MirroredSceneIsTheMirroredPicture) {
     RenderSettings settings = plain_settings(0.15, 16);
     settings.bounces = 0;
     const Image<Rgb> one = shade(plain, settings).color, other = shade(mirrored, settings).color;
-    const SampleHits hits = cast_sample(mirrored.rays, mirrored.view, 0, 1, nullptr);
+    const SampleHits hits = cast_centers(mirrored.rays, mirrored.view, nullptr);
     int differing = 0, lit = 0;
     for (int y = 0; y < height; ++y) {
         for (int x = 0; x < width; ++x) {

@@ -47,7 +47,7 @@ void expect_everywhere(Scene scene, const RenderSettings& settings, double expec
     }
     EXPECT_NEAR(picture.mean(), expected, 3.0 * picture.error() + 1e-4 * expected);
     EXPECT_NEAR(picture.mean(), expected, 0.01 * expected);
-    const SampleHits hits = cast_sample(stage.rays, stage.view, 0, 1, nullptr);
+    const SampleHits hits = cast_centers(stage.rays, stage.view, nullptr);
     int beyond = 0, judged = 0;
     for (std::size_t i = 0; i < pixels.size(); ++i) {
         const PixelSurface s = make_pixel_surface(stage.shading, stage.view, hits, static_cast<int>(i) % width,

@@ -1,0 +1,33 @@
+#include "render/shutter.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace aleph {
+
+std::optional<ShutterInterval> find_shutter(const Scene& scene, const CameraValues& camera, std::int64_t frame) {
+    if (camera.shutter == glm::dvec2(0.0)) return std::nullopt;
+    const double now = static_cast<double>(frame);
+    ShutterInterval shutter{now + camera.shutter.x, now + camera.shutter.y};
+    for (const std::int64_t cut : scene.cuts) {
+        const double at = static_cast<double>(cut);
+        if (cut <= frame) {
+            shutter.open = std::max(shutter.open, at);
+            shutter.close = std::max(shutter.close, at);
+        } else if (shutter.close > at) {
+            shutter.close = at;
+            // All of it lies in the next shot: the last moment of this one.
+            if (shutter.open >= at) shutter.open = shutter.close = std::nextafter(at, now);
+        }
+    }
+    return shutter;
+}
+
+double place_in_shutter(const ShutterInterval& shutter, int index, double shift) {
+    constexpr double step =
+        0.8566748838545029;  // 1 / x, x^5 = x + 1: with the lattice of a pixel, even in all dimensions
+    const double at = shift + step * index;
+    return shutter.open + (shutter.close - shutter.open) * (at - std::floor(at));
+}
+
+}  // namespace aleph
