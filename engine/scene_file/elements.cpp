@@ -76,7 +76,7 @@ TextureRef read_texture(SceneReader& reader, const JsonRef& at) {
 
 int add_material(SceneReader& reader, const JsonRef& at, const std::string& name) {
     const FrameRate& rate = reader.scene.frame_rate;
-    reader.charge(sizeof(Material) + 600, at, "let shapes share materials");
+    reader.charge(sizeof(Material) + 900, at, "let shapes share materials");
     Material material = absent_material();
     material.name = name;
     for (const auto& field : material_numbers) {

@@ -93,7 +93,8 @@ void replace_each_value(const Json& document, std::size_t skip, const Each& each
 
 const std::string scene_text = R"({"aleph": 1, "name": "n", "fps": "30000/1001", "frames": [0, 9], "cuts": [3, 5],
   "viewing": {"pixels_per_degree": 31, "display_white": 100}, "exposure": 0.5, "camera": "eye",
-  "environment": {"keys": [[0, [0, 0, 0]], [12, [1, 1, 1]]], "interpolation": "step"}, "settings": {"gather": 16},
+  "environment": {"keys": [[0, [0, 0, 0]], [12, [1, 1, 1]]], "interpolation": "step"},
+  "environment_image": "sky.png", "environment_rotation": {"axis": [0, 1, 0], "degrees": {"keys": [[0, 0], [30, 720]]}}, "settings": {"gather": 16},
   "materials": {"felt": {"base_color": [0.1, 0.5, 0.1]}, "lamp": {"emission": [1, 1, 1],
     "emission_strength": {"values": [1, 2, 3], "start": 4, "period": 0.5}}},
   "meshes": {"ball": {"shape": {"type": "sphere", "radius": 0.5, "segments": 8}, "material": "felt"}},
@@ -113,6 +114,7 @@ const std::string scene_text = R"({"aleph": 1, "name": "n", "fps": "30000/1001",
 TEST(HostileCorpus, S13_11_SceneFilesWithEveryValueReplaced) {
     const ScratchFolder folder;
     Tally tally;
+    write_png(folder / "sky.png", Image<Rgb>(2, 1, Rgb(1.0f)));
     write_text(folder / "good.json", scene_text);
     const ChildCost good = run_in_child([&] { use(folder / "good.json"); });
     ASSERT_TRUE(good.ended_well && !good.refused) << good.message;

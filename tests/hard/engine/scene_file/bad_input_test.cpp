@@ -89,9 +89,26 @@ TEST(BadSceneFile, TopLevel) {
         scene("\"viewing\": {\"display_white\": null}", "/viewing/display_white", "found null"),
         scene("\"viewing\": {\"display_white\": 1e19}", "/viewing/display_white", "1e+18"),
         scene("\"viewing\": {\"ppd\": 31}", "/viewing/ppd", "unknown key"),
+        scene("\"viewing\": {\"persistence\": 2}", "/viewing/persistence", "a number from 0 to 1, found 2"),
+        scene("\"viewing\": {\"persistence\": -0.1}", "/viewing/persistence", "a number from 0 to 1"),
         scene("\"exposure\": 0", "/exposure", "above 0"),
         scene("\"environment\": [1, 1]", "/environment", "3 numbers"),
         scene("\"environment\": [1, -1, 1]", "/environment/1", "at least 0"),
+        scene("\"environment\": \"sky.exr\"", "/environment", "found the text \"sky.exr\""),
+        scene("\"environment_image\": 5", "/environment_image", "an image (name or path), found 5"),
+        scene("\"environment_image\": \"\"", "/environment_image", "an image"),
+        scene("\"environment_image\": \"/srv/sky.exr\"", "/environment_image", "absolute"),
+        scene("\"environment_image\": \"https://a.b/sky.exr\"", "/environment_image", "addresses"),
+        scene("\"environment_rotation\": [0, 0, 0, 1]", "/environment_rotation",
+              "turns \"environment_image\", which is not given"),
+        scene("\"environment_image\": \"s.exr\", \"environment_rotation\": [0, 0, 0, 0]", "/environment_rotation",
+              "zero"),
+        scene("\"environment_image\": \"s.exr\", \"environment_rotation\": 90", "/environment_rotation", "4 numbers"),
+        scene("\"environment_image\": \"s.exr\", \"environment_rotation\": {\"axis\": [0, 1, 0]}",
+              "/environment_rotation", "degrees"),
+        scene("\"environment_image\": \"s.exr\", \"environment_rotation\": {\"axis\": [0, 0, 0], \"degrees\": 5}",
+              "/environment_rotation/axis", "zero"),
+        scene("\"environment_map\": \"s.exr\"", "/environment_map", "did you mean"),
         scene("\"camera\": [\"main\"]", "/camera", "a name"),
         scene("\"include\": 5", "/include", "relative path"),
     });
@@ -122,9 +139,12 @@ TEST(BadSceneFile, Settings) {
 
 // Every place for a number, with values that are not finite numbers up to 1e18.
 TEST(BadSceneFile, InfinityAnywhere) {
-    const std::string file = R"({"aleph": 1, "exposure": @, "viewing": {"pixels_per_degree": @, "display_white": @},
-        "environment": [@, @, @], "materials": {"m": {"base_color": [@, 0, 0], "alpha": @, "metallic": @, "roughness": @,
-        "specular": @, "specular_color": [0, @, 0], "ior": @, "emission": [0, 0, @], "emission_strength": @}},
+    const std::string file =
+        R"({"aleph": 1, "exposure": @, "viewing": {"pixels_per_degree": @, "display_white": @, "persistence": @},
+        "environment": [@, @, @], "environment_image": "s.exr", "environment_rotation": {"axis": [@, 0, 0], "degrees": @}, "materials": {"m": {"base_color": [@, 0, 0], "alpha": @, "metallic": @, "roughness": @,
+        "specular": @, "specular_color": [0, @, 0], "ior": @, "emission": [0, 0, @], "emission_strength": @, "thickness": @,
+        "attenuation_distance": @, "attenuation_color": [@, 0, 0], "clearcoat": @, "clearcoat_roughness": @, "clearcoat_normal_scale": @,
+        "sheen_color": [0, @, 0], "sheen_roughness": @, "anisotropy": @, "anisotropy_rotation": @, "normal_scale": @}},
         "cameras": {"c": {"fov": @, "near": @, "shutter": [@, @], "aperture": @, "focus": @}},
         "lights": {"l": {"type": "point", "color": [@, 1, 1], "intensity": @, "range": @}},
         "nodes": [{"translation": [@, 0, 0], "rotation": [@, 0, 0, 1], "scale": [@, @, @], "shape": {"type": "box",
@@ -151,7 +171,7 @@ TEST(BadSceneFile, InfinityAnywhere) {
         }
         ++places;
     }
-    EXPECT_EQ(places, 45);
+    EXPECT_EQ(places, 59);
 }
 
 TEST(BadSceneFile, NamesAreEscapedAndShortened) {

@@ -14,10 +14,13 @@ namespace aleph {
 namespace {
 
 const std::string whole_file = R"({"aleph": 1, "name": "n", "fps": "30000/1001", "frames": [0, 59], "cuts": [3, 30],
-  "viewing": {"pixels_per_degree": 31, "display_white": 100}, "exposure": 0.5, "camera": "eye",
+  "viewing": {"pixels_per_degree": 31, "display_white": 100, "persistence": 0.5}, "exposure": 0.5, "camera": "eye",
   "environment": {"keys": [[0, [0, 0, 0]], [12, [1, 1, 1]]], "interpolation": "step"},
+  "environment_image": "felt", "environment_rotation": {"axis": [0, 1, 0], "degrees": {"keys": [[0, 0], [30, 720]]}},
   "images": {"felt": "felt.png"}, "settings": {"accuracy": 0.1, "gather": 512, "guide": "full", "size": "64x48"},
   "materials": {"felt": {"base_color": [0.1, 0.5, 0.1], "base_color_texture": {"image": "felt", "wrap": ["clamp", "mirror"]}},
+    "glass": {"transmission": 1, "thickness": 0.5, "attenuation_distance": 2, "attenuation_color": [1, 0, 1], "anisotropy_rotation": 30,
+      "clearcoat": 1, "sheen_color": [0.5, 0, 0], "normal_texture": "felt", "normal_scale": 0.5},
     "lamp": {"emission": [1, 1, 1], "emission_strength": {"values": [1, 2, 3], "start": 4, "period": 0.5}}},
   "meshes": {"ball": {"shape": {"type": "sphere", "radius": 0.5, "segments": 8}, "material": "felt"},
     "flag": {"shape": {"type": "mesh", "points": "cloth", "vertex_points": [0, 1, 2, 0], "triangles": [[0, 1, 2], [3, 1, 2]],

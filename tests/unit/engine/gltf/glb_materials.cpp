@@ -44,10 +44,74 @@ int GlbWriter::texture_of(const TextureRef& reference) {
     return static_cast<int>(model_.textures.size()) - 1;
 }
 
-gltf::Value GlbWriter::texture_info(const TextureRef& reference) {
+gltf::Value GlbWriter::texture_info(const TextureRef& reference, double scale) {
     const int texture = texture_of(reference);
-    return gltf::Value(
-        gltf::Value::Object{{"index", gltf::Value(texture)}, {"texCoord", gltf::Value(reference.uv_set)}});
+    gltf::Value::Object info{{"index", gltf::Value(texture)}, {"texCoord", gltf::Value(reference.uv_set)}};
+    if (scale != 1.0) info["scale"] = gltf::Value(scale);
+    return gltf::Value(std::move(info));
+}
+
+void GlbWriter::add_texture(gltf::Value::Object& members, const char* key, const TextureRef& reference, double scale) {
+    if (reference.image != no_index) members[key] = texture_info(reference, scale);
+}
+
+void GlbWriter::extend(gltf::Material& material, const char* name, gltf::Value::Object members) {
+    use(name);
+    material.extensions[name] = gltf::Value(std::move(members));
+}
+
+namespace {
+
+gltf::Value number(double value) {
+    return gltf::Value(value);
+}
+gltf::Value color_value(const glm::dvec3& color) {
+    return gltf::Value(gltf::Value::Array{number(color.x), number(color.y), number(color.z)});
+}
+
+}  // namespace
+
+void GlbWriter::add_volume(const Material& source, gltf::Material& material) {
+    const double thickness = constant(source.thickness, "thickness");
+    const double distance = constant(source.attenuation_distance, "attenuation distance");
+    const glm::dvec3 color = constant(source.attenuation_color, "attenuation colour");
+    if (thickness == 0.0 && distance == 0.0 && color == glm::dvec3(1.0)) return;
+    gltf::Value::Object members{{"thicknessFactor", number(thickness)}, {"attenuationColor", color_value(color)}};
+    if (distance != 0.0) members["attenuationDistance"] = number(distance);
+    add_texture(members, "thicknessTexture", source.thickness_texture);
+    extend(material, "KHR_materials_volume", std::move(members));
+}
+
+void GlbWriter::add_clearcoat(const Material& source, gltf::Material& material) {
+    const double strength = constant(source.clearcoat, "clear coat");
+    if (strength == 0.0) return;
+    gltf::Value::Object members{
+        {"clearcoatFactor", number(strength)},
+        {"clearcoatRoughnessFactor", number(constant(source.clearcoat_roughness, "clear coat roughness"))}};
+    add_texture(members, "clearcoatTexture", source.clearcoat_texture);
+    add_texture(members, "clearcoatRoughnessTexture", source.clearcoat_roughness_texture);
+    add_texture(members, "clearcoatNormalTexture", source.clearcoat_normal_texture, source.clearcoat_normal_scale);
+    extend(material, "KHR_materials_clearcoat", std::move(members));
+}
+
+void GlbWriter::add_sheen(const Material& source, gltf::Material& material) {
+    const glm::dvec3 color = constant(source.sheen_color, "sheen colour");
+    if (color == glm::dvec3(0.0)) return;
+    gltf::Value::Object members{{"sheenColorFactor", color_value(color)},
+                                {"sheenRoughnessFactor", number(constant(source.sheen_roughness, "sheen roughness"))}};
+    add_texture(members, "sheenColorTexture", source.sheen_color_texture);
+    add_texture(members, "sheenRoughnessTexture", source.sheen_roughness_texture);
+    extend(material, "KHR_materials_sheen", std::move(members));
+}
+
+void GlbWriter::add_anisotropy(const Material& source, gltf::Material& material) {
+    const double strength = constant(source.anisotropy, "anisotropy");
+    if (strength == 0.0) return;
+    gltf::Value::Object members{
+        {"anisotropyStrength", number(strength)},
+        {"anisotropyRotation", number(constant(source.anisotropy_rotation, "rotation of anisotropy"))}};
+    add_texture(members, "anisotropyTexture", source.anisotropy_texture);
+    extend(material, "KHR_materials_anisotropy", std::move(members));
 }
 
 void GlbWriter::add_material(const Material& source) {
@@ -68,33 +132,36 @@ void GlbWriter::add_material(const Material& source) {
     set(source.base_color_texture, pbr.baseColorTexture);
     set(source.metallic_roughness_texture, pbr.metallicRoughnessTexture);
     set(source.emission_texture, material.emissiveTexture);
+    set(source.normal_texture, material.normalTexture);
+    material.normalTexture.scale = source.normal_scale;
 
     // The factor of glTF is at most 1; the strength holds the rest.
     const double largest =
         std::max({material.emissiveFactor[0], material.emissiveFactor[1], material.emissiveFactor[2]});
     const double excess = std::max(largest, 1.0);
     for (double& factor : material.emissiveFactor) factor /= excess;
-    const auto number = [](double value) { return gltf::Value(value); };
-    const auto extend = [&](const char* name, gltf::Value::Object members) {
-        use(name);
-        material.extensions[name] = gltf::Value(std::move(members));
-    };
     if (const double strength = constant(source.emission_strength, "strength") * excess; strength != 1.0) {
-        extend("KHR_materials_emissive_strength", {{"emissiveStrength", number(strength)}});
+        extend(material, "KHR_materials_emissive_strength", {{"emissiveStrength", number(strength)}});
     }
-    if (const double ior = constant(source.ior, "ior"); ior != 1.5) extend("KHR_materials_ior", {{"ior", number(ior)}});
+    if (const double ior = constant(source.ior, "ior"); ior != 1.5)
+        extend(material, "KHR_materials_ior", {{"ior", number(ior)}});
     const glm::dvec3 color = constant(source.specular_color, "specular colour");
     if (constant(source.specular, "specular") != 1.0 || color != glm::dvec3(1.0)) {
         gltf::Value::Object members{{"specularFactor", number(key_value(source.specular, 0))}};
-        members["specularColorFactor"] =
-            gltf::Value(gltf::Value::Array{number(color.x), number(color.y), number(color.z)});
-        if (source.specular_texture.image != no_index)
-            members["specularTexture"] = texture_info(source.specular_texture);
-        extend("KHR_materials_specular", std::move(members));
+        members["specularColorFactor"] = color_value(color);
+        add_texture(members, "specularTexture", source.specular_texture);
+        add_texture(members, "specularColorTexture", source.specular_color_texture);
+        extend(material, "KHR_materials_specular", std::move(members));
     }
     if (const double share = constant(source.transmission, "transmission"); share != 0.0) {
-        extend("KHR_materials_transmission", {{"transmissionFactor", number(share)}});
+        gltf::Value::Object members{{"transmissionFactor", number(share)}};
+        add_texture(members, "transmissionTexture", source.transmission_texture);
+        extend(material, "KHR_materials_transmission", std::move(members));
     }
+    add_volume(source, material);
+    add_clearcoat(source, material);
+    add_sheen(source, material);
+    add_anisotropy(source, material);
     model_.materials.push_back(std::move(material));
 }
 

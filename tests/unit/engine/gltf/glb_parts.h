@@ -44,7 +44,13 @@ class GlbWriter {
     int add_vectors(const std::vector<V>& vectors, int type, bool with_bounds = false);
     void add_images();
     int texture_of(const TextureRef& reference);
-    gltf::Value texture_info(const TextureRef& reference);
+    gltf::Value texture_info(const TextureRef& reference, double scale = 1.0);
+    void add_texture(gltf::Value::Object& members, const char* key, const TextureRef& reference, double scale = 1.0);
+    void extend(gltf::Material& material, const char* name, gltf::Value::Object members);
+    void add_volume(const Material& source, gltf::Material& material);
+    void add_clearcoat(const Material& source, gltf::Material& material);
+    void add_sheen(const Material& source, gltf::Material& material);
+    void add_anisotropy(const Material& source, gltf::Material& material);
     void add_material(const Material& material);
     gltf::Primitive make_primitive(const Mesh& mesh);
     void add_camera(const Camera& camera);

@@ -60,6 +60,13 @@ TEST_F(GltfPointerTest, NumbersOfCamerasLightsAndMaterials) {
     is_read((more + "emissive_strength/emissiveStrength").c_str(), material(&Material::emission_strength));
     is_read((more + "specular/specularFactor").c_str(), material(&Material::specular));
     is_read((more + "transmission/transmissionFactor").c_str(), material(&Material::transmission));
+    is_read((more + "volume/thicknessFactor").c_str(), material(&Material::thickness));
+    is_read((more + "volume/attenuationDistance").c_str(), material(&Material::attenuation_distance));
+    is_read((more + "clearcoat/clearcoatFactor").c_str(), material(&Material::clearcoat));
+    is_read((more + "clearcoat/clearcoatRoughnessFactor").c_str(), material(&Material::clearcoat_roughness));
+    is_read((more + "sheen/sheenRoughnessFactor").c_str(), material(&Material::sheen_roughness));
+    is_read((more + "anisotropy/anisotropyStrength").c_str(), material(&Material::anisotropy));
+    is_read((more + "anisotropy/anisotropyRotation").c_str(), material(&Material::anisotropy_rotation));
 }
 
 TEST_F(GltfPointerTest, ColoursAndIor) {
@@ -70,6 +77,8 @@ TEST_F(GltfPointerTest, ColoursAndIor) {
                           {0, 0, 0, 0, 0, 4});
     draft.animate_pointer("/materials/0/extensions/KHR_materials_ior/ior", {0, 1}, {1, 2}, "STEP");
     draft.animate_pointer("/extensions/KHR_lights_punctual/lights/0/color", {0, 1}, {0, 0, 0, 2, 0, 0});
+    draft.animate_pointer("/materials/0/extensions/KHR_materials_volume/attenuationColor", {0, 1}, {0, 0, 0, 1, 0, 0});
+    draft.animate_pointer("/materials/0/extensions/KHR_materials_sheen/sheenColorFactor", {0, 1}, {0, 0, 0, 0, 1, 0});
     const Scene scene = load(draft);
     const ScenePose half = pose(scene, 0.5);
     EXPECT_EQ(half.materials[0].base_color, Rgb(0.5f, 0.25f, 0.0f));
@@ -77,6 +86,8 @@ TEST_F(GltfPointerTest, ColoursAndIor) {
     EXPECT_EQ(half.materials[0].emission, Rgb(0.0f, 0.0f, 0.5f));
     EXPECT_EQ(half.materials[0].specular_color, Rgb(0.0f, 0.0f, 2.0f));
     EXPECT_EQ(half.materials[0].ior, 1.0f);
+    EXPECT_EQ(half.materials[0].attenuation_color, Rgb(0.5f, 0.0f, 0.0f));
+    EXPECT_EQ(half.materials[0].sheen_color, Rgb(0.0f, 0.5f, 0.0f));
     EXPECT_EQ(pose(scene, 1.0).materials[0].ior, 2.0f);
     EXPECT_EQ(half.lights[0].intensity, Rgb(1.0f, 0.0f, 0.0f));
 }
@@ -114,10 +125,25 @@ TEST_F(GltfPointerTest, KeysOutOfRangeAreClampedWithAWarning) {
     const Scene scene = load(draft);
     EXPECT_EQ(scene.materials[0].metallic.values, (std::vector<double>{0, 1}));
     EXPECT_EQ(count_warnings(scene, "metallicFactor leave 0 to 1 and are clamped"), 1u);
+
+    GltfDraft volume = draft_with_everything();
+    const std::string more = "/materials/0/extensions/KHR_materials_";
+    volume.animate_pointer((more + "volume/attenuationDistance").c_str(), {0, 1}, {-1, 2});
+    volume.animate_pointer((more + "volume/thicknessFactor").c_str(), {0, 1}, {-1, 2});
+    volume.animate_pointer((more + "sheen/sheenColorFactor").c_str(), {0, 1}, {0, 0, 0, 0, 0, 2});
+    volume.animate_pointer((more + "anisotropy/anisotropyRotation").c_str(), {0, 1}, {-20, 20});
+    const Scene clamped = load(volume);
+    const Material& material = clamped.materials[0];
+    EXPECT_EQ(material.attenuation_distance.values, (std::vector<double>{min_gltf_size, 2})) << "0 is none";
+    EXPECT_EQ(material.thickness.values, (std::vector<double>{0, 2}));
+    EXPECT_EQ(material.sheen_color.values[1], glm::dvec3(0, 0, 1));
+    EXPECT_EQ(material.anisotropy_rotation.values, (std::vector<double>{-20, 20}));
+    EXPECT_EQ(clamped.warnings.size(), 3u);
 }
 
 TEST_F(GltfPointerTest, WhatIsNotSupportedIsNamed) {
-    for (const char* pointer : {"/materials/0/alphaCutoff", "/cameras/0/perspective/znear", "/nodes/0/weights/1",
+    for (const char* pointer : {"/materials/0/alphaCutoff", "/materials/0/normalTexture/scale",
+                                "/cameras/0/perspective/znear", "/nodes/0/weights/1",
                                 "/materials/0/pbrMetallicRoughness/baseColorTexture/extensions/KHR_texture_transform/"
                                 "offset",
                                 "/materials/00/emissiveFactor", "/materials/+0/emissiveFactor", "/nodes//scale",

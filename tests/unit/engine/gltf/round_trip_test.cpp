@@ -4,11 +4,13 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "engine/image/image_file.h"
 #include "engine/load/load_scene.h"
 #include "engine/pose/camera_view.h"
 #include "engine/pose/pose.h"
 #include "engine/rays/first_hits.h"
 #include "engine/rays/ray_scene.h"
+#include "engine/scene_file/fields.h"
 #include "motion/model_motion.h"
 #include "tests/support/paths.h"
 #include "tests/unit/engine/gltf/glb_writer.h"
@@ -138,6 +140,40 @@ TEST_F(PoolRoundTrip, ElementsAndFrameRange) {
         before.emission = after.emission;
         EXPECT_EQ(before, after) << a.materials[i].name;
     }
+}
+
+TEST(GltfRoundTrip, EveryPropertyOfAMaterial) {
+    fs::create_directories(folder);
+    write_png(folder / "dot.png", Image<Rgb>(1, 1, Rgb(0.5f)));
+    Scene scene;
+    scene.file = (folder / "materials.json").string();
+    scene.images.push_back({.name = "dot", .path = "dot.png", .bytes = {}, .floats = {}});
+    Material m;
+    m.name = "all";
+    double value = 0.0;  // another one for each property
+    const auto next = [&] { return value += 0.03125; };
+    for (const auto& field : material_numbers) m.*field.member = next();
+    for (const auto& field : material_angles) m.*field.member = next();
+    for (const auto& field : material_colors) m.*field.member = glm::dvec3(next(), next(), next());
+    m.emission_strength = 2.0;
+    m.ior = 1.25;
+    m.normal_scale = 0.25;
+    m.clearcoat_normal_scale = -0.75;
+    int set = 0;
+    for (const auto& field : material_textures) m.*field.member = TextureRef{.image = 0, .uv_set = set++ % 2};
+    scene.materials = {m};
+    Mesh mesh;
+    mesh.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+    mesh.uv[0] = mesh.uv[1] = {{0, 0}, {1, 0}, {0, 1}};
+    mesh.triangles = {{0, 1, 2}};
+    mesh.material = 0;
+    scene.meshes = {mesh};
+    scene.nodes.emplace_back().meshes = {0};
+    write_glb(scene, folder / "materials.glb");
+    Scene loaded = load_scene(folder / "materials.glb");
+    ASSERT_EQ(loaded.materials.size(), 1u);
+    loaded.materials[0].include = no_index;
+    EXPECT_EQ(loaded.materials[0], m);
 }
 
 TEST(GltfRoundTrip, LightsAndCameras) {

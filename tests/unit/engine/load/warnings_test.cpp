@@ -31,27 +31,11 @@ TEST_F(LoadWarnings, SceneWithoutLightGetsAWhiteEnvironment) {
     }
 }
 
-TEST_F(LoadWarnings, WhatIsRenderedOpaqueIsSaid) {
-    const Scene holes = load_scene(write_scene(R"("environment": [1, 1, 1],
-        "materials": {"leaf": {"alpha_mode": "mask"}, "smoke": {"alpha_mode": "blend"}, "unused": {"alpha_mode": "blend"}},
-        "nodes": [{"shape": {"type": "quad"}, "material": "leaf"}, {"shape": {"type": "quad"}, "material": "smoke"}])"));
-    EXPECT_EQ(
-        holes.warnings,
-        (std::vector<std::string>{
-            "material \"smoke\": alpha mode \"blend\" is not in this version; what has an alpha below 0.5 is left "
-            "out, the rest is opaque"}));
-    Scene glass;
-    glass.materials.resize(1);
-    glass.materials[0].name = "glass";
-    glass.meshes.resize(1);
-    glass.meshes[0].material = 0;
-    glass.nodes.resize(1);
-    glass.nodes[0].meshes = {0};
-    add_surface_warnings(glass);
-    EXPECT_TRUE(glass.warnings.empty());
-    glass.materials[0].transmission = 0.5;
-    add_surface_warnings(glass);
-    EXPECT_TRUE(has_warning(glass, "\"glass\": transmission is not in this version"));
+TEST_F(LoadWarnings, TransmissionAndBlendingGiveNone) {
+    const Scene scene = load_scene(write_scene(R"("environment": [1, 1, 1], "nodes": [
+        {"shape": {"type": "quad"}, "material": {"alpha_mode": "blend", "alpha": 0.5}},
+        {"shape": {"type": "box"}, "material": {"transmission": 1, "thickness": 1}}])"));
+    EXPECT_TRUE(scene.warnings.empty()) << scene.warnings[0];
 }
 
 TEST_F(LoadWarnings, RP08_RotationKeysMoreThan170DegreesApartAreSaid) {

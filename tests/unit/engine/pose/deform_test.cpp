@@ -183,6 +183,7 @@ void expect_same(const ScenePose& a, const ScenePose& b) {
     EXPECT_EQ(a.lights, b.lights);
     EXPECT_EQ(a.cameras, b.cameras);
     EXPECT_EQ(a.environment, b.environment);
+    EXPECT_EQ(a.environment_rotation, b.environment_rotation);
 }
 
 TEST(PosePlan, UpdatesGiveTheBitsOfAFreshPose) {

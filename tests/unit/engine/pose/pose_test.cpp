@@ -9,6 +9,7 @@
 #include <numbers>
 
 #include "engine/base/errors.h"
+#include "engine/pose/plan.h"
 #include "tests/support/keyed_track.h"
 
 namespace aleph {
@@ -145,6 +146,48 @@ TEST(Pose, MaterialsStayInRangeWhereCubicKeysOvershoot) {
     EXPECT_EQ(frame.materials[0].ior, 1.5f);
     EXPECT_EQ(frame.environment, Rgb(1.0f));
     EXPECT_EQ(frame.seconds, 0.5);
+}
+
+TEST(Pose, VolumesCoatsSheenAndAnisotropyStayInRange) {
+    const auto overshoot = keyed<double>({0.0, 1.0}, {0.0, 1.0, 9.0, -9.0, 1.0, 0.0}, Interpolation::cubic);
+    const auto below = keyed<double>({0.0, 1.0}, {0.0, 0.0, -9.0, 9.0, 0.0, 0.0}, Interpolation::cubic);
+    Scene scene;
+    Material material;
+    material.thickness = material.attenuation_distance = below;
+    material.clearcoat = material.clearcoat_roughness = material.sheen_roughness = material.anisotropy = overshoot;
+    material.anisotropy_rotation = below;
+    material.attenuation_color = material.sheen_color = keyed<glm::dvec3>(
+        {0.0, 1.0}, {{0, 0, 0}, {1, 0, 0.5}, {9, -9, 0}, {-9, 9, 0}, {1, 0, 0.5}, {0, 0, 0}}, Interpolation::cubic);
+    scene.materials = {material};
+    const MaterialValues half = pose(scene, 0.5).materials[0];  // the curves are at 3.25, -2.25 and (3.25, -2.25, 0.5)
+    EXPECT_EQ(half.thickness, 0.0f);
+    EXPECT_EQ(half.attenuation_distance, 0.0f);
+    for (const float value : {half.clearcoat, half.clearcoat_roughness, half.sheen_roughness, half.anisotropy})
+        EXPECT_EQ(value, 1.0f);
+    EXPECT_EQ(half.attenuation_color, Rgb(1.0f, 0.0f, 0.5f));
+    EXPECT_EQ(half.sheen_color, Rgb(1.0f, 0.0f, 0.5f));
+    EXPECT_EQ(half.anisotropy_rotation, -2.25f);
+}
+
+TEST(Pose, TheEnvironmentTurnsByQuaternionsOrAboutAnAxis) {
+    Scene scene;
+    scene.environment = Track<glm::dvec3>(glm::dvec3(1.0));
+    scene.environment_rotation = keyed<glm::dquat>(
+        {0.0, 1.0}, {glm::dquat(1.0, 0.0, 0.0, 0.0), glm::angleAxis(pi / 2.0, glm::dvec3(0.0, 0.0, 1.0))});
+    EXPECT_TRUE(is_world_animated(scene));
+    EXPECT_EQ(frame_range(scene), (FrameRange{0, 30}));
+    expect_near(pose(scene, 0.5).environment_rotation[0], {std::sqrt(0.5), std::sqrt(0.5), 0.0});
+    scene.environment_axis_rotation = AxisRotation{{0.0, 2.0, 0.0}, keyed<double>({0.0, 2.0}, {0.0, 4.0 * pi})};
+    EXPECT_EQ(frame_range(scene), (FrameRange{0, 60}));
+    const PosePlan plan = make_pose_plan(scene);
+    ScenePose updated = pose(scene, 0.0);
+    for (double t = 0.0; t <= 2.0; t += 0.125) {
+        update_pose(scene, plan, t, updated);
+        EXPECT_EQ(updated.environment_rotation, pose(scene, t).environment_rotation);
+        expect_near(updated.environment_rotation[0], {std::cos(2.0 * pi * t), 0.0, -std::sin(2.0 * pi * t)}, 1e-13);
+    }
+    scene.environment_axis_rotation->angle = Track<double>(0.5);
+    EXPECT_FALSE(is_world_animated(scene)) << "the quaternions do not count beside an axis";
 }
 
 TEST(FrameRange, SpansTheKeysRoundedInwards) {

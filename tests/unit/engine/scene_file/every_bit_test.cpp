@@ -8,8 +8,12 @@
 #include <clocale>
 #include <cmath>
 #include <random>
+#include <type_traits>
+#include <utility>
+#include <vector>
 
 #include "engine/scene/operations.h"
+#include "engine/scene/visit.h"
 #include "engine/scene_file/fields.h"
 #include "engine/scene_file/scene_text.h"
 #include "engine/scene_file/tracks.h"
@@ -86,11 +90,18 @@ Scene make_full_scene(Numbers& n) {
     Scene scene;
     scene.name = "everything \"quoted\" \\ \n / ~ ü";
     scene.frame_rate = {24000, 1001};
-    scene.viewing = {n.positive(), n.positive()};
+    scene.viewing = {n.positive(), n.positive(), n.unit()};
     scene.range = FrameRange{-5, 1000000};
     scene.cuts = {-1, 3, 77};
     scene.exposure = n.positive();
     scene.environment = n.track(color);
+    scene.environment_image = n.below(3);
+    if (n.below(2) == 0) {
+        scene.environment_rotation = n.track(quaternion);
+    } else {
+        scene.environment_axis_rotation = AxisRotation{glm::normalize(glm::dvec3(n.unit(), n.unit(), 1.0)),
+                                                       n.track([&] { return 100.0 * n.unit(); })};
+    }
     scene.camera = "camera 1";
     scene.settings = {
         {"accuracy", n.unit()}, {"spp", 4.0}, {"neutral_opponent", false}, {"guide", std::string("none")}};
@@ -107,6 +118,8 @@ Scene make_full_scene(Numbers& n) {
             for (const auto& field : material_numbers) material.*field.member = n.track(unit);
             material.ior = n.track([&] { return 1.0 + n.unit(); });
             for (const auto& field : material_colors) material.*field.member = n.track(color);
+            for (const auto& field : material_angles) material.*field.member = n.track([&] { return 10.0 * n.unit(); });
+            for (const auto& field : material_scales) material.*field.member = n.any();
             for (const auto& field : material_textures) {
                 material.*field.member = {
                     n.below(3),      n.below(2),         static_cast<Wrap>(n.below(3)), static_cast<Wrap>(n.below(3)),
@@ -205,6 +218,30 @@ Scene make_full_scene(Numbers& n) {
     }
     scene.includes = {{"x/a.glb", 3}, {"../b.gltf", 3}, {"c.glb", 17}, {"d.glb", no_index}};
     return scene;
+}
+
+/// The tracks of a material that differ between two, and how many there are.
+std::pair<int, int> count_differences(const Material& a, const Material& b) {
+    std::vector<const void*> tracks_of_b;
+    visit_tracks(b, [&](const auto& track) { tracks_of_b.push_back(&track); });
+    std::size_t at = 0;
+    int different = 0;
+    visit_tracks(a, [&](const auto& track) {
+        using T = std::remove_cvref_t<decltype(track)>;
+        if (!(track == *static_cast<const T*>(tracks_of_b[at++]))) ++different;
+    });
+    return {different, static_cast<int>(at)};
+}
+
+TEST(SceneJsonWrite, TheFullSceneSetsEveryTrackAndTextureOfItsMaterials) {
+    Numbers numbers;
+    const Material material = make_full_scene(numbers).materials[1], absent = absent_material();
+    const auto [different, all] = count_differences(material, absent);
+    EXPECT_EQ(different, all);
+    EXPECT_EQ(all, 19);
+    for (const auto& field : material_textures) EXPECT_NE((material.*field.member).image, no_index) << field.key;
+    EXPECT_NE(material.normal_scale, absent.normal_scale);
+    EXPECT_NE(material.clearcoat_normal_scale, absent.clearcoat_normal_scale);
 }
 
 TEST(SceneJsonWrite, LoadOfSaveIsTheSameScene) {

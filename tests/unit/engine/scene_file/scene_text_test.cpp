@@ -23,12 +23,12 @@ TEST(SceneJson, SmallestFileIsAnEmptyScene) {
 TEST(SceneJson, Header) {
     const Scene scene = read(R"(, // comments of both kinds
         "$schema": "scene.schema.json", "name": "töst", "fps": "30000/1001", "frames": [-3, 59], "cuts": [10, 30], /* here */
-        "viewing": {"pixels_per_degree": 62.5, "display_white": 80}, "exposure": 0.25, "environment": [0.5, 1, 2])");
+        "viewing": {"pixels_per_degree": 62.5, "display_white": 80, "persistence": 0.5}, "exposure": 0.25, "environment": [0.5, 1, 2])");
     EXPECT_EQ(scene.name, "töst");
     EXPECT_EQ(scene.frame_rate, (FrameRate{30000, 1001}));
     EXPECT_EQ(scene.range, (FrameRange{-3, 59}));
     EXPECT_EQ(scene.cuts, (std::vector<std::int64_t>{10, 30}));
-    EXPECT_EQ(scene.viewing, (ViewingConditions{62.5, 80.0}));
+    EXPECT_EQ(scene.viewing, (ViewingConditions{62.5, 80.0, 0.5}));
     EXPECT_EQ(scene.exposure, 0.25);
     EXPECT_EQ(scene.environment, Track<glm::dvec3>(glm::dvec3(0.5, 1.0, 2.0)));
     EXPECT_EQ(read(", \"fps\": 24").frame_rate, (FrameRate{24, 1}));

@@ -138,6 +138,20 @@ TEST(SceneJsonWrite, WhatTheFormatCannotSayIsRefused) {
     expect_spoiled([](Scene& s) { s.frame_rate = {0, 1}; }, "/fps", "whole number");
     expect_spoiled([](Scene& s) { s.settings["unheard_of"] = 1.0; }, "/settings/unheard_of", "unknown");
     expect_spoiled([](Scene& s) { s.name = "\xff\xfe"; }, "", "UTF-8");
+    expect_spoiled([](Scene& s) { s.materials[0].normal_scale = NAN; }, "", "finite");
+    expect_spoiled([](Scene& s) { s.materials[0].thickness = -1.0; }, "/materials/a/thickness", "at least 0");
+    expect_spoiled([](Scene& s) { s.materials[0].anisotropy_rotation = NAN; }, "anisotropy_rotation", "nan");
+    expect_spoiled([](Scene& s) { s.viewing.persistence = 2.0; }, "/viewing/persistence", "from 0 to 1");
+    expect_spoiled([](Scene& s) { s.environment_image = 0, s.environment = glm::dvec3(1.0); }, "environment_image",
+                   "no element 0");
+    expect_spoiled(
+        [](Scene& s) {
+            s.images.push_back({.name = "sky", .path = "sky.exr", .bytes = {}, .floats = {}});
+            s.environment_image = 0;
+        },
+        "environment_image", "needs `environment`");
+    expect_spoiled([](Scene& s) { s.environment_rotation = glm::dquat(0, 1, 0, 0); }, "/environment_rotation",
+                   "\"environment_image\", which is not given");
     expect_spoiled([](Scene& s) { s.includes = {{"b.glb", 1}, {"a.glb", 0}}; }, "includes", "exactly");
     expect_spoiled([](Scene& s) { s.includes = {{"/abs.glb", 0}}; }, "/nodes/0/include", "absolute");
     expect_spoiled([](Scene& s) { s.nodes[0].include = 0; }, "node 1", "after");

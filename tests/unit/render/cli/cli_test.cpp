@@ -10,6 +10,7 @@
 #include "engine/base/errors.h"
 #include "render/cli/commands.h"
 #include "render/cli/progress.h"
+#include "render/cli/scene_options.h"
 #include "tests/support/scratch_folder.h"
 
 namespace aleph {
@@ -28,6 +29,18 @@ TEST(Options, NumbersAreReadWhole) {
         EXPECT_THROW(parse_value<int>(text, "--x"), CLI::ConversionError) << text;
     }
     EXPECT_THROW(parse_value<std::uint32_t>("-1", "--x"), CLI::ConversionError);
+}
+
+TEST(Options, SetTakesTheViewingConditions) {
+    Scene scene;
+    SettingMap settings = {{"viewing.persistence", 0.1}, {"viewing.display_white", 200.0}, {"spp", 4.0}};
+    set_scene_numbers(scene, settings);
+    EXPECT_EQ(scene.viewing, (ViewingConditions{31.0, 200.0, 0.1}));
+    EXPECT_EQ(settings, (SettingMap{{"spp", 4.0}}));
+    for (const double bad : {2.0, 0.0, -1.0}) {
+        settings = {{"viewing.persistence", bad}};
+        EXPECT_THROW(set_scene_numbers(scene, settings), InputError) << bad;
+    }
 }
 
 TEST(Options, Sizes) {

@@ -184,6 +184,63 @@ TEST(Explain, TextNamesWhatMovesEvenWhereTheTreeIsCut) {
     EXPECT_NE(cut.find("/carrier: translation (3 acyclic"), std::string::npos) << cut;
 }
 
+TEST(Explain, TheEnvironmentAndItsPicture) {
+    Scene scene = make_scene();
+    EXPECT_TRUE(explain(scene)["environment"].is_null());
+    EXPECT_EQ(explain_text(explain(scene), 0).find("environment"), std::string::npos);
+
+    scene.environment = Track<glm::dvec3>(glm::dvec3(0.5, 1.0, 2.0));
+    ordered_json explained = explain(scene);
+    EXPECT_EQ(explained["environment"]["radiance"], ordered_json::array({0.5, 1.0, 2.0}));
+    EXPECT_FALSE(explained["environment"].contains("image"));
+    EXPECT_NE(explain_text(explained, 0).find("light     environment of radiance (0.5, 1, 2)\n"), std::string::npos);
+
+    scene.images.push_back({.name = "sky", .path = "lib/sky.exr", .bytes = {}, .floats = Image<glm::vec4>(4, 2)});
+    scene.environment_image = 0;
+    explained = explain(scene);
+    EXPECT_EQ(explained["environment"]["factor"], ordered_json::array({0.5, 1.0, 2.0}));
+    EXPECT_EQ(explained["environment"]["image"], "lib/sky.exr");
+    EXPECT_EQ(explained["environment"]["size"], ordered_json::array({4, 2}));
+    EXPECT_EQ(explained["environment"]["rotates"], false);
+    EXPECT_EQ(explained["images"][0]["channel"], "float");
+    EXPECT_EQ(explained["unused"], ordered_json::array({"material \"spare\""})) << "the picture is used";
+    EXPECT_NE(explain_text(explained, 0)
+                  .find("light     environment picture lib/sky.exr, 4 x 2, not rotating, times (0.5, 1, 2)\n"),
+              std::string::npos);
+
+    const std::size_t samplings = explained["time_samplings"].size();
+    scene.environment_axis_rotation = AxisRotation{{0, 1, 0}, {}};
+    scene.environment_axis_rotation->angle.sampling = {
+        .kind = TimeSampling::Kind::acyclic, .start = 0.0, .period = 1.0, .times = {0.0, 1.5}};
+    scene.environment_axis_rotation->angle.values = {0.0, 7.0};
+    explained = explain(scene);
+    EXPECT_EQ(explained["environment"]["rotates"], true);
+    EXPECT_EQ(explained["environment"]["animated"][0]["property"], "environment_rotation.degrees");
+    EXPECT_EQ(explained["time_samplings"].size(), samplings + 1);
+    EXPECT_NE(explain_text(explained, 0)
+                  .find("4 x 2, rotating, times (0.5, 1, 2); animated environment_rotation.degrees "
+                        "(2 acyclic keys, 0 to 1.5 s, linear)\n"),
+              std::string::npos)
+        << explain_text(explained, 0);
+}
+
+TEST(Explain, TexturesAndKeysOfEveryPropertyOfAMaterial) {
+    Scene scene = make_scene();
+    scene.images.push_back({.name = "dot", .path = "dot.png", .bytes = Image<glm::u8vec4>(1, 1), .floats = {}});
+    for (const auto& field : material_textures) (scene.materials[0].*field.member).image = 0;
+    scene.materials[0].anisotropy_rotation.values = {0.0, 1.0};
+    scene.materials[0].thickness.values = {0.0, 1.0};
+    scene.materials[0].sheen_color.values = {{0, 0, 0}, {1, 1, 1}};
+    const ordered_json material = explain(scene)["materials"][0];
+    EXPECT_EQ(material["textures"].size(), material_textures.size());
+    for (const char* name : {"normal", "clearcoat_normal", "thickness", "sheen_color", "anisotropy"})
+        EXPECT_EQ(material["textures"][name], "dot.png") << name;
+    std::vector<std::string> keyed;
+    for (const ordered_json& track : material["animated"]) keyed.push_back(track["property"]);
+    EXPECT_EQ(keyed, (std::vector<std::string>{"sheen_color", "thickness", "anisotropy_rotation"}));
+    EXPECT_NE(explain_text(explain(scene), 0).find("  paint: sheen_color (2 uniform keys"), std::string::npos);
+}
+
 TEST(Explain, ASceneWithoutACamera) {
     Scene scene = make_scene();
     scene.nodes[4].camera = no_index;
@@ -197,12 +254,12 @@ TEST(Explain, ListsEveryMissingFile) {
     const ScratchFolder folder;
     const auto write = [&](const char* name, const char* text) { std::ofstream(folder.path() / name) << text; };
     write("inner.gltf", R"({"asset": {"version": "2.0"}, "buffers": [{"byteLength": 4, "uri": "gone.bin"}]})");
-    write("scene.json", R"({"images": {"a": "gone.png", "b": "too.png"},
+    write("scene.json", R"({"images": {"a": "gone.png", "b": "too.png"}, "environment_image": "sky.exr",
         "aleph": 1, "nodes": [{"name": "n", "include": "inner.gltf"}, {"name": "m", "include": "gone.glb"}]})");
     const std::vector<MissingFile> missing = list_missing_files(folder.path() / "scene.json");
     std::vector<std::string> paths;
     for (const MissingFile& item : missing) paths.push_back(item.path);
-    const std::vector<std::string> expected = {"gone.png", "too.png", "gone.bin", "gone.glb"};
+    const std::vector<std::string> expected = {"gone.png", "too.png", "sky.exr", "gone.bin", "gone.glb"};
     EXPECT_EQ(paths, expected);
     EXPECT_THROW(load_scene(folder.path() / "scene.json"), InputError);
     EXPECT_TRUE(list_missing_files(folder.path() / "nothing.json").empty());
