@@ -15,7 +15,7 @@ namespace {
 
 }  // namespace
 
-EmbreeDevice::EmbreeDevice() : device_(rtcNewDevice(nullptr)) {
+EmbreeDevice::EmbreeDevice(const char* configuration) : device_(rtcNewDevice(configuration)) {
     if (device_ == nullptr) throw_error(rtcGetDeviceError(nullptr), "cannot start on this machine");
     rtcSetDeviceErrorFunction(device_, keep_error, this);
 }

@@ -22,7 +22,8 @@ using EmbreeGeometry = std::unique_ptr<RTCGeometryTy, ReleaseEmbree>;
 /// Every function throws std::bad_alloc where Embree is out of memory, and std::runtime_error for its other errors.
 class EmbreeDevice {
   public:
-    EmbreeDevice();
+    /// @param configuration  Embree's, such as "isa=avx2"; null: what suits the processor
+    explicit EmbreeDevice(const char* configuration = nullptr);
     ~EmbreeDevice();
     EmbreeDevice(const EmbreeDevice&) = delete;
     EmbreeDevice& operator=(const EmbreeDevice&) = delete;

@@ -22,6 +22,24 @@ std::pair<int, unsigned> identify(const MeshStructures& meshes, RTCHitN* hits, u
     return {object.first_instance + static_cast<int>(RTCHitN_geomID(hits, count, i)), RTCHitN_primID(hits, count, i)};
 }
 
+/// Whether the triangle that lane i hits shows its back to the ray. Both are in the object's space.
+bool shows_back(RTCRayN* rays, RTCHitN* hits, unsigned count, unsigned i) {
+    return RTCRayN_dir_x(rays, count, i) * RTCHitN_Ng_x(hits, count, i) +
+               RTCRayN_dir_y(rays, count, i) * RTCHitN_Ng_y(hits, count, i) +
+               RTCRayN_dir_z(rays, count, i) * RTCHitN_Ng_z(hits, count, i) >
+           0.0f;
+}
+
+/// Whether the hit offered to lane i wins against the accepted one, which ties with it.
+bool comes_first(const MeshStructures& meshes, const RTCFilterFunctionNArguments& offered, RTCHitN* accepted,
+                 unsigned i) {
+    const auto a = identify(meshes, offered.hit, offered.N, i), b = identify(meshes, accepted, offered.N, i);
+    if (a.first != b.first) return a.first < b.first;
+    const bool a_back = shows_back(offered.ray, offered.hit, offered.N, i);
+    const bool b_back = shows_back(offered.ray, accepted, offered.N, i);
+    return a_back != b_back ? b_back : a.second < b.second;
+}
+
 /// Uniform in [0, 1), of one ray at one surface.
 float choose(std::uint64_t ray_key, const std::pair<int, unsigned>& surface) {
     const std::uint64_t place = std::uint64_t{static_cast<std::uint32_t>(surface.first)} << 32 | surface.second;
@@ -74,10 +92,10 @@ void keep_lowest_of_nearest(const RTCFilterFunctionNArguments* arguments) {
     }
     for (unsigned i = 0; i < count; ++i) {
         if (valid[i] == 0) continue;
-        const bool lost = !(offered[i] * beyond < context.nearest[i]) &&
-                          RTCHitN_geomID(context.accepted, count, i) != RTC_INVALID_GEOMETRY_ID &&
-                          (offered[i] > context.nearest[i] * beyond ||
-                           identify(meshes, arguments->hit, count, i) >= identify(meshes, context.accepted, count, i));
+        const bool lost =
+            !(offered[i] * beyond < context.nearest[i]) &&
+            RTCHitN_geomID(context.accepted, count, i) != RTC_INVALID_GEOMETRY_ID &&
+            (offered[i] > context.nearest[i] * beyond || !comes_first(meshes, *arguments, context.accepted, i));
         context.nearest[i] = std::min(context.nearest[i], offered[i]);
         if (lost) {
             valid[i] = 0;

@@ -14,7 +14,8 @@ namespace aleph {
 inline constexpr int max_packet_width = 16;
 
 /// On every geometry: of hits at one distance it keeps the lowest (instance, primitive), so that the result does not
-/// depend on the order in which a tree finds them.
+/// depend on the order in which a tree finds them. Within an instance, triangles that face the ray come before those
+/// that show their back: from afar both sides of a thin wall are at one distance, and the near one must be met.
 void keep_lowest_of_nearest(const RTCFilterFunctionNArguments* arguments);
 
 /// The filters of meshes with holes (their user data is the AlphaCutout), of first hits and of occlusion.

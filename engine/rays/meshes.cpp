@@ -155,6 +155,7 @@ class ObjectMaker {
 MeshStructures::MeshStructures(const Scene& scene, const PosePlan& plan, std::unique_ptr<EmbreeDevice> embree)
     : device(std::move(embree)) {
     const FlushDenormals flush;
+    if (rtcGetDeviceProperty(device->handle(), RTC_DEVICE_PROPERTY_NATIVE_RAY8_SUPPORTED)) packet_width = 8;
     if (rtcGetDeviceProperty(device->handle(), RTC_DEVICE_PROPERTY_NATIVE_RAY16_SUPPORTED)) packet_width = 16;
     for (std::size_t i = 0; i < scene.meshes.size(); ++i) {
         check_mesh(scene.meshes[i], i);

@@ -35,7 +35,7 @@ struct MeshStructures {
     MeshStructures& operator=(const MeshStructures&) = delete;
 
     std::unique_ptr<EmbreeDevice> device;
-    int packet_width = 8;
+    int packet_width = 1;  ///< 16, 8, or 1: the widest packets that the processor traces as such
     std::vector<EmbreeScene> mesh_scenes;
     /// First what can move, deform, come or go, then what never does; in the order of the scene within both.
     std::vector<Object> objects;

@@ -189,6 +189,10 @@ bool Tracer::occluded(const Ray& ray) {
 
 void Tracer::intersect(std::span<const Ray> rays, std::span<Hit> hits, bool coherent) {
     ALEPH_CHECK(rays.size() == hits.size(), std::to_string(rays.size()) + " rays, " + std::to_string(hits.size()));
+    if (state_.meshes->packet_width == 1) {  // Embree would split packets, and the filters would see one lane
+        for (std::size_t i = 0; i < rays.size(); ++i) hits[i] = intersect(rays[i]);
+        return;
+    }
     const PacketCounts counts = state_.meshes->packet_width == 16
                                     ? intersect_packets<16>(state_, blend_, rays, hits, coherent)
                                     : intersect_packets<8>(state_, blend_, rays, hits, coherent);
@@ -199,6 +203,10 @@ void Tracer::intersect(std::span<const Ray> rays, std::span<Hit> hits, bool cohe
 void Tracer::occluded(std::span<const Ray> rays, std::span<std::uint8_t> blocked) {
     ALEPH_CHECK(rays.size() == blocked.size(),
                 std::to_string(rays.size()) + " rays, " + std::to_string(blocked.size()));
+    if (state_.meshes->packet_width == 1) {
+        for (std::size_t i = 0; i < rays.size(); ++i) blocked[i] = occluded(rays[i]);
+        return;
+    }
     const PacketCounts counts = state_.meshes->packet_width == 16 ? occluded_packets<16>(state_, blend_, rays, blocked)
                                                                   : occluded_packets<8>(state_, blend_, rays, blocked);
     traced_ += counts.traced;

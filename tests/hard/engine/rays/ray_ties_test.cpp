@@ -1,5 +1,5 @@
-// RC-07: which of several surfaces at one distance is hit depends neither on how Embree's trees were built nor on
-// whether rays are cast one by one or in packets.
+// RC-07, RC-06: which of several surfaces at one distance is hit depends neither on how Embree's trees were built nor
+// on whether rays are cast one by one or in packets.
 
 #include <gtest/gtest.h>
 
@@ -123,6 +123,39 @@ TEST(RayTies, RC07_TheLowestInstanceAndPrimitiveOfEqualSurfacesWins) {
         }
         rays.update_moving(pose(scene, 1.0), glm::dvec3(0.0));
         for (const Hit& hit : trace(rays, make_rays(4000, 0.99f), Way::packets)) ASSERT_EQ(hit.instance, 4);
+    }
+}
+
+TEST(RayTies, RC06_TheNearSideOfAThinWallIsMetFromAfar) {
+    // 0.1 mm thick: from a kilometre both sides are at one distance, and the far side has the lower index.
+    Scene scene;
+    Mesh wall = make_sheet(2);
+    const auto count = static_cast<std::uint32_t>(wall.positions.size());
+    for (std::uint32_t i = 0; i < count; ++i) wall.positions.push_back(wall.positions[i] + glm::vec3(0, 0, 1e-4f));
+    const std::size_t half = wall.triangles.size();
+    for (std::size_t t = 0; t < half; ++t) wall.triangles.push_back(wall.triangles[t] + glm::uvec3(count));
+    for (std::size_t t = 0; t < half; ++t) std::swap(wall.triangles[t].y, wall.triangles[t].z);  // its back faces -z
+    scene.meshes = {wall};
+    scene.nodes.resize(1);
+    scene.nodes[0].meshes = {0};
+    for (const bool mirrored : {false, true}) {
+        scene.nodes[0].scale = glm::dvec3(mirrored ? -1.0 : 1.0, 1.0, 1.0);
+        RayScene placed(scene);
+        placed.update(pose(scene, 0.0), glm::dvec3(0.0));
+        for (const float side : {1.0f, -1.0f}) {
+            std::vector<Ray> rays = make_rays(2000, 0.99f);
+            for (Ray& ray : rays) {
+                const glm::vec3 target = ray.origin + ray.direction;
+                ray.origin = glm::vec3(30.0f, 20.0f, 1000.0f * side);
+                ray.direction = target - ray.origin;
+            }
+            for (const Way way : {Way::single, Way::packets, Way::coherent_packets}) {
+                for (const Hit& hit : trace(placed, rays, way)) {
+                    ASSERT_EQ(hit.instance, 0);
+                    ASSERT_EQ(hit.primitive >= static_cast<int>(half), side > 0.0f);
+                }
+            }
+        }
     }
 }
 

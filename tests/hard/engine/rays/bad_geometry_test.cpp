@@ -1,0 +1,182 @@
+// Geometry that Embree would drop without a word, read beyond its end, or end the process for.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "engine/base/errors.h"
+#include "engine/rays/state.h"
+#include "tests/support/deforming_scenes.h"
+
+namespace aleph {
+namespace {
+
+constexpr float infinite = std::numeric_limits<float>::infinity();
+const float not_a_number = std::nanf("");
+
+/// A ray straight down at (x, y).
+Ray ray_at(float x, float y) {
+    Ray ray;
+    ray.origin = {x, y, 5.0f};
+    ray.direction = {0.0f, 0.0f, -1.0f};
+    return ray;
+}
+
+/// What a ray meets, which must be the same alone and in packets, and for occlusion.
+int instance_at(const RayScene& scene, float x, float y) {
+    Tracer tracer(scene);
+    const std::vector<Ray> rays(17, ray_at(x, y));
+    const int alone = tracer.intersect(rays[0]).instance;
+    EXPECT_EQ(tracer.occluded(rays[0]), alone != no_index);
+    for (const bool coherent : {false, true}) {
+        std::vector<Hit> hits(rays.size());
+        tracer.intersect(rays, hits, coherent);
+        for (const Hit& hit : hits) EXPECT_EQ(hit.instance, alone);
+    }
+    std::vector<std::uint8_t> blocked(rays.size());
+    tracer.occluded(rays, blocked);
+    for (const std::uint8_t b : blocked) EXPECT_EQ(b != 0, alone != no_index);
+    return alone;
+}
+
+TEST(BadGeometry, RC02_InstancesWithoutVolumeAreLeftOutAndCounted) {
+    const double nan = std::nan("");
+    for (const glm::dvec3& scale :
+         {glm::dvec3(0.0), glm::dvec3(1e-30), glm::dvec3(1e-20), glm::dvec3(nan), glm::dvec3(1.0, 0.0, 1.0),
+          glm::dvec3(1.0, 1.0, 1e-30), glm::dvec3(1.0, 1e-20, 1.0), glm::dvec3(1.0, 1.0, nan), glm::dvec3(1e300),
+          glm::dvec3(std::numeric_limits<double>::infinity())}) {
+        Scene scene = make_sheet_scene(1);
+        scene.nodes.push_back(scene.nodes[0]);
+        scene.nodes[1].translation = glm::dvec3(0.0, 0.0, -1.0);
+        scene.nodes[0].scale = scale;
+        RayScene rays(scene);
+        rays.update(pose(scene, 0.0), glm::dvec3(0.0));
+        EXPECT_EQ(rays.skipped_instances(), 1u) << scale.x << " " << scale.y << " " << scale.z;
+        EXPECT_EQ(instance_at(rays, 0.3f, 0.2f), 1);
+        EXPECT_EQ(instance_at(rays, 0.0f, 0.0f), 1);
+    }
+}
+
+TEST(BadGeometry, RC08_MeshesThatEmbreeWouldDropAreRefusedByName) {
+    const auto expect_refused = [](const Scene& scene, const std::string& word) {
+        try {
+            RayScene rays(scene);
+            ADD_FAILURE() << word << " was taken";
+        } catch (const InputError& error) {
+            EXPECT_NE(error.place().find("mesh 0 \"sheet\""), std::string::npos) << error.what();
+            EXPECT_NE(error.reason().find(word), std::string::npos) << error.what();
+        }
+    };
+    Scene good = make_sheet_scene(2);
+    good.meshes[0].name = "sheet";
+    for (const float bad : {not_a_number, infinite, -infinite, 1.85e18f, -3e38f}) {
+        for (int k = 0; k < 3; ++k) {
+            Scene scene = good;
+            scene.meshes[0].positions[8][k] = bad;
+            expect_refused(scene, "not finite or too large");
+        }
+    }
+    for (const std::uint32_t index : {9u, 0x7fffffffu, 0xffffffffu}) {
+        Scene scene = good;
+        scene.meshes[0].triangles[7].y = index;
+        expect_refused(scene, "of 9");
+    }
+    Scene largest = good;  // within Embree's limits
+    largest.meshes[0].positions[8].x = 1.8e18f;
+    RayScene rays(largest);
+    rays.update(pose(largest, 0.0), glm::dvec3(0.0));
+    EXPECT_EQ(instance_at(rays, -0.5f, -0.4f), 0);
+}
+
+TEST(BadGeometry, RC08_ADeformingMeshIsLeftOutWhileItsPointsAreBad) {
+    for (const float bad : {not_a_number, infinite, 1.85e18f}) {
+        Scene scene = make_sheet_scene(2);
+        add_cache(scene, 0, {0.0, 1.0, 2.0}, [&](const glm::vec3& p, std::size_t sample) {
+            return sample == 1 && p.x > 0.5f ? glm::vec3(p.x, bad, p.z) : p;
+        });
+        RayScene rays(scene);
+        for (const auto& [seconds, instance] : {std::pair(0.0, 0), {1.0, no_index}, {2.0, 0}}) {
+            rays.update(pose(scene, seconds), glm::dvec3(0.0));
+            EXPECT_EQ(instance_at(rays, 0.3f, 0.2f), instance) << bad << " " << seconds;
+            EXPECT_EQ(rays.skipped_instances(), instance == no_index ? 1u : 0u);
+        }
+    }
+}
+
+TEST(BadGeometry, RC09_RC12_TrianglesWithoutAreaAreCountedAndNeverMet) {
+    Scene scene = make_sheet_scene(1);
+    Mesh& mesh = scene.meshes[0];
+    const auto add = [&](const glm::vec3& a, const glm::vec3& b, const glm::vec3& c) {
+        const auto first = static_cast<std::uint32_t>(mesh.positions.size());
+        mesh.positions.insert(mesh.positions.end(), {a, b, c});
+        mesh.triangles.emplace_back(first, first + 1, first + 2);
+    };
+    add({0.5f, 0.5f, 1.0f}, {0.5f, 0.5f, 1.0f}, {0.5f, 0.5f, 1.0f});       // a point
+    add({-0.5f, 0.5f, 1.0f}, {0.0f, 0.5f, 1.0f}, {0.5f, 0.5f, 1.0f});      // a line
+    add({0.25f, 0.25f, 1.0f}, {0.25f, 0.25f, 1.0f}, {0.5f, 0.25f, 1.0f});  // two corners are one
+    EXPECT_EQ(RayScene(scene).degenerate_triangles(), 3u);
+    add({0.0f, 0.0f, 1.0f}, {3e-13f, 0.0f, 1.0f}, {0.0f, 3e-13f, 1.0f});  // 5e-26 m2: a float normal of length 0
+    RayScene rays(scene);
+    rays.update(pose(scene, 0.0), glm::dvec3(0.0));
+    EXPECT_EQ(rays.degenerate_triangles(), 3u);
+    Tracer tracer(rays);
+    for (const auto& [x, y] : {std::pair(0.5f, 0.5f), {0.0f, 0.5f}, {0.25f, 0.25f}, {0.3f, 0.25f}}) {
+        const Hit hit = tracer.intersect(ray_at(x, y));
+        EXPECT_EQ(hit.instance, 0);
+        EXPECT_LT(hit.primitive, 2) << x << " " << y;  // the sheet behind
+    }
+    EXPECT_EQ(instance_at(rays, 1e-13f, 1e-13f), 0);  // the tiny one, or the sheet behind it
+}
+
+TEST(BadGeometry, RC10_NoTrianglesAreNoGeometry) {
+    Scene scene = make_sheet_scene(1);
+    scene.meshes[0].triangles.clear();
+    scene.meshes.push_back({});
+    scene.nodes[0].meshes = {0, 1};
+    RayScene rays(scene);
+    rays.update(pose(scene, 0.0), glm::dvec3(0.0));
+    EXPECT_EQ(instance_at(rays, 0.0f, 0.0f), no_index);
+    EXPECT_EQ(rays.degenerate_triangles(), 0u);
+}
+
+TEST(BadGeometry, RC14_EmbreeHasBuffersOfItsOwn) {
+    // Embree reads 16 bytes at each vertex: behind the last one of a buffer it did not allocate, that is too far. The
+    // sanitizers run this.
+    Scene scene = make_sheet_scene(3);
+    const EmbreeDevice device;
+    const TriangleGeometry made =
+        make_triangle_geometry(device, scene.meshes[0].positions.size(), scene.meshes[0].triangles, nullptr);
+    EXPECT_EQ(made.points.size(), scene.meshes[0].positions.size());
+    EXPECT_EQ(rtcGetGeometryBufferData(made.geometry.get(), RTC_BUFFER_TYPE_VERTEX, 0),
+              static_cast<void*>(made.points.data()));
+    EXPECT_NE(rtcGetGeometryBufferData(made.geometry.get(), RTC_BUFFER_TYPE_INDEX, 0),
+              static_cast<void*>(scene.meshes[0].triangles.data()));
+    add_cache(scene, 0, {0.0, 1.0}, [](const glm::vec3& p, std::size_t) { return p; });
+    scene.meshes.push_back(make_sheet(3));
+    scene.nodes.resize(2);
+    scene.nodes[1].meshes = {1};
+    scene.nodes[1].translation = glm::dvec3(0.0, 0.0, -1.0);
+    RayScene rays(scene);
+    {
+        ScenePose posed = pose(scene, 0.5);
+        rays.update(posed, glm::dvec3(0.0));
+    }  // neither the pose nor, from here, the scene is needed
+    for (Mesh& mesh : scene.meshes) {
+        mesh.positions = {};
+        mesh.triangles = {};
+    }
+    scene.point_caches.clear();
+    Tracer tracer(rays);
+    for (const float at : {-0.95f, -0.2f, 0.4f, 0.95f}) {  // the last one in the triangle of the last vertex
+        EXPECT_EQ(tracer.intersect(ray_at(at, at - 0.01f)).instance, 0);
+        Ray from_below = ray_at(at, at - 0.01f);
+        from_below.origin.z = -5.0f;
+        from_below.direction.z = 1.0f;
+        EXPECT_EQ(tracer.intersect(from_below).instance, 1);
+    }
+}
+
+}  // namespace
+}  // namespace aleph

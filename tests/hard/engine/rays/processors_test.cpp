@@ -1,0 +1,125 @@
+// RC-15: on processors of other kinds rays meet the same triangles, at the same distance but for rounding.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <memory>
+#include <random>
+#include <vector>
+
+#include "engine/rays/state.h"
+#include "engine/surface/shapes.h"
+
+namespace aleph {
+namespace {
+
+/// A sphere, a torus and a floor, which lets rays pass by an alpha mask.
+Scene make_scene(bool turned) {
+    Scene scene;
+    Shape sphere, torus, floor;
+    sphere.kind = Shape::Kind::sphere;
+    torus.kind = Shape::Kind::torus;
+    floor.kind = Shape::Kind::quad;
+    floor.size = {8.0, 8.0, 1.0};
+    scene.materials.resize(1);
+    scene.materials[0].alpha_mode = Material::AlphaMode::mask;
+    scene.meshes = {make_shape_mesh(sphere), make_shape_mesh(torus), make_shape_mesh(floor, 0)};
+    Mesh& holed = scene.meshes[2];
+    for (std::size_t i = 0; i < holed.positions.size(); ++i)
+        holed.colors.emplace_back(1.0f, 1.0f, 1.0f, i % 2 == 0 ? 1.0f : 0.0f);
+    scene.nodes.resize(3);
+    for (int i = 0; i < 3; ++i) scene.nodes[i].meshes = {i};
+    scene.nodes[2].translation = glm::dvec3(0.0, 0.0, -2.0);
+    if (!turned) return scene;
+    scene.nodes[1].rotation = glm::angleAxis(0.9, glm::normalize(glm::dvec3(1.0, 2.0, -1.0)));
+    scene.nodes[1].scale = glm::dvec3(1.5, 0.7, 2.0);
+    return scene;
+}
+
+/// From outside: next to a surface, a distance is a difference of larger numbers.
+std::vector<Ray> make_rays() {
+    std::mt19937 random(5);
+    std::uniform_real_distribution<float> number(-1.0f, 1.0f);
+    std::vector<Ray> rays(30'000);
+    for (Ray& ray : rays) {
+        ray.origin = {6.0f * number(random), 6.0f * number(random), number(random) < 0.0f ? 6.0f : -6.0f};
+        ray.direction = 2.0f * glm::vec3(number(random), number(random), number(random)) - ray.origin;
+    }
+    return rays;
+}
+
+struct Answers {
+    std::vector<Hit> packets, coherent, single;
+    std::vector<std::uint8_t> blocked, blocked_single;
+};
+
+/// @param configuration  null: this processor's own
+Answers trace(const Scene& scene, const std::vector<Ray>& rays, const char* configuration) {
+    RayScene placed(std::make_unique<RayScene::State>(
+        std::make_shared<MeshStructures>(scene, make_pose_plan(scene), std::make_unique<EmbreeDevice>(configuration))));
+    placed.update(pose(scene, 0.0), glm::dvec3(0.0));
+    Tracer tracer(placed);
+    Answers answers;
+    for (std::vector<Hit>* hits : {&answers.packets, &answers.coherent, &answers.single}) hits->resize(rays.size());
+    for (std::vector<std::uint8_t>* b : {&answers.blocked, &answers.blocked_single}) b->resize(rays.size());
+    tracer.intersect(rays, answers.packets, false);
+    tracer.intersect(rays, answers.coherent, true);
+    tracer.occluded(rays, answers.blocked);
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+        answers.single[i] = tracer.intersect(rays[i]);
+        answers.blocked_single[i] = tracer.occluded(rays[i]);
+    }
+    return answers;
+}
+
+/// Cosine between a ray and the normal of the triangle that it meets, in a scene whose nodes are only moved.
+double cosine(const Scene& scene, const Ray& ray, const Hit& hit) {
+    const Mesh& mesh = scene.meshes[hit.instance];
+    const glm::uvec3& t = mesh.triangles[hit.primitive];
+    const glm::dvec3 a = mesh.positions[t.x], b = mesh.positions[t.y], c = mesh.positions[t.z];
+    return std::abs(glm::dot(glm::normalize(glm::cross(b - a, c - a)), glm::normalize(glm::dvec3(ray.direction))));
+}
+
+void expect_same(const std::vector<Hit>& found, const std::vector<Hit>& expected) {
+    for (std::size_t i = 0; i < expected.size(); ++i) {
+        ASSERT_EQ(found[i].instance, expected[i].instance) << i;
+        ASSERT_EQ(found[i].primitive, expected[i].primitive) << i;
+    }
+}
+
+/// Within 4e-6 of each other, but for grazing hits, where the distance is a quotient of small numbers.
+void expect_near(const Scene& scene, const std::vector<Hit>& found, const std::vector<Hit>& expected) {
+    const std::vector<Ray> rays = make_rays();
+    std::size_t compared = 0;
+    for (std::size_t i = 0; i < expected.size(); ++i) {
+        if (expected[i].instance == no_index || cosine(scene, rays[i], expected[i]) < 0.1) continue;
+        ++compared;
+        ASSERT_NEAR(found[i].distance, expected[i].distance, 4e-6 * expected[i].distance) << i;
+    }
+    EXPECT_GT(compared, expected.size() / 4);
+}
+
+/// @param configuration  Embree takes the best that this processor has, up to the kind named
+Answers expect_same_on(const char* configuration, const Scene& scene, const Answers& own) {
+    const Answers other = trace(scene, make_rays(), configuration);
+    for (const std::vector<Hit>* hits : {&other.packets, &other.coherent, &other.single})
+        expect_same(*hits, own.packets);
+    EXPECT_EQ(other.blocked, own.blocked);
+    EXPECT_EQ(other.blocked_single, own.blocked);
+    return other;
+}
+
+TEST(Processors, RC15_MeetTheSameTriangles) {
+    const Scene plain = make_scene(false), turned = make_scene(true);
+    const Answers own = trace(plain, make_rays(), nullptr), own_turned = trace(turned, make_rays(), nullptr);
+    for (const char* configuration : {"isa=sse2", "isa=sse4.2", "isa=avx", "isa=avx2"}) {
+        SCOPED_TRACE(configuration);
+        expect_same_on(configuration, turned, own_turned);
+        const Answers other = expect_same_on(configuration, plain, own);
+        for (const std::vector<Hit>* hits : {&other.packets, &other.coherent, &other.single})
+            expect_near(plain, *hits, own.packets);
+    }
+}
+
+}  // namespace
+}  // namespace aleph
