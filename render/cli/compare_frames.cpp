@@ -90,6 +90,13 @@ std::optional<NumberField> find_difference_field(const CompareOptions& options) 
     return field;
 }
 
+/// The table follows, so a log needs no lines of progress.
+ProgressLook terminal_look(bool quiet) {
+    ProgressLook look = progress_look(quiet);
+    if (look.style == ProgressStyle::lines) look.style = ProgressStyle::none;
+    return look;
+}
+
 }  // namespace
 
 bool names_sequence(const std::string& argument) {
@@ -107,7 +114,7 @@ int compare_frames(const CompareOptions& options) {
     SequenceComparison sequence(options.settings, parse_cuts(options.cuts));
     std::vector<FrameComparison> frames;
     {
-        Progress progress("compare", static_cast<double>(first.size()), progress_look(options.quiet));
+        Progress progress("compare", static_cast<double>(first.size()), terminal_look(options.quiet));
         for (const auto& [frame, file] : first) {
             const ChannelImage a = read_image(file), b = read_image(second.at(frame));
             const ChannelImage frame_maps = maps.empty() ? ChannelImage{} : read_image(maps.at(frame));

@@ -7,39 +7,17 @@
 #include <fstream>
 #include <limits>
 #include <nlohmann/json.hpp>
-#include <sstream>
 
 #include "engine/base/errors.h"
 #include "engine/image/image_file.h"
-#include "render/cli/commands.h"
 #include "render/cli/frame_pattern.h"
+#include "tests/support/run_compare.h"
 #include "tests/support/scratch_folder.h"
 
 namespace aleph {
 namespace {
 
 namespace fs = std::filesystem;
-
-struct Outcome {
-    int code;
-    std::string out, errors;
-};
-
-Outcome compare(std::vector<std::string> arguments) {
-    CLI::App app{"test"};
-    Command command;
-    app.require_subcommand(0, 1);
-    add_compare_command(app, command);
-    std::vector<const char*> argv{"aleph", "compare"};
-    for (const std::string& argument : arguments) argv.push_back(argument.c_str());
-    std::ostringstream errors;
-    testing::internal::CaptureStderr();  // progress
-    testing::internal::CaptureStdout();
-    const int code = run_program(app, command, static_cast<int>(argv.size()), argv.data(), errors);
-    Outcome outcome{code, testing::internal::GetCapturedStdout(), errors.str()};
-    testing::internal::GetCapturedStderr();
-    return outcome;
-}
 
 ChannelImage grey(float value, int width = 6, int height = 5) {
     ChannelImage image;
@@ -71,16 +49,16 @@ struct Sequences {
 TEST(CompareFrames, PatternsAndFoldersArePairedByNumber) {
     const Sequences s({8, 9, 10}, {0.0f, 0.25f, 0.0f});
     for (const auto& [first, second] : {std::pair{s.pattern_a, s.pattern_b}, {s.a, s.b}, {s.a, s.pattern_b}}) {
-        const Outcome outcome = compare({first, second});
+        const CompareOutcome outcome = run_compare({first, second});
         EXPECT_EQ(outcome.code, 1) << outcome.errors;
         EXPECT_NE(outcome.out.find("1 of 3 frames differ; the largest difference is in frame 9"), std::string::npos)
             << outcome.out;
         EXPECT_TRUE(outcome.out.ends_with("different\n"));
     }
-    EXPECT_EQ(compare({s.a, s.b, "--tolerance", "0.25"}).code, 0);
-    EXPECT_EQ(compare({s.a, s.b, "--tolerance", "0.25", "--max-rms", "0.2"}).code, 1);
-    EXPECT_EQ(compare({s.a, s.b, "-q"}).out, "");
-    const Outcome limits = compare({s.a, s.b, "--share", "100", "--max-error", "0.2"});
+    EXPECT_EQ(run_compare({s.a, s.b, "--tolerance", "0.25"}).code, 0);
+    EXPECT_EQ(run_compare({s.a, s.b, "--tolerance", "0.25", "--max-rms", "0.2"}).code, 1);
+    EXPECT_EQ(run_compare({s.a, s.b, "-q"}).out, "");
+    const CompareOutcome limits = run_compare({s.a, s.b, "--share", "100", "--max-error", "0.2"});
     EXPECT_NE(limits.out.find("different (--max-error)"), std::string::npos) << limits.out;
 }
 
@@ -88,19 +66,19 @@ TEST(CompareFrames, MissingPartnersAreNamed) {
     const Sequences s({1, 2, 3, 4, 5, 6}, {0, 0, 0, 0, 0, 0});
     for (const char* gone : {"a/new.0005.exr", "b/old.0001.exr", "b/old.0002.exr", "b/old.0004.exr", "maps/m.0003.exr"})
         fs::remove(s.folder / gone);
-    Outcome outcome = compare({s.a, s.b});
+    CompareOutcome outcome = run_compare({s.a, s.b});
     EXPECT_EQ(outcome.code, 2);
     EXPECT_NE(outcome.errors.find("b' has no frame 1-2, 4; '"), std::string::npos) << outcome.errors;
     EXPECT_NE(outcome.errors.find("a' has no frame 5"), std::string::npos) << outcome.errors;
     EXPECT_EQ(outcome.out, "");
-    outcome = compare({s.b, s.b, "--threshold", s.pattern_maps});
+    outcome = run_compare({s.b, s.b, "--threshold", s.pattern_maps});
     EXPECT_EQ(outcome.code, 2);
     EXPECT_NE(outcome.errors.find("m.####.exr' has no frame 3"), std::string::npos) << outcome.errors;
 }
 
 TEST(CompareFrames, FlickerAgainstTheMapsAsJson) {
     const Sequences s({3, 4, 6}, {0.004f, -0.004f, 0.004f});
-    const Outcome outcome = compare({s.a, s.b, "--threshold", s.maps, "--json"});
+    const CompareOutcome outcome = run_compare({s.a, s.b, "--threshold", s.maps, "--json"});
     EXPECT_EQ(outcome.code, 1) << outcome.errors;  // .4 cd/m2 is below the threshold, the change of .8 above .5
     const auto json = nlohmann::json::parse(outcome.out);
     EXPECT_EQ(json["same"], false);
@@ -116,10 +94,10 @@ TEST(CompareFrames, FlickerAgainstTheMapsAsJson) {
     EXPECT_EQ(json["all"]["flicker"]["rest"]["percent"], 100.0);
     EXPECT_EQ(json["all"]["flicker"]["moving"]["counted"], 0);
     EXPECT_NEAR(json["all"]["threshold"]["worst"].get<double>(), 0.4, 1e-4);
-    const Outcome cut = compare({s.a, s.b, "--threshold", s.maps, "--cuts", "4"});
+    const CompareOutcome cut = run_compare({s.a, s.b, "--threshold", s.maps, "--cuts", "4"});
     EXPECT_EQ(cut.code, 0) << cut.out;
     EXPECT_NE(cut.out.find("no pair of consecutive frames"), std::string::npos);
-    const Outcome text = compare({s.a, s.b, "--threshold", s.maps});
+    const CompareOutcome text = run_compare({s.a, s.b, "--threshold", s.maps});
     EXPECT_NE(text.out.find("1 pairs of frames, in units of threshold.flicker"), std::string::npos) << text.out;
 }
 
@@ -138,12 +116,12 @@ TEST(CompareFrames, WrongKindsAreRefused) {
         {{s.a, s.b, "--max-rms", "-1"}, "--max-rms"},
         {{s.a, s.b, "--standard-errors", "3"}, "variance.Y"}};
     for (const auto& [arguments, part] : cases) {
-        const Outcome outcome = compare(arguments);
+        const CompareOutcome outcome = run_compare(arguments);
         EXPECT_EQ(outcome.code, 2) << part;
         EXPECT_NE(outcome.errors.find(part), std::string::npos) << outcome.errors;
     }
     write_exr(s.b + "/old.0002.exr", grey(0.5f, 7, 5));
-    const Outcome outcome = compare({s.a, s.b});
+    const CompareOutcome outcome = run_compare({s.a, s.b});
     EXPECT_EQ(outcome.code, 2);
     EXPECT_NE(outcome.errors.find("new.0002.exr: the pictures differ in size"), std::string::npos) << outcome.errors;
 }
@@ -152,14 +130,14 @@ TEST(CompareFrames, ExistingFilesArePicturesWhateverTheirName) {
     const ScratchFolder folder;
     const std::string odd = folder / "take #2.exr";
     write_exr(odd, grey(0.5f));
-    const Outcome outcome = compare({odd, odd});
+    const CompareOutcome outcome = run_compare({odd, odd});
     EXPECT_EQ(outcome.code, 0) << outcome.errors;
     EXPECT_EQ(outcome.out.find("frames"), std::string::npos) << outcome.out;
 }
 
 TEST(CompareFrames, DifferencesOfEveryFrame) {
     const Sequences s({1, 2}, {0.0f, 0.25f});
-    compare({s.a, s.b, "-q", "--diff", s.folder / "diff.##.png"});
+    run_compare({s.a, s.b, "-q", "--diff", s.folder / "diff.##.png"});
     EXPECT_TRUE(fs::exists(s.folder / "diff.01.png"));
     EXPECT_TRUE(fs::exists(s.folder / "diff.02.png"));
 }
@@ -171,12 +149,13 @@ TEST(CompareFrames, NoiseOfTheReferenceIsPrinted) {
     write_exr(folder / "b.exr", reference);
     write_exr(folder / "a.exr", grey(0.52f));
     write_exr(folder / "maps.exr", {{{"threshold.Y", Image<float>(6, 5, 1.0f)}}, {}});
-    const Outcome outcome = compare({folder / "a.exr", folder / "b.exr", "--threshold", folder / "maps.exr"});
+    const CompareOutcome outcome =
+        run_compare({folder / "a.exr", folder / "b.exr", "--threshold", folder / "maps.exr"});
     EXPECT_EQ(outcome.code, 1);
     EXPECT_NE(outcome.out.find("0 % by more than 3 standard errors; by noise alone 61.7"), std::string::npos)
         << outcome.out;
     EXPECT_NE(outcome.out.find("bias 4 %"), std::string::npos) << outcome.out;
-    EXPECT_EQ(compare({folder / "a.exr", folder / "b.exr", "--standard-errors", "2"}).code, 0);
+    EXPECT_EQ(run_compare({folder / "a.exr", folder / "b.exr", "--standard-errors", "2"}).code, 0);
 }
 
 TEST(FramePattern, FoldersHoldOneSequence) {
