@@ -1,150 +1,135 @@
-// `aleph compare`: the difference of two pictures as a table or JSON, and as the exit code.
+// `aleph compare`: the difference of two pictures or sequences as a table or JSON, and as the exit code.
 
 #include <fmt/format.h>
 
-#include <cmath>
 #include <memory>
 #include <nlohmann/json.hpp>
 
 #include "engine/base/errors.h"
 #include "render/cli/commands.h"
-#include "render/compare.h"
+#include "render/cli/compare_frames.h"
+#include "render/cli/compare_print.h"
 
 namespace aleph {
 
 namespace {
 
-using Json = nlohmann::ordered_json;
-
-struct CompareOptions {
-    std::string first, second, threshold, difference;
-    CompareSettings settings;
-    bool json = false, quiet = false;
-};
-
-Json difference_json(const Difference& d) {
-    return {{"max", d.max_abs}, {"rms", d.rms}, {"relative_mse", d.relative_mse}};  // infinity becomes null
-}
-
-Json pixels_json(const CompareResult& result, std::size_t count) {
-    return {{"pixels", count}, {"percent", result.percent(count)}};
-}
-
-Json result_json(const CompareResult& result) {
-    Json json{{"same", result.same}, {"size", {result.width, result.height}}, {"all", difference_json(result.all)}};
-    json["colour"] = result.colour ? difference_json(*result.colour) : Json();
-    json["nan"] = {result.a.nan, result.b.nan};
-    json["inf"] = {result.a.inf, result.b.inf};
-    json["beyond"] = pixels_json(result, result.beyond);
-    json["yee"] = result.yee ? pixels_json(result, *result.yee) : Json();
-    json["threshold"] = Json();
-    if (const auto& threshold = result.threshold) {
-        json["threshold"] = pixels_json(result, threshold->beyond);
-        json["threshold"]["worst"] = threshold->worst;
-        json["threshold"]["display_white"] = threshold->display_white;
-    }
-    json["channels"] = Json::array();
-    for (const ChannelDifference& channel : result.channels) {
-        Json entry{{"name", channel.name}};
-        entry.update(difference_json(channel.difference));
-        entry["at"] = {channel.x, channel.y};
-        entry["beyond"] = channel.beyond;
-        json["channels"].push_back(entry);
-    }
-    return json;
-}
-
-void print_row(const std::string& name, const Difference& d, const std::string& place, const std::string& beyond) {
-    fmt::print("  {:<24} {:>12.6g} {:>12} {:>12.6g} {:>12.6g} {:>12}\n", printable(name, 24), d.max_abs, place, d.rms,
-               d.relative_mse, beyond);
-}
-
-void print_pixels(const char* what, const CompareResult& result, std::size_t count, const std::string& note = {}) {
-    fmt::print("  {:<24} {} of {} pixels ({:.4g} %){}\n", what, count, result.pixels(), result.percent(count), note);
-}
-
-void print_table(const CompareOptions& options, const CompareResult& result) {
-    fmt::print("{} against {}: {}x{}\n", options.first, options.second, result.width, result.height);
-    fmt::print("  {:<24} {:>12} {:>12} {:>12} {:>12} {:>12}\n", "channel", "max", "at x,y", "RMS", "relative MSE",
-               "beyond");
-    for (const ChannelDifference& channel : result.channels) {
-        print_row(channel.name, channel.difference, fmt::format("{},{}", channel.x, channel.y),
-                  fmt::format("{}", channel.beyond));
-    }
-    if (result.colour) print_row("R, G and B", *result.colour, "", "");
-    if (result.a.any() || result.b.any()) {
-        fmt::print("  NaN: {} and {}, infinite: {} and {}\n", result.a.nan, result.b.nan, result.a.inf, result.b.inf);
-    }
-    print_pixels("beyond the tolerance", result, result.beyond);
-    if (result.yee) print_pixels("fail Yee's metric", result, *result.yee);
-    if (const auto& threshold = result.threshold) {
-        print_pixels("beyond the Aleph map", result, threshold->beyond,
-                     fmt::format(", at worst {:.4g} thresholds; white is {:g} cd/m2", threshold->worst,
-                                 threshold->display_white));
-    }
-    fmt::print("{}\n", result.same ? "same" : "different");
-}
-
-int compare(const CompareOptions& options) {
+int compare_pictures(const CompareOptions& options) {
+    if (!options.cuts.empty()) throw InputError("", "--cuts", "applies to sequences only");
     const ChannelImage first = read_image(options.first), second = read_image(options.second);
     ChannelImage map;
     if (!options.threshold.empty()) map = read_image(options.threshold);
     const CompareResult result =
         compare_images(first, second, options.settings, options.threshold.empty() ? nullptr : &map);
     if (options.json) {
-        fmt::print("{}\n", result_json(result).dump(2));
+        fmt::print("{}\n", comparison_json(result).dump(2));
     } else if (!options.quiet) {
-        print_table(options, result);
+        print_comparison(options, result);
     }
     if (!options.difference.empty()) write_png(options.difference, difference_picture(first, second, options.settings));
     return result.same ? exit_done : exit_different;
 }
 
+void check_numbers(const CompareSettings& s) {
+    if (s.tolerance < 0.0 || s.relative < 0.0 || s.share < 0.0 || s.share > 100.0) {
+        throw InputError("", "", "--tolerance and --relative must not be negative, --share lies in 0 to 100");
+    }
+    const std::pair<const char*, double> limits[] = {{"--max-error", s.max_error},
+                                                     {"--max-rms", s.max_rms},
+                                                     {"--max-relative-mse", s.max_relative_mse},
+                                                     {"--max-bias", s.max_bias},
+                                                     {"--standard-errors", s.standard_errors.value_or(0.0)}};
+    for (const auto& [option, value] : limits) {
+        if (value < 0.0) throw InputError("", option, "must not be negative");
+    }
+}
+
+int compare(const CompareOptions& options) {
+    check_numbers(options.settings);
+    const bool first = names_sequence(options.first), second = names_sequence(options.second);
+    if (first != second) {
+        const auto& [sequence, picture] =
+            first ? std::pair(options.first, options.second) : std::pair(options.second, options.first);
+        throw InputError(
+            "", "",
+            fmt::format("'{}' is a sequence and '{}' one picture", printable(sequence, 400), printable(picture, 400)));
+    }
+    return first ? compare_frames(options) : compare_pictures(options);
+}
+
+/// An option without a default.
+void add_limit(CLI::App& app, const std::string& option, const std::string& help,
+               const std::function<void(double)>& set) {
+    app.add_option_function<std::string>(
+           option, [set, option](const std::string& text) { set(parse_value<double>(text, option)); }, help)
+        ->type_name("NUMBER");
+}
+
+void add_limits(CLI::App& app, CompareSettings& s) {
+    add_limit(app, "--max-error", "largest difference of any value, whatever --share allows",
+              [&s](double value) { s.max_error = value; });
+    add_limit(app, "--max-rms", "largest RMS difference of any channel", [&s](double value) { s.max_rms = value; });
+    add_limit(app, "--max-relative-mse",
+              "largest relative MSE of luminance, less what the reference's noise adds (variance.Y)",
+              [&s](double value) { s.max_relative_mse = value; });
+    add_limit(app, "--max-bias", "largest difference of the mean luminances, percent of the reference's",
+              [&s](double value) { s.max_bias = value; });
+    add_limit(app, "--standard-errors",
+              "judge luminance, in place of the channels, and allow this many standard errors (variance.Y) in addition",
+              [&s](double value) { s.standard_errors = value; });
+}
+
+constexpr const char* compare_footer =
+    "Exit code: 0 the same; 1 different, or a NaN or infinity in either; 2 unreadable, or other sizes or "
+    "channels.\n"
+    "variance.Y is compared only if --channels names it; samples.Y, records.Y and invalid.Y only if both pictures\n"
+    "have them.\n\n"
+    "Sequences: 'name.####.exr', in quotes, or folders that hold one numbered sequence. Frames are paired by number.\n"
+    "With --threshold the sequences differ too where the error flickers: where it changes from one frame to the next\n"
+    "along the motion in the maps by more than their threshold.flicker or, without it, their threshold.Y. Surfaces at\n"
+    "rest (up to 0.01 pixels per frame) and moving ones have separate columns. Hidden and invalid pixels, and those\n"
+    "that leave the picture or meet another object, are left out.\n\n"
+    "Examples:\n"
+    "  aleph compare new.exr golden.exr --relative 1e-4 --share 0.5 --max-rms 0.001\n"
+    "  aleph compare guided.exr dense.exr --threshold maps.exr      which differences would a viewer see?\n"
+    "  aleph compare 'guided.####.exr' reference/ --threshold maps/\n"
+    "  aleph compare cached.exr traced.exr --standard-errors 4 --relative 0.1 --share 1 --max-bias 1\n"
+    "  aleph compare a.exr b.exr --channels forward,Z --diff where.png";
+
 }  // namespace
 
 void add_compare_command(CLI::App& app, Command& command) {
-    CLI::App* compare_app = app.add_subcommand("compare", "compare two pictures");
+    CLI::App* compare_app = app.add_subcommand("compare", "compare two pictures, or two sequences of frames");
     const auto options = std::make_shared<CompareOptions>();
-    compare_app->add_option("first", options->first, "a picture: EXR, PNG, JPEG or HDR")->required();
+    compare_app->add_option("first", options->first, "a picture (EXR, PNG, JPEG, HDR), or a sequence")->required();
     compare_app->add_option("second", options->second, "the reference")->required();
     compare_app
         ->add_option("--threshold", options->threshold,
-                     "an EXR file of `aleph maps`: the pictures differ where their luminance differs by more than its "
-                     "threshold.Y; replaces --tolerance and --relative")
+                     "an EXR file of `aleph maps`, or the sequence of the reference's maps: the pictures differ where "
+                     "their luminance differs by more than its threshold.Y; replaces --tolerance and --relative")
         ->type_name("MAPS.exr");
     CompareSettings& settings = options->settings;
     add_value(*compare_app, "--tolerance", settings.tolerance, "allowed difference, in the channel's unit, 0 and up");
     add_value(*compare_app, "--relative", settings.relative,
               "allowed in addition, as a factor on the reference's value, 0 and up");
     add_value(*compare_app, "--share", settings.share, "percent of the pixels that may differ by more, 0 to 100");
+    add_limits(*compare_app, settings);
     compare_app
         ->add_option("--channels", settings.channels,
                      "compare only these channels (Z) or layers (forward); default: all")
         ->delimiter(',')
         ->allow_extra_args(false)
         ->type_name("A,B");
+    compare_app->add_option("--cuts", options->cuts, "frames that begin a new shot: nothing flickers into them")
+        ->type_name("LIST");
     compare_app
         ->add_option("--diff", options->difference,
                      "write the difference as a picture; white is the largest difference")
         ->type_name("OUT.png");
     compare_app->add_flag("--json", options->json, "print JSON in place of the table");
     compare_app->add_flag("-q,--quiet", options->quiet, "print nothing; the exit code is the result");
-    compare_app->footer(
-        "Exit code: 0 the same; 1 different, or a NaN or infinity in either; 2 unreadable, or other sizes or "
-        "channels.\n\n"
-        "Examples:\n"
-        "  aleph compare new.exr golden.exr --relative 1e-4 --share 0.5\n"
-        "  aleph compare guided.exr dense.exr --threshold maps.exr      which differences would a viewer see?\n"
-        "  aleph compare a.exr b.exr --channels forward,Z --diff where.png");
-    compare_app->callback([options, &command] {
-        command = [options] {
-            const CompareSettings& s = options->settings;
-            if (s.tolerance < 0.0 || s.relative < 0.0 || s.share < 0.0 || s.share > 100.0) {
-                throw InputError("", "", "--tolerance and --relative must not be negative, --share lies in 0 to 100");
-            }
-            return compare(*options);
-        };
-    });
+    compare_app->footer(compare_footer);
+    compare_app->callback([options, &command] { command = [options] { return compare(*options); }; });
 }
 
 }  // namespace aleph

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
 #include <string_view>
 #include <system_error>
@@ -39,8 +40,38 @@ std::optional<std::string_view> text_of_number(std::string_view name, const std:
     return name.substr(before.size(), name.size() - before.size() - after.size());
 }
 
-[[noreturn]] void refuse(const std::string& pattern, const std::string& reason) {
-    throw InputError("", "--images", fmt::format("'{}': {}", printable(pattern, 400), reason));
+[[noreturn]] void refuse(const std::string& option, const std::string& pattern, const std::string& reason) {
+    throw InputError("", option, fmt::format("'{}': {}", printable(pattern, 400), reason));
+}
+
+bool is_picture(const fs::path& path) {
+    std::string extension = path.extension().string();
+    for (char& c : extension) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+    for (const char* known : {".exr", ".png", ".jpg", ".jpeg", ".hdr"}) {
+        if (extension == known) return true;
+    }
+    return false;
+}
+
+struct NumberedName {
+    std::int64_t frame;
+    std::string rest;  ///< the name with # in the number's place
+};
+
+/// Nothing if the name has no number before its extension, or one beyond 32 bits.
+std::optional<NumberedName> split_name(const fs::path& path) {
+    const std::string stem = path.stem().string();
+    const std::size_t last = stem.find_last_of("0123456789");
+    if (last == std::string::npos) return std::nullopt;
+    const std::size_t before = stem.find_last_not_of("0123456789", last);
+    std::size_t first = before == std::string::npos ? 0 : before + 1;
+    if (first > 0 && stem[first - 1] == '-' && (first == 1 || stem[first - 2] == '.' || stem[first - 2] == '_')) {
+        --first;
+    }
+    std::int32_t frame = 0;
+    const auto [end, failure] = std::from_chars(stem.data() + first, stem.data() + last + 1, frame);
+    if (failure != std::errc() || end != stem.data() + last + 1) return std::nullopt;
+    return NumberedName{frame, stem.substr(0, first) + "#" + stem.substr(last + 1) + path.extension().string()};
 }
 
 }  // namespace
@@ -67,19 +98,20 @@ std::string insert_number(const std::string& name, const NumberField& field, int
     return text.replace(field.begin, field.length, fmt::format("{:0{}}", frame, field.width));
 }
 
-std::map<std::int64_t, fs::path> find_frame_files(const std::string& pattern) {
+std::map<std::int64_t, fs::path> find_frame_files(const std::string& pattern, const std::string& option) {
     const fs::path path(pattern);
     const std::string name = path.filename().string();
     std::error_code error;
-    if (fs::is_directory(path, error)) refuse(pattern, "this is a folder; add its files' names, as in name.####.exr");
-    const auto field = find_number_field(name, "--images");
+    if (fs::is_directory(path, error))
+        refuse(option, pattern, "this is a folder; add its files' names, as in name.####.exr");
+    const auto field = find_number_field(name, option);
     if (!field) {
         if (!fs::exists(path, error))
-            refuse(pattern, "there is no such file; several frames are named as name.####.exr");
+            refuse(option, pattern, "there is no such file; several frames are named as name.####.exr");
         return {{0, path}};
     }
     const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
-    if (!fs::is_directory(folder, error)) refuse(pattern, "there is no such folder");
+    if (!fs::is_directory(folder, error)) refuse(option, pattern, "there is no such folder");
     std::map<std::int64_t, fs::path> files;
     std::string near;  // a name that differs only in how its number is written
     for (const fs::directory_entry& entry : fs::directory_iterator(folder, error)) {
@@ -95,12 +127,34 @@ std::map<std::int64_t, fs::path> find_frame_files(const std::string& pattern) {
             near = file;
         }
     }
-    if (error) refuse(pattern, error.message());
+    if (error) refuse(option, pattern, error.message());
     if (files.empty()) {
-        refuse(pattern, near.empty()
-                            ? "no file fits; each # stands for a digit of the frame number"
+        refuse(option, pattern,
+               near.empty() ? "no file fits; each # stands for a digit of the frame number"
                             : fmt::format("no file fits, but {} would with another number of #", printable(near)));
     }
+    return files;
+}
+
+std::map<std::int64_t, fs::path> find_folder_frames(const std::string& folder, const std::string& option) {
+    std::map<std::int64_t, fs::path> files;
+    std::string sequence;
+    std::error_code error;
+    for (const fs::directory_entry& entry : fs::directory_iterator(folder, error)) {
+        const auto name = is_picture(entry.path()) ? split_name(entry.path().filename()) : std::nullopt;
+        if (!name) continue;
+        if (sequence.empty()) sequence = name->rest;
+        if (name->rest != sequence) {
+            refuse(option, folder,
+                   fmt::format("holds several sequences, such as {} and {}; name one, as in name.####.exr",
+                               printable(std::min(sequence, name->rest)), printable(std::max(sequence, name->rest))));
+        }
+        if (!files.emplace(name->frame, entry.path()).second) {
+            refuse(option, folder, fmt::format("holds frame {} twice", name->frame));
+        }
+    }
+    if (error) refuse(option, folder, error.message());
+    if (files.empty()) refuse(option, folder, "holds no numbered pictures, such as name.0001.exr");
     return files;
 }
 

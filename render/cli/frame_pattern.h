@@ -1,6 +1,7 @@
 #pragma once
 // File names that contain a frame number: name.####.exr, name.%04d.exr.
 
+#include <cstdint>
 #include <filesystem>
 #include <map>
 #include <optional>
@@ -23,7 +24,13 @@ std::string insert_number(const std::string& name, const NumberField& field, int
 
 /// The existing files that fit a pattern, by frame; the number is in the last part of the path. A name without a number
 /// is frame 0.
-/// @throws InputError (place "--images") if no file fits, with the name of one that nearly does
-std::map<std::int64_t, std::filesystem::path> find_frame_files(const std::string& pattern);
+/// @throws InputError (place `option`) if no file fits, with the name of one that nearly does
+std::map<std::int64_t, std::filesystem::path> find_frame_files(const std::string& pattern,
+                                                               const std::string& option = "--images");
+
+/// The numbered pictures of a folder (EXR, PNG, JPEG, HDR by extension), by frame. The frame is the last number of the
+/// name; a minus before it is its sign at the beginning of the name and behind '.' or '_'.
+/// @throws InputError (place `option`) if there are none, or if their names belong to several sequences
+std::map<std::int64_t, std::filesystem::path> find_folder_frames(const std::string& folder, const std::string& option);
 
 }  // namespace aleph

@@ -109,6 +109,52 @@ TEST(Compare, OtherShapesAreErrors) {
     EXPECT_THROW(compare_images(more, more, {0.0, 0.0, 0.0, {"N"}}), InputError);
 }
 
+TEST(Compare, ChannelsOfHowAPictureWasMadeMayBeMissing) {
+    const ChannelImage plain = grey_image(4, 4, 0.5f);
+    ChannelImage counted = plain;
+    for (const char* name : {"variance.Y", "samples.Y", "records.Y", "invalid.Y"}) {
+        counted.channels.push_back({name, Image<float>(4, 4, 3.0f)});
+    }
+    EXPECT_TRUE(compare_images(plain, counted).same);
+    EXPECT_TRUE(compare_images(counted, plain).same);
+    EXPECT_EQ(compare_images(counted, plain).channels.size(), 3u);
+    // In both: counts are compared, the variance only if it is named.
+    ChannelImage other = counted;
+    other.channels[3].values(1, 1) = 9.0f;
+    EXPECT_TRUE(compare_images(counted, other).same);
+    EXPECT_FALSE(compare_images(counted, other, {0.0, 0.0, 0.0, {"variance"}}).same);
+    other = counted;
+    other.channels[4].values(1, 1) = 9.0f;
+    EXPECT_FALSE(compare_images(counted, other).same);
+    const ChannelImage only_counts{{{"samples.Y", Image<float>(4, 4, 3.0f)}}, {}};
+    EXPECT_THROW(compare_images(one_channel("variance.Y", {1.0f}), one_channel("variance.Y", {1.0f})), InputError);
+    EXPECT_THROW(compare_images(plain, only_counts), InputError);
+}
+
+TEST(Compare, LimitsHoldWhateverTheShare) {
+    const ChannelImage b = grey_image(10, 10, 0.5f);
+    ChannelImage a = b;
+    a.channels[1].values(3, 4) = 0.75f;  // .25 in one of 100 pixels: RMS .025 in G
+    const auto exceeded = [&](const CompareSettings& settings) {
+        const CompareResult result = compare_images(a, b, settings);
+        EXPECT_EQ(result.same, result.exceeded.empty());
+        return result.exceeded;
+    };
+    using Names = std::vector<std::string>;
+    EXPECT_EQ(exceeded({.share = 1.0}), Names{});
+    EXPECT_EQ(exceeded({.share = 0.9}), Names{"share"});
+    EXPECT_EQ(exceeded({.share = 1.0, .max_error = 0.25}), Names{});
+    EXPECT_EQ(exceeded({.share = 1.0, .max_error = 0.249}), Names{"max_error"});
+    EXPECT_EQ(exceeded({.share = 1.0, .max_rms = 0.025}), Names{});
+    EXPECT_EQ(exceeded({.share = 1.0, .max_rms = 0.0249}), Names{"max_rms"});
+    // Luminance: .25 * .7152 / 100 = .001788 of .5, squared errors .1788^2 / 100 / (.25 + .005^2).
+    EXPECT_EQ(exceeded({.share = 1.0, .max_bias = 0.358}), Names{});
+    EXPECT_EQ(exceeded({.share = 1.0, .max_bias = 0.357}), Names{"max_bias"});
+    EXPECT_EQ(exceeded({.share = 1.0, .max_relative_mse = 0.00128}), Names{});
+    EXPECT_EQ(exceeded({.share = 1.0, .max_relative_mse = 0.00127}), Names{"max_relative_mse"});
+    EXPECT_THROW(compare_images(one_channel("Z", {1.0f}), one_channel("Z", {1.0f}), {.max_bias = 1.0}), InputError);
+}
+
 TEST(Compare, LayersNameTheirChannels) {
     ChannelImage a = one_channel("forward.u", {0.0f});
     a.channels.push_back({"forward.v", Image<float>(1, 1, 0.0f)});

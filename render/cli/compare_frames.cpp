@@ -1,0 +1,142 @@
+#include "render/cli/compare_frames.h"
+
+#include <fmt/format.h>
+
+#include <map>
+
+#include "engine/base/errors.h"
+#include "render/cli/compare_frames_print.h"
+#include "render/cli/frame_list.h"
+#include "render/cli/frame_pattern.h"
+#include "render/cli/options.h"
+#include "render/cli/progress.h"
+
+namespace aleph {
+
+namespace {
+
+using SequenceFiles = std::map<std::int64_t, std::filesystem::path>;
+
+SequenceFiles find_sequence(const std::string& argument, const std::string& option) {
+    std::error_code error;
+    return std::filesystem::is_directory(argument, error) ? find_folder_frames(argument, option)
+                                                          : find_frame_files(argument, option);
+}
+
+std::vector<std::int64_t> frames_without(const SequenceFiles& files, const SequenceFiles& others) {
+    std::vector<std::int64_t> frames;
+    for (const auto& [frame, file] : files) {
+        if (!others.contains(frame)) frames.push_back(frame);
+    }
+    return frames;
+}
+
+/// "3, 7-9": at most ten runs of frames.
+std::string format_frames(const std::vector<std::int64_t>& frames) {
+    std::string text;
+    int runs = 0;
+    for (std::size_t i = 0; i < frames.size();) {
+        std::size_t end = i + 1;
+        while (end < frames.size() && frames[end] == frames[end - 1] + 1) ++end;
+        if (++runs > 10) return text + ", and more";
+        text += (text.empty() ? "" : ", ") + fmt::format("{}", frames[i]);
+        if (end > i + 1) text += fmt::format("-{}", frames[end - 1]);
+        i = end;
+    }
+    return text;
+}
+
+void check_partners(const CompareOptions& options, const SequenceFiles& first, const SequenceFiles& second,
+                    const SequenceFiles& maps) {
+    std::string missing;
+    const auto add = [&](const SequenceFiles& files, const SequenceFiles& others, const std::string& where) {
+        const std::vector<std::int64_t> frames = frames_without(files, others);
+        if (frames.empty()) return;
+        missing += fmt::format("{}'{}' has no frame {}", missing.empty() ? "" : "; ", printable(where, 200),
+                               format_frames(frames));
+    };
+    add(first, second, options.second);
+    add(second, first, options.first);
+    if (!options.threshold.empty()) add(first, maps, options.threshold);
+    if (!missing.empty()) throw InputError("", "", missing);
+}
+
+/// The maps of every frame; a single file serves a sequence of one frame.
+SequenceFiles find_maps(const CompareOptions& options, const SequenceFiles& first) {
+    if (options.threshold.empty()) return {};
+    if (names_sequence(options.threshold)) return find_sequence(options.threshold, "--threshold");
+    if (first.size() > 1) {
+        throw InputError("", "--threshold",
+                         "one file cannot serve several frames: give a pattern or a folder of `aleph maps`");
+    }
+    return {{first.begin()->first, options.threshold}};
+}
+
+std::vector<std::int64_t> parse_cuts(const std::string& text) {
+    if (text.empty()) return {};
+    try {
+        const std::vector<int> frames = parse_frame_list(text);
+        return {frames.begin(), frames.end()};
+    } catch (const InputError& e) {
+        throw InputError("", "--cuts", e.reason());
+    }
+}
+
+/// Where the frame's difference goes; nothing without --diff.
+std::optional<NumberField> find_difference_field(const CompareOptions& options) {
+    if (options.difference.empty()) return std::nullopt;
+    const auto field = find_number_field(options.difference, "--diff");
+    if (!field) throw InputError("", "--diff", "several frames need a name such as diff.####.png");
+    return field;
+}
+
+/// The table follows, so a log needs no lines of progress.
+ProgressLook terminal_look(bool quiet) {
+    ProgressLook look = progress_look(quiet);
+    if (look.style == ProgressStyle::lines) look.style = ProgressStyle::none;
+    return look;
+}
+
+}  // namespace
+
+bool names_sequence(const std::string& argument) {
+    std::error_code error;
+    if (std::filesystem::is_directory(argument, error)) return true;
+    if (std::filesystem::exists(argument, error)) return false;
+    return find_number_field(std::filesystem::path(argument).filename().string(), printable(argument)).has_value();
+}
+
+int compare_frames(const CompareOptions& options) {
+    const SequenceFiles first = find_sequence(options.first, "first"), second = find_sequence(options.second, "second");
+    const SequenceFiles maps = find_maps(options, first);
+    check_partners(options, first, second, maps);
+    const auto difference_field = find_difference_field(options);
+    SequenceComparison sequence(options.settings, parse_cuts(options.cuts));
+    std::vector<FrameComparison> frames;
+    {
+        Progress progress("compare", static_cast<double>(first.size()), terminal_look(options.quiet));
+        for (const auto& [frame, file] : first) {
+            const ChannelImage a = read_image(file), b = read_image(second.at(frame));
+            const ChannelImage frame_maps = maps.empty() ? ChannelImage{} : read_image(maps.at(frame));
+            try {
+                frames.push_back(sequence.add(frame, a, b, maps.empty() ? nullptr : &frame_maps));
+            } catch (const InputError& e) {
+                throw InputError(printable(file.string(), 400), e.place(), e.reason());
+            }
+            if (difference_field) {
+                write_png(insert_number(options.difference, *difference_field, static_cast<int>(frame)),
+                          difference_picture(a, b, options.settings));
+            }
+            progress.update(static_cast<double>(frames.size()), fmt::format("frame {}", frame));
+        }
+    }
+    const SequenceSummary summary = sequence.summary();
+    if (options.json) {
+        print_sequence_json(frames, summary);
+    } else if (!options.quiet) {
+        print_sequence(options, frames, summary);
+    }
+    return summary.same() ? exit_done : exit_different;
+}
+
+}  // namespace aleph

@@ -1,0 +1,20 @@
+#pragma once
+// What `aleph compare` is asked for.
+
+#include <string>
+
+#include "render/compare.h"
+
+namespace aleph {
+
+struct CompareOptions {
+    std::string first;       ///< a picture, or the pattern or folder of a sequence
+    std::string second;      ///< the reference, of the same kind
+    std::string threshold;   ///< maps of the reference, of the same kind; may be empty
+    std::string difference;  ///< file or pattern of the difference pictures; may be empty
+    std::string cuts;        ///< list of frames that begin a new shot
+    CompareSettings settings;
+    bool json = false, quiet = false;
+};
+
+}  // namespace aleph

@@ -1,0 +1,147 @@
+#include "render/cli/compare_print.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <numbers>
+
+#include "engine/base/errors.h"
+
+namespace aleph {
+
+namespace {
+
+nlohmann::ordered_json pixels_json(const CompareResult& result, std::size_t count) {
+    return {{"pixels", count}, {"percent", result.percent(count)}};
+}
+
+nlohmann::ordered_json luminance_json(const LuminanceDifference& luminance, const CompareResult& result) {
+    return {{"bias_percent", 100.0 * luminance.bias}, {"bias_error_percent", 100.0 * luminance.bias_error},
+            {"relative_mse", luminance.relative_mse}, {"noise_mse", luminance.noise_mse},
+            {"has_variance", luminance.has_variance}, {"far", pixels_json(result, luminance.far)}};
+}
+
+void print_row(const std::string& name, const Difference& d, const std::string& place, const std::string& beyond) {
+    fmt::print("  {:<24} {:>12.6g} {:>12} {:>12.6g} {:>12.6g} {:>12}\n", printable(name, 24), d.max_abs, place, d.rms,
+               d.relative_mse, beyond);
+}
+
+void print_pixels(const std::string& what, const CompareResult& result, std::size_t count,
+                  const std::string& note = {}) {
+    fmt::print("  {:<24} {} of {} pixels ({:.4g} %){}\n", what, count, result.pixels(), result.percent(count), note);
+}
+
+void print_luminance(const CompareOptions& options, const CompareResult& result) {
+    const LuminanceDifference& luminance = *result.luminance;
+    const CompareSettings& settings = options.settings;
+    const bool limited = settings.max_bias < unlimited || settings.max_relative_mse < unlimited;
+    if (!luminance.has_variance && !limited) return;
+    fmt::print("  {:<24} bias {:.4g} % (standard error {:.2g} %), relative MSE {:.4g}, of it noise {:.4g}\n",
+               "luminance", 100.0 * luminance.bias, 100.0 * luminance.bias_error, luminance.relative_mse,
+               luminance.noise_mse);
+    if (!luminance.has_variance) return;
+    const double deviations = settings.standard_errors.value_or(3.0);
+    const bool tolerant = settings.tolerance > 0.0 || settings.relative > 0.0;
+    print_pixels(fmt::format("beyond {:g} standard errors", deviations), result, luminance.far,
+                 tolerant ? " and the tolerance"
+                          : fmt::format(", by chance {:.2g} %", 100.0 * std::erfc(deviations / std::numbers::sqrt2)));
+}
+
+}  // namespace
+
+nlohmann::ordered_json difference_json(const Difference& d) {
+    return {{"max", d.max_abs}, {"rms", d.rms}, {"relative_mse", d.relative_mse}};  // infinity becomes null
+}
+
+nlohmann::ordered_json figures_json(const ThresholdFigures& figures) {
+    nlohmann::ordered_json json{{"counted", figures.pixels},
+                                {"pixels", figures.beyond},
+                                {"percent", figures.percent_beyond()},
+                                {"percentile_99", figures.percentile_99},
+                                {"worst", figures.worst},
+                                {"noise", nullptr}};
+    if (const auto& noise = figures.noise) {
+        json["noise"] = {{"median", noise->median},
+                         {"percentile_99", noise->percentile_99},
+                         {"beyond_percent", figures.percent(static_cast<double>(noise->beyond))},
+                         {"expected_percent", figures.percent(noise->expected)},
+                         {"certain_percent", figures.percent(static_cast<double>(noise->certain))}};
+    }
+    return json;
+}
+
+nlohmann::ordered_json comparison_json(const CompareResult& result) {
+    nlohmann::ordered_json json{
+        {"same", result.same}, {"size", {result.width, result.height}}, {"all", difference_json(result.all)}};
+    json["colour"] = result.colour ? difference_json(*result.colour) : nlohmann::ordered_json();
+    json["nan"] = {result.a.nan, result.b.nan};
+    json["inf"] = {result.a.inf, result.b.inf};
+    json["beyond"] = pixels_json(result, result.beyond);
+    json["yee"] = result.yee ? pixels_json(result, *result.yee) : nlohmann::ordered_json();
+    json["luminance"] = result.luminance ? luminance_json(*result.luminance, result) : nlohmann::ordered_json();
+    json["threshold"] = nullptr;
+    if (const auto& threshold = result.threshold) {
+        json["threshold"] = figures_json(*threshold);
+        json["threshold"]["display_white"] = threshold->display_white;
+    }
+    json["exceeded"] = result.exceeded;
+    json["channels"] = nlohmann::ordered_json::array();
+    for (const ChannelDifference& channel : result.channels) {
+        nlohmann::ordered_json entry{{"name", channel.name}};
+        entry.update(difference_json(channel.difference));
+        entry["at"] = {channel.x, channel.y};
+        entry["beyond"] = channel.beyond;
+        json["channels"].push_back(entry);
+    }
+    return json;
+}
+
+void print_noise(const ThresholdFigures& figures) {
+    if (!figures.noise) return;
+    const ReferenceNoise& noise = *figures.noise;
+    fmt::print("  {:<24} {:.4g} % by more than 3 standard errors; by noise alone {:.4g} %\n", "beyond, less noise",
+               figures.percent(static_cast<double>(noise.certain)), figures.percent(noise.expected));
+    fmt::print("  {:<24} median {:.3g} thresholds, 99th percentile {:.3g}, beyond 1 {:.4g} %\n", "reference's noise",
+               noise.median, noise.percentile_99, figures.percent(static_cast<double>(noise.beyond)));
+}
+
+std::string exceeded_options(const CompareResult& result) {
+    std::string options;
+    for (std::string name : result.exceeded) {
+        if (name == "share") continue;
+        std::ranges::replace(name, '_', '-');
+        options += (options.empty() ? "--" : ", --") + name;
+    }
+    return options;
+}
+
+void print_comparison(const CompareOptions& options, const CompareResult& result) {
+    fmt::print("{} against {}: {}x{}\n", options.first, options.second, result.width, result.height);
+    fmt::print("  {:<24} {:>12} {:>12} {:>12} {:>12} {:>12}\n", "channel", "max", "at x,y", "RMS", "relative MSE",
+               "beyond");
+    for (const ChannelDifference& channel : result.channels) {
+        print_row(channel.name, channel.difference, fmt::format("{},{}", channel.x, channel.y),
+                  fmt::format("{}", channel.beyond));
+    }
+    if (result.colour) print_row("R, G and B", *result.colour, "", "");
+    if (result.a.any() || result.b.any()) {
+        fmt::print("  NaN: {} and {}, infinite: {} and {}\n", result.a.nan, result.b.nan, result.a.inf, result.b.inf);
+    }
+    print_pixels("beyond the tolerance", result, result.beyond);
+    if (result.luminance) print_luminance(options, result);
+    if (result.yee) print_pixels("fail Yee's metric", result, *result.yee);
+    if (const auto& threshold = result.threshold) {
+        print_pixels("beyond the Aleph map", result, threshold->beyond,
+                     fmt::format(", at worst {:.4g} thresholds; white is {:g} cd/m2", threshold->worst,
+                                 threshold->display_white));
+        print_noise(*threshold);
+    }
+    if (const std::string limits = exceeded_options(result); !limits.empty()) {
+        fmt::print("  {:<24} {}\n", "above its limit", limits);
+    }
+    fmt::print("{}\n", result.same ? "same" : "different");
+}
+
+}  // namespace aleph

@@ -1,0 +1,187 @@
+// `aleph compare` of sequences, without starting the program.
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <limits>
+#include <nlohmann/json.hpp>
+
+#include "engine/base/errors.h"
+#include "engine/image/image_file.h"
+#include "render/cli/frame_pattern.h"
+#include "tests/support/run_compare.h"
+#include "tests/support/scratch_folder.h"
+
+namespace aleph {
+namespace {
+
+namespace fs = std::filesystem;
+
+ChannelImage grey(float value, int width = 6, int height = 5) {
+    ChannelImage image;
+    for (const char* name : {"R", "G", "B"}) image.channels.push_back({name, Image<float>(width, height, value)});
+    return image;
+}
+
+/// Two sequences and the maps of the second. The first is brighter by `steps`.
+struct Sequences {
+    ScratchFolder folder;
+    std::string a = folder / "a", b = folder / "b", maps = folder / "maps";
+    std::string pattern_a = a + "/new.####.exr", pattern_b = b + "/old.####.exr", pattern_maps = maps + "/m.####.exr";
+
+    Sequences(const std::vector<int>& frames, const std::vector<float>& steps) {
+        for (const std::string& each : {a, b, maps}) fs::create_directory(each);
+        const auto flat = [](const char* name, float value) { return Channel{name, Image<float>(6, 5, value)}; };
+        for (std::size_t i = 0; i < frames.size(); ++i) {
+            const std::string number = fmt::format("{:04}", frames[i]);
+            write_exr(a + "/new." + number + ".exr", grey(0.5f + steps[i]));
+            write_exr(b + "/old." + number + ".exr", grey(0.5f));
+            write_exr(maps + "/m." + number + ".exr",
+                      {{flat("forward.u", 0.0f), flat("forward.v", 0.0f), flat("motion.valid", 1.0f),
+                        flat("threshold.Y", 1.0f), flat("threshold.flicker", 0.5f)},
+                       {}});
+        }
+    }
+};
+
+TEST(CompareFrames, PatternsAndFoldersArePairedByNumber) {
+    const Sequences s({8, 9, 10}, {0.0f, 0.25f, 0.0f});
+    for (const auto& [first, second] : {std::pair{s.pattern_a, s.pattern_b}, {s.a, s.b}, {s.a, s.pattern_b}}) {
+        const CompareOutcome outcome = run_compare({first, second});
+        EXPECT_EQ(outcome.code, 1) << outcome.errors;
+        EXPECT_NE(outcome.out.find("1 of 3 frames differ; the largest difference is in frame 9"), std::string::npos)
+            << outcome.out;
+        EXPECT_TRUE(outcome.out.ends_with("different\n"));
+    }
+    EXPECT_EQ(run_compare({s.a, s.b, "--tolerance", "0.25"}).code, 0);
+    EXPECT_EQ(run_compare({s.a, s.b, "--tolerance", "0.25", "--max-rms", "0.2"}).code, 1);
+    EXPECT_EQ(run_compare({s.a, s.b, "-q"}).out, "");
+    const CompareOutcome limits = run_compare({s.a, s.b, "--share", "100", "--max-error", "0.2"});
+    EXPECT_NE(limits.out.find("different (--max-error)"), std::string::npos) << limits.out;
+}
+
+TEST(CompareFrames, MissingPartnersAreNamed) {
+    const Sequences s({1, 2, 3, 4, 5, 6}, {0, 0, 0, 0, 0, 0});
+    for (const char* gone : {"a/new.0005.exr", "b/old.0001.exr", "b/old.0002.exr", "b/old.0004.exr", "maps/m.0003.exr"})
+        fs::remove(s.folder / gone);
+    CompareOutcome outcome = run_compare({s.a, s.b});
+    EXPECT_EQ(outcome.code, 2);
+    EXPECT_NE(outcome.errors.find("b' has no frame 1-2, 4; '"), std::string::npos) << outcome.errors;
+    EXPECT_NE(outcome.errors.find("a' has no frame 5"), std::string::npos) << outcome.errors;
+    EXPECT_EQ(outcome.out, "");
+    outcome = run_compare({s.b, s.b, "--threshold", s.pattern_maps});
+    EXPECT_EQ(outcome.code, 2);
+    EXPECT_NE(outcome.errors.find("m.####.exr' has no frame 3"), std::string::npos) << outcome.errors;
+}
+
+TEST(CompareFrames, FlickerAgainstTheMapsAsJson) {
+    const Sequences s({3, 4, 6}, {0.004f, -0.004f, 0.004f});
+    const CompareOutcome outcome = run_compare({s.a, s.b, "--threshold", s.maps, "--json"});
+    EXPECT_EQ(outcome.code, 1) << outcome.errors;  // .4 cd/m2 is below the threshold, the change of .8 above .5
+    const auto json = nlohmann::json::parse(outcome.out);
+    EXPECT_EQ(json["same"], false);
+    ASSERT_EQ(json["frames"].size(), 3u);
+    EXPECT_EQ(json["frames"][1]["frame"], 4);
+    EXPECT_EQ(json["frames"][0]["same"], true);
+    EXPECT_TRUE(json["frames"][0]["flicker"].is_null());
+    EXPECT_EQ(json["frames"][1]["same"], false);
+    EXPECT_EQ(json["frames"][1]["flicker"]["threshold"], "threshold.flicker");
+    EXPECT_NEAR(json["frames"][1]["flicker"]["rest"]["worst"].get<double>(), 1.6, 1e-4);
+    EXPECT_TRUE(json["frames"][2]["flicker"].is_null());  // frame 5 is missing
+    EXPECT_EQ(json["all"]["flicker_pairs"], 1);
+    EXPECT_EQ(json["all"]["flicker"]["rest"]["percent"], 100.0);
+    EXPECT_EQ(json["all"]["flicker"]["moving"]["counted"], 0);
+    EXPECT_NEAR(json["all"]["threshold"]["worst"].get<double>(), 0.4, 1e-4);
+    const CompareOutcome cut = run_compare({s.a, s.b, "--threshold", s.maps, "--cuts", "4"});
+    EXPECT_EQ(cut.code, 0) << cut.out;
+    EXPECT_NE(cut.out.find("no pair of consecutive frames"), std::string::npos);
+    const CompareOutcome text = run_compare({s.a, s.b, "--threshold", s.maps});
+    EXPECT_NE(text.out.find("1 pairs of frames, in units of threshold.flicker"), std::string::npos) << text.out;
+}
+
+TEST(CompareFrames, WrongKindsAreRefused) {
+    const Sequences s({1, 2}, {0.0f, 0.0f});
+    const std::string picture = s.a + "/new.0001.exr", maps = s.maps + "/m.0001.exr";
+    std::ofstream(s.b + "/notes.txt") << "no picture";
+    const std::vector<std::pair<std::vector<std::string>, std::string>> cases{
+        {{s.a, picture}, "is a sequence and '"},
+        {{s.a, s.b, "--threshold", maps}, "one file cannot serve several frames"},
+        {{s.a, s.b, "--diff", s.folder / "diff.png"}, "diff.####.png"},
+        {{s.a, s.b, "--cuts", "x"}, "--cuts"},
+        {{picture, picture, "--cuts", "2"}, "--cuts"},
+        {{s.a, s.folder / "none.####.exr"}, "no file fits"},
+        {{s.a, s.folder.path().string()}, "holds no numbered pictures"},
+        {{s.a, s.b, "--max-rms", "-1"}, "--max-rms"},
+        {{s.a, s.b, "--standard-errors", "3"}, "variance.Y"}};
+    for (const auto& [arguments, part] : cases) {
+        const CompareOutcome outcome = run_compare(arguments);
+        EXPECT_EQ(outcome.code, 2) << part;
+        EXPECT_NE(outcome.errors.find(part), std::string::npos) << outcome.errors;
+    }
+    write_exr(s.b + "/old.0002.exr", grey(0.5f, 7, 5));
+    const CompareOutcome outcome = run_compare({s.a, s.b});
+    EXPECT_EQ(outcome.code, 2);
+    EXPECT_NE(outcome.errors.find("new.0002.exr: the pictures differ in size"), std::string::npos) << outcome.errors;
+}
+
+TEST(CompareFrames, ExistingFilesArePicturesWhateverTheirName) {
+    const ScratchFolder folder;
+    const std::string odd = folder / "take #2.exr";
+    write_exr(odd, grey(0.5f));
+    const CompareOutcome outcome = run_compare({odd, odd});
+    EXPECT_EQ(outcome.code, 0) << outcome.errors;
+    EXPECT_EQ(outcome.out.find("frames"), std::string::npos) << outcome.out;
+}
+
+TEST(CompareFrames, DifferencesOfEveryFrame) {
+    const Sequences s({1, 2}, {0.0f, 0.25f});
+    run_compare({s.a, s.b, "-q", "--diff", s.folder / "diff.##.png"});
+    EXPECT_TRUE(fs::exists(s.folder / "diff.01.png"));
+    EXPECT_TRUE(fs::exists(s.folder / "diff.02.png"));
+}
+
+TEST(CompareFrames, NoiseOfTheReferenceIsPrinted) {
+    const ScratchFolder folder;
+    ChannelImage reference = grey(0.5f);
+    reference.channels.push_back({"variance.Y", Image<float>(6, 5, 4e-4f)});  // a standard error of 2 cd/m2
+    write_exr(folder / "b.exr", reference);
+    write_exr(folder / "a.exr", grey(0.52f));
+    write_exr(folder / "maps.exr", {{{"threshold.Y", Image<float>(6, 5, 1.0f)}}, {}});
+    const CompareOutcome outcome =
+        run_compare({folder / "a.exr", folder / "b.exr", "--threshold", folder / "maps.exr"});
+    EXPECT_EQ(outcome.code, 1);
+    EXPECT_NE(outcome.out.find("0 % by more than 3 standard errors; by noise alone 61.7"), std::string::npos)
+        << outcome.out;
+    EXPECT_NE(outcome.out.find("bias 4 %"), std::string::npos) << outcome.out;
+    EXPECT_EQ(run_compare({folder / "a.exr", folder / "b.exr", "--standard-errors", "2"}).code, 0);
+}
+
+TEST(FramePattern, FoldersHoldOneSequence) {
+    const ScratchFolder folder;
+    const auto touch = [&](const char* name) { std::ofstream(folder / name) << "x"; };
+    const std::string path = folder.path().string();
+    EXPECT_THROW(find_folder_frames(path, "first"), InputError);
+    for (const char* name : {"s.-003.exr", "s.0001.exr", "s.12345.exr", "stats.json", "readme.txt"}) touch(name);
+    const auto files = find_folder_frames(path, "first");
+    ASSERT_EQ(files.size(), 3u);
+    EXPECT_EQ(files.at(-3).filename(), "s.-003.exr");
+    EXPECT_EQ(files.at(12345).filename(), "s.12345.exr");
+    touch("s.1.exr");
+    EXPECT_THROW(find_folder_frames(path, "first"), InputError);
+    fs::remove(folder / "s.1.exr");
+    touch("t.0001.exr");
+    try {
+        find_folder_frames(path, "first");
+        FAIL();
+    } catch (const InputError& e) {
+        EXPECT_NE(std::string(e.what()).find("s.#.exr and t.#.exr"), std::string::npos) << e.what();
+    }
+    const ScratchFolder dashes;
+    std::ofstream(dashes / "shot-0007.png") << "x";
+    EXPECT_EQ(find_folder_frames(dashes.path().string(), "first").begin()->first, 7);
+}
+
+}  // namespace
+}  // namespace aleph

@@ -1,0 +1,193 @@
+// Errors in units of the threshold, and the noise of the reference, against values worked out by hand and the normal
+// distribution.
+
+#include "render/compare_threshold.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <random>
+
+#include "engine/base/errors.h"
+#include "render/compare.h"
+
+namespace aleph {
+namespace {
+
+constexpr double nan_value = std::numeric_limits<double>::quiet_NaN();
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+ChannelImage grey(int width, int height, float value) {
+    ChannelImage image;
+    for (const char* name : {"R", "G", "B"}) image.channels.push_back({name, Image<float>(width, height, value)});
+    return image;
+}
+
+void add_channel(ChannelImage& image, const std::string& name, float value) {
+    const Image<float>& size = image.channels.front().values;
+    image.channels.push_back({name, Image<float>(size.width, size.height, value)});
+}
+
+/// Grey pictures of a known noise: every pixel is `mean` plus a normal number of deviation `sigma`.
+ChannelImage noisy(int width, int height, float mean, float sigma, unsigned seed) {
+    ChannelImage image = grey(width, height, mean);
+    std::mt19937 random(seed);
+    std::normal_distribution<float> normal(0.0f, sigma);
+    for (std::size_t i = 0; i < image.channels[0].values.size(); ++i) {
+        const float noise = normal(random);
+        for (Channel& channel : image.channels) channel.values.pixels[i] += noise;
+    }
+    add_channel(image, "variance.Y", sigma * sigma);
+    return image;
+}
+
+/// Share of a normal distribution beyond `limit` standard deviations, on both sides.
+double two_sided(double limit) {
+    return std::erfc(limit / std::numbers::sqrt2);
+}
+
+TEST(RatioHistogram, CountsAndPercentiles) {
+    RatioHistogram histogram;
+    EXPECT_EQ(histogram.percentile(0.99), 0.0);
+    for (int i = 1; i <= 1000; ++i) histogram.add(i, 100.0);
+    EXPECT_EQ(histogram.count(), 1000u);
+    EXPECT_EQ(histogram.beyond(), 900u);
+    EXPECT_DOUBLE_EQ(histogram.worst(), 10.0);
+    for (const double share : {0.001, 0.1, 0.5, 0.99, 1.0}) {
+        const double exact = 10.0 * share;
+        EXPECT_NEAR(histogram.percentile(share), exact, 0.00501 * exact) << share;
+    }
+}
+
+TEST(RatioHistogram, NoDifferenceIsZeroWhateverTheThreshold) {
+    RatioHistogram histogram;
+    histogram.add(0.0, 0.0);
+    histogram.add(0.0, 1e-30);
+    EXPECT_EQ(histogram.beyond(), 0u);
+    EXPECT_EQ(histogram.percentile(1.0), 0.0);
+    histogram.add(1e-30, 0.0);
+    EXPECT_EQ(histogram.beyond(), 1u);
+    EXPECT_EQ(histogram.worst(), infinity);
+}
+
+TEST(RatioHistogram, WhatIsNotFiniteIsBeyond) {
+    RatioHistogram histogram;
+    for (const auto& [difference, threshold] :
+         {std::pair{nan_value, 1.0}, {1.0, nan_value}, {1.0, infinity}, {0.0, -1.0}, {infinity, 1.0}}) {
+        histogram.add(difference, threshold);
+    }
+    EXPECT_EQ(histogram.count(), 5u);
+    EXPECT_EQ(histogram.beyond(), 5u);
+    EXPECT_EQ(histogram.percentile(0.5), infinity);
+}
+
+TEST(RatioHistogram, SumsAreThoseOfAllValues) {
+    RatioHistogram all, first, second;
+    std::mt19937 random(5);
+    std::lognormal_distribution<double> ratios(0.0, 2.0);
+    for (int i = 0; i < 2000; ++i) {
+        const double ratio = ratios(random);
+        all.add(ratio, 1.0);
+        (i % 3 ? first : second).add(ratio, 1.0);
+    }
+    first.add(second);
+    first.add(RatioHistogram{});
+    EXPECT_EQ(first.count(), all.count());
+    EXPECT_EQ(first.beyond(), all.beyond());
+    EXPECT_EQ(first.worst(), all.worst());
+    for (const double share : {0.01, 0.5, 0.99}) EXPECT_EQ(first.percentile(share), all.percentile(share));
+}
+
+TEST(CompareNoise, ByHand) {
+    // Standard error .01 of Y is 1 cd/m2. The error is 2, 4.5 and 0 cd/m2, the threshold 1: 4.5 > 1 + 3.
+    ChannelImage b = grey(3, 1, 0.5f), a = b;
+    add_channel(b, "variance.Y", 1e-4f);
+    for (Channel& channel : a.channels) {
+        channel.values(0, 0) += 0.02f;
+        channel.values(1, 0) += 0.045f;
+    }
+    const ChannelImage map{{{"threshold.Y", Image<float>(3, 1, 1.0f)}}, {}};
+    const CompareResult result = compare_images(a, b, {}, &map);
+    EXPECT_EQ(result.threshold->beyond, 2u);
+    ASSERT_TRUE(result.threshold->noise.has_value());
+    EXPECT_EQ(result.threshold->noise->certain, 1u);
+    EXPECT_NEAR(result.threshold->noise->median, 1.0, 0.0051);
+    EXPECT_NEAR(result.threshold->noise->expected, 3.0 * 0.3173105, 1e-5);
+    // (a - b)/b: .04, .09, 0. Standard error of the bias: sqrt(3) .01 / 1.5. e = .005.
+    EXPECT_NEAR(result.luminance->bias, 0.13 / 3.0, 1e-6);
+    EXPECT_NEAR(result.luminance->bias_error, 0.01 * std::sqrt(3.0) / 1.5, 1e-7);
+    EXPECT_NEAR(result.luminance->relative_mse, (4e-4 + 0.045 * 0.045) / 0.250025 / 3.0, 1e-7);
+    EXPECT_NEAR(result.luminance->noise_mse, 1e-4 / 0.250025, 1e-7);
+    EXPECT_EQ(result.luminance->far, 1u);  // only .045 is beyond 3 * .01
+}
+
+TEST(CompareNoise, PictureOfNoiseAloneIsBeyondAsOftenAsTheNormalDistributionSays) {
+    constexpr int width = 200, height = 150;
+    const double n = width * height;
+    for (const double sigma : {0.3, 0.7, 1.5}) {  // in thresholds
+        const ChannelImage truth = grey(width, height, 0.5f);
+        const ChannelImage reference = noisy(width, height, 0.5f, static_cast<float>(0.01 * sigma), 11);
+        const ChannelImage map{{{"threshold.Y", Image<float>(width, height, 1.0f)}}, {}};
+        const CompareResult result = compare_images(truth, reference, {}, &map);
+        const double p = two_sided(1.0 / sigma);
+        EXPECT_NEAR(result.threshold->noise->expected / n, p, 1e-5);
+        EXPECT_NEAR(static_cast<double>(result.threshold->beyond) / n, p, 3.0 * std::sqrt(p * (1.0 - p) / n)) << sigma;
+        const double q = two_sided(3.0 + 1.0 / sigma);
+        EXPECT_NEAR(static_cast<double>(result.threshold->noise->certain) / n, q,
+                    3.0 * std::sqrt(q * (1.0 - q) / n) + 1.0 / n);
+        EXPECT_NEAR(result.threshold->noise->percentile_99, sigma, 0.0051 * sigma);
+        const double far = two_sided(3.0);
+        EXPECT_NEAR(static_cast<double>(result.luminance->far) / n, far, 3.0 * std::sqrt(far * (1.0 - far) / n));
+        EXPECT_LT(std::abs(result.luminance->bias), 3.0 * result.luminance->bias_error);
+        // Each squared normal number has variance 2.
+        EXPECT_NEAR(result.luminance->relative_mse / result.luminance->noise_mse, 1.0, 3.0 * std::sqrt(2.0 / n) + 0.01);
+    }
+}
+
+TEST(CompareNoise, TwoNoisyPicturesShareTheirStandardErrors) {
+    constexpr int width = 200, height = 150;
+    const double n = width * height;
+    const ChannelImage a = noisy(width, height, 0.5f, 0.01f, 3), b = noisy(width, height, 0.5f, 0.02f, 4);
+    CompareSettings settings;
+    settings.standard_errors = 2.0;
+    settings.share = 100.0;
+    const double p = two_sided(2.0), far = static_cast<double>(compare_images(a, b, settings).luminance->far);
+    EXPECT_NEAR(far / n, p, 3.0 * std::sqrt(p * (1.0 - p) / n));
+}
+
+TEST(CompareNoise, StandardErrorsReplaceTheChannels) {
+    const ChannelImage b = noisy(40, 30, 0.5f, 0.01f, 8), a = noisy(40, 30, 0.5f, 0.01f, 9);
+    EXPECT_FALSE(compare_images(a, b).same);
+    CompareSettings settings;
+    settings.standard_errors = 6.0;
+    EXPECT_TRUE(compare_images(a, b, settings).same);
+    ChannelImage shifted = a;
+    for (Channel& channel : shifted.channels) {
+        if (channel.name != "variance.Y") channel.values(7, 5) += 0.2f;
+    }
+    EXPECT_FALSE(compare_images(shifted, b, settings).same);
+    settings.tolerance = 0.2;
+    EXPECT_TRUE(compare_images(shifted, b, settings).same);
+    EXPECT_THROW(compare_images(grey(4, 4, 0.5f), grey(4, 4, 0.5f), settings), InputError);
+}
+
+TEST(CompareNoise, NothingIsCertainOfABrokenVariance) {
+    const ChannelImage a = grey(4, 1, 0.9f);
+    ChannelImage b = grey(4, 1, 0.5f);
+    add_channel(b, "variance.Y", 0.0f);
+    b.channels[3].values(1, 0) = std::numeric_limits<float>::quiet_NaN();
+    b.channels[3].values(2, 0) = -1.0f;
+    b.channels[3].values(3, 0) = std::numeric_limits<float>::infinity();
+    const ChannelImage map{{{"threshold.Y", Image<float>(4, 1, 1.0f)}}, {}};
+    const CompareResult result = compare_images(a, b, {}, &map);
+    EXPECT_EQ(result.threshold->beyond, 4u);
+    EXPECT_EQ(result.threshold->noise->certain, 1u);
+    EXPECT_EQ(result.threshold->noise->beyond, 3u);
+    EXPECT_EQ(result.luminance->far, 1u);
+}
+
+}  // namespace
+}  // namespace aleph
