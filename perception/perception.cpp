@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "engine/base/errors.h"
 #include "engine/base/opponent_color.h"
@@ -10,6 +11,7 @@
 #include "perception/band_response.h"
 #include "perception/check_viewing.h"
 #include "perception/saliency.h"
+#include "perception/threshold.h"
 
 namespace aleph {
 
@@ -88,11 +90,18 @@ PerceptionMaps compute_perception(const Image<Rgb>& estimate, const Image<float>
                                        .velocity = feature_pyramid(make_motion_rows(velocity, viewing, frame_rate))};
         saliency = compute_saliency(pyramids, a_summary.maximum, settings.grid);
     }
-    AlephImages images = compute_aleph({.bands = bands,
-                                        .velocity = settings.guide == Guide::spatial ? nullptr : &velocity,
-                                        .saliency = salient ? &saliency.map : nullptr,
-                                        .rho = band_frequencies(settings.bands, viewing.pixels_per_degree)},
-                                       outputs.retinal_velocity);
+    AlephPass pass{.bands = bands,
+                   .velocity = settings.guide == Guide::spatial ? nullptr : &velocity,
+                   .saliency = salient ? &saliency.map : nullptr,
+                   .rho = band_frequencies(settings.bands, viewing.pixels_per_degree)};
+    std::optional<CastlePass> castle;
+    if (settings.vision == Vision::castle) {
+        maps.adaptation = compute_adaptation_luminance(estimate, viewing);
+        pass.castle = &castle.emplace(CastleTable(pass.rho, viewing, frame_rate), maps.adaptation);
+    } else if (settings.vision == Vision::laird) {
+        pass.model = laird_2006;
+    }
+    AlephImages images = compute_aleph(pass, outputs.retinal_velocity);
     maps.aleph = std::move(images.aleph);
     maps.retinal_velocity = std::move(images.retinal_velocity);
     maps.saliency = std::move(saliency.map);

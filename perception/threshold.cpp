@@ -7,6 +7,7 @@
 #include "engine/base/parallel.h"
 #include "perception/check_viewing.h"
 #include "perception/fast_math.h"
+#include "perception/luminance_curve.h"
 
 namespace aleph {
 
@@ -90,6 +91,23 @@ std::vector<int> disc_half_widths(double radius, const Image<Rgb>& estimate) {
     return half;
 }
 
+/// f(a[i], b[i]) of all pixels.
+template <class Function>
+Image<float> map_pixels(const Image<float>& a, const Image<float>& b, const Function& f) {
+    Image<float> out(a.width, a.height);
+    parallel_for(out.size(), std::size_t{1} << 14, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) out.pixels[i] = f(a.pixels[i], b.pixels[i]);
+    });
+    return out;
+}
+
+/// cd/m2, in the range of castle_threshold; NaN is the lowest.
+float clamp_for_castle(float luminance) {
+    constexpr auto lowest = static_cast<float>(castle_min_luminance), highest = static_cast<float>(max_luminance);
+    const float positive = luminance > lowest ? luminance : lowest;
+    return positive < highest ? positive : highest;
+}
+
 }  // namespace
 
 double tvi(double luminance) {
@@ -146,16 +164,24 @@ Image<float> compute_adaptation_luminance(const Image<Rgb>& estimate, const View
     return out;
 }
 
-Image<float> compute_threshold(const Image<float>& aleph, const Image<float>& adaptation_luminance) {
+Image<float> compute_threshold(const Image<float>& aleph, const Image<float>& adaptation_luminance, Vision vision) {
     if (!same_size(aleph, adaptation_luminance)) throw InputError("", "aleph", "not of the luminance's size");
-    Image<float> out(aleph.width, aleph.height);
-    parallel_for(out.size(), std::size_t{1} << 14, [&](std::size_t begin, std::size_t end) {
-        const float* const a = aleph.pixels.data();
-        const float* const luminance = adaptation_luminance.pixels.data();
-        float* const threshold = out.pixels.data();
-        for (std::size_t i = begin; i < end; ++i) threshold[i] = a[i] * fast_tvi(luminance[i]);
+    if (vision != Vision::castle)
+        return map_pixels(aleph, adaptation_luminance, [](float a, float l) { return a * fast_tvi(l); });
+    const LuminanceCurve& peak = castle_peak_curve();
+    return map_pixels(aleph, adaptation_luminance,
+                      [&](float a, float l) { return a * (clamp_for_castle(l) / peak(l)); });
+}
+
+Image<float> compute_flicker_threshold(const Image<float>& threshold, const Image<float>& adaptation_luminance,
+                                       const FrameRate& frame_rate) {
+    if (!same_size(threshold, adaptation_luminance)) throw InputError("", "threshold", "not of the luminance's size");
+    const LuminanceCurve sensitivity(
+        [&](double luminance) { return castle_flicker_sensitivity(luminance, frame_rate); });
+    return map_pixels(threshold, adaptation_luminance, [&](float t, float l) {
+        const float flicker = clamp_for_castle(l) / sensitivity(l);
+        return flicker < t ? flicker : t;
     });
-    return out;
 }
 
 }  // namespace aleph

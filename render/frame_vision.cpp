@@ -19,7 +19,10 @@ void compute_frame_vision(FrameOutput& out, const Scene& shot, const RenderSetti
     out.perception = compute_perception(out.estimate, out.velocity, shot.viewing, shot.frame_rate, settings.perception,
                                         {.retinal_velocity = maps, .conspicuity = maps});
     out.statistics.saliency_fallback = out.perception.fallback;
-    out.threshold = compute_threshold(out.perception.aleph, compute_adaptation_luminance(out.estimate, shot.viewing));
+    Image<float>& adaptation = out.perception.adaptation;
+    if (adaptation.empty()) adaptation = compute_adaptation_luminance(out.estimate, shot.viewing);
+    out.threshold = compute_threshold(out.perception.aleph, adaptation, settings.perception.vision);
+    out.threshold_flicker = compute_flicker_threshold(out.threshold, adaptation, shot.frame_rate);
     out.alpha = compute_accuracy_map(out.perception.aleph, settings);
     clock.add_to(seconds.perception);
 }

@@ -131,6 +131,12 @@ void add_perception(std::vector<Setting>& table) {
         "motion", "source of motion: the scene, exact (model), or a comparison of two quick estimates (image)",
         [](S& s) -> MotionSource& { return s.motion; },
         {{"model", MotionSource::model}, {"image", MotionSource::image}})));
+    table.push_back(without_scene(choice_setting<Vision>(
+        "vision",
+        "contrast sensitivity: Kelly 1979 with the thesis's constants (thesis) or those of Laird 2006 (laird), or "
+        "castleCSF 2024 with the blur of displays that hold frames (castle)",
+        [](S& s) -> Vision& { return s.perception.vision; },
+        {{"thesis", Vision::thesis}, {"laird", Vision::laird}, {"castle", Vision::castle}})));
     table.push_back(without_scene(choice_setting<Bands>(
         "bands",
         "frequencies of the contrast bands: as the thesis prints them (printed), or of these filters (measured)",

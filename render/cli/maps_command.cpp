@@ -39,6 +39,7 @@ constexpr const char* maps_footer =
     "  aleph.Y                  contrast elevation, 1 to 250.6\n"
     "  alpha.acc                ambient accuracy, 0 to 1\n"
     "  threshold.Y              luminance difference that goes unseen, cd/m2\n"
+    "  threshold.flicker        the same if it is new in every frame, cd/m2\n"
     "  estimate.R estimate.G estimate.B\n"
     "                           quick estimate, or the picture of --images; linear Rec.709\n"
     "  Z                        planar depth, m; 1e30 for background (scene)\n"

@@ -83,17 +83,30 @@ void threshold(benchmark::State& state) {
     }
 }
 
+void threshold_flicker(benchmark::State& state) {
+    const ThreadLimit one(1);
+    const Image<float> luminance = compute_adaptation_luminance(synthetic_frame().estimate, {});
+    for (auto _ : state) {
+        benchmark::DoNotOptimize(compute_flicker_threshold(synthetic_frame().velocity, luminance, {}).pixels.data());
+    }
+}
+
 BENCHMARK_CAPTURE(run_stage, saliency_full, PerceptionSettings{})->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(run_stage, saliency_center, PerceptionSettings{.grid = SaliencyGrid::center})
     ->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(run_stage, full, PerceptionSettings{.guide = Guide::full})->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(run_stage, spatial, PerceptionSettings{.guide = Guide::spatial})->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(run_stage, saliency_full_castle, PerceptionSettings{.vision = Vision::castle})
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(run_stage, full_castle, PerceptionSettings{.guide = Guide::full, .vision = Vision::castle})
+    ->Unit(benchmark::kMillisecond);
 BENCHMARK(flat_4k)->Unit(benchmark::kMillisecond);
 BENCHMARK(normalize_flat_4k)->Unit(benchmark::kMillisecond);
 BENCHMARK(memory_copy)->Unit(benchmark::kMillisecond);
 BENCHMARK(sanitize)->Unit(benchmark::kMillisecond);
 BENCHMARK(adaptation)->Unit(benchmark::kMillisecond);
 BENCHMARK(threshold)->Unit(benchmark::kMillisecond);
+BENCHMARK(threshold_flicker)->Unit(benchmark::kMillisecond);
 
 }  // namespace
 }  // namespace aleph

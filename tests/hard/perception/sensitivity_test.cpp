@@ -166,7 +166,8 @@ TEST(SensitivityHard, CS08_BoundsOnRandomImagesWithBrokenPixelsAndRandomMotion) 
         EXPECT_GT(sanitize_estimate(estimate).replaced, 0u);
         for (const Guide guide : {Guide::spatial, Guide::full, Guide::saliency}) {
             for (const Bands bands : {Bands::printed, Bands::measured}) {
-                const PerceptionMaps maps = compute_perception(estimate, velocity, {}, {}, {guide, bands});
+                const PerceptionMaps maps =
+                    compute_perception(estimate, velocity, {}, {}, {.guide = guide, .bands = bands});
                 for (const float aleph : maps.aleph.pixels) ASSERT_TRUE(aleph >= 1.0f && aleph <= 250.8f) << aleph;
                 EXPECT_EQ(maps.clamped, 0u);
             }

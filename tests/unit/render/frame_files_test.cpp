@@ -53,6 +53,7 @@ TEST(FrameFiles, HaveEveryChannel) {
                              "aleph.Y",
                              "alpha.acc",
                              "threshold.Y",
+                             "threshold.flicker",
                              "estimate.R",
                              "estimate.G",
                              "estimate.B",
@@ -66,7 +67,7 @@ TEST(FrameFiles, HaveEveryChannel) {
                              "invalid.Y"}) {
         EXPECT_NE(file.find(name), nullptr) << name;
     }
-    EXPECT_EQ(file.channels.size(), 28u);
+    EXPECT_EQ(file.channels.size(), 29u);
     EXPECT_EQ(std::get<double>(file.metadata.at("whiteLuminance")), 100.0);
     EXPECT_EQ((std::get<std::array<int, 2>>(file.metadata.at("framesPerSecond"))), (std::array<int, 2>{30, 1}));
 }

@@ -36,10 +36,11 @@ TEST(MapsImages, WritesTheChannelsThatNeedNoGeometry) {
     std::vector<std::string> names;
     for (const Channel& channel : maps.channels) names.push_back(channel.name);
     std::sort(names.begin(), names.end());
-    EXPECT_EQ(names, (std::vector<std::string>{"aleph.Y", "alpha.acc", "conspicuity.color", "conspicuity.intensity",
-                                               "conspicuity.motion", "conspicuity.orientation", "estimate.B",
-                                               "estimate.G", "estimate.R", "forward.u", "forward.v", "motion.valid",
-                                               "saliency.Y", "threshold.Y", "velocity.image", "velocity.retinal"}));
+    EXPECT_EQ(names,
+              (std::vector<std::string>{"aleph.Y", "alpha.acc", "conspicuity.color", "conspicuity.intensity",
+                                        "conspicuity.motion", "conspicuity.orientation", "estimate.B", "estimate.G",
+                                        "estimate.R", "forward.u", "forward.v", "motion.valid", "saliency.Y",
+                                        "threshold.Y", "threshold.flicker", "velocity.image", "velocity.retinal"}));
     EXPECT_FALSE(maps.metadata.contains("worldToCamera"));
     EXPECT_EQ((std::get<std::array<int, 2>>(maps.metadata.at("framesPerSecond"))), (std::array<int, 2>{30, 1}));
     for (const Channel& channel : maps.channels) {

@@ -1,0 +1,50 @@
+#pragma once
+// Sensitivity of the eye to achromatic contrast, as measured on present displays: castleCSF (Ashraf, Mantiuk, Chapiro
+// and Wuerger 2024, "castleCSF: a contrast sensitivity function of color, area, spatiotemporal frequency, luminance and
+// eccentricity", Journal of Vision 24(4):5), at the fovea. It is the sum of a sustained and a transient channel. One
+// value at a time, in double.
+//
+// Every input gives a finite result that is not negative. A frequency that is NaN or negative counts as 0, above 1e30
+// as 1e30; luminance is clamped to the fit's range of 1e-3 to 1e4 cd/m2, NaN counts as 1e-3; an area that is NaN or
+// negative counts as 0, where sensitivity is 0.
+
+#include "engine/base/frame_rate.h"
+
+namespace aleph {
+
+inline constexpr double castle_min_luminance = 1e-3, castle_max_luminance = 1e4;  ///< cd/m2
+
+/// Sensitivity, 1 / threshold contrast, to a pattern of `rho` cycles per degree that changes at `omega` Hz. What moves
+/// over the retina at v deg/s changes at omega = rho v.
+/// @param luminance  that the eye is adapted to, cd/m2
+/// @param area       of the pattern, square degrees; infinity is allowed
+double castle_sensitivity(double rho, double omega, double luminance, double area = 1.0);
+
+/// The two channels of castle_sensitivity without their temporal responses.
+double castle_sustained(double rho, double luminance, double area = 1.0);
+double castle_transient(double rho, double luminance, double area = 1.0);
+
+/// Temporal responses of the two channels, [0,1]: to `omega` Hz. The transient one peaks at castle_transient_peak.
+double castle_sustained_response(double omega);
+double castle_transient_response(double omega, double luminance);
+/// Hz: 9.5 at 100 cd/m2; 0 below .0113 cd/m2, where the fit has none.
+double castle_transient_peak(double luminance);
+
+/// The highest sensitivity to a pattern at rest, over all frequencies: 134.3 at 100 cd/m2, at most 153. Of the
+/// sustained channel: at rest the transient one adds less than 0.1 % from .02 cd/m2 up, and is not fitted in the dark.
+double castle_peak(double luminance);
+
+/// The least visible luminance difference of a pattern at rest, cd/m2: luminance / castle_peak. In proportion to
+/// luminance from 1e4 cd/m2 up, to 1e12.
+double castle_threshold(double luminance);
+
+/// Sensitivity to an error that is new in every frame: its spectrum over time is flat up to half the frame rate, so
+/// this is the root mean square of the transient response there, times the transient channel's peak over frequency (.48
+/// cycles per degree: errors of interpolation are as smooth). At least 1, because no contrast exceeds 1.
+double castle_flicker_sensitivity(double luminance, const FrameRate& frame_rate);
+
+/// The least visible luminance difference that is new in every frame, cd/m2: luminance / castle_flicker_sensitivity. In
+/// proportion to luminance from 1e4 cd/m2 up, to 1e12.
+double castle_flicker_threshold(double luminance, const FrameRate& frame_rate);
+
+}  // namespace aleph

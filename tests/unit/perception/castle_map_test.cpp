@@ -1,0 +1,176 @@
+// castleCSF in the Aleph map: rows of floats against single values in double, the hold of displays, thresholds.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "engine/base/errors.h"
+#include "engine/base/sampling.h"
+#include "perception/castle.h"
+#include "perception/castle_row.h"
+#include "perception/display_hold.h"
+#include "perception/perception.h"
+#include "perception/threshold.h"
+#include "tests/support/perception_scene.h"
+
+namespace aleph {
+namespace {
+
+constexpr FrameRate thirty{30, 1};
+
+double mean(const Image<float>& image) {
+    double sum = 0.0;
+    for (const float v : image.pixels) sum += v;
+    return sum / static_cast<double>(image.size());
+}
+
+/// The largest |f / castle_elevation - 1| of random pixels.
+/// @param low, high  log10 of luminance
+double worst_row_error(const ViewingConditions& viewing, double low, double high) {
+    constexpr int width = 150;
+    const auto rho = band_frequencies(Bands::measured, viewing.pixels_per_degree);
+    std::vector<float> velocity(width), tracked(width), luminance(width);
+    RandomStream random({11, 0, 0, 0});
+    for (int x = 0; x < width; ++x) {
+        velocity[x] = static_cast<float>(0.15 * std::pow(10.0, 3.5 * random.next()));
+        tracked[x] = x % 3 == 0 ? 0.0f : 80.0f * random.next();
+        luminance[x] = static_cast<float>(std::pow(10.0, low + (high - low) * random.next()));
+    }
+    const CastleTable table(rho, viewing, thirty);
+    CastleRow row(table, width);
+    row.load(velocity.data(), tracked.data(), luminance.data());
+    double worst = 0.0;
+    for (int band = 0; band < band_count; ++band) {
+        for (int x = 0; x < width; ++x) {
+            const double exact =
+                castle_elevation(rho[band], velocity[x], tracked[x], luminance[x], viewing.persistence, thirty);
+            worst = std::max(worst, std::abs(row.elevations(band)[x] / exact - 1.0));
+        }
+    }
+    return worst;
+}
+
+TEST(CastleRow, InterpolationErrorIsWhatTheHeaderSays) {
+    for (const double ppd : {12.0, 31.0, 60.0}) {
+        for (const double persistence : {0.0, 0.1, 1.0}) {
+            const ViewingConditions viewing{.pixels_per_degree = ppd, .persistence = persistence};
+            EXPECT_LT(worst_row_error(viewing, -3.0, 4.0), 2e-3) << ppd << " " << persistence;
+        }
+    }
+}
+
+/// How many times the threshold of a pattern rises when it moves at 10 deg/s and the eye follows .82 of that.
+double tracked_elevation(double rho, double persistence) {
+    const double at_rest = castle_sensitivity(rho, 0.0, 100.0);
+    const double moving = castle_sensitivity(rho, rho * (10.0 - 8.2), 100.0);
+    return at_rest / (moving * hold_transfer(rho, 8.2, persistence, thirty));
+}
+
+TEST(DisplayHold, KnownElevationsOfATrackedPattern) {
+    EXPECT_NEAR(tracked_elevation(8, 1.0), 36.0, 0.5);
+    EXPECT_NEAR(tracked_elevation(4, 1.0), 5.2, 0.05);
+    EXPECT_NEAR(tracked_elevation(8, 0.0), 3.6, 0.05);
+    EXPECT_NEAR(tracked_elevation(4, 0.0), 1.7, 0.05);
+}
+
+TEST(DisplayHold, NothingBlursAtRestOrWithoutPersistence) {
+    for (const double rho : {0.25, 4.0, 16.0}) {
+        EXPECT_EQ(hold_transfer(rho, 0.0, 1.0, thirty), 1.0);
+        EXPECT_EQ(hold_transfer(rho, 40.0, 0.0, thirty), 1.0);
+        // More speed and more persistence blur more; more frames per second less.
+        EXPECT_LT(hold_transfer(rho, 20.0, 1.0, thirty), hold_transfer(rho, 10.0, 1.0, thirty));
+        EXPECT_LT(hold_transfer(rho, 10.0, 1.0, thirty), hold_transfer(rho, 10.0, 0.1, thirty));
+        EXPECT_LT(hold_transfer(rho, 10.0, 1.0, thirty), hold_transfer(rho, 10.0, 1.0, {120, 1}));
+    }
+}
+
+TEST(CastleMap, IsTheSumOfTheBandsElevations) {
+    // A flat picture has only the coarsest band.
+    const Image<Rgb> flat(40, 30, Rgb(0.5f));
+    for (const float speed : {0.0f, 12.0f, 60.0f}) {
+        const Image<float> velocity(40, 30, speed);
+        const PerceptionSettings settings{.guide = Guide::full, .vision = Vision::castle};
+        const PerceptionMaps maps = compute_perception(flat, velocity, {}, {}, settings);
+        const double s = tracking_efficiency;
+        const double expected =
+            castle_elevation(0.25, retinal_velocity(speed, s), tracked_velocity(speed, s), 50.0, 1.0, {});
+        EXPECT_NEAR(maps.aleph(20, 15) / expected, 1.0, 2e-3) << speed;
+        EXPECT_NEAR(maps.adaptation(20, 15), 50.0, 1e-3);
+    }
+}
+
+TEST(CastleMap, SettingsReachTheMap) {
+    const SyntheticFrame frame = make_synthetic_frame(160, 120);
+    const auto aleph_with = [&](Vision vision, double persistence) {
+        const ViewingConditions viewing{.persistence = persistence};
+        const PerceptionMaps maps = compute_perception(frame.estimate, frame.velocity, viewing, {}, {.vision = vision});
+        EXPECT_EQ(maps.clamped, 0u);
+        EXPECT_EQ(maps.adaptation.empty(), vision != Vision::castle);
+        return mean(maps.aleph);
+    };
+    EXPECT_GT(aleph_with(Vision::castle, 1.0), aleph_with(Vision::castle, 0.1));
+    EXPECT_EQ(aleph_with(Vision::thesis, 1.0), aleph_with(Vision::thesis, 0.1));
+    EXPECT_NE(aleph_with(Vision::thesis, 1.0), aleph_with(Vision::laird, 1.0));
+    EXPECT_THROW(aleph_with(Vision::thesis, 1.5), InputError);
+    EXPECT_THROW(aleph_with(Vision::castle, std::nan("")), InputError);
+}
+
+TEST(CastleThreshold, IsLuminanceOverTheHighestSensitivity) {
+    std::vector<double> luminances;
+    for (double l = 1e-4; l < 1e6; l *= 1.37) luminances.push_back(l);
+    const int count = static_cast<int>(luminances.size());
+    Image<float> adaptation(count, 1);
+    for (int i = 0; i < count; ++i) adaptation(i, 0) = static_cast<float>(luminances[i]);
+    const Image<float> threshold = compute_threshold(Image<float>(count, 1, 3.0f), adaptation, Vision::castle);
+    for (int i = 0; i < count; ++i) {
+        EXPECT_NEAR(threshold(i, 0) / (3.0 * castle_threshold(luminances[i])), 1.0, 1e-3) << luminances[i];
+    }
+}
+
+/// The root mean square of the transient channel's response below half the frame rate, by 20000 equal steps.
+double flicker_by_brute_force(double luminance, double frame_rate) {
+    constexpr int steps = 20000;
+    double energy = 0.0, peak = 0.0;
+    for (int i = 0; i < steps; ++i) {
+        const double response = castle_transient_response(0.5 * frame_rate * (i + 0.5) / steps, luminance);
+        energy += response * response / steps;
+    }
+    for (double rho = 0.1; rho < 4.0; rho *= 1.001) peak = std::max(peak, castle_transient(rho, luminance));
+    return std::max(1.0, peak * std::sqrt(energy));
+}
+
+TEST(FlickerThreshold, IsTheTransientChannelsResponseToAFlatSpectrum) {
+    for (const double luminance : {0.02, 1.0, 100.0, 5000.0}) {
+        for (const std::int64_t fps : {2, 24, 30, 120, 1000}) {
+            EXPECT_NEAR(castle_flicker_sensitivity(luminance, {fps, 1}) / flicker_by_brute_force(luminance, fps), 1.0,
+                        5e-3)
+                << luminance << " cd/m2, " << fps;
+        }
+    }
+    // At 8 Hz and below 1 cycle per degree nearly all that is seen is the transient channel's.
+    EXPECT_GT(castle_transient(0.5, 100) * castle_transient_response(8, 100), 0.9 * 77.93);
+}
+
+TEST(FlickerThreshold, NeverExceedsTheThresholdOfWhatLasts) {
+    const SyntheticFrame frame = make_synthetic_frame(96, 72);
+    const Image<float> adaptation = compute_adaptation_luminance(frame.estimate, {});
+    for (const Vision vision : {Vision::thesis, Vision::laird, Vision::castle}) {
+        const PerceptionMaps maps = compute_perception(frame.estimate, frame.velocity, {}, {}, {.vision = vision});
+        const Image<float> lasting = compute_threshold(maps.aleph, adaptation, vision);
+        for (const FrameRate& rate : {FrameRate{1, 1}, FrameRate{30, 1}, FrameRate{240, 1}}) {
+            const Image<float> flicker = compute_flicker_threshold(lasting, adaptation, rate);
+            for (std::size_t i = 0; i < flicker.size(); ++i) {
+                ASSERT_GT(flicker.pixels[i], 0.0f);
+                ASSERT_LE(flicker.pixels[i], lasting.pixels[i]);
+                const double exact = castle_flicker_threshold(adaptation.pixels[i], rate);
+                ASSERT_NEAR(flicker.pixels[i] / std::min<double>(lasting.pixels[i], exact), 1.0, 5e-3);
+            }
+        }
+    }
+    EXPECT_THROW(compute_flicker_threshold(Image<float>(2, 2), Image<float>(2, 3), thirty), InputError);
+}
+
+}  // namespace
+}  // namespace aleph
