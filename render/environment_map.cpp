@@ -81,6 +81,7 @@ void build_distribution(EnvironmentMap& map) {
     }
     if (!(total > 0.0)) return;
     map.black = false;
+    map.mean_luminance = total / (2.0 * width);  // weights are per column, of a height of 2 in all
     map.rows.resize(height);
     map.columns.resize(map.texels.size());
     map.probabilities.resize(map.texels.size());

@@ -20,6 +20,7 @@ struct EnvironmentMap {
     std::vector<float> probabilities;  ///< per texel
     std::size_t cleaned = 0;           ///< texels that were NaN, infinite or negative; those values became 0
     bool black = true;                 ///< every texel is 0
+    double mean_luminance = 0.0;       ///< over the sphere
 
     bool empty() const { return texels.empty(); }
 };

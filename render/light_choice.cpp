@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+
+#include "render/light_power.h"
 
 namespace aleph {
 
@@ -17,22 +20,26 @@ ScatteredLight choose_light(const LightingContext& context, const LitSurface& li
     const int lights = context.lights.count();
     if (lights == 0) return {};
     const int candidates = std::min(lights, max_candidates);
-    const float share = static_cast<float>(lights) / static_cast<float>(candidates);
     const Receiver receiver{lit.point.ray_origin(), lit.point.normal};
     std::array<ScatteredLight, max_candidates> scattered;
     std::array<float, max_candidates> cumulative{};
     float total = 0.0f;
     for (int c = 0; c < candidates; ++c) {
-        const int light = candidates == lights
-                              ? c
-                              : std::min(static_cast<int>((static_cast<float>(c) + random.next()) * share), lights - 1);
-        const LightSample sample = sample_light(context.shading, context.lights, light, receiver, random.next_2d());
+        LightChoice choice{c, 1.0f};
+        if (candidates < lights) {
+            choice = choose_at_random(context.lights,
+                                      (static_cast<float>(c) + random.next()) / static_cast<float>(candidates));
+            choice.probability *= static_cast<float>(candidates);
+        }
+        const LightSample sample =
+            sample_light(context.shading, context.lights, choice.light, receiver, random.next_2d());
         if (sample.incoming != Rgb(0.0f) && lit.is_reached(sample.direction)) {
             scattered[c].radiance =
-                scatter_towards(lit, sample.direction, sample.pdf, shares) * sample.incoming * share;
+                scatter_towards(lit, sample.direction, sample.pdf, shares) * sample.incoming / choice.probability;
             scattered[c].shadow_ray = {lit.ray_origin(sample.direction), sample.direction, 0.0f, sample.distance};
             const float brings = luminance(scattered[c].radiance);
-            if (brings > 0.0f) total += brings;
+            if (!std::isfinite(brings)) return scattered[c];  // not hidden: the sample is dropped and counted
+            total += brings;
         }
         cumulative[c] = total;
     }

@@ -9,6 +9,7 @@
 
 #include "engine/base/sampling.h"
 #include "render/environment_map.h"
+#include "render/light_power.h"
 #include "render/spherical_triangle.h"
 #include "render/surface_material.h"
 

@@ -42,6 +42,9 @@ struct LightSet {
     std::vector<PunctualLight> punctual;
     bool has_environment = false;          ///< one that is not black
     std::vector<int> emitter_of_instance;  ///< per ScenePose instance: its emitter or no_index
+    /// Per light, cumulative: the probability to be chosen at random. Nine tenths follow the light's power, one tenth
+    /// is the same for all.
+    std::vector<float> choice_ends;
 
     /// Lights are numbered: emitters, then punctual lights, then the environment.
     int count() const { return static_cast<int>(emitters.size() + punctual.size()) + (has_environment ? 1 : 0); }

@@ -1,0 +1,58 @@
+#include "render/light_power.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "render/environment_map.h"
+
+namespace aleph {
+
+namespace {
+
+/// W, as a sphere around the visible scene takes it in; roughly, for a choice among lights.
+std::vector<double> estimate_powers(const ShadingScene& shading, const LightSet& lights) {
+    constexpr double pi = std::numbers::pi;
+    const glm::vec3 diagonal = shading.bounds.high - shading.bounds.low;
+    const double radius2 = diagonal.x >= 0.0f ? 0.25 * glm::dot(diagonal, diagonal) : 1.0;
+    std::vector<double> powers;
+    for (const Emitter& emitter : lights.emitters) {
+        powers.push_back(pi * luminance(emitter.radiance) * emitter.area * (emitter.double_sided ? 2.0 : 1.0));
+    }
+    for (const PunctualLight& light : lights.punctual) {
+        const double solid_angle = light.kind == Light::Kind::spot ? 2.0 * pi * light.outer_versine : 4.0 * pi;
+        powers.push_back(luminance(light.intensity) *
+                         (light.kind == Light::Kind::directional ? pi * radius2 : solid_angle));
+    }
+    if (lights.has_environment) {
+        const double mean = shading.environment_map != nullptr ? shading.environment_map->mean_luminance : 1.0;
+        powers.push_back(pi * pi * radius2 * mean * luminance(shading.environment));
+    }
+    return powers;
+}
+
+}  // namespace
+
+std::vector<float> make_choice_ends(const ShadingScene& shading, const LightSet& lights) {
+    const std::vector<double> powers = estimate_powers(shading, lights);
+    double total = 0.0, end = 0.0;
+    for (const double power : powers) total += std::isfinite(power) ? power : 0.0;
+    const double uniform = 1.0 / static_cast<double>(powers.size());
+    std::vector<float> ends;
+    for (const double power : powers) {
+        const double share = std::isfinite(power) ? power / total : 0.0;
+        end += total > 0.0 ? 0.9 * share + 0.1 * uniform : uniform;
+        ends.push_back(static_cast<float>(end));
+    }
+    if (!ends.empty()) ends.back() = 1.0f;
+    return ends;
+}
+
+LightChoice choose_at_random(const LightSet& lights, float u) {
+    const std::vector<float>& ends = lights.choice_ends;
+    const auto found = std::upper_bound(ends.begin(), ends.end(), u);
+    const std::size_t i = std::min(static_cast<std::size_t>(found - ends.begin()), ends.size() - 1);
+    return {static_cast<int>(i), ends[i] - (i == 0 ? 0.0f : ends[i - 1])};
+}
+
+}  // namespace aleph
