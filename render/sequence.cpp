@@ -16,6 +16,7 @@
 #include "render/frame.h"
 #include "render/frame_vision.h"
 #include "render/measure.h"
+#include "render/open_shutter.h"
 #include "render/shutter.h"
 #include "render/texture.h"
 
@@ -69,10 +70,8 @@ struct Sequence::State {
     void update_other_rays();
     void compute_motion(const SampleHits& centers, OtherFrame which, bool maps, StageClock& clock, FrameOutput& out);
     bool can_change() const { return is_world_animated(scene) || !pose_plan.cameras.empty(); }
-    SampleMoment move_to_moment(double at_frame);
     std::uint64_t rays_traced() const {
-        return rays.rays_traced() + (other_rays ? other_rays->rays_traced() : 0) +
-               (open ? open->rays.rays_traced() : 0);
+        return rays.rays_traced() + (other_rays ? other_rays->rays_traced() : 0) + (open ? open->rays_traced() : 0);
     }
 
     const Scene scene;
@@ -89,15 +88,7 @@ struct Sequence::State {
     std::unique_ptr<RayScene> other_rays;  ///< for visibility in the other frame, or its quick estimate
     bool blended = false;                  ///< blended surfaces are in the scene
 
-    /// The scene at one time while the shutter is open.
-    struct Moment {
-        explicit Moment(const RayScene& shared) : rays(shared.share_meshes()) {}
-        RayScene rays;
-        std::optional<PosedView> posed;
-        std::optional<ShadingScene> shading;
-        LightSet lights;
-    };
-    std::unique_ptr<Moment> open;
+    std::unique_ptr<OpenShutter> open;  ///< the scene while the shutter is open
     double exposure = 1.0;
 };
 
@@ -130,27 +121,6 @@ std::size_t Sequence::State::update_rays_and_shading() {
         shading = make_shading_scene(scene, now->pose, anchor, textures);
     }
     return touched;
-}
-
-/// Takes `open` to a time, in frames.
-SampleMoment Sequence::State::move_to_moment(double at_frame) {
-    if (!open) open = std::make_unique<Moment>(rays);
-    Moment& m = *open;
-    const double seconds = at_frame / scene.frame_rate.per_second();
-    if (m.posed) {
-        update_posed_view(scene, pose_plan, seconds, camera, *m.posed);
-    } else {
-        m.posed = make_posed_view(scene, seconds, camera, settings.width, settings.height);
-    }
-    const glm::dvec3 anchor = compute_anchor(m.posed->view);
-    m.rays.update_moving(m.posed->pose, anchor);
-    if (m.shading) {
-        update_shading_scene(*m.shading, pose_plan, anchor);
-    } else {
-        m.shading = make_shading_scene(scene, m.posed->pose, anchor, textures);
-    }
-    m.lights = make_light_set(*m.shading);
-    return {{*m.shading, m.lights, m.rays}, m.posed->view};
 }
 
 /// Brings other_rays to `other`.
@@ -295,8 +265,10 @@ FrameOutput Sequence::render(std::int64_t frame, const FrameRequest& request) {
         options.blended = s.blended;
         if (const auto shutter = find_shutter(s.scene, camera, frame); shutter && s.can_change()) {
             const double shift = RandomStream({s.settings.seed ^ shutter_seed_mask, random_frame, 0, 0}).next();
-            options.at_sample = [&s, shutter, shift](int sample) {
-                return s.move_to_moment(place_in_shutter(*shutter, sample, shift));
+            if (!s.open) s.open = std::make_unique<OpenShutter>(s.scene, s.pose_plan, s.textures, s.rays, s.camera);
+            options.at_sample = [&s, shutter, shift, &view = out.view](int sample) {
+                const double at = place_in_shutter(*shutter, sample, shift);
+                return s.open->move_to(at / s.scene.frame_rate.per_second(), view.width, view.height);
             };
         }
         shade({lighting, out.view, s.settings, out.alpha, random_frame, scene_radius(*s.shading), request.progress},

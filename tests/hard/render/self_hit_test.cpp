@@ -128,7 +128,7 @@ TEST(SelfHits, RC05_OffsetsAreSmallForSmallObjects) {
     add_mesh(scene, make_quad(12e-3, 12e-3, white), {0.0, 0.0, 0.0}, z_to_up);
     add_camera(scene, {0.0, 2e-3, 6e-3}, {0.0, 1e-3, 0.0});
     const Stage stage(std::move(scene), 64, 48);
-    const SampleHits hits = cast_sample(stage.rays, stage.view, 0, 1, nullptr);
+    const SampleHits hits = cast_centers(stage.rays, stage.view, nullptr);
     float largest = 0.0f;
     int met[2] = {};
     for (int y = 0; y < 48; ++y) {
@@ -172,7 +172,7 @@ TEST(SelfHits, RC06_NoLightComesThroughThinWalls) {
         const glm::dvec3 eye = distance * glm::normalize(glm::dvec3(0.4, 0.3, 1.0));
         const Stage stage(make_sealed_lamp(eye, 2.0 / distance), 48, 36);
         const ShadedFrame out = shade(stage, plain_settings(0.2, 64));
-        const SampleHits hits = cast_sample(stage.rays, stage.view, 0, 1, nullptr);
+        const SampleHits hits = cast_centers(stage.rays, stage.view, nullptr);
         int box = 0, floor = 0;
         for (std::size_t i = 0; i < out.color.size(); ++i) {
             ASSERT_EQ(out.color.pixels[i], Rgb(0.0f)) << i;
