@@ -15,6 +15,7 @@
 #include "engine/json/json_ref.h"
 #include "engine/json/text.h"
 #include "engine/load/camera_check.h"
+#include "engine/load/flat_warnings.h"
 #include "engine/load/framing_camera.h"
 #include "engine/load/mesh_warnings.h"
 #include "engine/load/warnings.h"
@@ -161,6 +162,7 @@ Scene load_scene(const std::filesystem::path& path, const LoadLimits& limits) {
     add_rotation_warnings(scene);
     add_surface_warnings(scene);
     add_mesh_warnings(scene);
+    add_flat_warnings(scene);
     add_missing_light(scene);
     return scene;
 }
