@@ -57,6 +57,11 @@ TEST(HardScenes, AreListedInTheReadme) {
     for (const std::string& name : scene_names()) EXPECT_NE(text.find("| `" + name + "` |"), std::string::npos) << name;
 }
 
+TEST(HardScenes, RC02_FlattenedObjectsAreSaid) {
+    EXPECT_TRUE(warns(HardScene("flattened").scene, "node \"thing\" and 1 more: the scale is 0"));
+    EXPECT_FALSE(warns(HardScene("scale_through_zero").scene, "the scale is 0"));
+    EXPECT_FALSE(warns(HardScene("tiny_scale").scene, "the scale is 0"));
+}
 TEST(HardScenes, RC05_MillimetreWorldIsThePictureInMetres) {
     HardScene tiny("millimetre_world");
     HardScene hard("still_keys");  // the same scene in metres
