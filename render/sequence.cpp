@@ -64,7 +64,7 @@ struct Sequence::State {
           blended(has_blended(scene)) {}
 
     void move_to_frame(std::optional<PosedView>& posed, std::int64_t frame) const;
-    Image<Rgb> estimate_view(const RayScene& view_rays, const PosedView& posed, EstimateKind kind,
+    Image<Rgb> estimate_view(const RayScene& view_rays, const PosedView& posed, EstimateKind kind, bool indirect,
                              RayCounts& counts) const;
     std::size_t update_rays_and_shading();
     void update_other_rays();
@@ -104,11 +104,11 @@ void Sequence::State::move_to_frame(std::optional<PosedView>& posed, std::int64_
 
 /// The quick estimate of a posed view to which `view_rays` have been updated, not sanitized.
 Image<Rgb> Sequence::State::estimate_view(const RayScene& view_rays, const PosedView& posed, EstimateKind kind,
-                                          RayCounts& counts) const {
+                                          bool indirect, RayCounts& counts) const {
     const ShadingScene view_shading = make_shading_scene(scene, posed.pose, view_rays.anchor(), textures);
     const LightSet lights = make_light_set(view_shading);
     const SampleHits centers = cast_centers(view_rays, posed.view, &counts.primary);
-    return compute_estimate({view_shading, lights, view_rays}, posed.view, centers, kind, exposure, counts);
+    return compute_estimate({view_shading, lights, view_rays}, posed.view, centers, kind, indirect, exposure, counts);
 }
 
 /// Brings rays and shading to `now`. @return instances that were updated
@@ -146,7 +146,7 @@ void Sequence::State::compute_motion(const SampleHits& centers, OtherFrame which
     Image<Rgb> other_estimate;
     if (has_other) {
         update_other_rays();
-        other_estimate = estimate_view(*other_rays, *other, settings.estimate, stats.counts.rays);
+        other_estimate = estimate_view(*other_rays, *other, settings.estimate, settings.bounces > 0, stats.counts.rays);
         sanitize_estimate(other_estimate);
     }
     clock.add_to(stats.seconds.estimate);
@@ -167,7 +167,7 @@ Sequence::Sequence(Scene scene, const RenderSettings& settings, const std::strin
     const PosedView posed = make_posed_view(s.scene, seconds, s.camera, exposure_columns, height);
     s.rays.update(posed.pose, compute_anchor(posed.view));
     RayCounts counts;
-    s.exposure = compute_exposure(s.estimate_view(s.rays, posed, EstimateKind::direct, counts));
+    s.exposure = compute_exposure(s.estimate_view(s.rays, posed, EstimateKind::direct, false, counts));
 }
 
 Sequence::~Sequence() = default;
@@ -250,8 +250,8 @@ FrameOutput Sequence::render(std::int64_t frame, const FrameRequest& request) {
     clock.add_to(stats.seconds.first_hits);
 
     if (perceive) {
-        out.estimate =
-            compute_estimate(lighting, out.view, centers, s.settings.estimate, s.exposure, stats.counts.rays);
+        out.estimate = compute_estimate(lighting, out.view, centers, s.settings.estimate, s.settings.bounces > 0,
+                                        s.exposure, stats.counts.rays);
         note_estimate(out, sanitize_estimate(out.estimate), s.scene.viewing);
         clock.add_to(stats.seconds.estimate);
         s.compute_motion(centers, which, request.maps, clock, out);
