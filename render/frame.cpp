@@ -37,7 +37,8 @@ class FrameShading {
           options_(options),
           out_(out),
           by_paths_(context.settings.integrator == Integrator::path || options.at_sample),
-          cached_(!by_paths_ && context.settings.bounces > 0 && context.settings.accuracy > 0.0),
+          indirect_(context.settings.bounces > 0 && context.settings.path_depth > 1),
+          cached_(!by_paths_ && indirect_ && context.settings.accuracy > 0.0),
           cache_(make_cache(context.lighting.shading)),
           sums_(context.view.width, context.view.height) {}
 
@@ -148,7 +149,7 @@ class FrameShading {
         const LightPoints points{light_samples, surface.sample, settings.spp};
         Rgb radiance = surface.material.emission;
         radiance += compute_sampled_light(context_.lighting, task, surface, points, random, beyond, path_random);
-        if (settings.bounces > 0 && surface.material.has_diffuse()) {
+        if (indirect_ && surface.material.has_diffuse()) {
             const LitSurface lit(surface);
             radiance +=
                 diffuse_radiance(surface.material, lit.cos_view, find_irradiance(task, surface)) * lit.below_sheen;
@@ -194,7 +195,7 @@ class FrameShading {
     const SampleHits& centers_;
     const SampleOptions& options_;
     ShadedFrame& out_;
-    bool by_paths_, cached_;
+    bool by_paths_, indirect_, cached_;
     IrradianceCache cache_;
     Image<PixelSum> sums_;
     std::mutex mutex_;

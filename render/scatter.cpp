@@ -13,8 +13,9 @@ namespace {
 
 constexpr float coat_f0 = 0.04f;  // KHR_materials_clearcoat: index of refraction 1.5
 
-float coat_reflectance(const SurfaceMaterial& material, float cosine) {
-    return material.coat * (coat_f0 + (1.0f - coat_f0) * schlick_power(cosine));
+/// By the angle of the view, as the light below it: with that of the half vector a rough coat would add light.
+float coat_reflectance(const LitSurface& lit) {
+    return lit.material.coat * (coat_f0 + (1.0f - coat_f0) * schlick_power(lit.coat_view.z));
 }
 
 float largest(const Rgb& c) {
@@ -45,8 +46,8 @@ LobeValue evaluate_coat(const LitSurface& lit, const glm::vec3& direction) {
     if (material.is_coat_mirror() || !(light.z > 0.0f && lit.coat_view.z > 0.0f)) return {};
     const glm::vec2 widths(material.coat_alpha);
     const glm::vec3 h = glm::normalize(lit.coat_view + light);
-    const float value = ggx_d(widths, h) * smith_g2(widths, lit.coat_view, light) / (4.0f * lit.coat_view.z) *
-                        coat_reflectance(material, glm::dot(lit.coat_view, h));
+    const float value =
+        ggx_d(widths, h) * smith_g2(widths, lit.coat_view, light) / (4.0f * lit.coat_view.z) * coat_reflectance(lit);
     return {Rgb(value), pdf_reflected(widths, lit.coat_view, h)};
 }
 
@@ -110,13 +111,13 @@ LitSurface::LitSurface(const ViewedSurface& surface)
             coat_basis = make_basis(material.coat_normal);
             coat_view = coat_basis.to_local(surface.view);
         }
-        below_coat = 1.0f - coat_reflectance(material, std::max(coat_view.z, 0.0f));
+        if (coat_view.z > 0.0f) below_coat = 1.0f - coat_reflectance(*this);
     }
     below_sheen = below_coat;
     if (material.has_sheen()) {
         const float albedo = sheen_albedo(material.sheen_alpha, cos_view);
-        sheen_scale = albedo > 1.0f ? 1.0f / albedo : 1.0f;
-        below_sheen *= 1.0f - largest(material.sheen) * std::min(albedo, 1.0f);
+        sheen_scale = 1.0f / std::max(albedo, 1.0f);
+        below_sheen *= 1.0f - largest(material.sheen) * albedo * sheen_scale;
     }
 }
 
@@ -129,10 +130,13 @@ LobeShares share_lobes(const LitSurface& lit, LobeSet set) {
                                      mean_diffuse_transmission(material) * lit.below_sheen);
     }
     if (material.has_glossy()) {
-        set_share(Lobe::gloss, luminance(glossy_reflectance(material, lit.cos_view)) * lit.below_sheen);
+        // A reflectance of 0 straight on is above 0 at the microfacets of a rough surface.
+        constexpr float rough = 1e-3f;
+        set_share(Lobe::gloss, luminance(glossy_reflectance(material, lit.cos_view)) * lit.below_sheen +
+                                   (material.is_mirror() ? 0.0f : rough * material.f90));
     }
     if (material.has_coat()) set_share(Lobe::coat, 1.0f - lit.below_coat);
-    if (material.has_sheen()) set_share(Lobe::sheen, luminance(material.sheen) * lit.below_coat);
+    if (material.has_sheen()) set_share(Lobe::sheen, std::max(lit.below_coat - lit.below_sheen, 1e-4f));
     if (material.has_glass()) set_share(Lobe::glass, material.glass * lit.below_sheen);
     float total = 0.0f;
     for (const float share : shares) total += share;
@@ -167,9 +171,11 @@ ScatterSample sample_scatter(const LitSurface& lit, const LobeShares& shares, fl
     while (chosen > 0 && !(shares[chosen] > 0.0f)) --chosen;  // rounding at the end
     const float share = shares[chosen];
     ScatterSample sample;
-    if (!(share > 0.0f) || !(lit.view.z > 0.0f)) return sample;
+    if (!(share > 0.0f)) return sample;
     const SurfaceMaterial& material = lit.material;
     sample.lobe = lobes[chosen];
+    const bool needs_view = sample.lobe != Lobe::diffuse && sample.lobe != Lobe::coat;
+    if (needs_view && !(lit.view.z > 0.0f)) return sample;
     bool mirror = false;
     glm::vec3 local(0.0f);
     switch (sample.lobe) {
@@ -189,7 +195,7 @@ ScatterSample sample_scatter(const LitSurface& lit, const LobeShares& shares, fl
             const glm::vec3 reflected = 2.0f * glm::dot(lit.coat_view, h) * h - lit.coat_view;
             if (!(reflected.z > 0.0f)) return sample;
             local = lit.basis.to_local(lit.coat_basis.to_world(reflected));
-            if (mirror) sample.weight = Rgb(coat_reflectance(material, lit.coat_view.z));
+            if (mirror) sample.weight = Rgb(coat_reflectance(lit));
             break;
         }
         case Lobe::sheen: {

@@ -1,7 +1,9 @@
 #pragma once
 // All layers of a surface together, one lobe for each: what they scatter towards a direction, and directions sampled
 // from them. Each lobe is sampled by itself, and is weighted by itself against the sampling of lights (Veach 1997).
-// Radiance is divided by the square of the index of refraction of its medium, which refraction leaves unchanged.
+// A layer takes its albedo, by the angle of the view, from the light of those below it (KHR_materials_clearcoat,
+// KHR_materials_sheen): all together never scatter more light than arrives, but layers are not reciprocal. Radiance is
+// divided by the square of the index of refraction of its medium, which refraction leaves unchanged.
 
 #include <array>
 
@@ -42,7 +44,7 @@ struct LitSurface {
     Basis coat_basis;
     glm::vec3 coat_view;
     float below_coat = 1.0f, below_sheen = 1.0f;  ///< share of light that the layers above leave, by view
-    float sheen_scale = 1.0f;                     ///< keeps the layer's albedo at most 1
+    float sheen_scale = 1.0f;                     ///< keeps the layer's albedo at most its colour
 };
 
 /// Probability of each lobe; they sum to 1, or are all 0 where nothing scatters.

@@ -81,11 +81,12 @@ PosedInstance make_instance(const ShadingScene& shading, int i) {
     posed.linear = glm::mat3(glm::dmat3(world));
     posed.translation = glm::vec3(glm::dvec3(world[3]) - shading.anchor);
     posed.normals = glm::mat3(normal_matrix(world));
-    // Rays leave out instances without volume, so these must not emit light or count for the scene's size.
-    posed.visible = pose.shown[i] != 0 && is_traceable(world, shading.anchor);
-    if (posed.visible) posed.rounding = abs_of(posed.linear) * abs_of(glm::mat3(glm::inverse(glm::dmat3(world))));
     const PosedMesh& deformed = pose.meshes[instance.mesh];
     if (!deformed.positions.empty()) posed.deformed = &deformed;
+    // Rays leave out instances without volume or with bad points, so these must not emit light or count for the scene's
+    // size.
+    posed.visible = pose.shown[i] != 0 && is_traceable(world, shading.anchor) && are_traceable(deformed.positions);
+    if (posed.visible) posed.rounding = abs_of(posed.linear) * abs_of(glm::mat3(glm::inverse(glm::dmat3(world))));
     return posed;
 }
 

@@ -10,39 +10,55 @@ namespace aleph {
 
 namespace {
 
-constexpr int size = 32;
+constexpr int rows = 32, columns = 64;
 constexpr double pi = std::numbers::pi;
+const float least_roughness = std::sqrt(min_sheen_alpha);
 
-/// Rows by roughness (the square root of alpha), columns by the cosine of the view.
-using Table = std::array<std::array<float, size>, size>;
+/// The albedo times the roughness, which varies little. Rows by roughness (the square root of alpha), columns by
+/// spread_cosine.
+using Table = std::array<std::array<float, columns>, rows>;
 
-float at_step(int i) {
-    return static_cast<float>(i) / static_cast<float>(size - 1);
+/// A cosine as a number from 0 to 1 that is dense near the horizon, where the layer is bright: within cosines of about
+/// the roughness.
+float spread_cosine(float roughness, float cosine) {
+    const float half = 2.0f * roughness;
+    return std::sqrt(cosine * (1.0f + half) / (cosine + half));
 }
 
-/// By the midpoint rule; sqrt-spaced cosines resolve the layer's brightness at grazing light.
-float integrate_albedo(float alpha, float cos_view) {
-    constexpr int steps = 64;
-    const float c = std::max(cos_view, 1e-3f);
-    const glm::vec3 view(std::sqrt(1.0f - c * c), 0.0f, c);
+struct SpreadCosine {
+    double cosine, slope;  ///< slope: d cosine / d x
+};
+SpreadCosine invert_spread(double roughness, double x) {
+    const double half = 2.0 * roughness, rest = 1.0 + half - x * x;
+    return {x * x * half / rest, 2.0 * x * half * (1.0 + half) / (rest * rest)};
+}
+
+/// By the midpoint rule.
+float integrate_albedo(float roughness, float cos_view) {
+    constexpr int heights = 64, azimuths = 24;  // of half the circle
+    const glm::vec3 view(std::sqrt((1.0f - cos_view) * (1.0f + cos_view)), 0.0f, cos_view);
     double sum = 0.0;
-    for (int i = 0; i < steps; ++i) {
-        const double root = (i + 0.5) / steps, z = root * root;
-        const double width = 2.0 * root / steps;  // dz
-        for (int k = 0; k < steps; ++k) {
-            const double phi = 2.0 * pi * (k + 0.5) / steps, s = std::sqrt(1.0 - z * z);
-            const glm::vec3 light(s * std::cos(phi), s * std::sin(phi), z);
-            sum += evaluate_sheen(alpha, view, light) * z * width * (2.0 * pi / steps);
+    for (int i = 0; i < heights; ++i) {
+        const auto [z, slope] = invert_spread(roughness, (i + 0.5) / heights);
+        const double s = std::sqrt(1.0 - z * z);
+        double ring = 0.0;
+        for (int k = 0; k < azimuths; ++k) {
+            const double phi = pi * (k + 0.5) / azimuths;
+            ring += evaluate_sheen(roughness * roughness, view, glm::vec3(s * std::cos(phi), s * std::sin(phi), z));
         }
+        sum += ring * z * slope;
     }
-    return static_cast<float>(std::min(sum, 1.0));
+    return static_cast<float>(sum * 2.0 * pi / (heights * azimuths));
 }
 
 Table make_table() {
     Table table{};
-    for (int i = 0; i < size; ++i) {
-        const float roughness = std::max(at_step(i), 0.03f);
-        for (int k = 0; k < size; ++k) table[i][k] = integrate_albedo(roughness * roughness, at_step(k));
+    for (int i = 0; i < rows; ++i) {
+        const float r = least_roughness + (1.0f - least_roughness) * static_cast<float>(i) / (rows - 1);
+        for (int k = 0; k < columns; ++k) {
+            const auto cosine = static_cast<float>(invert_spread(r, static_cast<double>(k) / (columns - 1)).cosine);
+            table[i][k] = r * integrate_albedo(r, std::clamp(cosine, 1e-6f, 1.0f));
+        }
     }
     return table;
 }
@@ -60,12 +76,14 @@ float evaluate_sheen(float alpha, const glm::vec3& view, const glm::vec3& light)
 
 float sheen_albedo(float alpha, float cos_view) {
     static const Table table = make_table();
-    const float row = std::clamp(std::sqrt(alpha), 0.0f, 1.0f) * (size - 1);
-    const float column = std::clamp(cos_view, 0.0f, 1.0f) * (size - 1);
-    const int i = std::min(static_cast<int>(row), size - 2), k = std::min(static_cast<int>(column), size - 2);
+    const float r = std::clamp(std::sqrt(alpha), least_roughness, 1.0f);
+    const float row = (r - least_roughness) / (1.0f - least_roughness) * (rows - 1);
+    const float column = spread_cosine(r, std::clamp(cos_view, 0.0f, 1.0f)) * (columns - 1);
+    const int i = std::min(static_cast<int>(row), rows - 2), k = std::min(static_cast<int>(column), columns - 2);
     const float a = row - static_cast<float>(i), b = column - static_cast<float>(k);
-    return (1.0f - a) * ((1.0f - b) * table[i][k] + b * table[i][k + 1]) +
-           a * ((1.0f - b) * table[i + 1][k] + b * table[i + 1][k + 1]);
+    const float scaled = (1.0f - a) * ((1.0f - b) * table[i][k] + b * table[i][k + 1]) +
+                         a * ((1.0f - b) * table[i + 1][k] + b * table[i + 1][k + 1]);
+    return scaled / r;
 }
 
 }  // namespace aleph

@@ -7,10 +7,13 @@
 namespace aleph {
 
 /// The layer's BRDF without its colour, for unit directions in the shading frame; 0 if one is below the surface.
-/// @param alpha  roughness squared, at least 1e-3
+/// @param alpha  roughness squared, at least min_sheen_alpha
 float evaluate_sheen(float alpha, const glm::vec3& view, const glm::vec3& light);
+inline constexpr float min_sheen_alpha = 1e-3f;
 
-/// Its directional albedo, from a table of 32 x 32; within 0.01. At most 1.
+/// Its directional albedo, from a table: by at most 0.003 times the larger of 1 and itself too large, and by at most
+/// 1e-4 times that too small. This visibility term lets it exceed 1, up to 13 at grazing angles and low roughness;
+/// there the layer has to be scaled down.
 float sheen_albedo(float alpha, float cos_view);
 
 }  // namespace aleph

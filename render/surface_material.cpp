@@ -3,6 +3,8 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "render/sheen.h"
+
 namespace aleph {
 
 namespace {
@@ -32,16 +34,19 @@ struct TangentFrame {
 };
 
 TangentFrame find_tangents(const SurfacePoint& point, const TextureUse& use, const glm::vec3& outward) {
-    glm::vec2 d1 = point.uv_edges[use.uv_set][0], d2 = point.uv_edges[use.uv_set][1];
+    glm::vec2 f1 = point.uv_edges[use.uv_set][0], f2 = point.uv_edges[use.uv_set][1];
     if (use.transformed) {
-        d1 = use.matrix * d1;
-        d2 = use.matrix * d2;
+        f1 = use.matrix * f1;
+        f2 = use.matrix * f2;
     }
-    const float determinant = d1.x * d2.y - d1.y * d2.x;
-    if (determinant == 0.0f || !std::isfinite(determinant)) return {};
-    const glm::vec3 along_u = (point.edges[0] * d2.y - point.edges[1] * d1.y) / determinant;
-    const glm::vec3 along_v = (point.edges[1] * d1.x - point.edges[0] * d2.x) / determinant;
-    const glm::vec3 flat = along_u - outward * glm::dot(outward, along_u);
+    // In double: the products of a narrow triangle nearly cancel, and those of floats are exact there.
+    const glm::dvec2 d1(f1), d2(f2);
+    const glm::dvec3 e1(point.edges[0]), e2(point.edges[1]), up(outward);
+    const double determinant = d1.x * d2.y - d1.y * d2.x;
+    if (determinant == 0.0 || !std::isfinite(determinant)) return {};
+    const glm::dvec3 along_u = (e1 * d2.y - e2 * d1.y) / determinant;
+    const glm::vec3 along_v = (e2 * d1.x - e1 * d2.x) / determinant;
+    const glm::vec3 flat = along_u - up * glm::dot(up, along_u);
     const float length = glm::length(flat);
     if (!(length > 0.0f) || !std::isfinite(length)) return {};
     TangentFrame frame;
@@ -79,7 +84,7 @@ void add_layers(const MaterialValues& values, const MaterialTextures& textures, 
         surface.sheen = values.sheen_color;
         if (is_used(textures.sheen_color)) surface.sheen *= Rgb(look_up(textures.sheen_color));
         if (is_used(textures.sheen_roughness)) roughness *= look_up(textures.sheen_roughness).w;
-        surface.sheen_alpha = std::max(roughness * roughness, 1e-3f);
+        surface.sheen_alpha = std::max(roughness * roughness, min_sheen_alpha);
     }
     if (values.anisotropy > 0.0f) {
         float strength = values.anisotropy, angle = values.anisotropy_rotation;
@@ -199,13 +204,17 @@ ViewedSurface view_surface(const ShadingScene& shading, const SurfacePoint& poin
     ViewedSurface surface{point, evaluate_material(shading, point, footprint), view};
     const MaterialTextures& textures = shading.textures->materials[point.material];
     const Material* const material = shading.materials[point.material].material;
+    if (surface.material.has_specular() && point.normal != point.geometric) {
+        surface.point.normal = keep_visible(point.normal, point.geometric, point.geometric, view);
+    }
     if (!textures.maps_normals || material == nullptr) return surface;
-    const Lookup look_up(shading, point, footprint);
+    const SurfacePoint unmapped = surface.point;
+    const Lookup look_up(shading, unmapped, footprint);
     if (surface.material.has_coat()) {
         surface.material.coat_normal = is_used(textures.clearcoat_normal)
                                            ? map_normal(look_up, textures.clearcoat_normal,
                                                         static_cast<float>(material->clearcoat_normal_scale), view)
-                                           : point.normal;
+                                           : unmapped.normal;
     }
     if (is_used(textures.normal)) {
         surface.point.normal = map_normal(look_up, textures.normal, static_cast<float>(material->normal_scale), view);

@@ -21,7 +21,7 @@ struct SurfaceMaterial {
     /// Largest channel of the dielectric f0, and the reflectance at grazing incidence where it exceeds f90: light that
     /// does not reach the Lambert layer.
     float f0_max = 0.0f, f90_max = 0.0f;
-    float alpha = 1.0f;           ///< GGX width: roughness squared. Below min_ggx_alpha the glossy layer is a mirror
+    float alpha = 1.0f;           ///< GGX width: roughness squared
     float stretch = 0.0f;         ///< anisotropy: widens the lobe along `tangent` from alpha towards 1
     glm::vec3 tangent{0.0f};      ///< world, unit, if stretch > 0
     Rgb emission{0.0f};           ///< radiance that leaves the visible side
@@ -45,14 +45,15 @@ struct SurfaceMaterial {
     bool has_glass() const { return glass > 0.0f; }
     /// Whether anything but the Lambert layer scatters light.
     bool has_specular() const { return has_glossy() || has_glass() || has_coat() || has_sheen(); }
-    bool is_mirror() const { return alpha < min_ggx_alpha; }
+    /// Whether the glossy layer is smooth to single precision, along the tangent too.
+    bool is_mirror() const { return alpha + (1.0f - alpha) * stretch < min_ggx_alpha; }
     bool is_coat_mirror() const { return coat_alpha < min_ggx_alpha; }
     /// Glass without microfacets: smooth, or between equal media, where nothing turns.
     bool is_glass_smooth() const { return is_mirror() || ior_ratio == 1.0f; }
     /// Whether light passes it without a turn: a smooth sheet.
     bool passes_straight() const { return has_glass() && !volume && is_glass_smooth(); }
-    /// GGX widths along the tangent and across it (KHR_materials_anisotropy).
-    glm::vec2 widths() const { return {alpha + (1.0f - alpha) * stretch, alpha}; }
+    /// GGX widths along the tangent and across it (KHR_materials_anisotropy), unless it is a mirror.
+    glm::vec2 widths() const { return {alpha + (1.0f - alpha) * stretch, std::max(alpha, min_ggx_alpha)}; }
 };
 
 /// A surface point as it is shaded.
@@ -68,7 +69,9 @@ struct ViewedSurface {
 SurfaceMaterial evaluate_material(const ShadingScene& shading, const SurfacePoint& point,
                                   const RayFootprint& footprint);
 
-/// The surface with its material and the normals that the normal maps give.
+/// The surface with its material and the normals that the normal maps give. Where a lobe depends on the view,
+/// interpolated normals too pass keep_visible: at a silhouette they may face away from the viewer, and the lobe would
+/// be black.
 /// @param view  unit, towards the viewer
 ViewedSurface view_surface(const ShadingScene& shading, const SurfacePoint& point, const glm::vec3& view,
                            const RayFootprint& footprint);
