@@ -5,6 +5,7 @@
 #include <mutex>
 
 #include "engine/base/parallel.h"
+#include "render/pixel_sum.h"
 
 namespace aleph {
 
@@ -18,24 +19,6 @@ constexpr std::uint32_t path_seed_mask = 0x70617468u;
 double seconds_since(std::chrono::steady_clock::time_point start) {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
-
-/// The valid samples of a pixel so far. In double: a float sum of 65,536 samples can be off by 0.2 %.
-struct PixelSum {
-    glm::dvec3 radiance{0.0};
-    int samples = 0, hits = 0;
-    double mean_luminance = 0.0, squares = 0.0;  ///< squared differences from the mean (Welford 1962)
-
-    void add(const Rgb& sample, bool hit) {
-        radiance += glm::dvec3(sample);
-        ++samples;
-        if (hit) ++hits;
-        const double y = luminance(sample), difference = y - mean_luminance;
-        mean_luminance += difference / samples;
-        squares += difference * (y - mean_luminance);
-    }
-    /// Of the mean luminance.
-    double variance() const { return squares / (static_cast<double>(samples - 1) * samples); }
-};
 
 /// The work of one task: its rays, and what it counts.
 struct ShadingTask : RayTask {

@@ -13,7 +13,26 @@ namespace {
 constexpr int max_candidates = 16;  // lights compared at a point
 constexpr int max_sheets = 64;      // sheets that a shadow ray passes
 
+/// From another origin to the end of the ray.
+Ray move_origin(const Ray& ray, const glm::vec3& origin) {
+    Ray moved{origin, ray.direction, 0.0f, ray.far};
+    if (!std::isfinite(ray.far)) return moved;
+    const glm::vec3 left = ray.origin + ray.direction * ray.far - origin;
+    moved.far = std::max(0.0f, glm::dot(left, ray.direction));
+    if (moved.far > 0.0f) {
+        moved.far = glm::length(left);
+        moved.direction = left / moved.far;
+    }
+    return moved;
+}
+
 }  // namespace
+
+Ray make_shadow_ray(const LitSurface& lit, const LightSample& sample) {
+    const Ray ray{lit.point.ray_origin(), sample.direction, 0.0f, sample.distance};
+    const glm::vec3 origin = lit.ray_origin(sample.direction);
+    return origin == ray.origin ? ray : move_origin(ray, origin);
+}
 
 ScatteredLight choose_light(const LightingContext& context, const LitSurface& lit, const LobeShares& shares,
                             RandomStream& random) {
@@ -47,7 +66,7 @@ ScatteredLight choose_light(const LightingContext& context, const LitSurface& li
         sample_light(context.shading, context.lights, choices[c].light, receiver, random.next_2d());
     if (sample.incoming == Rgb(0.0f) || !lit.is_reached(sample.direction)) return {};
     const float probability = choices[c].probability * weights[c] / total;
-    return {{lit.ray_origin(sample.direction), sample.direction, 0.0f, sample.distance},
+    return {make_shadow_ray(lit, sample),
             scatter_towards(lit, sample.direction, sample.pdf, shares) * sample.incoming / probability};
 }
 
@@ -68,8 +87,7 @@ Rgb find_transmittance(const LightingContext& context, RayTask& task, const Ray&
         const LitSurface lit(surface);
         passed *= sheet_transmittance(lit);
         if (passed == Rgb(0.0f)) return passed;
-        left.origin = lit.ray_origin(left.direction);
-        left.far = std::max(0.0f, left.far - hit.distance);
+        left = move_origin(left, lit.ray_origin(left.direction));
     }
     return Rgb(0.0f);
 }

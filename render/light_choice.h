@@ -27,6 +27,10 @@ struct ScatteredLight {
 ScatteredLight choose_light(const LightingContext& context, const LitSurface& lit, const LobeShares& shares,
                             RandomStream& random);
 
+/// The ray from a surface to a light that was sampled from its viewer's side (Receiver). Behind the surface it starts
+/// elsewhere, and still ends at the sampled point: it must not reach the light.
+Ray make_shadow_ray(const LitSurface& lit, const LightSample& sample);
+
 /// Share of light that passes along a shadow ray: smooth sheets of glass pass some, everything else stops it.
 Rgb find_transmittance(const LightingContext& context, RayTask& task, const Ray& ray);
 

@@ -43,15 +43,6 @@ LightBound bound_emitter(const Emitter& emitter) {
     return bound;
 }
 
-/// Cosine of the smallest angle between a direction and any point of a cone around an axis, at least `least`.
-/// @param cosine  of the direction and the axis
-/// @param sine    of the cone's half-angle, below 1
-float widest_cosine(float cosine, float sine, float least) {
-    const float cone = std::sqrt(1.0f - sine * sine);
-    if (cosine >= cone) return 1.0f;
-    return std::max(least, cosine * cone + std::sqrt(std::max(0.0f, 1.0f - cosine * cosine)) * sine);
-}
-
 }  // namespace
 
 std::vector<float> make_choice_ends(const ShadingScene& shading, const LightSet& lights) {
@@ -90,22 +81,6 @@ std::vector<LightBound> make_light_bounds(const ShadingScene& shading, const Lig
         bounds.push_back(bound);
     }
     return bounds;
-}
-
-float bound_illuminance(const LightBound& light, const glm::vec3& position, const glm::vec3& normal, bool behind) {
-    // Rounding must not exclude a light that brings a little.
-    constexpr float least = 1e-3f;
-    if (light.reach == LightBound::Reach::everywhere) return light.strength;
-    if (light.reach == LightBound::Reach::directional) {
-        return light.strength * (behind ? 1.0f : std::max(least, glm::dot(light.axis, normal)));
-    }
-    const glm::vec3 to_light = light.position - position;
-    const float distance2 = glm::dot(to_light, to_light), radius2 = light.radius * light.radius;
-    if (distance2 <= 1.01f * radius2) return radius2 > 0.0f ? light.strength / radius2 : 0.0f;
-    const float inverse = 1.0f / std::sqrt(distance2), sine = light.radius * inverse;
-    float share = behind ? 1.0f : widest_cosine(glm::dot(to_light, normal) * inverse, sine, least);
-    if (light.one_sided) share *= widest_cosine(-glm::dot(to_light, light.axis) * inverse, sine, least);
-    return light.strength * share * inverse * inverse;
 }
 
 LightChoice choose_at_random(const LightSet& lights, float u) {
