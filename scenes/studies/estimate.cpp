@@ -71,7 +71,10 @@ void run_estimates(const EstimateOptions& options) {
     const RenderSettings settings = study_settings(scene, study.scene, study);
     const FrameOutput direct = run_estimate(scene, settings, options, 0);
     const FrameOutput all = run_estimate(scene, settings, options, 1);
-    const FrameOutput finished = render_variant(scene, settings, options.frame, Guide::saliency, options.accuracy);
+    RenderSettings careful = settings;
+    careful.perception.guide = Guide::saliency;
+    careful.accuracy = options.accuracy;
+    const FrameOutput finished = Sequence(scene, careful).render(options.frame);
     const Image<float> reference = find_threshold(finished.shaded.color, all, scene, settings.perception);
     fmt::print("{}, frame {}, {}, finished with accuracy {}, gather {}, samples per pixel {}, {} threads\n\n",
                study.scene, options.frame, study.size, options.accuracy, study.gather, study.spp, thread_count());
