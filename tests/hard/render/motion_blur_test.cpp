@@ -186,6 +186,31 @@ TEST(MotionBlur, MC27_NoGhostOfTheOtherShot) {
     }
 }
 
+TEST(MotionBlur, FX15_LightThatChangesWhereNothingInViewMoves) {
+    // A white floor under a lamp. Behind the camera a door opens at a quarter of the shutter, or the lamp fades in.
+    for (const bool door : {false, true}) {
+        Scene scene;
+        scene.exposure = 1.0;
+        scene.range = FrameRange{0, 10};
+        add_mesh(scene, make_quad(50.0, 50.0, add_lambert(scene, glm::dvec3(1.0), glm::dvec3(0.0), true)));
+        add_light(scene, Light::Kind::directional, glm::dvec3(std::numbers::pi), {0.0, 0.0, 20.0});
+        add_camera(scene, {0.0, 0.0, 5.0}, glm::dvec3(0.0));
+        scene.cameras[0].shutter = {0.0, 1.0};
+        if (door) {
+            const int node = add_mesh(scene, make_quad(100.0, 100.0, 0), {0.0, 0.0, 10.0});
+            scene.nodes[node].visible = keyed<double>({0.0, at(0.25)}, {1.0, 0.0}, Interpolation::step);
+        } else {
+            scene.lights[0].intensity = keyed<double>({0.0, at(1)}, {0.0, 1.5});
+        }
+        Mean mean;
+        for (std::uint32_t seed = 0; seed < 16; ++seed) {
+            mean.add(Sequence(scene, blur_settings(seed)).render(0).shaded.color(12, 8).x);
+        }
+        EXPECT_NEAR(mean.mean(), 0.75, 3.0 * mean.error() + 1e-4);
+        EXPECT_LT(mean.error(), 0.02);
+    }
+}
+
 TEST(MotionBlur, MC27_AChangeOfTopologyShowsBothMeshes) {
     // A surface of one triangle in frame 0, of two in frame 1.
     Scene scene = load_scene(source_folder() / "scenes" / "hard" / "changing_topology.json");
