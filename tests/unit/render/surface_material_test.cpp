@@ -67,7 +67,8 @@ TEST(SurfaceMaterial, GltfNumbersBecomeTheTwoLayers) {
     surface = evaluate(metal);
     EXPECT_EQ(surface.f0, Rgb(0.9f, 0.6f, 0.2f));
     EXPECT_FALSE(surface.has_diffuse());
-    EXPECT_EQ(surface.alpha, 1e-3f);  // a mirror to single precision
+    EXPECT_EQ(surface.alpha, 0.0f);
+    EXPECT_TRUE(surface.is_mirror());
 
     plastic.specular_color = glm::dvec3(2.0, 1.0, 0.5);  // above 1 is allowed, F0 stays at most 1
     plastic.ior = 2.0;
