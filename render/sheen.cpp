@@ -10,7 +10,7 @@ namespace aleph {
 
 namespace {
 
-constexpr int rows = 32, columns = 64;
+constexpr int rows = 32, columns = 80;
 constexpr double pi = std::numbers::pi;
 const float least_roughness = std::sqrt(min_sheen_alpha);
 
