@@ -19,33 +19,27 @@ constexpr float max_model_velocity = 1e6f;  // deg/s
 constexpr double max_frequency = 1e6;       // cycles per degree; nothing is seen there
 constexpr double max_display_blur = 1e7;    // of the lanes: squares of it, times pursuit_limit, stay finite
 
-/// base^power, base >= 0
-float fast_power(float base, float power) {
-    constexpr float smallest = 1e-30f;
-    return fast_exp2(power * fast_log2(base > smallest ? base : smallest));
-}
+/// One pixel; CastleRow has the same by rows.
+struct CastlePixel {
+    float log_luminance, tracked, sustained_velocity, transient_velocity, transient_peak;
+};
 
 /// f of all bands of one pixel.
-/// @param peak  castle_peak
-void elevate_pixel(const CastleTable& table, float log_velocity, float tracked, float transient_peak,
-                   const LuminanceGrid::Place& place, float peak, float* out) {
-    constexpr auto decay_power = static_cast<float>(castle_sustained_power);
-    constexpr auto power = static_cast<float>(castle_transient_power);
+void elevate_pixel(const CastleTable& table, const CastlePixel& pixel, float* out) {
     constexpr auto transient_decay = static_cast<float>(std::numbers::log2e / castle_transient_scale);
     constexpr auto slope = static_cast<float>(eye_blur_slope), offset = static_cast<float>(eye_blur_offset);
-    const float decay_velocity = fast_exp2(decay_power * log_velocity);
-    const float velocity_power = fast_exp2(power * log_velocity);
-    const float peak_power = fast_power(transient_peak, power);
-    const float eye_width = slope * tracked + offset;
+    const LuminanceGrid::Place place = LuminanceGrid::place(pixel.log_luminance);
     const CastleTable::Node& low = table.nodes[static_cast<std::size_t>(place.node)];
     const CastleTable::Node& high = table.nodes[static_cast<std::size_t>(place.node) + 1];
+    const float peak = low.peak + place.fraction * (high.peak - low.peak);
+    const float eye_width = slope * pixel.tracked + offset;
     for (int i = 0; i < CastleTable::lanes; ++i) {
         const float sustained = low.sustained[i] + place.fraction * (high.sustained[i] - low.sustained[i]);
         const float transient = low.transient[i] + place.fraction * (high.transient[i] - low.transient[i]);
-        const float away = table.transient_factor[i] * velocity_power - peak_power;
-        const float sensitivity = sustained * fast_exp2(-table.sustained_decay[i] * decay_velocity) +
+        const float away = table.transient_factor[i] * pixel.transient_velocity - pixel.transient_peak;
+        const float sensitivity = sustained * fast_exp2(-table.sustained_decay[i] * pixel.sustained_velocity) +
                                   transient * fast_exp2(-transient_decay * away * away);
-        const float display = table.display_blur[i] * tracked, eye = table.eye_blur[i] * eye_width;
+        const float display = table.display_blur[i] * pixel.tracked, eye = table.eye_blur[i] * eye_width;
         const float loss = (1.0f + display * display) * (1.0f + eye * eye) * table.rest_share[i];
         const float f = peak * loss / (sensitivity > loss ? sensitivity : loss);
         out[i] = f > 1.0f ? f : 1.0f;
@@ -66,6 +60,9 @@ CastleTable::CastleTable(const std::array<double, band_count>& rho, const Viewin
                          const FrameRate& frame_rate)
     : nodes(LuminanceGrid::nodes) {
     rest_share.fill(1.0f);
+    for (int node = 0; node < LuminanceGrid::nodes; ++node) {
+        nodes[node].peak = castle_peak_curve().node(node);
+    }
     for (int i = 0; i < band_count; ++i) {
         const double r = std::min(rho[i], max_frequency);
         const double angular = 4.0 / std::numbers::pi * r;
@@ -85,23 +82,42 @@ CastleTable::CastleTable(const std::array<double, band_count>& rho, const Viewin
     }
 }
 
-CastleRow::CastleRow(const CastleTable& table, int width) : table_(table), log_velocity_(width), log_luminance_(width) {
+CastleRow::CastleRow(const CastleTable& table, int width)
+    : table_(table),
+      log_luminance_(width),
+      sustained_velocity_(width),
+      transient_velocity_(width),
+      transient_peak_(width) {
     for (std::vector<float>& row : elevations_) row.resize(width);
 }
 
 void CastleRow::load(const float* retinal, const float* tracked, const float* luminance) {
-    const std::size_t width = log_velocity_.size();
+    constexpr auto sustained_power = static_cast<float>(castle_sustained_power);
+    constexpr auto transient_power = static_cast<float>(castle_transient_power);
+    constexpr auto slope = static_cast<float>(castle_transient_slope);
+    constexpr auto offset = static_cast<float>(castle_transient_offset);
+    constexpr float least_peak = 1e-30f;  // Hz; its power is next to 0
+    const std::size_t width = log_luminance_.size();
+    float* const log_luminances = log_luminance_.data();
+    float* const sustained_velocities = sustained_velocity_.data();
+    float* const transient_velocities = transient_velocity_.data();
+    float* const transient_peaks = transient_peak_.data();
+#pragma omp simd
     for (std::size_t x = 0; x < width; ++x) {
-        log_velocity_[x] = fast_log2(retinal[x] < max_model_velocity ? retinal[x] : max_model_velocity);
-        log_luminance_[x] = fast_log2(LuminanceGrid::clamp(luminance[x]));
+        const float log_velocity = fast_log2(retinal[x] < max_model_velocity ? retinal[x] : max_model_velocity);
+        const float log_luminance = fast_log2(LuminanceGrid::clamp(luminance[x]));
+        const float fitted_peak = slope * (log10_2 * log_luminance) + offset;
+        const float peak = fitted_peak > least_peak ? fitted_peak : least_peak;
+        log_luminances[x] = log_luminance;
+        sustained_velocities[x] = fast_exp2(sustained_power * log_velocity);
+        transient_velocities[x] = fast_exp2(transient_power * log_velocity);
+        transient_peaks[x] = fast_exp2(transient_power * fast_log2(peak));
     }
-    const LuminanceCurve& peak = castle_peak_curve();
     for (std::size_t x = 0; x < width; ++x) {
-        const LuminanceGrid::Place place = LuminanceGrid::place(log_luminance_[x]);
-        const float transient_peak = static_cast<float>(castle_transient_slope) * (log10_2 * log_luminance_[x]) +
-                                     static_cast<float>(castle_transient_offset);
         float f[CastleTable::lanes];
-        elevate_pixel(table_, log_velocity_[x], tracked[x], transient_peak, place, peak.at(place), f);
+        elevate_pixel(
+            table_,
+            {log_luminances[x], tracked[x], sustained_velocities[x], transient_velocities[x], transient_peaks[x]}, f);
         for (int i = 0; i < band_count; ++i) elevations_[i][x] = f[i];
     }
 }

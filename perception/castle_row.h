@@ -26,6 +26,7 @@ struct CastleTable {
     using Lanes = std::array<float, lanes>;
     struct Node {
         Lanes sustained{}, transient{};
+        float peak = 0.0f;  ///< castle_peak
     };
 
     /// @param rho  band frequencies, cycles per degree
@@ -57,7 +58,10 @@ class CastleRow {
 
   private:
     const CastleTable& table_;
-    std::vector<float> log_velocity_, log_luminance_;
+    std::vector<float> log_luminance_;       ///< log2 of cd/m2, in the model's range
+    std::vector<float> sustained_velocity_;  ///< v_R^1.3314
+    std::vector<float> transient_velocity_;  ///< v_R^.1898
+    std::vector<float> transient_peak_;      ///< castle_transient_peak^.1898
     std::array<std::vector<float>, band_count> elevations_;
 };
 

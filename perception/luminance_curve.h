@@ -43,29 +43,28 @@ struct LuminanceGrid {
     }
 };
 
-/// A positive function of luminance, interpolated in log-log: a power is exact.
+/// A smooth positive function of luminance: linear between the grid's places.
 class LuminanceCurve {
   public:
     /// @param function  double to double; from cd/m2
     template <class Function>
     explicit LuminanceCurve(const Function& function) {
         for (int i = 0; i < LuminanceGrid::nodes; ++i) {
-            logs_[i] = static_cast<float>(std::log2(function(LuminanceGrid::luminance(i))));
+            values_[i] = static_cast<float>(function(LuminanceGrid::luminance(i)));
         }
     }
 
+    float node(int i) const { return values_[i]; }
+
     /// @param luminance  cd/m2; clamped to the grid's range, NaN counts as its lowest
     float operator()(float luminance) const {
-        return at(LuminanceGrid::place(fast_log2(LuminanceGrid::clamp(luminance))));
-    }
-
-    float at(const LuminanceGrid::Place& place) const {
-        const float* const log = logs_.data() + place.node;
-        return fast_exp2(log[0] + place.fraction * (log[1] - log[0]));
+        const LuminanceGrid::Place place = LuminanceGrid::place(fast_log2(LuminanceGrid::clamp(luminance)));
+        const float low = values_[place.node], high = values_[place.node + 1];
+        return low + place.fraction * (high - low);
     }
 
   private:
-    std::array<float, LuminanceGrid::nodes> logs_;
+    std::array<float, LuminanceGrid::nodes> values_;
 };
 
 /// castle_peak. The table is made once.

@@ -90,7 +90,7 @@ Rgb sample_lights(const LightingContext& context, RayTask& task, const LitSurfac
             const LightSample sample = sample_light(context.shading, context.lights, light, receiver,
                                                     points.at(i, shift), pattern.light_share(points.count));
             if (!lit.is_reached(sample.direction)) continue;
-            shadows.add({lit.ray_origin(sample.direction), sample.direction, 0.0f, sample.distance},
+            shadows.add(make_shadow_ray(lit, sample),
                         scatter_towards(lit, sample.direction, sample.pdf, pattern.shares) * sample.incoming /
                             static_cast<float>(points.count));
         }

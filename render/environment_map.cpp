@@ -103,9 +103,10 @@ void build_distribution(EnvironmentMap& map) {
 
 /// Density of sample_environment within a texel, which is uniform per steradian.
 float texel_density(const EnvironmentMap& map, int x, int y) {
-    // cos(top) - cos(bottom), without cancellation at the poles.
+    // cos(top) - cos(bottom), without cancellation at the poles: the angle is measured from the nearer one.
     const float half = 0.5f * pi / static_cast<float>(map.texels.height);
-    const float height = 2.0f * std::sin(static_cast<float>(2 * y + 1) * half) * std::sin(half);
+    const int from_pole = std::min(y, map.texels.height - 1 - y);
+    const float height = 2.0f * std::sin(static_cast<float>(2 * from_pole + 1) * half) * std::sin(half);
     const float solid_angle = height * 2.0f * pi / static_cast<float>(map.texels.width);
     return map.probabilities[map.texels.index(x, y)] / solid_angle;
 }

@@ -5,6 +5,7 @@
 #include <mutex>
 
 #include "engine/base/parallel.h"
+#include "render/indirect_estimate.h"
 
 namespace aleph {
 
@@ -18,10 +19,12 @@ int points_per_light(const LightSet& lights) {
 }  // namespace
 
 Image<Rgb> compute_estimate(const LightingContext& context, const CameraView& view, const SampleHits& centers,
-                            EstimateKind kind, double exposure, RayCounts& counts) {
+                            EstimateKind kind, bool indirect, double exposure, RayCounts& counts) {
     Image<Rgb> estimate(view.width, view.height);
     const float scale = static_cast<float>(exposure);
     const int points = points_per_light(context.lights);
+    Image<DiffuseSurface> surfaces;
+    if (indirect && kind == EstimateKind::direct) surfaces = Image<DiffuseSurface>(view.width, view.height);
     std::mutex counts_mutex;
     parallel_rows(view.height, 4, [&](int begin, int end) {
         RayTask task(context.rays, Blend::cutout);  // without noise
@@ -40,6 +43,7 @@ Image<Rgb> compute_estimate(const LightingContext& context, const CameraView& vi
                         radiance += s.material.diffuse + s.material.f0;
                     } else {
                         radiance += estimate_direct_light(context, task, s, points);
+                        if (!surfaces.empty()) surfaces(x, y) = make_diffuse_surface(s);
                     }
                 }
                 estimate(x, y) = radiance * scale;
@@ -48,6 +52,7 @@ Image<Rgb> compute_estimate(const LightingContext& context, const CameraView& vi
         const std::lock_guard lock(counts_mutex);
         counts += task.counts;
     });
+    if (!surfaces.empty()) add_indirect_light(context, view, centers, surfaces, scale, estimate, counts);
     return estimate;
 }
 

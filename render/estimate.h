@@ -11,9 +11,10 @@ namespace aleph {
 /// kept (perception/sanitize.h replaces them).
 /// flat: albedo plus emission, as under constant white light; no rays.
 /// direct: emission plus direct light from a fixed pattern of points per light (estimate_direct_light).
-/// @param counts  increased by the rays cast
+/// @param indirect  with `direct`, also the light of one bounce (indirect_estimate.h)
+/// @param counts    increased by the rays cast
 Image<Rgb> compute_estimate(const LightingContext& context, const CameraView& view, const SampleHits& centers,
-                            EstimateKind kind, double exposure, RayCounts& counts);
+                            EstimateKind kind, bool indirect, double exposure, RayCounts& counts);
 
 /// 0.18 / exp(mean log Y) over the pixels of an estimate with Y > 0; 1 if there are none.
 double compute_exposure(const Image<Rgb>& estimate);

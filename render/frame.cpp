@@ -5,6 +5,7 @@
 #include <mutex>
 
 #include "engine/base/parallel.h"
+#include "render/pixel_sum.h"
 
 namespace aleph {
 
@@ -18,24 +19,6 @@ constexpr std::uint32_t path_seed_mask = 0x70617468u;
 double seconds_since(std::chrono::steady_clock::time_point start) {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
-
-/// The valid samples of a pixel so far. In double: a float sum of 65,536 samples can be off by 0.2 %.
-struct PixelSum {
-    glm::dvec3 radiance{0.0};
-    int samples = 0, hits = 0;
-    double mean_luminance = 0.0, squares = 0.0;  ///< squared differences from the mean (Welford 1962)
-
-    void add(const Rgb& sample, bool hit) {
-        radiance += glm::dvec3(sample);
-        ++samples;
-        if (hit) ++hits;
-        const double y = luminance(sample), difference = y - mean_luminance;
-        mean_luminance += difference / samples;
-        squares += difference * (y - mean_luminance);
-    }
-    /// Of the mean luminance.
-    double variance() const { return squares / (static_cast<double>(samples - 1) * samples); }
-};
 
 /// The work of one task: its rays, and what it counts.
 struct ShadingTask : RayTask {
@@ -54,7 +37,8 @@ class FrameShading {
           options_(options),
           out_(out),
           by_paths_(context.settings.integrator == Integrator::path || options.at_sample),
-          cached_(!by_paths_ && context.settings.bounces > 0 && context.settings.accuracy > 0.0),
+          indirect_(context.settings.bounces > 0 && context.settings.path_depth > 1),
+          cached_(!by_paths_ && indirect_ && context.settings.accuracy > 0.0),
           cache_(make_cache(context.lighting.shading)),
           sums_(context.view.width, context.view.height) {}
 
@@ -165,7 +149,7 @@ class FrameShading {
         const LightPoints points{light_samples, surface.sample, settings.spp};
         Rgb radiance = surface.material.emission;
         radiance += compute_sampled_light(context_.lighting, task, surface, points, random, beyond, path_random);
-        if (settings.bounces > 0 && surface.material.has_diffuse()) {
+        if (indirect_ && surface.material.has_diffuse()) {
             const LitSurface lit(surface);
             radiance +=
                 diffuse_radiance(surface.material, lit.cos_view, find_irradiance(task, surface)) * lit.below_sheen;
@@ -211,7 +195,7 @@ class FrameShading {
     const SampleHits& centers_;
     const SampleOptions& options_;
     ShadedFrame& out_;
-    bool by_paths_, cached_;
+    bool by_paths_, indirect_, cached_;
     IrradianceCache cache_;
     Image<PixelSum> sums_;
     std::mutex mutex_;

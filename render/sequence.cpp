@@ -16,6 +16,7 @@
 #include "render/frame.h"
 #include "render/frame_vision.h"
 #include "render/measure.h"
+#include "render/open_shutter.h"
 #include "render/shutter.h"
 #include "render/texture.h"
 
@@ -63,16 +64,14 @@ struct Sequence::State {
           blended(has_blended(scene)) {}
 
     void move_to_frame(std::optional<PosedView>& posed, std::int64_t frame) const;
-    Image<Rgb> estimate_view(const RayScene& view_rays, const PosedView& posed, EstimateKind kind,
+    Image<Rgb> estimate_view(const RayScene& view_rays, const PosedView& posed, EstimateKind kind, bool indirect,
                              RayCounts& counts) const;
     std::size_t update_rays_and_shading();
     void update_other_rays();
     void compute_motion(const SampleHits& centers, OtherFrame which, bool maps, StageClock& clock, FrameOutput& out);
     bool can_change() const { return is_world_animated(scene) || !pose_plan.cameras.empty(); }
-    SampleMoment move_to_moment(double at_frame);
     std::uint64_t rays_traced() const {
-        return rays.rays_traced() + (other_rays ? other_rays->rays_traced() : 0) +
-               (open ? open->rays.rays_traced() : 0);
+        return rays.rays_traced() + (other_rays ? other_rays->rays_traced() : 0) + (open ? open->rays_traced() : 0);
     }
 
     const Scene scene;
@@ -89,15 +88,7 @@ struct Sequence::State {
     std::unique_ptr<RayScene> other_rays;  ///< for visibility in the other frame, or its quick estimate
     bool blended = false;                  ///< blended surfaces are in the scene
 
-    /// The scene at one time while the shutter is open.
-    struct Moment {
-        explicit Moment(const RayScene& shared) : rays(shared.share_meshes()) {}
-        RayScene rays;
-        std::optional<PosedView> posed;
-        std::optional<ShadingScene> shading;
-        LightSet lights;
-    };
-    std::unique_ptr<Moment> open;
+    std::unique_ptr<OpenShutter> open;  ///< the scene while the shutter is open
     double exposure = 1.0;
 };
 
@@ -113,11 +104,11 @@ void Sequence::State::move_to_frame(std::optional<PosedView>& posed, std::int64_
 
 /// The quick estimate of a posed view to which `view_rays` have been updated, not sanitized.
 Image<Rgb> Sequence::State::estimate_view(const RayScene& view_rays, const PosedView& posed, EstimateKind kind,
-                                          RayCounts& counts) const {
+                                          bool indirect, RayCounts& counts) const {
     const ShadingScene view_shading = make_shading_scene(scene, posed.pose, view_rays.anchor(), textures);
     const LightSet lights = make_light_set(view_shading);
     const SampleHits centers = cast_centers(view_rays, posed.view, &counts.primary);
-    return compute_estimate({view_shading, lights, view_rays}, posed.view, centers, kind, exposure, counts);
+    return compute_estimate({view_shading, lights, view_rays}, posed.view, centers, kind, indirect, exposure, counts);
 }
 
 /// Brings rays and shading to `now`. @return instances that were updated
@@ -130,27 +121,6 @@ std::size_t Sequence::State::update_rays_and_shading() {
         shading = make_shading_scene(scene, now->pose, anchor, textures);
     }
     return touched;
-}
-
-/// Takes `open` to a time, in frames.
-SampleMoment Sequence::State::move_to_moment(double at_frame) {
-    if (!open) open = std::make_unique<Moment>(rays);
-    Moment& m = *open;
-    const double seconds = at_frame / scene.frame_rate.per_second();
-    if (m.posed) {
-        update_posed_view(scene, pose_plan, seconds, camera, *m.posed);
-    } else {
-        m.posed = make_posed_view(scene, seconds, camera, settings.width, settings.height);
-    }
-    const glm::dvec3 anchor = compute_anchor(m.posed->view);
-    m.rays.update_moving(m.posed->pose, anchor);
-    if (m.shading) {
-        update_shading_scene(*m.shading, pose_plan, anchor);
-    } else {
-        m.shading = make_shading_scene(scene, m.posed->pose, anchor, textures);
-    }
-    m.lights = make_light_set(*m.shading);
-    return {{*m.shading, m.lights, m.rays}, m.posed->view};
 }
 
 /// Brings other_rays to `other`.
@@ -176,7 +146,7 @@ void Sequence::State::compute_motion(const SampleHits& centers, OtherFrame which
     Image<Rgb> other_estimate;
     if (has_other) {
         update_other_rays();
-        other_estimate = estimate_view(*other_rays, *other, settings.estimate, stats.counts.rays);
+        other_estimate = estimate_view(*other_rays, *other, settings.estimate, settings.bounces > 0, stats.counts.rays);
         sanitize_estimate(other_estimate);
     }
     clock.add_to(stats.seconds.estimate);
@@ -197,7 +167,7 @@ Sequence::Sequence(Scene scene, const RenderSettings& settings, const std::strin
     const PosedView posed = make_posed_view(s.scene, seconds, s.camera, exposure_columns, height);
     s.rays.update(posed.pose, compute_anchor(posed.view));
     RayCounts counts;
-    s.exposure = compute_exposure(s.estimate_view(s.rays, posed, EstimateKind::direct, counts));
+    s.exposure = compute_exposure(s.estimate_view(s.rays, posed, EstimateKind::direct, false, counts));
 }
 
 Sequence::~Sequence() = default;
@@ -280,8 +250,8 @@ FrameOutput Sequence::render(std::int64_t frame, const FrameRequest& request) {
     clock.add_to(stats.seconds.first_hits);
 
     if (perceive) {
-        out.estimate =
-            compute_estimate(lighting, out.view, centers, s.settings.estimate, s.exposure, stats.counts.rays);
+        out.estimate = compute_estimate(lighting, out.view, centers, s.settings.estimate, s.settings.bounces > 0,
+                                        s.exposure, stats.counts.rays);
         note_estimate(out, sanitize_estimate(out.estimate), s.scene.viewing);
         clock.add_to(stats.seconds.estimate);
         s.compute_motion(centers, which, request.maps, clock, out);
@@ -295,8 +265,10 @@ FrameOutput Sequence::render(std::int64_t frame, const FrameRequest& request) {
         options.blended = s.blended;
         if (const auto shutter = find_shutter(s.scene, camera, frame); shutter && s.can_change()) {
             const double shift = RandomStream({s.settings.seed ^ shutter_seed_mask, random_frame, 0, 0}).next();
-            options.at_sample = [&s, shutter, shift](int sample) {
-                return s.move_to_moment(place_in_shutter(*shutter, sample, shift));
+            if (!s.open) s.open = std::make_unique<OpenShutter>(s.scene, s.pose_plan, s.textures, s.rays, s.camera);
+            options.at_sample = [&s, shutter, shift, &view = out.view](int sample) {
+                const double at = place_in_shutter(*shutter, sample, shift);
+                return s.open->move_to(at / s.scene.frame_rate.per_second(), view.width, view.height);
             };
         }
         shade({lighting, out.view, s.settings, out.alpha, random_frame, scene_radius(*s.shading), request.progress},

@@ -81,12 +81,26 @@ PosedInstance make_instance(const ShadingScene& shading, int i) {
     posed.linear = glm::mat3(glm::dmat3(world));
     posed.translation = glm::vec3(glm::dvec3(world[3]) - shading.anchor);
     posed.normals = glm::mat3(normal_matrix(world));
-    // Rays leave out instances without volume, so these must not emit light or count for the scene's size.
-    posed.visible = pose.shown[i] != 0 && is_traceable(world, shading.anchor);
-    if (posed.visible) posed.rounding = abs_of(posed.linear) * abs_of(glm::mat3(glm::inverse(glm::dmat3(world))));
     const PosedMesh& deformed = pose.meshes[instance.mesh];
     if (!deformed.positions.empty()) posed.deformed = &deformed;
+    // Rays leave out instances without volume or with bad points, so these must not emit light or count for the scene's
+    // size.
+    posed.visible = pose.shown[i] != 0 && is_traceable(world, shading.anchor) && are_traceable(deformed.positions);
+    if (posed.visible) posed.rounding = abs_of(posed.linear) * abs_of(glm::mat3(glm::inverse(glm::dmat3(world))));
     return posed;
+}
+
+void add_texture_coordinates(const PosedInstance& instance, const glm::uvec3& t, const glm::vec3& e1,
+                             const glm::vec3& e2, float u, float v, SurfacePoint& point) {
+    point.edges[0] = instance.linear * e1;
+    point.edges[1] = instance.linear * e2;
+    for (int k = 0; k < 2; ++k) {
+        const std::vector<glm::vec2>& uv = instance.mesh->uv[k];
+        if (uv.empty()) continue;
+        point.uv[k] = interpolate(uv, t, u, v);
+        point.uv_edges[k][0] = uv[t.y] - uv[t.x];
+        point.uv_edges[k][1] = uv[t.z] - uv[t.x];
+    }
 }
 
 }  // namespace
@@ -181,13 +195,10 @@ SurfacePoint make_surface_point(const ShadingScene& shading, const Hit& hit, con
             if (glm::dot(shading_normal, point.geometric) > 0.0f) point.normal = shading_normal;
         }
     }
-    point.edges[0] = instance.linear * e1;
-    point.edges[1] = instance.linear * e2;
-    for (int k = 0; k < 2; ++k) {
-        if (mesh.uv[k].empty()) continue;
-        point.uv[k] = interpolate(mesh.uv[k], t, u, v);
-        point.uv_edges[k][0] = mesh.uv[k][t.y] - mesh.uv[k][t.x];
-        point.uv_edges[k][1] = mesh.uv[k][t.z] - mesh.uv[k][t.x];
+    // Texture coordinates and what changes along them are for textures and anisotropy alone.
+    const ShadingMaterial& material = shading.materials[point.material];
+    if (material.layered || shading.textures->materials[point.material].any) {
+        add_texture_coordinates(instance, t, e1, e2, u, v, point);
     }
     if (!mesh.colors.empty()) point.color = interpolate(mesh.colors, t, u, v);
     return point;

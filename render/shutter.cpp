@@ -5,6 +5,13 @@
 
 namespace aleph {
 
+namespace {
+
+/// Frames. Keys take in times that are nearly theirs (find_samples), so the double before a cut belongs to its shot.
+constexpr double before_cut = 1e-6;
+
+}  // namespace
+
 std::optional<ShutterInterval> find_shutter(const Scene& scene, const CameraValues& camera, std::int64_t frame) {
     if (camera.shutter == glm::dvec2(0.0)) return std::nullopt;
     const double now = static_cast<double>(frame);
@@ -17,7 +24,7 @@ std::optional<ShutterInterval> find_shutter(const Scene& scene, const CameraValu
         } else if (shutter.close > at) {
             shutter.close = at;
             // All of it lies in the next shot: the last moment of this one.
-            if (shutter.open >= at) shutter.open = shutter.close = std::nextafter(at, now);
+            if (shutter.open >= at) shutter.open = shutter.close = at - before_cut;
         }
     }
     return shutter;

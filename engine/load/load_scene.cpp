@@ -16,6 +16,7 @@
 #include "engine/json/text.h"
 #include "engine/load/camera_check.h"
 #include "engine/load/environment_picture.h"
+#include "engine/load/flat_warnings.h"
 #include "engine/load/framing_camera.h"
 #include "engine/load/mesh_warnings.h"
 #include "engine/load/warnings.h"
@@ -162,6 +163,7 @@ Scene load_scene(const std::filesystem::path& path, const LoadLimits& limits) {
     check_camera_axes(scene);
     add_rotation_warnings(scene);
     add_mesh_warnings(scene);
+    add_flat_warnings(scene);
     add_missing_light(scene);
     return scene;
 }

@@ -129,6 +129,13 @@ bool is_traceable(const glm::dmat4& world, const glm::dvec3& anchor) {
     return 3.0 * largest * max_ray_component + std::max({moved.x, moved.y, moved.z}) < max_coordinate;
 }
 
+bool are_traceable(const std::vector<glm::dvec3>& positions) {
+    return std::ranges::all_of(positions, [](const glm::dvec3& given) {
+        const glm::vec3 p(given);  // NaN fails every comparison
+        return std::abs(p.x) < max_coordinate && std::abs(p.y) < max_coordinate && std::abs(p.z) < max_coordinate;
+    });
+}
+
 RayScene::RayScene(const Scene& scene, const PosePlan& plan)
     : state_(new State(std::make_shared<MeshStructures>(scene, plan))) {}
 RayScene::RayScene(const Scene& scene) : RayScene(scene, make_pose_plan(scene)) {}

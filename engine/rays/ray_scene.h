@@ -23,6 +23,9 @@ inline constexpr float max_ray_component = 1e9f;
 /// the object's own space (beyond them Embree ends the process).
 bool is_traceable(const glm::dmat4& world, const glm::dvec3& anchor);
 
+/// Whether the posed points of a deforming mesh can be traced: finite in single precision, and within Embree's limits.
+bool are_traceable(const std::vector<glm::dvec3>& positions);
+
 class RayScene {
   public:
     /// Builds the structures of every rigid mesh; those of deforming meshes are built by the first update. Degenerate

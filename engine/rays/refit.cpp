@@ -99,11 +99,10 @@ RefitMesh::Change RefitMesh::update(const std::vector<glm::dvec3>& positions) {
     if (positions.size() != mesh_.vertex_count || mesh_.triangles.empty()) return Change::unusable;
     bool moved = !current_;
     current_ = false;
+    if (!are_traceable(positions)) return Change::unusable;
     points_.resize(positions.size());
     for (std::size_t i = 0; i < positions.size(); ++i) {
         const glm::vec3 point(positions[i]);
-        for (int k = 0; k < 3; ++k)
-            if (!(std::abs(point[k]) < max_coordinate)) return Change::unusable;
         moved = moved || point != points_[i];
         points_[i] = point;
     }

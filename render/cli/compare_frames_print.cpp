@@ -72,8 +72,13 @@ void print_summary(const SequenceSummary& summary) {
     } else {
         fmt::print("{}{}\n", figure_columns(&*summary.threshold), flicker_columns(summary.flicker));
         fmt::print("  white is {:g} cd/m2\n", summary.threshold->display_white);
-        print_noise(*summary.threshold);
+        print_less_noise("beyond, less noise", *summary.threshold);
     }
+    if (const auto& flicker = summary.flicker) {
+        print_less_noise("flicker at rest", flicker->rest);
+        print_less_noise("flicker moving", flicker->moving);
+    }
+    if (summary.threshold) print_noise(*summary.threshold);
     if (const auto& flicker = summary.flicker) {
         fmt::print("  flicker: {} pairs of frames, in units of {}; {} pixels left out\n", summary.flicker_pairs,
                    flicker_unit(*flicker), flicker->left_out);

@@ -98,11 +98,15 @@ nlohmann::ordered_json comparison_json(const CompareResult& result) {
     return json;
 }
 
+void print_less_noise(const std::string& what, const ThresholdFigures& figures) {
+    if (!figures.noise) return;
+    fmt::print("  {:<24} {:.4g} % by more than 3 standard errors; by noise alone {:.4g} %\n", what,
+               figures.percent(static_cast<double>(figures.noise->certain)), figures.percent(figures.noise->expected));
+}
+
 void print_noise(const ThresholdFigures& figures) {
     if (!figures.noise) return;
     const ReferenceNoise& noise = *figures.noise;
-    fmt::print("  {:<24} {:.4g} % by more than 3 standard errors; by noise alone {:.4g} %\n", "beyond, less noise",
-               figures.percent(static_cast<double>(noise.certain)), figures.percent(noise.expected));
     fmt::print("  {:<24} median {:.3g} thresholds, 99th percentile {:.3g}, beyond 1 {:.4g} %\n", "reference's noise",
                noise.median, noise.percentile_99, figures.percent(static_cast<double>(noise.beyond)));
 }
@@ -136,6 +140,7 @@ void print_comparison(const CompareOptions& options, const CompareResult& result
         print_pixels("beyond the Aleph map", result, threshold->beyond,
                      fmt::format(", at worst {:.4g} thresholds; white is {:g} cd/m2", threshold->worst,
                                  threshold->display_white));
+        print_less_noise("beyond, less noise", *threshold);
         print_noise(*threshold);
     }
     if (const std::string limits = exceeded_options(result); !limits.empty()) {

@@ -16,7 +16,10 @@ nlohmann::ordered_json comparison_json(const CompareResult& result);
 nlohmann::ordered_json difference_json(const Difference& difference);
 nlohmann::ordered_json figures_json(const ThresholdFigures& figures);
 
-/// "12.3 %" of the pixels certainly beyond, the share by noise alone, and how large the noise is. Several lines.
+/// Prints the share beyond with the reference's noise taken into account. Nothing without its variance.
+/// @param what  such as "beyond, less noise"
+void print_less_noise(const std::string& what, const ThresholdFigures& figures);
+/// Prints how large the reference's noise is.
 void print_noise(const ThresholdFigures& figures);
 
 /// The options whose limits are exceeded, such as "--max-rms"; the share's has a row of its own.

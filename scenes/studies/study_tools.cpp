@@ -1,60 +1,82 @@
 #include "scenes/studies/study_tools.h"
 
-#include <cmath>
+#include <fmt/format.h>
 
-#include "engine/image/image_file.h"
+#include <algorithm>
+#include <array>
+
+#include "engine/base/errors.h"
+#include "render/cli/frame_pattern.h"
+#include "render/cli/progress.h"
+#include "render/frame_files.h"
 
 namespace aleph {
 
 namespace {
 
-/// Empty if the file has no R, G and B.
-Image<Rgb> read_color(const std::filesystem::path& file) {
-    const ChannelImage read = read_image(file);
-    const Image<float>*r = read.find("R"), *g = read.find("G"), *b = read.find("B");
-    if (r == nullptr || g == nullptr || b == nullptr) return {};
-    Image<Rgb> color(r->width, r->height);
-    for (std::size_t i = 0; i < color.size(); ++i) color.pixels[i] = Rgb(r->pixels[i], g->pixels[i], b->pixels[i]);
-    return color;
+template <class Names>
+ChannelImage keep(const ChannelImage& image, const Names& names) {
+    ChannelImage kept{{}, image.metadata};
+    for (const Channel& channel : image.channels) {
+        if (std::ranges::find(names, channel.name) != names.end()) kept.channels.push_back(channel);
+    }
+    return kept;
 }
 
-void write_color(const std::filesystem::path& file, const Image<Rgb>& color) {
-    ChannelImage written;
-    for (int c = 0; c < 3; ++c) {
-        Image<float> channel(color.width, color.height);
-        for (std::size_t i = 0; i < color.size(); ++i) channel.pixels[i] = color.pixels[i][c];
-        written.channels.push_back({std::string(1, "RGB"[c]), std::move(channel)});
-    }
-    write_exr(file, written);
-}
+constexpr std::array picture_channels = {"R", "G", "B", "variance.Y"};
+constexpr std::array threshold_channels = {"forward.u",  "forward.v",   "motion.valid",
+                                           "objectId.X", "threshold.Y", "threshold.flicker"};
 
 }  // namespace
 
-FrameOutput render_variant(const Scene& scene, RenderSettings settings, std::int64_t frame, Guide guide,
-                           double accuracy, bool maps) {
-    settings.perception.guide = guide;
-    settings.accuracy = accuracy;
-    FrameRequest request;
-    request.maps = maps;
-    return Sequence(scene, settings).render(frame, request);
+RenderedFrames render_frames(const Scene& scene, const RenderSettings& settings, FrameRange range,
+                             const AfterFrame& after) {
+    Sequence sequence(scene, settings);
+    RenderedFrames frames;
+    frames.first = range.first;
+    const auto count = static_cast<double>(range.last - range.first + 1);
+    for (std::int64_t frame = range.first; frame <= range.last; ++frame) {
+        const FrameOutput output = sequence.render(frame);
+        frames.pictures.push_back(
+            keep(make_frame_image(output, false, sequence.scene(), settings, sequence.exposure()), picture_channels));
+        frames.seconds += output.statistics.seconds.total / count;
+        frames.gather_rays += static_cast<double>(output.statistics.counts.rays.gather) / count;
+        frames.records += static_cast<double>(output.statistics.counts.records) / count;
+        if (after) after(frame);
+    }
+    return frames;
 }
 
-ErrorFigures measure_error(const Image<Rgb>& color, const Image<Rgb>& dense, const Image<float>& threshold,
-                           double display_white) {
-    double mean = 0.0;
-    for (const Rgb& pixel : dense.pixels) mean += luminance(pixel);
-    mean /= static_cast<double>(dense.size());
-    const double e2 = 1e-4 * mean * mean;
-    ErrorFigures figures;
-    std::size_t beyond = 0;
-    for (std::size_t i = 0; i < dense.size(); ++i) {
-        const double y = luminance(color.pixels[i]), r = luminance(dense.pixels[i]);
-        figures.relative_mse += (y - r) * (y - r) / (r * r + e2);
-        if (display_white * std::abs(y - r) > threshold.pixels[i]) ++beyond;
+std::vector<ChannelImage> compute_threshold_maps(const Scene& scene, RenderSettings settings, FrameRange range) {
+    settings.perception.guide = Guide::saliency;
+    Sequence sequence(scene, settings);
+    FrameRequest request;
+    request.frame = false;
+    request.maps = true;
+    std::vector<ChannelImage> maps;
+    for (std::int64_t frame = range.first; frame <= range.last; ++frame) {
+        maps.push_back(keep(
+            make_frame_image(sequence.render(frame, request), true, sequence.scene(), settings, sequence.exposure()),
+            threshold_channels));
     }
-    figures.relative_mse /= static_cast<double>(dense.size());
-    figures.percent_beyond = 100.0 * static_cast<double>(beyond) / static_cast<double>(dense.size());
-    return figures;
+    return maps;
+}
+
+StudyRow measure_frames(const RenderedFrames& frames, const std::vector<ChannelImage>& reference,
+                        const std::vector<ChannelImage>& maps) {
+    StudyRow row{frames.seconds, frames.gather_rays, frames.records, 0.0, {}, std::nullopt};
+    SequenceComparison sequence({});
+    for (std::size_t i = 0; i < frames.pictures.size(); ++i) {
+        const FrameComparison comparison =
+            sequence.add(frames.first + static_cast<std::int64_t>(i), frames.pictures[i], reference.at(i), &maps.at(i));
+        const LuminanceDifference& luminance = comparison.result.luminance.value();
+        row.relative_mse +=
+            (luminance.relative_mse - luminance.noise_mse) / static_cast<double>(frames.pictures.size());
+    }
+    const SequenceSummary summary = sequence.summary();
+    row.error = summary.threshold.value();
+    row.flicker = summary.flicker;
+    return row;
 }
 
 std::string guide_name(Guide guide) {
@@ -63,16 +85,35 @@ std::string guide_name(Guide guide) {
     return std::get<std::string>(setting_map(settings).at("guide"));
 }
 
-Image<Rgb> load_or_render_dense(const Scene& scene, RenderSettings settings, std::int64_t frame, int gather,
-                                const std::filesystem::path& file) {
-    if (!file.empty() && std::filesystem::exists(file)) {
-        const Image<Rgb> color = read_color(file);
-        if (color.width == settings.width && color.height == settings.height) return color;
+std::vector<ChannelImage> load_or_render_reference(const Scene& scene, const RenderSettings& settings, FrameRange range,
+                                                   const std::string& pattern, bool quiet) {
+    std::vector<std::filesystem::path> files;
+    if (!pattern.empty()) {
+        const auto field = find_number_field(pattern, "--reference");
+        if (!field) throw InputError("", "--reference", "needs a name such as reference.####.exr");
+        for (std::int64_t frame = range.first; frame <= range.last; ++frame)
+            files.emplace_back(insert_number(pattern, *field, static_cast<int>(frame)));
     }
-    settings.gather = gather;
-    const Image<Rgb> color = render_variant(scene, settings, frame, Guide::none, 0.0).shaded.color;
-    if (!file.empty()) write_color(file, color);
-    return color;
+    const auto exists = [](const std::filesystem::path& file) { return std::filesystem::exists(file); };
+    std::vector<ChannelImage> reference;
+    if (!files.empty() && std::ranges::all_of(files, exists)) {
+        for (const std::filesystem::path& file : files) {
+            reference.push_back(read_image(file));
+            const Image<float>* red = reference.back().find("R");
+            if (!red || red->width != settings.width || red->height != settings.height) {
+                throw InputError(file.string(), "",
+                                 fmt::format("is no picture of {}x{} pixels", settings.width, settings.height));
+            }
+        }
+        return reference;
+    }
+    Progress progress("reference", static_cast<double>(range.last - range.first + 1), progress_look(quiet));
+    double done = 0.0;
+    reference = render_frames(scene, settings, range, [&](std::int64_t frame) {
+                    progress.update(++done, fmt::format("frame {}", frame));
+                }).pictures;
+    for (std::size_t i = 0; i < files.size(); ++i) write_exr(files[i], reference[i]);
+    return reference;
 }
 
 }  // namespace aleph

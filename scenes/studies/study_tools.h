@@ -1,33 +1,51 @@
 #pragma once
-// Rendering one frame in several ways, and measuring it against a dense gather.
+// Rendering frames in several ways, and measuring them against a reference with the thresholds of a model of vision.
 
-#include <filesystem>
+#include <functional>
 #include <string>
+#include <vector>
 
+#include "render/compare_sequence.h"
 #include "render/sequence.h"
 
 namespace aleph {
 
-/// Renders one frame with another guide and accuracy than those of `settings`.
-/// @param maps  also return the maps (conspicuity, visibility)
-FrameOutput render_variant(const Scene& scene, RenderSettings settings, std::int64_t frame, Guide guide,
-                           double accuracy, bool maps = false);
-
-struct ErrorFigures {
-    double relative_mse = 0.0;    ///< of luminance: mean of (L - R)^2 / (R^2 + e^2), e = 1 % of the mean of R
-    double percent_beyond = 0.0;  ///< share of pixels with display_white |Y - Y_dense| > threshold
+/// Consecutive frames as pictures, with means over them.
+struct RenderedFrames {
+    std::int64_t first = 0;
+    std::vector<ChannelImage> pictures;  ///< R, G, B and, path traced, variance.Y
+    double seconds = 0.0, gather_rays = 0.0, records = 0.0;
 };
 
-/// @param threshold  cd/m2; of the `saliency` frame, the same for every variant
-ErrorFigures measure_error(const Image<Rgb>& color, const Image<Rgb>& dense, const Image<float>& threshold,
-                           double display_white);
+/// Called after each frame.
+using AfterFrame = std::function<void(std::int64_t frame)>;
 
-/// none, spatial, full or saliency.
+RenderedFrames render_frames(const Scene& scene, const RenderSettings& settings, FrameRange range,
+                             const AfterFrame& after = {});
+
+/// The motion, objects and thresholds of the frames, for the guide saliency and the settings' model of vision.
+std::vector<ChannelImage> compute_threshold_maps(const Scene& scene, RenderSettings settings, FrameRange range);
+
+/// A row of a table: means over the frames and sums over their pixels.
+struct StudyRow {
+    double seconds = 0.0, gather_rays = 0.0, records = 0.0;  ///< per frame
+    double relative_mse = 0.0;  ///< of luminance, less the reference's noise; mean of the frames
+    ThresholdFigures error;
+    std::optional<FlickerFigures> flicker;  ///< none of a single frame
+};
+
+/// @param maps  of every frame (compute_threshold_maps)
+StudyRow measure_frames(const RenderedFrames& frames, const std::vector<ChannelImage>& reference,
+                        const std::vector<ChannelImage>& maps);
+
+/// The setting's name: none, spatial, full or saliency.
 std::string guide_name(Guide guide);
 
-/// The frame with irradiance gathered at every pixel. Reads it from `file` if that exists and has the right size;
-/// otherwise renders it, and writes it to `file` unless that is empty.
-Image<Rgb> load_or_render_dense(const Scene& scene, RenderSettings settings, std::int64_t frame, int gather,
-                                const std::filesystem::path& file);
+/// The files `pattern` of the frames if all exist. Otherwise renders them with these settings, and writes them unless
+/// the pattern is empty.
+/// @param pattern  such as "reference.####.exr"; may be empty
+/// @throws InputError if the pattern has no place for the number, or a file has another size
+std::vector<ChannelImage> load_or_render_reference(const Scene& scene, const RenderSettings& settings, FrameRange range,
+                                                   const std::string& pattern, bool quiet);
 
 }  // namespace aleph

@@ -2,9 +2,12 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <limits>
+#include <span>
 
 #include "engine/base/flush_denormals.h"
+#include "engine/base/parallel.h"
 
 namespace aleph {
 
@@ -44,6 +47,60 @@ RTCRayHit16 make_packet(const CameraView& view, const glm::vec3& origin, int x0,
         packet.hit.geomID[lane] = packet.hit.instID[0][lane] = RTC_INVALID_GEOMETRY_ID;
     }
     return packet;
+}
+
+std::size_t trace_singles(RTCScene scene, RTCIntersectContext& context, std::span<const RawRay> rays) {
+    std::size_t hits = 0;
+    for (const RawRay& raw : rays) {
+        if (raw.occlusion) {
+            RTCRay ray = raw.ray;
+            rtcOccluded1(scene, &context, &ray);
+            hits += ray.tfar < 0.0f ? 1 : 0;
+        } else {
+            RTCRayHit ray{raw.ray, {}};
+            ray.hit.geomID = ray.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+            rtcIntersect1(scene, &context, &ray);
+            hits += ray.hit.geomID != RTC_INVALID_GEOMETRY_ID ? 1 : 0;
+        }
+    }
+    return hits;
+}
+
+/// Packets that fill up, one for each kind of ray.
+std::size_t trace_packets(RTCScene scene, RTCIntersectContext& context, std::span<const RawRay> rays) {
+    std::size_t hits = 0;
+    std::array<std::array<RTCRay, lanes>, 2> waiting;
+    std::array<int, 2> counts{};
+    const auto flush = [&](int kind) {
+        alignas(64) int valid[lanes];
+        alignas(64) RTCRayHit16 packet{};
+        for (int lane = 0; lane < lanes; ++lane) {
+            valid[lane] = lane < counts[kind] ? -1 : 0;
+            const RTCRay& ray = waiting[kind][std::min(lane, counts[kind] - 1)];
+            packet.ray.org_x[lane] = ray.org_x, packet.ray.org_y[lane] = ray.org_y, packet.ray.org_z[lane] = ray.org_z;
+            packet.ray.dir_x[lane] = ray.dir_x, packet.ray.dir_y[lane] = ray.dir_y, packet.ray.dir_z[lane] = ray.dir_z;
+            packet.ray.tnear[lane] = ray.tnear, packet.ray.tfar[lane] = ray.tfar, packet.ray.mask[lane] = ~0u;
+            packet.hit.geomID[lane] = packet.hit.instID[0][lane] = RTC_INVALID_GEOMETRY_ID;
+        }
+        if (kind == 1) {
+            rtcOccluded16(valid, scene, &context, &packet.ray);
+        } else {
+            rtcIntersect16(valid, scene, &context, &packet);
+        }
+        for (int lane = 0; lane < counts[kind]; ++lane) {
+            hits += (kind == 1 ? packet.ray.tfar[lane] < 0.0f : packet.hit.geomID[lane] != RTC_INVALID_GEOMETRY_ID);
+        }
+        counts[kind] = 0;
+    };
+    for (const RawRay& raw : rays) {
+        const int kind = raw.occlusion ? 1 : 0;
+        waiting[kind][counts[kind]++] = raw.ray;
+        if (counts[kind] == lanes) flush(kind);
+    }
+    for (const int kind : {0, 1}) {
+        if (counts[kind] > 0) flush(kind);
+    }
+    return hits;
 }
 
 }  // namespace
@@ -97,6 +154,18 @@ std::size_t RawEmbree::trace() {
         for (int lane = 0; lane < lanes; ++lane) met += packet.hit.geomID[lane] != RTC_INVALID_GEOMETRY_ID;
     }
     return met;
+}
+
+std::size_t RawEmbree::trace(const std::vector<RawRay>& rays, bool packets) const {
+    std::atomic<std::size_t> hits{0};
+    parallel_for(rays.size(), std::size_t{1} << 14, [&](std::size_t begin, std::size_t end) {
+        RTCIntersectContext context;
+        rtcInitIntersectContext(&context);
+        context.flags = RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
+        const std::span<const RawRay> part = std::span(rays).subspan(begin, end - begin);
+        hits += packets ? trace_packets(top_, context, part) : trace_singles(top_, context, part);
+    });
+    return hits;
 }
 
 }  // namespace aleph

@@ -10,6 +10,12 @@
 
 namespace aleph {
 
+/// A ray in world space, relative to the anchor of RawEmbree's view.
+struct RawRay {
+    RTCRay ray;
+    bool occlusion = false;  ///< whether anything is hit, not what
+};
+
 class RawEmbree {
   public:
     /// Instances as RayScene makes them; rays through the pixel centres in blocks of 4 x 4.
@@ -20,6 +26,11 @@ class RawEmbree {
 
     /// Traces every ray once. @return number of hits
     std::size_t trace();
+
+    /// Traces given rays on all threads.
+    /// @param packets  in incoherent packets of 16 of the same kind, in their order; otherwise one by one
+    /// @return number of hits
+    std::size_t trace(const std::vector<RawRay>& rays, bool packets) const;
 
   private:
     RTCDevice device_ = nullptr;

@@ -116,6 +116,16 @@ inline int add_camera(Scene& scene, const glm::dvec3& eye, const glm::dvec3& tar
     return node;
 }
 
+/// Surrounds the scene with a picture.
+inline void add_surroundings(Scene& scene, const Image<Rgb>& picture) {
+    SceneImage image;
+    image.floats = Image<glm::vec4>(picture.width, picture.height);
+    for (std::size_t i = 0; i < picture.size(); ++i) image.floats.pixels[i] = glm::vec4(picture.pixels[i], 1.0f);
+    scene.images.push_back(std::move(image));
+    scene.environment_image = static_cast<int>(scene.images.size()) - 1;
+    scene.environment = Track<glm::dvec3>(glm::dvec3(1.0));
+}
+
 /// A scene at one time, seen by its first camera (or by one at the origin), with everything that shading needs.
 struct Stage {
     explicit Stage(Scene s, int width = 32, int height = 24, double seconds = 0.0)
@@ -179,11 +189,21 @@ inline RenderSettings plain_settings(double accuracy, int gather) {
     return settings;
 }
 
-inline ShadedFrame shade(const Stage& stage, const RenderSettings& settings) {
+inline ShadedFrame shade(const Stage& stage, const RenderSettings& settings, const SampleOptions& options = {}) {
     const Image<float> accuracy(stage.view.width, stage.view.height, static_cast<float>(settings.accuracy));
     const LightingContext lighting = stage.lighting();
     const IndirectContext context{lighting, stage.view, settings, accuracy, 0, scene_radius(stage.shading), {}};
-    return shade_frame(context, cast_centers(stage.rays, stage.view, nullptr), 1.0);
+    return shade_frame(context, cast_centers(stage.rays, stage.view, nullptr), 1.0, options);
+}
+
+/// Path tracing with so many turns at Lambert layers.
+inline RenderSettings path_settings(int bounces, int spp, std::uint32_t seed = 0) {
+    RenderSettings settings = plain_settings(0.0, 1);
+    settings.integrator = Integrator::path;
+    settings.bounces = bounces;
+    settings.spp = settings.light_samples = spp;
+    settings.seed = seed;
+    return settings;
 }
 
 /// Mean and standard error of independent values.

@@ -30,7 +30,7 @@ constexpr std::array<MissingLook, 7> missing_looks = {{
     {"KHR_materials_dispersion", "the separation of colours in refraction"},
     {"KHR_materials_iridescence", "the colours of thin films"},
     {"KHR_materials_pbrSpecularGlossiness", "its colours, with the metallic-roughness values of the file"},
-    {"KHR_materials_variants", "other variants than the first materials"},
+    {"KHR_materials_variants", "its variants, with the materials of the primitives"},
     {"KHR_materials_volume_scatter", "the scattering of light inside volumes"},
 }};
 

@@ -15,12 +15,12 @@ namespace {
 /// A value other than the default for every key.
 const std::map<std::string, SettingValue>& other_values() {
     static const std::map<std::string, SettingValue> values{
-        {"size", "320x200"},        {"seed", 4294967295.0},   {"guide", "full"},     {"estimate", "flat"},
-        {"motion", "image"},        {"vision", "castle"},     {"bands", "measured"}, {"grid", "center"},
-        {"neutral_opponent", true}, {"adapter", "scale-add"}, {"adapter_k", 50.0},   {"accuracy", 0.3},
-        {"gather", 64.0},           {"bounces", 0.0},         {"spp", 4.0},          {"sampling", "uniform"},
-        {"integrator", "cache"},    {"light_samples", 7.0},   {"shade_reach", 1.1},  {"min_radius_pixels", 2.5},
-        {"subdivision_level", 3.0}};
+        {"size", "320x200"},        {"seed", 4294967295.0},    {"guide", "full"},      {"estimate", "flat"},
+        {"motion", "image"},        {"vision", "castle"},      {"bands", "measured"},  {"grid", "center"},
+        {"neutral_opponent", true}, {"adapter", "scale-add"},  {"adapter_k", 50.0},    {"accuracy", 0.3},
+        {"gather", 64.0},           {"bounces", 0.0},          {"spp", 4.0},           {"sampling", "uniform"},
+        {"integrator", "path"},     {"path_depth", 5.0},       {"light_samples", 7.0}, {"shade_reach", 1.1},
+        {"min_radius_pixels", 2.5}, {"subdivision_level", 3.0}};
     return values;
 }
 
@@ -90,6 +90,8 @@ TEST(Settings, FieldsReceiveWhatKeysSay) {
     EXPECT_EQ(s.accuracy, 0.3);
     EXPECT_EQ(s.gather, 64);
     EXPECT_EQ(s.bounces, 0);
+    EXPECT_EQ(s.path_depth, 5);
+    EXPECT_EQ(s.integrator, Integrator::path);
     EXPECT_EQ(s.spp, 4);
     EXPECT_EQ(s.light_samples, 7);
     EXPECT_EQ(s.shade_reach, 1.1);
@@ -113,9 +115,17 @@ TEST(Settings, LaterVersionsAreRefusedByName) {
     for (const char* later : {"consecutive", "variance", "protocol"}) {
         EXPECT_EQ(refusal("sampling", later), "not in this version; use uniform");
     }
-    EXPECT_EQ(refusal("integrator", "path"), "not in this version; use cache");
-    EXPECT_EQ(refusal("integrator", 3.0), "expected cache");
-    EXPECT_EQ(refusal("bounces", 2.0), "expected a whole number from 0 to 1");
+    EXPECT_EQ(refusal("integrator", "photon"), "expected one of cache, path");
+    EXPECT_EQ(refusal("integrator", 3.0), "expected one of cache, path");
+    EXPECT_EQ(refusal("bounces", 1001.0), "expected a whole number from 0 to 1000");
+}
+
+TEST(Settings, SeveralBouncesNeedPaths) {
+    RenderSettings settings;
+    settings.bounces = 2;
+    EXPECT_THROW(validate(settings), InputError);
+    settings.integrator = Integrator::path;
+    EXPECT_NO_THROW(validate(settings));
 }
 
 TEST(Settings, MC20_NumbersOutOfRangeOfAnyKind) {
@@ -124,6 +134,7 @@ TEST(Settings, MC20_NumbersOutOfRangeOfAnyKind) {
                                                          {"adapter_k", {0.0, -1.0, nan_value, infinite}},
                                                          {"gather", {3.0, 16.5, 1e7, -4.0, nan_value, infinite}},
                                                          {"bounces", {-1.0, 0.5, nan_value}},
+                                                         {"path_depth", {0.0, 2.5, nan_value}},
                                                          {"spp", {0.0, 1.5, 65537.0, nan_value, infinite}},
                                                          {"light_samples", {0.0, nan_value, 1e9}},
                                                          {"seed", {-1.0, 4294967296.0, 0.5, nan_value}},

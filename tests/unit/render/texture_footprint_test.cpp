@@ -134,7 +134,10 @@ TEST(Footprint, FacingPlaneIsAPixelAcross) {
     add_camera(scene, {0.0, 0.0, 5.0}, glm::dvec3(0.0));
     const Stage stage(std::move(scene), 64, 48);
     for (int i = 0; i < 2; ++i) {
-        const SampleHits sample = cast_sample(stage.rays, stage.view, i, i == 0 ? 1 : 9, nullptr);
+        SamplePlace place;
+        place.index = i;
+        place.count = i == 0 ? 1 : 9;
+        const SampleHits sample = cast_sample(stage.rays, stage.view, place, nullptr);
         const glm::vec3 direction(make_camera_ray(stage.view, 20 + sample.offset_x, 10 + sample.offset_y).direction);
         const SurfacePoint point = make_surface_point(stage.shading, sample.hits(20, 10), direction);
         const RayFootprint found =

@@ -150,6 +150,7 @@ TEST_F(GltfMaterialExtensions, WhatIsMissingIsSaidOncePerFile) {
         {"KHR_materials_diffuse_transmission", "without light that diffuses through thin surfaces"},
         {"KHR_materials_volume_scatter", "without the scattering of light inside volumes"},
         {"KHR_materials_pbrSpecularGlossiness", "without its colours"},
+        {"KHR_materials_variants", "without its variants"},
         {"EXT_lights_image_based", "without the light of its pictures"}};
     for (const auto& [name, words] : missing) {
         GltfDraft draft = draft_with(extensions(name, Json::object()));

@@ -158,6 +158,18 @@ TEST(CompareFrames, NoiseOfTheReferenceIsPrinted) {
     EXPECT_EQ(run_compare({folder / "a.exr", folder / "b.exr", "--standard-errors", "2"}).code, 0);
 }
 
+TEST(CompareFrames, NoiseOfBothFramesIsTakenFromTheFlicker) {
+    const Sequences s({1, 2}, {0.0f, 0.0f});
+    ChannelImage reference = grey(0.5f);
+    reference.channels.push_back({"variance.Y", Image<float>(6, 5, 1.25e-5f)});  // in two frames (.5 cd/m2)^2
+    for (const char* name : {"b/old.0001.exr", "b/old.0002.exr"}) write_exr(s.folder / name, reference);
+    const CompareOutcome outcome = run_compare({s.a, s.b, "--threshold", s.maps});
+    EXPECT_EQ(outcome.code, 0) << outcome.errors;
+    EXPECT_NE(outcome.out.find("flicker at rest          0 % by more than 3 standard errors; by noise alone 31.73 %"),
+              std::string::npos)
+        << outcome.out;
+}
+
 TEST(FramePattern, FoldersHoldOneSequence) {
     const ScratchFolder folder;
     const auto touch = [&](const char* name) { std::ofstream(folder / name) << "x"; };

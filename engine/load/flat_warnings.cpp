@@ -1,0 +1,49 @@
+#include "engine/load/flat_warnings.h"
+
+#include <fmt/format.h>
+
+#include <cstdint>
+#include <vector>
+
+#include "engine/base/errors.h"
+#include "engine/pose/parts.h"
+#include "engine/rays/ray_scene.h"
+
+namespace aleph {
+
+namespace {
+
+/// Every node's transform, and nothing else.
+ScenePose place_nodes(const Scene& scene, double seconds) {
+    ScenePose posed;
+    posed.seconds = seconds;
+    posed.world.resize(scene.nodes.size());
+    posed.visible.resize(scene.nodes.size());
+    for (int node = 0; node < std::ssize(scene.nodes); ++node) place_node(scene, node, seconds, posed);
+    return posed;
+}
+
+}  // namespace
+
+void add_flat_warnings(Scene& scene) {
+    std::vector<std::uint8_t> flat(scene.nodes.size());
+    for (std::size_t n = 0; n < flat.size(); ++n) flat[n] = !scene.nodes[n].meshes.empty();
+    const FrameRange range = frame_range(scene);
+    for (const std::int64_t frame : {range.first, range.first + (range.last - range.first) / 2, range.last}) {
+        const ScenePose posed = place_nodes(scene, scene.frame_rate.seconds_of(frame));
+        for (std::size_t n = 0; n < flat.size(); ++n)
+            flat[n] = flat[n] != 0 && !is_traceable(posed.world[n], glm::dvec3(posed.world[n][3]));
+    }
+    std::size_t first = 0, count = 0;
+    for (std::size_t n = flat.size(); n-- > 0;) {
+        if (flat[n] == 0) continue;
+        first = n;
+        ++count;
+    }
+    if (count == 0) return;
+    scene.warnings.push_back(
+        fmt::format("node \"{}\"{}: the scale is 0, or next to it, along an axis, so nothing of it can be seen",
+                    printable(scene.nodes[first].name), count > 1 ? fmt::format(" and {} more", count - 1) : ""));
+}
+
+}  // namespace aleph

@@ -1,0 +1,138 @@
+// A thin lens against the closed form of its circle of confusion, and at the ends of its range.
+
+#include <gtest/gtest.h>
+
+#include "engine/base/errors.h"
+#include "render/sequence.h"
+#include "tests/support/render_scenes.h"
+
+namespace aleph {
+namespace {
+
+constexpr int width = 64, height = 48;
+
+/// A small bright disc before black, on the axis of a camera at the origin.
+Scene make_disc_scene(double distance, float radius, bool orthographic = false) {
+    Scene scene;
+    scene.exposure = 1.0;
+    add_mesh(scene, make_disc_facing_down(radius, 64, add_lambert(scene, glm::dvec3(0.0), glm::dvec3(1.0), true)),
+             {0.0, 0.0, -distance}, z_to_up);
+    add_camera(scene, glm::dvec3(0.0), {0.0, 0.0, -1.0}, 0.9);
+    scene.cameras[0].orthographic = orthographic;
+    scene.cameras[0].half_height = 1.2;
+    return scene;
+}
+
+ShadedFrame shade_through(const Stage& stage, double aperture, double focus, int spp = 16) {
+    SampleOptions options;
+    options.lens = {aperture, focus};
+    return shade(stage, path_settings(0, spp), options);
+}
+
+struct Spot {
+    double radius = 0.0;  ///< pixels: that of a uniform disc with the same second moment
+    double sum = 0.0;     ///< pixels
+};
+
+Spot measure(const Image<float>& coverage) {
+    double sum = 0.0, squares = 0.0;
+    for (int y = 0; y < height; ++y) {
+        for (int x = 0; x < width; ++x) {
+            const glm::dvec2 from_middle(x + 0.5 - 0.5 * width, y + 0.5 - 0.5 * height);
+            sum += coverage(x, y);
+            squares += coverage(x, y) * glm::dot(from_middle, from_middle);
+        }
+    }
+    return {std::sqrt(2.0 * squares / sum), sum};
+}
+
+TEST(DepthOfField, MC28_TheCircleOfConfusionHasItsClosedForm) {
+    const double pixels_per_unit = 0.5 * height / std::tan(0.45);
+    for (const auto& [distance, focus] : {std::pair(4.0, 2.0), std::pair(2.0, 3.5)}) {
+        const double aperture = 0.8, radius = 3.0 * distance / pixels_per_unit;  // of the disc: 3 pixels
+        const Stage stage(make_disc_scene(distance, static_cast<float>(radius)), width, height);
+        const Spot spot = measure(shade_through(stage, aperture, focus, 256).coverage);
+        // Similar triangles: the lens, seen from the disc, on the plane in focus.
+        const double blur = pixels_per_unit * aperture * std::abs(distance - focus) / (distance * focus);
+        ASSERT_GT(blur, 3.0);
+        // The moments of lens, disc and pixel add up: r^2/2, and 1/12 along each axis for the pixel.
+        const double found = std::sqrt(spot.radius * spot.radius - 9.0 - 2.0 * 2.0 / 12.0);
+        EXPECT_NEAR(found, blur, 0.01 * blur) << distance;
+        // What leaves the sharp disc arrives elsewhere.
+        const double sharp = measure(shade_through(stage, 0.0, 1.0, 256).coverage).sum;
+        EXPECT_NEAR(spot.sum, sharp, 0.03 * sharp);
+    }
+}
+
+TEST(DepthOfField, MC28_WhatIsInFocusIsSharp) {
+    for (const bool orthographic : {false, true}) {
+        const Stage stage(make_disc_scene(3.0, 0.7f, orthographic), width, height);
+        const Image<float> sharp = shade_through(stage, 0.0, 1.0).coverage,
+                           lens = shade_through(stage, 0.5, 3.0).coverage;
+        double difference = 0.0;
+        for (std::size_t i = 0; i < sharp.size(); ++i) difference += std::abs(sharp.pixels[i] - lens.pixels[i]);
+        EXPECT_LT(difference, 1.0);  // single samples at the rim
+        EXPECT_GT(measure(sharp).sum, 100.0);
+    }
+}
+
+TEST(DepthOfField, MC28_AParallelCameraBlursByTheDistanceFromFocus) {
+    const double pixels_per_metre = 0.5 * height / 1.2;
+    const Stage stage(make_disc_scene(4.0, static_cast<float>(3.0 / pixels_per_metre), true), width, height);
+    const Spot spot = measure(shade_through(stage, 0.4, 2.5, 256).coverage);
+    const double blur = pixels_per_metre * 0.4 * 1.5 / 2.5;
+    EXPECT_NEAR(std::sqrt(spot.radius * spot.radius - 9.0 - 2.0 * 2.0 / 12.0), blur, 0.015 * blur);
+}
+
+TEST(DepthOfField, MC28_FocusAtInfinityKeepsFarThingsSharp) {
+    const Stage stage(make_disc_scene(1e4, 3e3f), width, height);
+    const Image<float> sharp = shade_through(stage, 0.0, 1.0).coverage;
+    for (const double focus : {1e30, 1e300}) {
+        const Image<float> lens = shade_through(stage, 0.05, focus).coverage;
+        double difference = 0.0;
+        for (std::size_t i = 0; i < sharp.size(); ++i) difference += std::abs(sharp.pixels[i] - lens.pixels[i]);
+        EXPECT_LT(difference, 1.0);
+    }
+}
+
+TEST(DepthOfField, MC28_ATinyApertureIsAPinhole) {
+    Scene scene = make_disc_scene(3.0, 0.7f);
+    const int floor = add_lambert(scene, glm::dvec3(0.5));
+    add_mesh(scene, make_quad(20.0, 20.0, floor), {0.0, -1.0, 0.0}, z_to_up);
+    add_light(scene, Light::Kind::point, glm::dvec3(4.0), {1.0, 1.0, -1.0});
+    const Stage stage(std::move(scene), width, height);
+    const ShadedFrame pinhole = shade_through(stage, 0.0, 1.0), lens = shade_through(stage, 1e-9, 2.0);
+    int differing = 0;
+    for (std::size_t i = 0; i < pinhole.color.size(); ++i) {
+        const float a = pinhole.color.pixels[i].x, b = lens.color.pixels[i].x;
+        if (std::abs(a - b) > 1e-4f * (a + 1e-3f)) ++differing;
+    }
+    EXPECT_LE(differing, 4);  // samples at an edge
+}
+
+TEST(DepthOfField, MC28_ExtremeLensesAreFinite) {
+    const Stage stage(make_disc_scene(3.0, 0.7f), width, height);
+    for (const auto& [aperture, focus] : {std::pair(0.5, 1e-4), std::pair(100.0, 3.0), std::pair(1e9, 1e-4),
+                                          std::pair(1e-30, 1e-30), std::pair(0.3, 1e-300)}) {
+        const ShadedFrame out = shade_through(stage, aperture, focus, 4);
+        for (const Rgb& pixel : out.color.pixels) ASSERT_TRUE(is_finite(pixel));
+        EXPECT_EQ(out.counts.invalid_samples, 0u) << aperture << " " << focus;
+    }
+}
+
+TEST(DepthOfField, MC28_FocusAtTheCameraIsRefused) {
+    RenderSettings settings = path_settings(0, 4);
+    settings.width = 8;
+    settings.height = 6;
+    for (const double focus : {0.0, -1.0}) {
+        Scene scene = make_disc_scene(3.0, 0.7f);
+        scene.cameras[0].aperture = 0.1;
+        scene.cameras[0].focus_distance = focus;
+        EXPECT_THROW(Sequence(scene, settings).render(0), InputError);
+        scene.cameras[0].aperture = 0.0;
+        EXPECT_NO_THROW(Sequence(scene, settings).render(0));
+    }
+}
+
+}  // namespace
+}  // namespace aleph

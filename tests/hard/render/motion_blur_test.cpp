@@ -1,0 +1,212 @@
+// Pictures while the shutter is open, against the exact shape at 4096 times.
+
+#include <gtest/gtest.h>
+
+#include "engine/load/load_scene.h"
+#include "render/sequence.h"
+#include "tests/support/keyed_track.h"
+#include "tests/support/paths.h"
+#include "tests/support/render_scenes.h"
+
+namespace aleph {
+namespace {
+
+constexpr int width = 24, height = 16, spp = 16;
+constexpr double frames_per_second = 30.0;
+constexpr double pixels_per_metre = 4.0;  // the picture is 6 m by 4 m, parallel rays
+
+RenderSettings blur_settings(std::uint32_t seed) {
+    RenderSettings settings = path_settings(0, spp, seed);
+    settings.width = width;
+    settings.height = height;
+    return settings;
+}
+
+/// A square of radiance 2 before black, seen along parallel rays. Node 0 is the square.
+Scene make_square_scene(const glm::dvec2& shutter) {
+    Scene scene;
+    scene.exposure = 1.0;
+    scene.range = FrameRange{0, 100};
+    add_mesh(scene, make_quad(2.0, 1.0, add_lambert(scene, glm::dvec3(0.0), glm::dvec3(2.0), true)));
+    add_camera(scene, {0.0, 0.0, 5.0}, glm::dvec3(0.0));
+    scene.cameras[0].orthographic = true;
+    scene.cameras[0].half_height = 0.5 * height / pixels_per_metre;
+    scene.cameras[0].shutter = shutter;
+    return scene;
+}
+
+/// Times of frames, s.
+double at(double frame) {
+    return frame / frames_per_second;
+}
+
+/// Whether the square covers a point of the picture (m, from its middle) at a time in frames.
+using Shape2d = std::function<bool(glm::dvec2 point, double frame)>;
+
+bool is_in_square(const glm::dvec2& p) {
+    return std::abs(p.x) < 1.0 && std::abs(p.y) < 0.5;
+}
+
+/// Renders frame 0 with many seeds. Where the samples of a pixel lie does not depend on the seed, so the truth is the
+/// mean over these places and 4096 times.
+void expect_coverage(const Scene& scene, const glm::dvec2& shutter, const Shape2d& covers) {
+    constexpr std::uint32_t seeds = 16;
+    constexpr int times = 4096;
+    std::vector<Mean> coverage(width * height), red(width * height);
+    Mean all;
+    for (std::uint32_t seed = 0; seed < seeds; ++seed) {
+        Sequence sequence(scene, blur_settings(seed));
+        const FrameOutput out = sequence.render(0);
+        double sum = 0.0;
+        for (std::size_t i = 0; i < coverage.size(); ++i) {
+            coverage[i].add(out.shaded.coverage.pixels[i]);
+            red[i].add(out.shaded.color.pixels[i].x);
+            sum += out.shaded.coverage.pixels[i];
+        }
+        all.add(sum);
+    }
+    int beyond = 0;
+    double truth_sum = 0.0;
+    for (int y = 0; y < height; ++y) {
+        for (int x = 0; x < width; ++x) {
+            int inside = 0;
+            for (int s = 0; s < spp; ++s) {
+                const glm::vec2 offset = lattice_point(s, spp, {0.0f, 0.5f});
+                const glm::dvec2 point((x + offset.x - 0.5 * width) / pixels_per_metre,
+                                       (0.5 * height - y - offset.y) / pixels_per_metre);
+                for (int t = s; t < times; t += spp) {
+                    if (covers(point, shutter.x + (shutter.y - shutter.x) * (t + 0.5) / times)) ++inside;
+                }
+            }
+            const double truth = static_cast<double>(inside) / times;
+            truth_sum += truth;
+            const Mean& found = coverage[static_cast<std::size_t>(y) * width + x];
+            // A time that no seed has met counts for less than one sample of all.
+            const double tolerance = 3.0 * found.error() + 1.0 / (spp * seeds);
+            if (std::abs(found.mean() - truth) > tolerance) ++beyond;
+            EXPECT_NEAR(found.mean(), truth, 2.0 * tolerance) << x << " " << y;
+            EXPECT_NEAR(red[static_cast<std::size_t>(y) * width + x].mean(), 2.0 * found.mean(), 1e-5);
+        }
+    }
+    EXPECT_LE(beyond, width * height / 100);
+    EXPECT_NEAR(all.mean(), truth_sum, 3.0 * all.error() + 2e-3 * truth_sum);
+    EXPECT_GT(truth_sum, 5.0);
+}
+
+TEST(MotionBlur, MC27_AMovingSquareCoversItsShareOfTheTime) {
+    const glm::dvec2 shutter(0.0, 2.0);
+    Scene scene = make_square_scene(shutter);
+    scene.nodes[0].translation = keyed<glm::dvec3>({0.0, at(2)}, {{-1.5, 0.0, 0.0}, {1.5, 0.5, 0.0}});
+    expect_coverage(scene, shutter, [](glm::dvec2 p, double frame) {
+        return is_in_square(p - glm::dvec2(-1.5 + 1.5 * frame, 0.25 * frame));
+    });
+}
+
+TEST(MotionBlur, MC27_TurnsFollowTheArc) {
+    const glm::dvec2 shutter(-0.5, 0.5);
+    for (const double degrees : {0.0, 179.0, 540.0}) {
+        SCOPED_TRACE(degrees);
+        const double turn = degrees * std::numbers::pi / 180.0;
+        Scene scene = make_square_scene(shutter);
+        AxisRotation rotation;
+        rotation.axis = {0.0, 0.0, 1.0};
+        rotation.angle = keyed<double>({at(-0.5), at(0.5)}, {0.2, 0.2 + turn});
+        scene.nodes[0].axis_rotation = rotation;
+        expect_coverage(scene, shutter, [&](glm::dvec2 p, double frame) {
+            const double angle = 0.2 + turn * (frame + 0.5), c = std::cos(angle), s = std::sin(angle);
+            return is_in_square({c * p.x + s * p.y, c * p.y - s * p.x});
+        });
+    }
+}
+
+TEST(MotionBlur, MC27_AScaleThroughZero) {
+    const glm::dvec2 shutter(0.0, 1.0);
+    Scene scene = make_square_scene(shutter);
+    scene.nodes[0].scale = keyed<glm::dvec3>({0.0, at(1)}, {{1.5, 1.0, 1.0}, {-1.5, 1.0, 1.0}});
+    expect_coverage(scene, shutter, [](glm::dvec2 p, double frame) {
+        return is_in_square({p.x / (1.5 - 3.0 * frame), p.y});
+    });
+}
+
+TEST(MotionBlur, MC27_AVisibilitySwitch) {
+    const glm::dvec2 shutter(0.0, 1.0);
+    Scene scene = make_square_scene(shutter);
+    scene.nodes[0].visible = keyed<double>({0.0, at(0.7)}, {0.0, 1.0}, Interpolation::step);
+    expect_coverage(scene, shutter, [](glm::dvec2 p, double frame) { return frame >= 0.7 && is_in_square(p); });
+}
+
+TEST(MotionBlur, MC27_AShutterOfTenFrames) {
+    const glm::dvec2 shutter(-5.0, 5.0);
+    Scene scene = make_square_scene(shutter);
+    scene.nodes[0].translation = keyed<glm::dvec3>({at(-5), at(0), at(5)}, {{-2, -1, 0}, {0, 1, 0}, {2, -1, 0}});
+    expect_coverage(scene, shutter, [](glm::dvec2 p, double frame) {
+        return is_in_square(p - glm::dvec2(0.4 * frame, 1.0 - 0.4 * std::abs(frame)));
+    });
+}
+
+TEST(MotionBlur, MC27_AShutterOfZeroLengthIsOneMoment) {
+    // Moving or not: [x, x] is the still picture of that time, and [0, 0] the frame's own.
+    const auto render = [](double offset, bool moves, double place) {
+        Scene scene = make_square_scene(glm::dvec2(offset));
+        scene.nodes[0].translation = glm::dvec3(place, 0.0, 0.0);
+        if (moves) scene.nodes[0].translation = keyed<glm::dvec3>({0.0, at(2)}, {glm::dvec3(0.0), {3.0, 0.0, 0.0}});
+        return Sequence(scene, blur_settings(1)).render(0);
+    };
+    for (const double offset : {0.0, 0.5, 1.7}) {
+        const FrameOutput moment = render(offset, true, 0.0), still = render(0.0, false, 1.5 * offset);
+        EXPECT_EQ(moment.shaded.coverage, still.shaded.coverage) << offset;
+        EXPECT_EQ(moment.shaded.color, still.shaded.color) << offset;
+    }
+}
+
+TEST(MotionBlur, MC27_NoGhostOfTheOtherShot) {
+    // The camera jumps at frame 5 from a green square to a red one.
+    const auto render = [](std::int64_t frame, const glm::dvec2& shutter) {
+        Scene scene = make_square_scene(shutter);
+        scene.cuts = {5};
+        scene.materials[0].emission = glm::dvec3(0.0, 1.0, 0.0);
+        add_mesh(scene, make_quad(2.0, 1.0, add_lambert(scene, glm::dvec3(0.0), {1.0, 0.0, 0.0})), {50.0, 0.0, 0.0});
+        scene.nodes[1].translation =
+            keyed<glm::dvec3>({0.0, at(5)}, {{0.0, 0.0, 5.0}, {50.0, 0.0, 5.0}}, Interpolation::step);
+        const FrameOutput out = Sequence(scene, blur_settings(1)).render(frame);
+        glm::dvec3 sum(0.0);
+        for (const Rgb& pixel : out.shaded.color.pixels) sum += glm::dvec3(pixel);
+        return sum;
+    };
+    for (const glm::dvec2& shutter : {glm::dvec2(-0.5, 0.5), glm::dvec2(-9.0, 9.0), glm::dvec2(1.0, 1.5),
+                                      glm::dvec2(2.0, 2.0), glm::dvec2(-3.0, -2.0)}) {
+        const glm::dvec3 before = render(4, shutter), after = render(5, shutter);
+        EXPECT_EQ(before.x, 0.0) << shutter.x;
+        EXPECT_NEAR(before.y, 32.0, 1e-3);
+        EXPECT_EQ(after.y, 0.0) << shutter.x;
+        EXPECT_NEAR(after.x, 32.0, 1e-3);
+    }
+}
+
+TEST(MotionBlur, MC27_AChangeOfTopologyShowsBothMeshes) {
+    // A surface of one triangle in frame 0, of two in frame 1.
+    Scene scene = load_scene(source_folder() / "scenes" / "hard" / "changing_topology.json");
+    scene.environment.reset();
+    constexpr std::uint32_t seeds = 12;
+    std::vector<Mean> blurred(width * height), still(width * height);
+    for (std::uint32_t seed = 0; seed < seeds; ++seed) {
+        scene.cameras[0].shutter = {0.0, 0.0};
+        Sequence frames(scene, blur_settings(seed));
+        const Image<Rgb> first = frames.render(0).shaded.color, second = frames.render(1).shaded.color;
+        scene.cameras[0].shutter = {0.0, 2.0};
+        const Image<Rgb> both = Sequence(scene, blur_settings(seed + 100)).render(0).shaded.color;
+        for (std::size_t i = 0; i < blurred.size(); ++i) {
+            blurred[i].add(luminance(both.pixels[i]));
+            still[i].add(0.5 * (luminance(first.pixels[i]) + luminance(second.pixels[i])));
+        }
+    }
+    int beyond = 0;
+    for (std::size_t i = 0; i < blurred.size(); ++i) {
+        const double difference = std::abs(blurred[i].mean() - still[i].mean());
+        if (difference > 3.0 * std::hypot(blurred[i].error(), still[i].error()) + 1e-5) ++beyond;
+    }
+    EXPECT_LE(beyond, width * height / 100);
+}
+
+}  // namespace
+}  // namespace aleph

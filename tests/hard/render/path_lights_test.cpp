@@ -1,0 +1,186 @@
+// Lamps that touch a surface, lie in its plane or cast a penumbra, and very many lights, against closed forms.
+
+#include <gtest/gtest.h>
+
+#include "tests/support/path_estimates.h"
+
+namespace aleph {
+namespace {
+
+constexpr double pi = std::numbers::pi;
+const glm::vec3 up(0.0f, 1.0f, 0.0f);
+
+ViewedSurface make_floor(const glm::vec3& position, float albedo = 1.0f) {
+    return {make_point(position, up), make_lambert(albedo), up};
+}
+
+TEST(PathLights, MC10_ADiscAtAnyDistanceHasItsFormFactor) {
+    for (const double distance : {1.0, 0.1, 1e-3}) {
+        SCOPED_TRACE(distance);
+        Scene scene;
+        const int lamp = add_lambert(scene, glm::dvec3(0.0), glm::dvec3(1.0));
+        add_mesh(scene, make_disc_facing_down(0.5f, 128, lamp), {0.0, distance, 0.0});
+        const Mean found = estimate(Stage(std::move(scene)), make_floor(glm::vec3(0.0f)), 4000, by_paths(1, 1));
+        const double expected = 0.25 / (0.25 + distance * distance);
+        EXPECT_NEAR(found.mean(), expected, 0.01 * expected);
+        EXPECT_LT(found.mean(), 1.0 + 3.0 * found.error() + 1e-5);
+    }
+}
+
+TEST(PathLights, MC10_ASquareNearbyIsSampledBySolidAngle) {
+    // Two triangles: no ray has to find them by chance, so direct light alone has the form factor (Howell B-4).
+    for (const double distance : {1.0, 0.1, 1e-3}) {
+        SCOPED_TRACE(distance);
+        Scene scene;
+        const int lamp = add_lambert(scene, glm::dvec3(0.0), glm::dvec3(1.0));
+        add_mesh(scene, make_quad(1.0, 1.0, lamp), {0.0, distance, 0.0}, z_to_down);
+        const Mean found = estimate(Stage(std::move(scene)), make_floor(glm::vec3(0.0f)), 40'000, by_paths(0, 1));
+        const double x = 0.5 / distance, a = std::sqrt(1.0 + x * x), expected = 4.0 / pi * x / a * std::atan(x / a);
+        EXPECT_NEAR(found.mean(), expected, 0.01 * expected);
+        EXPECT_LE(found.mean(), 1.0 + 3.0 * found.error());
+    }
+}
+
+TEST(PathLights, MC10_MC11_ALampInThePlaneOfThePointIsDark) {
+    // At distance 0 the point lies in the lamp: light leaves downwards, the surface sees upwards.
+    for (const glm::dquat& turn : {z_to_down, no_turn}) {
+        for (const glm::dvec3& at : {glm::dvec3(0.0), glm::dvec3(1.0, 0.0, 0.0), glm::dvec3(0.0, 0.0, 3.0)}) {
+            Scene scene;
+            const int lamp = add_lambert(scene, glm::dvec3(0.0), glm::dvec3(1.0));
+            add_mesh(scene, make_quad(1.0, 1.0, lamp), at, turn);
+            const Stage stage(std::move(scene));
+            for (const int bounces : {0, 1}) {
+                const Mean found = estimate(stage, make_floor(glm::vec3(0.0f)), 500, by_paths(bounces, 2));
+                ASSERT_TRUE(std::isfinite(found.mean()));
+                EXPECT_LE(found.mean(), 1.0);
+                if (turn == z_to_down) {
+                    EXPECT_LT(found.mean(), 1e-5) << at.x << " " << at.z;
+                }
+            }
+        }
+    }
+}
+
+TEST(PathLights, MC11_TrianglesWithoutAreaGiveNoLightAndTakeNone) {
+    Scene scene;
+    const int lamp = add_lambert(scene, glm::dvec3(0.0), glm::dvec3(1.0));
+    Mesh mesh = make_quad(1.0, 1.0, lamp);
+    const auto base = static_cast<unsigned>(mesh.positions.size());
+    for (const float x : {0.0f, 0.2f, 0.4f}) {
+        mesh.positions.emplace_back(x, 0.0f, 0.0f);
+        if (!mesh.normals.empty()) mesh.normals.push_back(mesh.normals[0]);
+        if (!mesh.uv[0].empty()) mesh.uv[0].push_back(mesh.uv[0][0]);
+    }
+    mesh.triangles.emplace_back(base, base + 1, base + 2);
+    mesh.triangles.emplace_back(base, base, base);
+    add_mesh(scene, mesh, {0.0, 1.0, 0.0}, z_to_down);
+    Mesh nothing = make_quad(1.0, 1.0, lamp);
+    for (glm::vec3& p : nothing.positions) p.x = 0.0f;
+    add_mesh(scene, nothing, {0.0, 1.0, 0.0}, z_to_down);
+    const Stage stage(std::move(scene));
+    EXPECT_EQ(stage.lights.count(), 1);
+    const Mean found = estimate(stage, make_floor(glm::vec3(0.0f)), 4000, by_paths(0, 1));
+    const double x = 0.5, a = std::sqrt(1.0 + x * x), expected = 4.0 / pi * x / a * std::atan(x / a);
+    EXPECT_NEAR(found.mean(), expected, 3.0 * found.error() + 1e-5);
+}
+
+/// Form factor of the rectangle from 0 to x and 0 to y at height 1 above a point of a parallel surface, with signs.
+double corner_factor(double x, double y) {
+    const double a = std::sqrt(1.0 + x * x), b = std::sqrt(1.0 + y * y);
+    return (x / a * std::atan(y / a) + y / b * std::atan(x / b)) / (2.0 * pi);
+}
+
+TEST(PathLights, MC22_ThePenumbraOfASquareLampHasItsClosedForm) {
+    // The lamp is at height 2, and a half-plane at height 1 over x < 0 hides what lies beyond -x of it.
+    constexpr double height = 2.0, edge = 1.0, half = 0.4;
+    Scene scene;
+    const int lamp = add_lambert(scene, glm::dvec3(0.0), glm::dvec3(10.0));
+    add_mesh(scene, make_quad(2.0 * half, 2.0 * half, lamp), {0.0, height, 0.0}, z_to_down);
+    add_mesh(scene, make_quad(20.0, 20.0, add_lambert(scene, glm::dvec3(0.0), glm::dvec3(0.0), true)),
+             {-10.0, edge, 0.0}, z_to_up);
+    const Stage stage(std::move(scene));
+    int beyond = 0;
+    constexpr int points = 49;
+    for (int i = 0; i < points; ++i) {
+        const double x = -0.6 + 1.2 * i / (points - 1);
+        const double first = std::clamp(x * (1.0 - height / edge), -half, half);  // the first visible point of the lamp
+        const auto factor = [&](double at) { return corner_factor((at - x) / height, half / height); };
+        const double expected = 0.6 * 10.0 * 2.0 * (factor(half) - factor(first));
+        const Mean found = estimate(stage, make_floor({static_cast<float>(x), 0.0f, 0.0f}, 0.6f), 1500, by_paths(0, 1),
+                                    static_cast<std::uint32_t>(i));
+        if (std::abs(found.mean() - expected) > 3.0 * found.error() + 1e-5) ++beyond;
+        EXPECT_NEAR(found.mean(), expected, 5.0 * found.error() + 1e-5) << x;
+    }
+    EXPECT_LE(beyond, 1);
+}
+
+enum class Crowd { equal, one_bright, one_visible, coincident };
+
+struct Lit {
+    Mean found;
+    double expected = 0.0;
+};
+
+/// A floor under many point lights of the same total, and the sum of what those bring.
+Lit light_by(int count, Crowd crowd, int samples) {
+    Scene scene;
+    const int side = static_cast<int>(std::ceil(std::sqrt(count)));
+    double expected = 0.0;
+    for (int i = 0; i < count; ++i) {
+        glm::dvec3 at(4.0 * (i % side + 0.5) / side - 2.0, 2.0 + 0.3 * std::sin(1.7 * i),
+                      4.0 * (i / side + 0.5) / side - 2.0);
+        double intensity = 100.0 / count;
+        if (crowd == Crowd::coincident) at = {0.5, 2.0, 0.5};
+        if (crowd == Crowd::one_bright && i == count * 6 / 10) intensity *= 1e6;
+        const bool is_seen = crowd != Crowd::one_visible || i == count / 3;
+        if (crowd == Crowd::one_visible && is_seen) at = {0.3, 1.0, 0.2};
+        add_light(scene, Light::Kind::point, glm::dvec3(intensity), at);
+        const double d2 = glm::dot(at, at);
+        if (is_seen) expected += 0.6 / pi * intensity * at.y / (d2 * std::sqrt(d2));
+    }
+    if (crowd == Crowd::one_visible) {
+        add_mesh(scene, make_quad(20.0, 20.0, add_lambert(scene, glm::dvec3(0.0), glm::dvec3(0.0), true)),
+                 {0.0, 1.4, 0.0}, z_to_up);
+    }
+    const Stage stage(std::move(scene));
+    return {estimate(stage, make_floor(glm::vec3(0.0f), 0.6f), samples, by_paths(0, 1)), expected};
+}
+
+TEST(PathLights, MC23_AThousandLightsGiveTheirSum) {
+    for (const auto& [crowd, samples] : {std::pair(Crowd::equal, 4000), std::pair(Crowd::one_bright, 4000),
+                                         std::pair(Crowd::one_visible, 30'000), std::pair(Crowd::coincident, 4000)}) {
+        const Lit lit = light_by(1000, crowd, samples);
+        EXPECT_NEAR(lit.found.mean(), lit.expected, 3.0 * lit.found.error() + 1e-5 * lit.expected);
+        EXPECT_LT(lit.found.error(), 0.2 * lit.expected);
+    }
+}
+
+TEST(PathLights, MC23_AThousandEqualLightsAreAtMostFourTimesAsNoisyAsTen) {
+    // Per sample, relative to the mean. Ten lights are compared with one another, so that without shadows they have no
+    // noise at all. With a random shadow they have: a sheet of alpha one half.
+    const auto variance_of = [](int count) {
+        Scene scene;
+        const int side = static_cast<int>(std::ceil(std::sqrt(count)));
+        for (int i = 0; i < count; ++i) {
+            add_light(scene, Light::Kind::point, glm::dvec3(100.0 / count),
+                      {4.0 * (i % side + 0.5) / side - 2.0, 2.0, 4.0 * (i / side + 0.5) / side - 2.0});
+        }
+        Material sheet;
+        sheet.alpha = 0.5;
+        sheet.alpha_mode = Material::AlphaMode::blend;
+        sheet.double_sided = true;
+        scene.materials.push_back(sheet);
+        add_mesh(scene, make_quad(20.0, 20.0, 0), {0.0, 1.0, 0.0}, z_to_up);
+        const Mean found = estimate(Stage(std::move(scene)), make_floor(glm::vec3(0.0f), 0.6f), 6000, by_paths(0, 1));
+        const double relative = found.error() / found.mean();
+        return relative * relative * 6000.0;
+    };
+    const double ten = variance_of(10), thousand = variance_of(1000);
+    EXPECT_GT(ten, 0.5);
+    EXPECT_LT(thousand, 4.0 * ten);
+    RecordProperty("relative_variance_of_ten_lights", std::to_string(ten));
+    RecordProperty("relative_variance_of_1000_lights", std::to_string(thousand));
+}
+
+}  // namespace
+}  // namespace aleph

@@ -1,0 +1,103 @@
+// Sums of samples: nearly equal, very many, and not numbers at all.
+
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <random>
+
+#include "render/pixel_sum.h"
+#include "tests/support/path_estimates.h"
+
+namespace aleph {
+namespace {
+
+TEST(PathValues, MC01_TheVarianceOfAPixelKeepsItsDigits) {
+    for (const float mean : {1.0f, 1e2f, 1e3f, 1e4f}) {
+        for (std::uint32_t seed = 0; seed < 20; ++seed) {
+            std::mt19937 engine(seed);
+            std::normal_distribution<float> around(mean, 0.1f);
+            std::vector<float> values(512);
+            PixelSum sum;
+            long double total = 0.0L, squares = 0.0L;
+            for (float& value : values) {
+                const Rgb sample(around(engine));
+                value = luminance(sample);  // what is added: rounded to float, so that 0.1 has few digits beside 1e4
+                total += value;
+                sum.add(sample, true);
+            }
+            for (const float value : values) squares += (value - total / 512) * (value - total / 512);
+            const auto expected = static_cast<double>(squares / 511 / 512);
+            ASSERT_NEAR(sum.variance(), expected, 1e-6 * expected) << mean;
+        }
+    }
+    PixelSum equal;
+    for (int i = 0; i < 1000; ++i) equal.add(Rgb(1e4f / 3.0f), true);
+    EXPECT_EQ(equal.variance(), 0.0);
+}
+
+TEST(PathValues, MC13_TenMillionSamplesKeepTheirMean) {
+    PixelSum sum;
+    for (int i = 0; i < 10'000'000; ++i) sum.add(Rgb(0.7f), i % 2 == 0);
+    EXPECT_NEAR(sum.radiance.x / sum.samples, 0.7f, 1e-6 * 0.7);
+    EXPECT_NEAR(sum.mean_luminance, luminance(Rgb(0.7f)), 1e-6 * 0.7);
+    EXPECT_LT(sum.variance(), 1e-20);
+    EXPECT_GE(sum.variance(), 0.0);
+    EXPECT_EQ(sum.hits, 5'000'000);
+}
+
+/// Left a floor whose material can be spoiled, right a good one behind a wall: light cannot get from one to the other.
+Scene make_halves() {
+    Scene scene;
+    const int spoiled = add_lambert(scene, glm::dvec3(0.5)), good = add_lambert(scene, glm::dvec3(0.5));
+    scene.materials[0].specular = 1.0;
+    scene.materials[0].roughness = 0.5;
+    add_mesh(scene, make_quad(2.0, 4.0, spoiled), {-1.0, 0.0, -3.0});
+    add_mesh(scene, make_quad(2.0, 4.0, good), {1.0, 0.0, -3.0});
+    add_light(scene, Light::Kind::directional, glm::dvec3(3.0), glm::dvec3(0.0));
+    add_camera(scene, glm::dvec3(0.0), {0.0, 0.0, -1.0}, 0.9);
+    return scene;
+}
+
+TEST(PathValues, MC03_AMaterialThatIsNotANumberIsDroppedAndCounted) {
+    const double nan = std::numeric_limits<double>::quiet_NaN();
+    const auto spoil_color = [&](Material& m) { m.base_color = glm::dvec3(0.5, nan, 0.5); };
+    const auto spoil_roughness = [&](Material& m) { m.roughness = nan; };
+    const auto spoil_emission = [&](Material& m) { m.emission = glm::dvec3(nan); };
+    const auto spoil_specular = [&](Material& m) { m.specular_color = glm::dvec3(0.5, 0.5, nan); };
+    const std::vector<std::function<void(Material&)>> all{spoil_color, spoil_roughness, spoil_emission, spoil_specular};
+    for (std::size_t which = 0; which < all.size(); ++which) {
+        SCOPED_TRACE(which);
+        Scene scene = make_halves();
+        all[which](scene.materials[0]);
+        const Stage stage(std::move(scene), 16, 12);
+        const ShadedFrame out = shade(stage, path_settings(2, 4));
+        double invalid = 0.0;
+        for (int y = 2; y < 10; ++y) {
+            for (const int x : {4, 11}) {
+                const bool bad = x == 4;
+                EXPECT_EQ(out.color(x, y) == Rgb(0.0f), bad) << x;
+                EXPECT_EQ(out.invalid_samples(x, y), bad ? 4.0f : 0.0f) << x;
+                EXPECT_TRUE(is_finite(out.color(x, y)));
+            }
+        }
+        for (const float count : out.invalid_samples.pixels) invalid += count;
+        EXPECT_EQ(invalid, static_cast<double>(out.counts.invalid_samples));
+    }
+}
+
+TEST(PathValues, MC03_ALightThatIsNotANumberIsDroppedAndCounted) {
+    for (const double value : {std::numeric_limits<double>::quiet_NaN(), 1e39}) {
+        for (const int lights : {1, 40}) {  // all are compared, or some are drawn
+            Scene scene = make_halves();
+            for (int i = 1; i < lights; ++i) add_light(scene, Light::Kind::point, glm::dvec3(1.0), glm::dvec3(0.0));
+            scene.lights[0].color = glm::dvec3(value);
+            const Stage stage(std::move(scene), 16, 12);
+            const ShadedFrame out = shade(stage, path_settings(0, 64));
+            for (const Rgb& pixel : out.color.pixels) EXPECT_TRUE(is_finite(pixel));
+            EXPECT_GT(out.invalid_samples(4, 6), lights == 1 ? 63.0f : 1.0f);
+        }
+    }
+}
+
+}  // namespace
+}  // namespace aleph

@@ -1,0 +1,79 @@
+// Paths of one indirect bounce against a dense gather at every sample: the same picture.
+
+#include <gtest/gtest.h>
+
+#include "tests/support/path_estimates.h"
+
+namespace aleph {
+namespace {
+
+enum class Walls { plain, glossy, textured };
+
+Scene make_box_scene(Walls walls) {
+    Scene scene;
+    const int white = add_lambert(scene, glm::dvec3(0.75), glm::dvec3(0.0), true);
+    const int red = add_lambert(scene, {0.6, 0.1, 0.1}, glm::dvec3(0.0), true);
+    const int lamp = add_lambert(scene, glm::dvec3(0.0), glm::dvec3(9.0, 8.0, 6.0));
+    const glm::dvec3 y(0.0, 1.0, 0.0);
+    add_mesh(scene, make_quad(2.0, 2.0, white), {0.0, -1.0, 0.0}, z_to_up);
+    add_mesh(scene, make_quad(2.0, 2.0, white), {0.0, 1.0, 0.0}, z_to_down);
+    add_mesh(scene, make_quad(2.0, 2.0, white), {0.0, 0.0, -1.0});
+    add_mesh(scene, make_quad(2.0, 2.0, red), {-1.0, 0.0, 0.0}, glm::angleAxis(std::numbers::pi / 2, y));
+    add_mesh(scene, make_quad(2.0, 2.0, white), {1.0, 0.0, 0.0}, glm::angleAxis(-std::numbers::pi / 2, y));
+    add_mesh(scene, make_quad(0.6, 0.6, lamp), {0.0, 0.98, 0.0}, z_to_down);
+    add_mesh(scene, make_box({0.6, 0.8, 0.6}, white), {0.3, -0.6, -0.2}, glm::angleAxis(0.4, y));
+    if (walls == Walls::glossy) {
+        scene.materials[0].specular = 1.0;
+        scene.materials[0].roughness = 0.5;
+    }
+    if (walls == Walls::textured) {
+        SceneImage image;
+        image.floats = Image<glm::vec4>(8, 8);
+        for (int i = 0; i < 64; ++i) image.floats.pixels[i] = glm::vec4((i + i / 8) % 2 == 0 ? 1.0f : 0.3f);
+        scene.images.push_back(image);
+        scene.materials[0].base_color_texture.image = 0;
+    }
+    add_camera(scene, {0.0, 0.0, 3.4}, {0.0, 0.0, 0.0}, 0.7);
+    return scene;
+}
+
+class PathGather : public testing::TestWithParam<Walls> {};
+
+TEST_P(PathGather, OneBounceIsThePictureOfTheGather) {
+    constexpr int width = 20, height = 15;
+    constexpr std::uint32_t seeds = 20;
+    const Stage stage(make_box_scene(GetParam()), width, height);
+    std::vector<Mean> paths(width * height), gathers(width * height);
+    Mean all_paths, all_gathers;
+    for (std::uint32_t seed = 0; seed < seeds; ++seed) {
+        RenderSettings settings = path_settings(1, 4, seed);
+        const auto add = [&](std::vector<Mean>& pixels, Mean& all) {
+            const ShadedFrame out = shade(stage, settings);
+            double sum = 0.0;
+            for (std::size_t i = 0; i < pixels.size(); ++i) {
+                pixels[i].add(luminance(out.color.pixels[i]));
+                sum += luminance(out.color.pixels[i]);
+            }
+            all.add(sum / static_cast<double>(pixels.size()));
+        };
+        add(paths, all_paths);
+        settings.integrator = Integrator::cache;
+        settings.accuracy = 0.0;
+        settings.gather = 8;
+        settings.seed = seed + 1000;
+        add(gathers, all_gathers);
+    }
+    EXPECT_LT(deviation(all_paths, all_gathers), 3.0) << all_paths.mean() << " " << all_gathers.mean();
+    EXPECT_LT(all_paths.error(), 0.01 * all_paths.mean());
+    int beyond = 0;
+    for (std::size_t i = 0; i < paths.size(); ++i) {
+        const double difference = std::abs(paths[i].mean() - gathers[i].mean());
+        if (difference > 3.0 * std::hypot(paths[i].error(), gathers[i].error()) + 1e-6) ++beyond;
+    }
+    EXPECT_LE(beyond, width * height / 100);
+}
+
+INSTANTIATE_TEST_SUITE_P(Boxes, PathGather, testing::Values(Walls::plain, Walls::glossy, Walls::textured));
+
+}  // namespace
+}  // namespace aleph

@@ -1,0 +1,164 @@
+// Path tracing in scenes whose light is known: furnaces, boxes of mirrors, Russian roulette, and the variance of
+// pixels.
+
+#include "render/path.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/support/path_estimates.h"
+
+namespace aleph {
+namespace {
+
+/// A closed sphere that glows inside, the camera at its centre.
+Scene make_furnace(double albedo) {
+    Scene scene;
+    const int wall = add_lambert(scene, glm::dvec3(albedo), glm::dvec3(1.0));
+    add_mesh(scene, flip_winding(make_faceted_sphere(2.0, 16, wall)));
+    add_camera(scene, {0.2, 0.1, 0.3}, {0.0, 0.0, -1.0}, 1.0);
+    return scene;
+}
+
+/// The mean of all pixels.
+Mean mean_of(const Stage& stage, const RenderSettings& settings) {
+    const ShadedFrame out = shade(stage, settings);
+    EXPECT_EQ(out.counts.invalid_samples, 0u);
+    Mean mean;
+    for (const Rgb& pixel : out.color.pixels) mean.add(pixel.x);
+    return mean;
+}
+
+void expect_value(const Mean& mean, double expected) {
+    EXPECT_NEAR(mean.mean(), expected, 3.0 * mean.error() + 1e-4 * expected);
+    EXPECT_NEAR(mean.mean(), expected, 0.01 * expected);
+}
+
+TEST(Path, MC14_AClosedSphereAddsUpAllItsBounces) {
+    const Stage stage(make_furnace(0.8), 16, 12);
+    RenderSettings settings = path_settings(100, 64);
+    settings.path_depth = 100;
+    expect_value(mean_of(stage, settings), 5.0);
+}
+
+TEST(Path, MC14_EachBounceAddsItsTerm) {
+    const Stage stage(make_furnace(0.7), 16, 12);
+    double expected = 1.0, term = 1.0;
+    for (int bounces = 0; bounces < 5; ++bounces) {
+        SCOPED_TRACE(bounces);
+        expected += term *= 0.7;  // direct light counts as none
+        expect_value(mean_of(stage, path_settings(bounces, 64)), expected);
+    }
+}
+
+TEST(Path, MC14_WithoutLossTheDepthIsTheLight) {
+    const Stage stage(make_furnace(1.0), 16, 12);
+    for (const int depth : {1, 2, 7}) {
+        SCOPED_TRACE(depth);
+        RenderSettings settings = path_settings(100, 64);
+        settings.path_depth = depth;
+        expect_value(mean_of(stage, settings), depth + 1.0);
+    }
+}
+
+/// Every lobe at once, without textures.
+Material make_layered(double roughness) {
+    Material material;
+    material.base_color = glm::dvec3(0.8, 0.6, 0.9);
+    material.metallic = 0.3;
+    material.roughness = roughness;
+    material.transmission = 0.4;
+    material.clearcoat = 0.7;
+    material.clearcoat_roughness = 0.4;
+    material.sheen_color = glm::dvec3(0.3);
+    material.sheen_roughness = 0.6;
+    return material;
+}
+
+TEST(Path, MC14_AWallOfAllLobesGainsNoLight) {
+    for (const double roughness : {0.15, 0.8}) {
+        SCOPED_TRACE(roughness);
+        Scene scene = make_furnace(0.0);
+        scene.materials[0] = make_layered(roughness);
+        scene.materials[0].emission = glm::dvec3(1.0);
+        scene.materials[0].base_color = glm::dvec3(1.0);
+        scene.materials[0].double_sided = true;
+        scene.environment = Track<glm::dvec3>(glm::dvec3(1.0));  // behind the glass
+        const Stage stage(std::move(scene), 16, 12);
+        RenderSettings settings = path_settings(100, 32);
+        settings.path_depth = 3;
+        const Mean mean = mean_of(stage, settings);
+        EXPECT_LT(mean.mean(), 4.0 + 3.0 * mean.error());
+        // The same without sampling lights, at the pixels' centres: the sphere looks the same all over.
+        const SampleHits hits = cast_centers(stage.rays, stage.view, nullptr);
+        Mean lobes;
+        for (int i = 0; i < 16 * 12; ++i) {
+            const PixelSurface surface = make_pixel_surface(stage.shading, stage.view, hits, i % 16, i / 16);
+            lobes.add(1.0 + estimate(stage, surface, 32, by_lobes(3), static_cast<std::uint32_t>(i)).mean());
+        }
+        EXPECT_LT(deviation(mean, lobes), 3.0) << mean.mean() << " " << lobes.mean();
+    }
+}
+
+TEST(Path, MC19_ABoxOfMirrorsEndsByDepth) {
+    Scene scene;
+    Material mirror;
+    mirror.metallic = 1.0;
+    mirror.roughness = 0.0;
+    mirror.emission = glm::dvec3(0.1);
+    mirror.double_sided = true;
+    scene.materials.push_back(mirror);
+    add_mesh(scene, make_box({2.0, 3.0, 4.0}, 0));
+    const Stage stage(std::move(scene), 16, 12);
+    for (const int depth : {0, 1, 32, 500}) {
+        RenderSettings settings = path_settings(1, 1);
+        settings.path_depth = depth;
+        const ShadedFrame out = shade(stage, settings);
+        for (const Rgb& pixel : out.color.pixels) EXPECT_NEAR(pixel.x, 0.1 * (depth + 1), 1e-4 * (depth + 1));
+        EXPECT_EQ(out.counts.rays.specular, out.color.size() * static_cast<unsigned>(depth));
+    }
+}
+
+TEST(Path, MC19_RouletteIsUnbiased) {
+    // A grey closed box around a point; the truth is a geometric series: 0.6 (1 + 0.6 + ...) of radiance 1.
+    Scene scene;
+    const int wall = add_lambert(scene, glm::dvec3(0.6), glm::dvec3(1.0), true);
+    add_mesh(scene, make_box({2.0, 2.0, 2.0}, wall));
+    const Stage stage(std::move(scene));
+    const ViewedSurface surface{
+        make_point({0.0f, -0.5f, 0.0f}, {0.0f, 1.0f, 0.0f}), make_lambert(0.6f), {0.0f, 1.0f, 0.0f}};
+    const Mean early = estimate(stage, surface, 20'000, by_paths(1000, 1000, 0), 1);
+    const Mean never = estimate(stage, surface, 5'000, by_paths(30, 30, 1000), 2);
+    EXPECT_LT(deviation(early, never), 3.0);
+    EXPECT_NEAR(early.mean(), 1.5, 3.0 * early.error());
+    EXPECT_NEAR(never.mean(), 1.5, 3.0 * never.error());
+    EXPECT_GT(early.error() * std::sqrt(4.0), never.error());  // the price
+}
+
+TEST(Path, VarianceTellsTheErrorOfThePixel) {
+    // Smooth light on a floor that fills the picture: over seeds, pixel means spread as the variance says.
+    Scene scene;
+    const int grey = add_lambert(scene, glm::dvec3(0.6));
+    const int lamp = add_lambert(scene, glm::dvec3(0.0), glm::dvec3(5.0));
+    add_mesh(scene, make_quad(20.0, 20.0, grey), {0.0, -1.0, 0.0}, z_to_up);
+    add_mesh(scene, make_quad(20.0, 20.0, grey), {0.0, 2.0, 0.0}, z_to_down);
+    add_mesh(scene, make_quad(1.0, 1.0, lamp), {0.3, 1.5, 0.0}, z_to_down);
+    add_camera(scene, glm::dvec3(0.0), {0.0, -1.0, -0.1}, 0.6);
+    const Stage stage(std::move(scene), 12, 9);
+    constexpr std::uint32_t seeds = 64;
+    std::vector<Mean> means(12 * 9);
+    double told = 0.0;
+    for (std::uint32_t seed = 0; seed < seeds; ++seed) {
+        const ShadedFrame out = shade(stage, path_settings(1, 16, seed));
+        for (std::size_t i = 0; i < means.size(); ++i) {
+            means[i].add(luminance(out.color.pixels[i]));
+            told += out.variance.pixels[i] / seeds;
+        }
+    }
+    double spread = 0.0;
+    for (const Mean& mean : means) spread += mean.error() * mean.error() * seeds;
+    // The spread of 108 pixels times 63 degrees of freedom has a standard error of about 2.5 % for such tails.
+    EXPECT_NEAR(spread / told, 1.0, 0.075);
+}
+
+}  // namespace
+}  // namespace aleph

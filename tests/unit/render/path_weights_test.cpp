@@ -1,0 +1,150 @@
+// Paths weigh light sampling against lobe sampling: the mean must be that of either alone.
+
+#include <gtest/gtest.h>
+
+#include "tests/support/path_estimates.h"
+
+namespace aleph {
+namespace {
+
+enum class Surroundings { small_lamp, large_lamp, constant, picture };
+
+/// A bright floor below the origin, a wall to its left, and a light.
+Scene make_surroundings(Surroundings which) {
+    Scene scene;
+    const int grey = add_lambert(scene, {0.7, 0.5, 0.3}, glm::dvec3(0.0), true);
+    add_mesh(scene, make_quad(4.0, 4.0, grey), {0.0, -1.0, 0.0}, z_to_up);
+    add_mesh(scene, make_quad(4.0, 4.0, grey), {-1.5, 0.0, 0.0}, glm::angleAxis(1.2, glm::dvec3(0.0, 1.0, 0.0)));
+    const double radiance = which == Surroundings::small_lamp ? 20.0 : 2.0;
+    const int lamp = add_lambert(scene, glm::dvec3(0.0), radiance * glm::dvec3(2.0, 1.5, 1.0), true);
+    switch (which) {
+        case Surroundings::small_lamp:
+            add_mesh(scene, make_quad(0.4, 0.4, lamp), {0.9, 1.0, 0.0}, z_to_down);
+            add_mesh(scene, make_quad(0.4, 0.4, lamp), {-0.5, -0.6, 0.3}, z_to_down);
+            break;
+        case Surroundings::large_lamp:
+            add_mesh(scene, make_quad(4.0, 3.0, lamp), {0.6, 1.5, 0.0}, z_to_down);
+            break;
+        case Surroundings::constant:
+            scene.environment = Track<glm::dvec3>(glm::dvec3(1.0, 0.8, 0.6));
+            break;
+        case Surroundings::picture: {
+            Image<Rgb> picture(16, 8, Rgb(0.2f));
+            picture(11, 2) = Rgb(20.0f, 15.0f, 10.0f);
+            picture(4, 5) = Rgb(10.0f);
+            add_surroundings(scene, picture);
+            break;
+        }
+    }
+    return scene;
+}
+
+SurfaceMaterial make_plastic() {
+    SurfaceMaterial material = make_lambert(0.5f);
+    material.f0 = Rgb(0.04f);
+    material.f90 = 1.0f;
+    material.f0_max = 0.04f;
+    material.f90_max = 1.0f;
+    material.alpha = 0.15f;
+    return material;
+}
+
+SurfaceMaterial make_rough_sheet() {
+    SurfaceMaterial material;
+    material.glass = 0.9f;
+    material.glass_tint = Rgb(0.9f, 0.8f, 0.7f);
+    material.alpha = 0.3f;
+    return material;
+}
+
+SurfaceMaterial make_coated() {
+    SurfaceMaterial material = make_plastic();
+    material.coat = 0.8f;
+    material.coat_alpha = 0.4f;
+    material.sheen = Rgb(0.4f);
+    material.sheen_alpha = 0.5f;
+    return material;
+}
+
+class PathWeights : public testing::TestWithParam<Surroundings> {};
+
+TEST_P(PathWeights, BothWaysAloneGiveTheSameMean) {
+    const Stage stage(make_surroundings(GetParam()));
+    SurfaceMaterial volume = make_rough_sheet();
+    volume.volume = true;
+    const glm::vec3 up(0.0f, 1.0f, 0.0f), view = glm::normalize(glm::vec3(-0.7f, 0.6f, 0.2f));
+    constexpr int depth = 3, count = 8000;
+    std::uint32_t seed = 0;
+    for (const SurfaceMaterial& material :
+         {make_lambert(0.8f), make_metal(0.3f), make_plastic(), make_rough_sheet(), volume, make_coated()}) {
+        SCOPED_TRACE(seed);
+        const ViewedSurface surface{make_point(glm::vec3(0.0f), up, 1e-4f), material, view};
+        const Mean paths = estimate(stage, surface, count, by_paths(depth, depth), seed);
+        const Mean lobes = estimate(stage, surface, 2 * count, by_lobes(depth), seed + 100);
+        EXPECT_GT(paths.mean(), 0.05);
+        EXPECT_LT(deviation(paths, lobes), 3.0) << paths.mean() << " " << lobes.mean();
+        // Samples of a constant environment lie above the surface, so that glass finds the rest by its lobe.
+        if (GetParam() != Surroundings::constant || !material.has_glass()) {
+            const Mean lights = estimate(stage, surface, 2 * count, by_lights(depth), seed + 200);
+            EXPECT_LT(deviation(paths, lights), 3.0) << paths.mean() << " " << lights.mean();
+        }
+        EXPECT_LT(paths.error(), 0.05 * paths.mean());
+        ++seed;
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Lights, PathWeights,
+                         testing::Values(Surroundings::small_lamp, Surroundings::large_lamp, Surroundings::constant,
+                                         Surroundings::picture));
+
+TEST(PathWeights, AMirrorAndASmoothSheetFindLampsByThemselves) {
+    const Stage stage(make_surroundings(Surroundings::large_lamp));
+    SurfaceMaterial sheet = make_rough_sheet();
+    sheet.alpha = 0.0f;
+    const glm::vec3 view = glm::normalize(glm::vec3(-0.4f, 0.9f, 0.2f));
+    for (const SurfaceMaterial& material : {make_metal(0.0f), sheet}) {
+        const ViewedSurface surface{make_point(glm::vec3(0.0f), {0.0f, 1.0f, 0.0f}, 1e-4f), material, view};
+        const Mean paths = estimate(stage, surface, 5000, by_paths(2, 3), 1);
+        const Mean lobes = estimate(stage, surface, 10'000, by_lobes(3), 2);
+        EXPECT_LE(std::abs(paths.mean() - lobes.mean()), 3.0 * std::hypot(paths.error(), lobes.error()) + 1e-6);
+        EXPECT_GT(paths.mean(), 0.1);
+    }
+}
+
+/// A floor under a lamp, with a sheet of glass between them.
+Scene make_sheet_scene(double roughness) {
+    Scene scene;
+    const int lamp = add_lambert(scene, glm::dvec3(0.0), glm::dvec3(6.0), true);
+    add_mesh(scene, make_quad(1.0, 1.0, lamp), {0.0, 2.0, 0.0}, z_to_down);
+    Material glass;
+    glass.base_color = glm::dvec3(0.9, 0.7, 0.8);
+    glass.metallic = 0.0;
+    glass.roughness = roughness;
+    glass.transmission = 1.0;
+    scene.materials.push_back(glass);
+    add_mesh(scene, make_quad(6.0, 6.0, 1), {0.0, 1.0, 0.0}, z_to_up);
+    return scene;
+}
+
+TEST(PathWeights, LightPassesAThinSheet) {
+    const Stage clear(make_sheet_scene(0.0)), rough(make_sheet_scene(0.6));
+    EXPECT_TRUE(clear.shading.has_sheets);
+    const ViewedSurface floor{
+        make_point({0.2f, 0.0f, 0.1f}, {0.0f, 1.0f, 0.0f}, 1e-4f), make_lambert(0.6f), {0.0f, 1.0f, 0.0f}};
+    for (const Stage* stage : {&clear, &rough}) {
+        const Mean paths = estimate(*stage, floor, 20'000, by_paths(4, 4), 1);
+        const Mean lobes = estimate(*stage, floor, 100'000, by_lobes(4), 2);
+        EXPECT_LT(deviation(paths, lobes), 3.0) << paths.mean() << " " << lobes.mean();
+    }
+    // Light straight from the lamp: each sample is what an open floor would get, times the share that passes.
+    Scene open = make_sheet_scene(0.0);
+    open.nodes[1].visible = 0.0;
+    const Mean through = estimate(clear, floor, 4000, by_paths(0, 1), 1);
+    const Mean without = estimate(Stage(std::move(open)), floor, 4000, by_paths(0, 1), 1);
+    const double passed = through.mean() / without.mean(), tint = luminance({0.9f, 0.7f, 0.8f});
+    EXPECT_LT(passed, 0.96 * tint);  // index 1.5: 4 % is reflected, more at an angle
+    EXPECT_GT(passed, 0.93 * tint);
+}
+
+}  // namespace
+}  // namespace aleph

@@ -1,0 +1,81 @@
+// The shutter's interval, where cuts shorten it, and the times within it.
+
+#include "render/shutter.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <vector>
+
+namespace aleph {
+namespace {
+
+ShutterInterval open_at(std::int64_t frame, const glm::dvec2& shutter, std::vector<std::int64_t> cuts = {}) {
+    Scene scene;
+    scene.cuts = std::move(cuts);
+    CameraValues camera;
+    camera.shutter = shutter;
+    return find_shutter(scene, camera, frame).value();
+}
+
+TEST(Shutter, IsRelativeToTheFrame) {
+    EXPECT_FALSE(find_shutter({}, {}, 7).has_value());
+    const ShutterInterval whole = open_at(7, {-0.25, 0.5});
+    EXPECT_EQ(whole.open, 6.75);
+    EXPECT_EQ(whole.close, 7.5);
+    const ShutterInterval moment = open_at(7, {0.5, 0.5});
+    EXPECT_EQ(moment.open, 7.5);
+    EXPECT_EQ(moment.close, 7.5);
+}
+
+TEST(Shutter, MC27_CutsEndItOnBothSides) {
+    const std::vector<std::int64_t> cuts{20, 5, 10};
+    const auto expect = [&](std::int64_t frame, const glm::dvec2& shutter, double open, double close) {
+        const ShutterInterval found = open_at(frame, shutter, cuts);
+        EXPECT_DOUBLE_EQ(found.open, open) << frame;
+        EXPECT_DOUBLE_EQ(found.close, close) << frame;
+    };
+    expect(9, {-0.5, 0.5}, 8.5, 9.5);
+    expect(9, {-0.5, 2.0}, 8.5, 10.0);  // the next shot begins at 10
+    expect(9, {0.0, 30.0}, 9.0, 10.0);  // and another at 20
+    expect(10, {-0.5, 0.5}, 10.0, 10.5);
+    expect(10, {-9.0, 0.0}, 10.0, 10.0);  // all of it before the cut: the shot's first moment
+    expect(11, {-9.0, 30.0}, 10.0, 20.0);
+    expect(4, {0.0, 1.0}, 4.0, 5.0);
+}
+
+TEST(Shutter, MC27_AShutterBeyondTheCutShowsTheLastMomentBeforeIt) {
+    // Keys take in times within a billionth of a frame.
+    for (const std::int64_t cut : {10, 100'000}) {
+        for (const glm::dvec2& shutter : {glm::dvec2(1.0, 1.5), glm::dvec2(3.0, 3.0)}) {
+            const ShutterInterval found = open_at(cut - 1, shutter, {cut, 2 * cut});
+            EXPECT_EQ(found.open, found.close);
+            EXPECT_LT(found.close, static_cast<double>(cut) - 1e-7);
+            EXPECT_GT(found.close, static_cast<double>(cut) - 1e-3);
+        }
+    }
+}
+
+TEST(Shutter, TimesAreEvenAndWithin) {
+    const ShutterInterval shutter{9.25, 9.75};
+    for (const double shift : {0.0, 0.3, 0.999}) {
+        for (const int count : {4, 16, 64, 256}) {
+            std::vector<double> times;
+            for (int i = 0; i < count; ++i) {
+                times.push_back((place_in_shutter(shutter, i, shift) - shutter.open) / 0.5);
+                ASSERT_GE(times.back(), 0.0);
+                ASSERT_LT(times.back(), 1.0);
+            }
+            std::ranges::sort(times);
+            double discrepancy = 0.0;  // star discrepancy in one dimension
+            for (int i = 0; i < count; ++i) {
+                discrepancy = std::max(discrepancy, std::abs(times[i] - (i + 0.5) / count) + 0.5 / count);
+            }
+            EXPECT_LT(discrepancy, 3.5 / count) << count;
+        }
+    }
+    EXPECT_EQ(place_in_shutter({3.5, 3.5}, 11, 0.7), 3.5);
+}
+
+}  // namespace
+}  // namespace aleph
