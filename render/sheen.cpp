@@ -10,12 +10,12 @@ namespace aleph {
 
 namespace {
 
-constexpr int rows = 32, columns = 64;
+constexpr int rows = 32, columns = 80;
 constexpr double pi = std::numbers::pi;
 const float least_roughness = std::sqrt(min_sheen_alpha);
 
-/// The albedo times the roughness, which varies little. Rows by roughness (the square root of alpha), columns by
-/// spread_cosine.
+/// The albedo times the roughness, which varies little. Rows by roughness (the square root of alpha), dense where it is
+/// low; columns by spread_cosine.
 using Table = std::array<std::array<float, columns>, rows>;
 
 /// A cosine as a number from 0 to 1 that is dense near the horizon, where the layer is bright: within cosines of about
@@ -54,7 +54,8 @@ float integrate_albedo(float roughness, float cos_view) {
 Table make_table() {
     Table table{};
     for (int i = 0; i < rows; ++i) {
-        const float r = least_roughness + (1.0f - least_roughness) * static_cast<float>(i) / (rows - 1);
+        const float r =
+            least_roughness + (1.0f - least_roughness) * static_cast<float>(i * i) / ((rows - 1) * (rows - 1));
         for (int k = 0; k < columns; ++k) {
             const auto cosine = static_cast<float>(invert_spread(r, static_cast<double>(k) / (columns - 1)).cosine);
             table[i][k] = r * integrate_albedo(r, std::clamp(cosine, 1e-6f, 1.0f));
@@ -77,7 +78,7 @@ float evaluate_sheen(float alpha, const glm::vec3& view, const glm::vec3& light)
 float sheen_albedo(float alpha, float cos_view) {
     static const Table table = make_table();
     const float r = std::clamp(std::sqrt(alpha), least_roughness, 1.0f);
-    const float row = (r - least_roughness) / (1.0f - least_roughness) * (rows - 1);
+    const float row = std::sqrt((r - least_roughness) / (1.0f - least_roughness)) * (rows - 1);
     const float column = spread_cosine(r, std::clamp(cos_view, 0.0f, 1.0f)) * (columns - 1);
     const int i = std::min(static_cast<int>(row), rows - 2), k = std::min(static_cast<int>(column), columns - 2);
     const float a = row - static_cast<float>(i), b = column - static_cast<float>(k);

@@ -11,8 +11,8 @@ namespace aleph {
 float evaluate_sheen(float alpha, const glm::vec3& view, const glm::vec3& light);
 inline constexpr float min_sheen_alpha = 1e-3f;
 
-/// Its directional albedo, from a table: by at most 0.003 times the larger of 1 and itself too large, and by at most
-/// 1e-4 times that too small. This visibility term lets it exceed 1, up to 13 at grazing angles and low roughness;
+/// Its directional albedo, from a table: by at most 0.004 times the larger of 1 and itself too large, and by at most
+/// 5e-4 times that too small. This visibility term lets it exceed 1, up to 13 at grazing angles and low roughness;
 /// there the layer has to be scaled down.
 float sheen_albedo(float alpha, float cos_view);
 

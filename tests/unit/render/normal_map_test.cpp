@@ -1,0 +1,185 @@
+// Shading normals that disagree with the surface: normal maps, bad vertex normals, narrow triangles.
+
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <random>
+
+#include "render/light_choice.h"
+#include "tests/support/lobes.h"
+
+namespace aleph {
+namespace {
+
+/// Normals along the surface or, the last, into it.
+const std::vector<glm::u8vec4> strong_texels{{255, 128, 128, 255}, {0, 128, 128, 255},  {128, 255, 128, 255},
+                                             {128, 0, 128, 255},   {230, 60, 140, 255}, {128, 128, 0, 255}};
+
+struct Kind {
+    const char* name;
+    Material material;
+};
+
+std::vector<Kind> list_kinds() {
+    Material lambert, metal, mirror, plastic, coated, cloth;
+    lambert.metallic = lambert.specular = 0.0;
+    metal.roughness = 0.4;
+    mirror.roughness = 0.0;
+    plastic.metallic = 0.0;
+    plastic.roughness = 0.6;
+    coated = plastic;
+    coated.clearcoat = 1.0;
+    coated.clearcoat_roughness = 0.3;
+    cloth = lambert;
+    cloth.sheen_color = glm::dvec3(1.0);
+    cloth.sheen_roughness = 0.5;
+    return {{"Lambert", lambert}, {"metal", metal},   {"mirror", mirror},
+            {"plastic", plastic}, {"coated", coated}, {"cloth", cloth}};
+}
+
+/// A quad that faces +z, with the texel as the normal map of its surface and of its coat; a lamp is behind it.
+Scene make_mapped_quad(Material material, const glm::u8vec4& texel) {
+    Scene scene;
+    SceneImage image;
+    image.bytes = Image<glm::u8vec4>(1, 1, texel);
+    scene.images.push_back(image);
+    material.normal_texture.image = material.clearcoat_normal_texture.image = 0;
+    scene.materials.push_back(std::move(material));
+    add_mesh(scene, make_quad(4.0, 4.0, 0));
+    add_light(scene, Light::Kind::point, glm::dvec3(100.0), {0.3, -0.2, -1.0});
+    return scene;
+}
+
+/// The surface that a ray from `view` meets at the origin.
+ViewedSurface look_at_origin(const Stage& stage, const glm::vec3& view) {
+    Tracer tracer(stage.rays);
+    const glm::vec3 origin = view * 2.0f + glm::vec3(0.11f, 0.07f, 0.0f) - glm::vec3(stage.shading.anchor);
+    const Hit hit = tracer.intersect({origin, -view});
+    EXPECT_NE(hit.instance, no_index);
+    return view_surface(stage.shading, make_surface_point(stage.shading, hit, -view), view, {});
+}
+
+TEST(NormalMap, MC26_NoLightFromBehindAndNoGain) {
+    for (const Kind& kind : list_kinds()) {
+        for (const glm::u8vec4& texel : strong_texels) {
+            const Stage stage(make_mapped_quad(kind.material, texel));
+            for (const float cosine : {1.0f, 0.5f, 0.1f, 0.02f}) {
+                for (const float azimuth : {0.3f, 2.0f, 4.0f}) {
+                    const ViewedSurface surface = look_at_origin(stage, direction_of(cosine, azimuth));
+                    const LitSurface lit(surface);
+                    ASSERT_GT(lit.cos_view, 0.0f) << kind.name;
+                    RandomStream random({1, 0, 0, 0});
+                    const LobeShares shares = share_lobes(lit, LobeSet::all);
+                    for (int i = 0; i < 8; ++i) {
+                        ASSERT_EQ(choose_light(stage.lighting(), lit, shares, random).radiance, Rgb(0.0f)) << kind.name;
+                    }
+                    const Mean mean = mean_scattered(lit, 500, 2, [](const ScatterSample& sample) {
+                        EXPECT_GT(sample.direction.z, 0.0f);
+                        return 1.0;
+                    });
+                    EXPECT_LE(mean.mean(), 1.001 + 3.0 * mean.error()) << kind.name << ' ' << cosine;
+                    EXPECT_GT(mean.mean(), 0.1) << kind.name << " is black at " << cosine;
+                }
+            }
+        }
+    }
+}
+
+TEST(NormalMap, MC26_KeepVisibleKeepsViewerAndMirrorDirectionAbove) {
+    std::mt19937 engine(3);
+    std::uniform_real_distribution<float> height(-1.0f, 1.0f), facing(0.005f, 1.0f), azimuth(0.0f, 6.28f);
+    const glm::vec3 up(0.0f, 0.0f, 1.0f);
+    int kept = 0, bent = 0;
+    for (int i = 0; i < 20'000; ++i) {
+        const glm::vec3 normal = direction_of(height(engine), azimuth(engine));
+        const glm::vec3 view = direction_of(facing(engine), azimuth(engine));
+        const glm::vec3 n = keep_visible(normal, up, up, view);
+        ASSERT_NEAR(glm::length(n), 1.0f, 1e-5f);
+        ASSERT_GT(glm::dot(n, view), 0.0f);
+        ASSERT_GT((2.0f * glm::dot(n, view) * n - view).z, 0.0f);
+        const bool good = glm::dot(normal, view) > 0.01f && (2.0f * glm::dot(normal, view) * normal - view).z > 0.01f;
+        if (good) {
+            ASSERT_EQ(n, normal);
+            ++kept;
+        } else if (n != normal) {
+            ++bent;
+            ASSERT_NEAR(glm::dot(glm::cross(normal, up), n), 0.0f, 1e-5f) << "between the two";
+        }
+    }
+    EXPECT_GT(kept, 2000);
+    EXPECT_GT(bent, 2000);
+}
+
+TEST(NormalMap, RC11_BadVertexNormalsFallBackToTheSurface) {
+    constexpr float nan = std::numeric_limits<float>::quiet_NaN(), infinite = std::numeric_limits<float>::infinity();
+    const std::vector<glm::vec3> bad{{0.0f, 0.0f, 0.0f},   {nan, 0.0f, 1.0f},     {0.0f, infinite, 1.0f},
+                                     {0.0f, 0.0f, -1.0f},  {1.0f, 0.0f, -0.2f},   {0.99f, 0.0f, 0.1f},
+                                     {-0.7f, 0.7f, 0.05f}, {1e-30f, 0.0f, 1e-30f}};
+    for (const Kind& kind : list_kinds()) {
+        for (const glm::vec3& normal : bad) {
+            Scene scene;
+            scene.materials.push_back(kind.material);
+            Mesh quad = make_quad(4.0, 4.0, 0);
+            quad.normals.assign(quad.positions.size(), normal);
+            add_mesh(scene, std::move(quad));
+            const Stage stage(std::move(scene));
+            for (const float cosine : {1.0f, 0.3f, 0.05f}) {
+                for (const float azimuth : {0.0f, 1.5f, 3.14f}) {
+                    const ViewedSurface surface = look_at_origin(stage, direction_of(cosine, azimuth));
+                    ASSERT_NEAR(glm::length(surface.point.normal), 1.0f, 1e-5f) << kind.name;
+                    ASSERT_GT(surface.point.normal.z, 0.0f);
+                    const LitSurface lit(surface);
+                    const Mean mean = mean_scattered(lit, 500, 4, [](const auto&) { return 1.0; });
+                    EXPECT_LE(mean.mean(), 1.001 + 3.0 * mean.error()) << kind.name << ' ' << cosine;
+                    EXPECT_GT(mean.mean(), 0.1) << kind.name << " is black at " << cosine;
+                }
+            }
+        }
+    }
+}
+
+/// Solves edges = tangent u + bitangent v, exactly enough.
+glm::vec3 exact_tangent(const SurfacePoint& point) {
+    using Long = long double;
+    const glm::vec<2, Long> d1(point.uv_edges[0][0]), d2(point.uv_edges[0][1]);
+    const glm::vec<3, Long> e1(point.edges[0]), e2(point.edges[1]);
+    const glm::vec<3, Long> t = (e1 * d2.y - e2 * d1.y) / (d1.x * d2.y - d1.y * d2.x);
+    return glm::vec3(t / glm::length(t));
+}
+
+TEST(NormalMap, MC18_TangentsOfNarrowTriangles) {
+    std::mt19937 engine(5);
+    std::uniform_real_distribution<float> unit(0.1f, 1.0f), wide(1.0f, 2.0f);
+    std::uniform_int_distribution<int> ulps(-8, 8);
+    Scene scene;
+    Material material;
+    material.anisotropy = 1.0;
+    scene.materials.push_back(material);
+    add_mesh(scene, make_quad(1.0, 1.0, 0));
+    const Stage stage(std::move(scene));
+    SurfacePoint point = make_point(glm::vec3(0.0f), {0.0f, 0.0f, 1.0f});
+    point.material = 0;
+    int narrow = 0;
+    for (int i = 0; i < 5000; ++i) {
+        // Two edges that are almost parallel, in space and in the texture: all products nearly cancel.
+        const float scale = wide(engine);
+        const auto nudge = [&](float x) { return scale * x + static_cast<float>(ulps(engine)) * 1.2e-7f; };
+        glm::vec2& d1 = point.uv_edges[0][0];
+        glm::vec2& d2 = point.uv_edges[0][1];
+        d1 = {unit(engine), unit(engine)};
+        d2 = {nudge(d1.x), nudge(d1.y)};
+        point.edges[0] = {unit(engine), unit(engine), 0.0f};
+        point.edges[1] = {nudge(point.edges[0].x), nudge(point.edges[0].y), 0.0f};
+        const SurfaceMaterial surface = evaluate_material(stage.shading, point, {});
+        if (static_cast<double>(d1.x) * d2.y == static_cast<double>(d1.y) * d2.x) {
+            EXPECT_EQ(surface.stretch, 0.0f) << "no area";
+            continue;
+        }
+        ++narrow;
+        ASSERT_NEAR(glm::distance(surface.tangent, exact_tangent(point)), 0.0f, 1e-6f) << i;
+    }
+    EXPECT_GT(narrow, 4000);
+}
+
+}  // namespace
+}  // namespace aleph
