@@ -129,8 +129,8 @@ double share_beyond(const Image<float>& a, const Image<float>& b) {
 TEST(IndirectEstimate, GivesTheThresholdsOfTheFinishedFrameInCornell) {
     const Scene scene = load_scene(source_folder() / "scenes/cornell/scene.json");
     RenderSettings settings;
-    settings.width = 96;
-    settings.height = 72;
+    settings.width = 128;
+    settings.height = 96;
     settings.spp = 1;
     settings.gather = 256;
     settings.accuracy = 0.1;
