@@ -12,11 +12,11 @@ namespace aleph {
 
 namespace {
 
-constexpr int gather_rays = 32;
-constexpr double coarse_nodes = 1200.0;  // about as many pixels are gathered first
-constexpr int min_coarse_spacing = 8;    // pixels; closer, the noise of gathers would be finer than light itself
-constexpr int max_levels = 3;            // each halves the spacing
-constexpr float done = 0.999f;           // confidence at which no finer level is asked
+constexpr int gather_rays = 48;
+constexpr double coarse_nodes = 300.0;  // about as many pixels are gathered first
+constexpr int min_coarse_spacing = 8;   // pixels; closer, the noise of gathers would be finer than light itself
+constexpr int max_levels = 4;           // each halves the spacing
+constexpr float done = 0.999f;          // confidence at which no finer level is asked
 
 float smooth_step(float low, float high, float x) {
     const float t = std::clamp((x - low) / (high - low), 0.0f, 1.0f);

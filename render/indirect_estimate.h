@@ -18,7 +18,7 @@ DiffuseSurface make_diffuse_surface(const PixelSurface& surface);
 
 /// Adds the light that arrives after one bounce, without the noise and the blocks that the model of vision would take
 /// for detail. All gathers have the same random numbers, so their error varies as slowly as the light itself. Biased:
-/// what is smaller than about 16 pixels of a 640x480 picture, such as the shadow of a chair leg, is smoothed away.
+/// what is smaller than about 30 pixels of a 640x480 picture, such as the shadow of a chair leg, is smoothed away.
 /// @param surfaces  of all pixel centres
 /// @param scale     factor on radiance
 /// @param estimate  increased
