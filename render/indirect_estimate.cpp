@@ -12,8 +12,9 @@ namespace aleph {
 
 namespace {
 
-constexpr int gather_rays = 64;
-constexpr double coarse_nodes = 300.0;  // about as many pixels are gathered first, at any picture size
+constexpr int gather_rays = 48;
+constexpr double coarse_nodes = 300.0;  // about as many pixels are gathered first
+constexpr int min_coarse_spacing = 8;   // pixels; closer, the noise of gathers would be finer than light itself
 constexpr int max_levels = 4;           // each halves the spacing
 constexpr float done = 0.999f;          // confidence at which no finer level is asked
 
@@ -28,7 +29,7 @@ class GatherGrid {
   public:
     explicit GatherGrid(const Image<DiffuseSurface>& surfaces) : surfaces_(surfaces) {
         const double pixels = static_cast<double>(surfaces.size());
-        int spacing = 1;
+        int spacing = min_coarse_spacing;
         while (2.0 * spacing * spacing < pixels / coarse_nodes) spacing *= 2;
         while (levels_ < max_levels && spacing > 1 << (levels_ - 1)) ++levels_;
         finest_ = spacing >> (levels_ - 1);

@@ -33,12 +33,12 @@ Image<float> indirect_part(const Stage& stage) {
     return part;
 }
 
-/// A room of 4 m with a lamp at its ceiling.
+/// A room of 4 m with a lamp in it.
 Scene make_room() {
     Scene scene;
     const int grey = add_lambert(scene, glm::dvec3(0.6), glm::dvec3(0.0), true);
     add_mesh(scene, make_box(glm::dvec3(4.0), grey));
-    add_light(scene, Light::Kind::point, glm::dvec3(20.0), {0.5, 1.7, -0.3});
+    add_light(scene, Light::Kind::point, glm::dvec3(20.0), {0.5, 0.6, 0.3});
     add_camera(scene, {0.0, 0.0, 1.9}, {0.0, 0.0, 0.0}, 1.2);
     return scene;
 }
@@ -129,8 +129,8 @@ double share_beyond(const Image<float>& a, const Image<float>& b) {
 TEST(IndirectEstimate, GivesTheThresholdsOfTheFinishedFrameInCornell) {
     const Scene scene = load_scene(source_folder() / "scenes/cornell/scene.json");
     RenderSettings settings;
-    settings.width = 96;
-    settings.height = 72;
+    settings.width = 128;
+    settings.height = 96;
     settings.spp = 1;
     settings.gather = 256;
     settings.accuracy = 0.1;
