@@ -14,7 +14,7 @@ SequenceComparison::SequenceComparison(CompareSettings settings, std::vector<std
 
 FrameComparison SequenceComparison::add(std::int64_t frame, const ChannelImage& a, const ChannelImage& b,
                                         const ChannelImage* maps) {
-    ALEPH_CHECK(summary_.frames == 0 || !last_ || last_->frame < frame, fmt::format("frame {}", frame));
+    ALEPH_CHECK(!last_ || last_->frame < frame, fmt::format("frame {}", frame));
     FrameComparison comparison{frame, compare_images(a, b, settings_, maps), std::nullopt, false};
     if (maps) {
         LuminanceError error = compute_luminance_error(a, b);

@@ -40,37 +40,34 @@ ScatteredLight choose_light(const LightingContext& context, const LitSurface& li
     if (lights == 0) return {};
     const int candidates = std::min(lights, max_candidates);
     const Receiver receiver{lit.point.ray_origin(), lit.point.normal};
-    std::array<ScatteredLight, max_candidates> scattered;
-    std::array<float, max_candidates> cumulative{};
+    const bool behind = lit.material.has_glass();
+    std::array<LightChoice, max_candidates> choices;
+    std::array<float, max_candidates> weights;
     float total = 0.0f;
     for (int c = 0; c < candidates; ++c) {
-        LightChoice choice{c, 1.0f};
+        choices[c].light = c;
         if (candidates < lights) {
-            choice = choose_at_random(context.lights,
-                                      (static_cast<float>(c) + random.next()) / static_cast<float>(candidates));
-            choice.probability *= static_cast<float>(candidates);
+            choices[c] = choose_at_random(context.lights,
+                                          (static_cast<float>(c) + random.next()) / static_cast<float>(candidates));
+            choices[c].probability *= static_cast<float>(candidates);
         }
-        const LightSample sample =
-            sample_light(context.shading, context.lights, choice.light, receiver, random.next_2d());
-        if (sample.incoming != Rgb(0.0f) && lit.is_reached(sample.direction)) {
-            scattered[c].radiance =
-                scatter_towards(lit, sample.direction, sample.pdf, shares) * sample.incoming / choice.probability;
-            scattered[c].shadow_ray = make_shadow_ray(lit, sample);
-            const float brings = luminance(scattered[c].radiance);
-            if (!std::isfinite(brings)) return scattered[c];  // not hidden: the sample is dropped and counted
-            total += brings;
-        }
-        cumulative[c] = total;
+        weights[c] =
+            bound_illuminance(context.lights.bounds[choices[c].light], receiver.position, receiver.normal, behind) /
+            choices[c].probability;
+        total += weights[c];
     }
+    if (!std::isfinite(total)) return {{}, Rgb(total)};  // not hidden: the sample is dropped and counted
     if (!(total > 0.0f)) return {};
-    const float pick = random.next() * total;
-    int chosen = 0;
-    while (chosen + 1 < candidates && cumulative[chosen] <= pick) ++chosen;
-    ScatteredLight& picked = scattered[chosen];
-    const float weight = luminance(picked.radiance);
-    if (!(weight > 0.0f)) return {};
-    picked.radiance *= total / weight;
-    return picked;
+    float left = random.next() * total;
+    int c = 0;
+    while (c + 1 < candidates && left >= weights[c]) left -= weights[c++];
+    while (c > 0 && !(weights[c] > 0.0f)) --c;  // rounding at the end
+    const LightSample sample =
+        sample_light(context.shading, context.lights, choices[c].light, receiver, random.next_2d());
+    if (sample.incoming == Rgb(0.0f) || !lit.is_reached(sample.direction)) return {};
+    const float probability = choices[c].probability * weights[c] / total;
+    return {make_shadow_ray(lit, sample),
+            scatter_towards(lit, sample.direction, sample.pdf, shares) * sample.incoming / probability};
 }
 
 Rgb find_transmittance(const LightingContext& context, RayTask& task, const Ray& ray) {

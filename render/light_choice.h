@@ -20,9 +20,9 @@ struct ScatteredLight {
     Rgb radiance{0.0f};
 };
 
-/// Chooses one light with a probability in proportion to what it would bring without shadow, out of all or,
-/// where there are more than 16, of 16 that are drawn by their power: resampled importance sampling (Talbot et al.
-/// 2005), unbiased for the sum of all lights.
+/// A sample of one light, chosen in proportion to about what each brings without shadow (bound_illuminance). Where
+/// there are more than 16 lights, 16 are drawn by their power first: resampled importance sampling (Talbot et al.
+/// 2005). Unbiased for the sum of all lights.
 /// @param shares  of the lobes from which directions are sampled as well, for the weights of scatter_towards
 ScatteredLight choose_light(const LightingContext& context, const LitSurface& lit, const LobeShares& shares,
                             RandomStream& random);

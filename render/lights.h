@@ -38,6 +38,17 @@ struct PunctualLight {
     float inner_versine = 0.0f, outer_versine = 0.0f;
 };
 
+/// What a light brings to a point, roughly and quickly: for choosing among lights.
+struct LightBound {
+    enum class Reach : std::uint8_t { near, directional, everywhere };
+    Reach reach = Reach::near;
+    bool one_sided = false;    ///< shines on the side of `axis` only, and is flat
+    glm::vec3 position{0.0f};  ///< near: centre of a sphere around the light, m
+    glm::vec3 axis{0.0f};      ///< one_sided: unit normal; directional: unit, towards the light
+    float radius = 0.0f;       ///< near: of that sphere, m
+    float strength = 0.0f;     ///< near: luminous intensity along the axis; else illuminance of a facing surface
+};
+
 struct LightSet {
     std::vector<Emitter> emitters;
     std::vector<PunctualLight> punctual;
@@ -46,6 +57,7 @@ struct LightSet {
     /// Per light, cumulative: the probability to be chosen at random. Nine tenths follow the light's power, one tenth
     /// is the same for all.
     std::vector<float> choice_ends;
+    std::vector<LightBound> bounds;  ///< per light
 
     /// Lights are numbered: emitters, then punctual lights, then the environment.
     int count() const { return static_cast<int>(emitters.size() + punctual.size()) + (has_environment ? 1 : 0); }

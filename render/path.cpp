@@ -9,7 +9,7 @@ namespace {
 
 constexpr float least_survival = 0.05f;
 
-float largest(const Rgb& c) {
+float largest_channel(const Rgb& c) {
     return std::max({c.x, c.y, c.z});
 }
 
@@ -112,7 +112,7 @@ class Path {
     /// Russian roulette (Arvo and Kirk 1990).
     bool survive() {
         if (state_.roulette_after-- > 0) return true;
-        const float chance = std::clamp(largest(state_.throughput), least_survival, 1.0f);
+        const float chance = std::clamp(largest_channel(state_.throughput), least_survival, 1.0f);
         if (random_.next() >= chance) return false;
         state_.throughput /= chance;
         return true;

@@ -90,6 +90,19 @@ PosedInstance make_instance(const ShadingScene& shading, int i) {
     return posed;
 }
 
+void add_texture_coordinates(const PosedInstance& instance, const glm::uvec3& t, const glm::vec3& e1,
+                             const glm::vec3& e2, float u, float v, SurfacePoint& point) {
+    point.edges[0] = instance.linear * e1;
+    point.edges[1] = instance.linear * e2;
+    for (int k = 0; k < 2; ++k) {
+        const std::vector<glm::vec2>& uv = instance.mesh->uv[k];
+        if (uv.empty()) continue;
+        point.uv[k] = interpolate(uv, t, u, v);
+        point.uv_edges[k][0] = uv[t.y] - uv[t.x];
+        point.uv_edges[k][1] = uv[t.z] - uv[t.x];
+    }
+}
+
 }  // namespace
 
 ShadingScene make_shading_scene(const Scene& scene, const ScenePose& pose, const glm::dvec3& anchor,
@@ -182,14 +195,7 @@ SurfacePoint make_surface_point(const ShadingScene& shading, const Hit& hit, con
             if (glm::dot(shading_normal, point.geometric) > 0.0f) point.normal = shading_normal;
         }
     }
-    point.edges[0] = instance.linear * e1;
-    point.edges[1] = instance.linear * e2;
-    for (int k = 0; k < 2; ++k) {
-        if (mesh.uv[k].empty()) continue;
-        point.uv[k] = interpolate(mesh.uv[k], t, u, v);
-        point.uv_edges[k][0] = mesh.uv[k][t.y] - mesh.uv[k][t.x];
-        point.uv_edges[k][1] = mesh.uv[k][t.z] - mesh.uv[k][t.x];
-    }
+    add_texture_coordinates(instance, t, e1, e2, u, v, point);
     if (!mesh.colors.empty()) point.color = interpolate(mesh.colors, t, u, v);
     return point;
 }

@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # Builds with a sanitizer into build-address/ or build-thread/ and runs the tests that can fail under it.
-#   tests/sanitizers.sh address    memory and undefined behaviour; then the maps against the Release build's (DT-07)
+#   tests/sanitizers.sh address    memory and undefined behaviour; then the maps against the Release build's (DT-07), and
+#                                  small pictures
 #   tests/sanitizers.sh thread     races: parallel_for on std::thread, since oneTBB causes false reports (DT-08)
 # JOBS is the number of compilers and test programs at a time (2).
 set -euo pipefail
@@ -26,7 +27,7 @@ case $kind in
     optimize=-O1
     ;;
   *)
-    sed -n '2,5s/^# \{0,1\}//p' "${BASH_SOURCE[0]}"
+    sed -n '2,6s/^# \{0,1\}//p' "${BASH_SOURCE[0]}"
     exit 2
     ;;
 esac
@@ -44,6 +45,22 @@ compare_maps() {
   "$release" "${arguments[@]}" -o "$maps/release.exr" &&
     "${launcher[@]}" "$build/aleph" "${arguments[@]}" -o "$maps/$kind.exr" &&
     "$release" compare "$maps/$kind.exr" "$maps/release.exr" --tolerance 1e-6 --relative 1e-6
+}
+
+# Small pictures with the irradiance cache and with paths: gathers, cache, frames, every kind of surface, lens and shutter.
+render_pictures() {
+  local pictures=$build/pictures code=0
+  mkdir -p "$pictures"
+  local cached=(--size 40x30 --spp 2 --gather 16 -q)
+  local paths=(--integrator path --size 24x16 --spp 4 --bounces 2 -q)
+  "${launcher[@]}" "$build/aleph" render "$root/scenes/pool/scene.json" --frames 12 "${cached[@]}" -o "$pictures/pool.exr" || code=1
+  "${launcher[@]}" "$build/aleph" render "$root/scenes/cornell/scene.json" --frames 10 "${cached[@]}" --aovs --vision castle \
+    -o "$pictures/cornell.exr" || code=1
+  local scene
+  for scene in metal_ball mirror glass_ball brick_wall curtain layers; do
+    "${launcher[@]}" "$build/aleph" render "$root/scenes/materials/$scene.json" --frames 20 "${paths[@]}" -o "$pictures/$scene.exr" || code=1
+  done
+  return "$code"
 }
 
 # GCC 12 takes parts of instrumented std::regex for uninitialized.
@@ -71,5 +88,9 @@ if [ "$kind" = address ]; then
   compare_maps || equal=$?
   record "$build" DT07_maps_equal_release "$equal"
   [ "$equal" = 0 ] || code=1
+  rendered=0
+  render_pictures || rendered=$?
+  record "$build" pictures_render "$rendered"
+  [ "$rendered" = 0 ] || code=1
 fi
 exit "$code"

@@ -43,6 +43,11 @@ ChannelImage decode_exr(ByteView bytes, const std::string& name);
 /// @throws InputError (file = name)
 ChannelImage decode_image(ByteView bytes, const std::string& name);
 
+/// write_hdr in memory.
+/// @param changed  set to the number of values that the format cannot hold
+/// @throws InputError (file empty)
+std::string encode_hdr(const Image<Rgb>& linear, std::size_t& changed);
+
 /// @throws InputError (file empty)
 std::string encode_png(const Image<Rgb>& linear);
 

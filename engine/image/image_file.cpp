@@ -64,6 +64,12 @@ void write_png(const std::filesystem::path& path, const Image<Rgb>& linear) {
     write_file(path, encode_for(path, [&] { return encode_png(linear); }));
 }
 
+std::size_t write_hdr(const std::filesystem::path& path, const Image<Rgb>& linear) {
+    std::size_t changed = 0;
+    write_file(path, encode_for(path, [&] { return encode_hdr(linear, changed); }));
+    return changed;
+}
+
 ChannelImage read_image(const std::filesystem::path& path) {
     return decode_image(read_bytes(path), display_name(path));
 }

@@ -39,6 +39,13 @@ void write_exr(const std::filesystem::path& path, const ChannelImage& image);
 /// @throws OutputError naming the file
 void write_png(const std::filesystem::path& path, const Image<Rgb>& linear);
 
+/// Writes a Radiance picture (RGBE). Each pixel has one exponent and 8 bits per channel, so that a value is off by up to
+/// 1/256 of the pixel's largest channel: a small channel beside a large one becomes 0. Values below 0 and NaN are
+/// written as 0, those above 1.7e38 as that.
+/// @return how many values were below 0, NaN or too large
+/// @throws OutputError naming the file
+std::size_t write_hdr(const std::filesystem::path& path, const Image<Rgb>& linear);
+
 /// Reads every channel as float; 8-bit channels are divided by 255 and stay sRGB encoded. EXR, PNG, JPEG and HDR are
 /// recognized by the file's first bytes. The size is checked before decoding. Multi-part and deep EXR are refused.
 /// @throws InputError

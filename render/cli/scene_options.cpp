@@ -125,9 +125,10 @@ void add_scene_options(CLI::App& app, SceneOptions& options) {
         ->type_name("LIST");
     app.add_option("--fps", options.fps, "frames per second, such as 30 or 30000/1001; default: the scene's")
         ->type_name("N");
-    app.add_option("-o,--output", options.output,
-                   "output files: name.####.exr or name.####.png (#### is the frame number), or a folder; default: "
-                   "SCENE.####.exr in the current folder")
+    app.add_option(
+           "-o,--output", options.output,
+           "output files: name.####.exr, .png or .hdr (#### is the frame number), or a folder; HDR keeps 8 bits "
+           "per channel beside the pixel's brightest; default: SCENE.####.exr in the current folder")
         ->type_name("PATTERN");
     app.add_option("--camera", options.camera, "name of a camera or of its node; default: the scene's choice")
         ->type_name("NAME");

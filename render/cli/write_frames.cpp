@@ -15,9 +15,20 @@ namespace aleph {
 
 namespace {
 
-/// The pattern's ending decides: .png is PNG, everything else EXR.
+/// The pattern's ending decides: .png is PNG, .hdr is Radiance, everything else EXR.
 bool is_png(const std::filesystem::path& path) {
     return path.extension() == ".png";
+}
+bool is_hdr(const std::filesystem::path& path) {
+    return path.extension() == ".hdr";
+}
+
+void warn_of_changed_values(std::size_t count) {
+    if (count == 0) return;
+    std::cerr << fmt::format(
+        "aleph: warning: {} values were below 0, NaN or too large for .hdr files, and were changed; write .exr to keep "
+        "them\n",
+        count);
 }
 
 /// Thresholds of vision are in cd/m2. In a scene of another unit every pixel is above or below all of them.
@@ -31,29 +42,38 @@ void warn_of_units(const FrameStatistics& frame) {
 }
 
 /// Writes one frame, and adds the time for it to the frame's statistics.
-void write_frame(const std::filesystem::path& path, const FrameJob& job, FrameOutput& output, bool maps) {
+/// @return how many values the format could not hold
+std::size_t write_frame(const std::filesystem::path& path, const FrameJob& job, FrameOutput& output, bool maps) {
     StageClock clock;
+    std::size_t changed = 0;
     if (is_png(path)) {
         write_png(path, output.shaded.color);
+    } else if (is_hdr(path)) {
+        changed = write_hdr(path, output.shaded.color);
     } else {
         write_exr(path, make_frame_image(output, maps, job.scene, job.settings, job.exposure));
     }
     StageSeconds& seconds = output.statistics.seconds;
     clock.add_to(seconds.write);
     seconds.total += seconds.write;
+    return changed;
 }
 
 }  // namespace
 
 void prepare_frames_output(const PreparedScene& prepared, const SceneOptions& options, bool maps) {
     prepare_output(options.output, prepared.name, prepared.frames.size());
-    if (maps && is_png(output_path(options.output, prepared.name, prepared.frames.front()))) {
-        throw InputError("--output", printable(options.output), "PNG cannot hold the channels of maps; write .exr");
+    if (!maps) return;
+    const std::filesystem::path path = output_path(options.output, prepared.name, prepared.frames.front());
+    if (is_png(path) || is_hdr(path)) {
+        throw InputError("--output", printable(options.output),
+                         "PNG and HDR cannot hold the channels of maps; write .exr");
     }
 }
 
 void write_frames(const FrameJob& job, const SceneOptions& options, const FrameRequest& request) {
     std::vector<FrameStatistics> statistics;
+    std::size_t changed = 0;
     Progress progress(request.frame ? "render" : "maps", static_cast<double>(job.frames.size()),
                       progress_look(options.quiet));
     for (const int frame : job.frames) {
@@ -63,11 +83,12 @@ void write_frames(const FrameJob& job, const SceneOptions& options, const FrameR
             progress.update(done + fraction, fmt::format("frame {}: {}", frame, stage));
         };
         FrameOutput output = job.make(frame, with_progress);
-        write_frame(output_path(options.output, job.name, frame), job, output, request.maps);
+        changed += write_frame(output_path(options.output, job.name, frame), job, output, request.maps);
         if (statistics.empty() && !options.quiet) warn_of_units(output.statistics);
         statistics.push_back(output.statistics);
         progress.update(done + 1.0, fmt::format("frame {}", frame));
     }
+    if (!options.quiet) warn_of_changed_values(changed);
     if (!options.stats.empty()) {
         write_file(options.stats, format_statistics(statistics, job.scene, job.settings, job.exposure));
     }

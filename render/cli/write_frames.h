@@ -21,7 +21,7 @@ struct FrameJob {
 };
 
 /// Checks --output and makes its folder; called before anything is computed.
-/// @param maps  the files have channels of maps, which PNG cannot hold
+/// @param maps  the files have channels of maps, which PNG and HDR cannot hold
 /// @throws InputError (--output), OutputError
 void prepare_frames_output(const PreparedScene& prepared, const SceneOptions& options, bool maps);
 

@@ -49,37 +49,69 @@ Image<float> find_threshold(Image<Rgb> picture, const FrameOutput& out, const Sc
     return compute_threshold(maps.aleph, compute_adaptation_luminance(picture, scene.viewing), settings.vision);
 }
 
-void print_row(const char* name, const FrameOutput& out, const Image<float>& reference) {
-    std::vector<double> logs(reference.size());
-    for (std::size_t i = 0; i < logs.size(); ++i) {
-        logs[i] = std::abs(std::log2(out.threshold.pixels[i] / reference.pixels[i]));
+/// Largest factor between two thresholds at the pixels, sorted.
+std::vector<double> sort_factors(const Image<float>& a, const Image<float>& b) {
+    std::vector<double> factors(a.size());
+    for (std::size_t i = 0; i < factors.size(); ++i) {
+        factors[i] = std::exp2(std::abs(std::log2(static_cast<double>(a.pixels[i]) / b.pixels[i])));
     }
-    std::sort(logs.begin(), logs.end());
-    const auto beyond = std::ssize(logs) - (std::lower_bound(logs.begin(), logs.end(), 1.0) - logs.begin());
-    const auto quantile = [&](double q) { return std::exp2(logs[static_cast<std::size_t>(q * (logs.size() - 1.0))]); };
+    std::sort(factors.begin(), factors.end());
+    return factors;
+}
+
+void print_row(const char* name, const FrameOutput& out, const Image<float>& reference) {
+    const std::vector<double> factors = sort_factors(out.threshold, reference);
+    const double count = static_cast<double>(factors.size());
+    const auto within = std::lower_bound(factors.begin(), factors.end(), 2.0) - factors.begin();
+    const auto quantile = [&](double q) { return factors[static_cast<std::size_t>(q * (count - 1.0))]; };
     const RayCounts& rays = out.statistics.counts.rays;
     fmt::print("| {} | {:.1f} | {:.3f} | {:.3f} | {:.2f} | {:.2f} | {:.2f} | {:.2f} |\n", name,
                1e3 * out.statistics.seconds.estimate, 1e-6 * static_cast<double>(rays.shadow),
-               1e-6 * static_cast<double>(rays.gather),
-               100.0 * static_cast<double>(beyond) / static_cast<double>(logs.size()), quantile(0.5), quantile(0.9),
-               quantile(0.99));
+               1e-6 * static_cast<double>(rays.gather), 100.0 * (1.0 - static_cast<double>(within) / count),
+               quantile(0.5), quantile(0.9), quantile(0.99));
 }
 
-void run_estimates(const EstimateOptions& options) {
-    const StudyOptions& study = options.study;
-    const Scene scene = load_scene(study.scene);
-    const RenderSettings settings = study_settings(scene, study.scene, study);
-    const FrameOutput direct = run_estimate(scene, settings, options, 0);
-    const FrameOutput all = run_estimate(scene, settings, options, 1);
-    const FrameOutput finished = render_variant(scene, settings, options.frame, Guide::saliency, options.accuracy);
-    const Image<float> reference = find_threshold(finished.shaded.color, all, scene, settings.perception);
-    fmt::print("{}, frame {}, {}, finished with accuracy {}, gather {}, samples per pixel {}, {} threads\n\n",
-               study.scene, options.frame, study.size, options.accuracy, study.gather, study.spp, thread_count());
+/// The light of one bounce in the finished frame, with the direct light of the estimate.
+Image<Rgb> replace_direct_light(const Image<Rgb>& finished, const Image<Rgb>& finished_direct,
+                                const Image<Rgb>& estimate) {
+    Image<Rgb> out = finished;
+    for (std::size_t i = 0; i < out.size(); ++i) {
+        out.pixels[i] = estimate.pixels[i] + glm::max(out.pixels[i] - finished_direct.pixels[i], Rgb(0.0f));
+    }
+    return out;
+}
+
+void print_table(const char* reference_name, const Image<float>& reference, const FrameOutput& direct,
+                 const FrameOutput& all) {
+    fmt::print("\nAgainst {}:\n\n", reference_name);
     fmt::print(
         "| estimate | ms | shadow rays (M) | gather rays (M) | beyond a factor of 2 (%) | median | 90 % | 99 % |\n");
     fmt::print("| --- | ---: | ---: | ---: | ---: | ---: | ---: | ---: |\n");
     print_row("direct light", direct, reference);
     print_row("and indirect", all, reference);
+}
+
+void run_estimates(const EstimateOptions& options) {
+    const StudyOptions& study = options.study;
+    const Scene scene = load_scene(study.scene);
+    RenderSettings settings = study_settings(scene, study.scene, study);
+    const FrameOutput direct = run_estimate(scene, settings, options, 0);
+    const FrameOutput all = run_estimate(scene, settings, options, 1);
+    settings.perception.guide = Guide::none;
+    settings.accuracy = options.accuracy;
+    const auto finish = [&](int bounces) {
+        settings.bounces = bounces;
+        return Sequence(scene, settings).render(options.frame).shaded.color;
+    };
+    const Image<Rgb> finished = finish(1);
+    fmt::print("{}, frame {}, {}, finished with accuracy {}, gather {}, samples per pixel {}, {} threads\n",
+               study.scene, options.frame, study.size, options.accuracy, study.gather, study.spp, thread_count());
+    const auto threshold = [&](Image<Rgb> picture) {
+        return find_threshold(std::move(picture), all, scene, settings.perception);
+    };
+    print_table("the finished frame", threshold(finished), direct, all);
+    print_table("its indirect light with the estimate's direct light",
+                threshold(replace_direct_light(finished, finish(0), direct.estimate)), direct, all);
 }
 
 }  // namespace

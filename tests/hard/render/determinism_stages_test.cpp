@@ -115,5 +115,37 @@ TEST(Determinism, DT03_FirstHitsAreEqualForAnyNumberOfBuildThreads) {
     for (const int threads : {2, 4}) EXPECT_TRUE(cast(threads) == one) << threads << " threads";
 }
 
+/// The part of a view that starts at a pixel.
+CameraView crop(const CameraView& view, int x, int y, int width, int height) {
+    CameraView part = view;
+    part.width = std::min(width, view.width - x);
+    part.height = std::min(height, view.height - y);
+    part.axis_offset += 0.5 * glm::dvec2(view.width - part.width, view.height - part.height) - glm::dvec2(x, y);
+    return part;
+}
+
+TEST(Determinism, DT05_FirstHitsOfTilesAreThoseOfTheWholePicture) {
+    // Packets join other pixels at other places of their tile.
+    const Scene scene = make_triangle_scene();
+    CameraView view;
+    view.width = 150;
+    view.height = 101;
+    view.pixels_per_unit = 140.0;
+    view.position = glm::dvec3(0.1, 3.0, 0.2);
+    view.axes = glm::dmat3(1, 0, 0, 0, 0, -1, 0, 1, 0);
+    RayScene rays(scene);
+    rays.update(pose(scene, 0.0), compute_anchor(view));
+    const Image<Hit> whole = cast_first_hits(rays, view);
+    for (const int size : {8, 16, 64, 1000, 3}) {
+        for (int y = 0; y < view.height; y += size) {
+            for (int x = 0; x < view.width; x += size) {
+                const Image<Hit> tile = cast_first_hits(rays, crop(view, x, y, size, size));
+                for (int v = 0; v < tile.height; ++v)
+                    for (int u = 0; u < tile.width; ++u) ASSERT_EQ(tile(u, v), whole(x + u, y + v)) << size;
+            }
+        }
+    }
+}
+
 }  // namespace
 }  // namespace aleph

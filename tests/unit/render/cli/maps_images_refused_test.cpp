@@ -65,6 +65,7 @@ TEST(MapsImages, RefusesWhatItCannotMean) {
     expect_refusal({"--images", pattern, "--cuts", "x"}, {"--cuts"});
     expect_refusal({"--images", pattern, "--fps", "0"}, {"--fps"});
     expect_refusal({"--images", pattern, "-o", "maps.####.png"}, {"write .exr"});
+    expect_refusal({"--images", pattern, "-o", "maps.####.hdr"}, {"write .exr"});
     expect_refusal({"--images", pattern, "-o", pattern}, {"pictures themselves"});
     expect_refusal({"scene.json", "--cuts", "3"}, {"--cuts"});
 }

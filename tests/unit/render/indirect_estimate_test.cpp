@@ -1,0 +1,156 @@
+// Indirect light of the quick estimate: its amount, its smoothness, and the thresholds of vision that it gives.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/load/load_scene.h"
+#include "perception/sanitize.h"
+#include "perception/threshold.h"
+#include "render/estimate.h"
+#include "render/sequence.h"
+#include "tests/support/paths.h"
+#include "tests/support/render_scenes.h"
+#include "tests/support/with_threads.h"
+
+namespace aleph {
+namespace {
+
+Image<Rgb> estimate(const Stage& stage, bool indirect, RayCounts& counts) {
+    const SampleHits centers = cast_centers(stage.rays, stage.view, nullptr);
+    return compute_estimate(stage.lighting(), stage.view, centers, EstimateKind::direct, indirect, 1.0, counts);
+}
+
+/// What indirect light adds to the estimate's luminance.
+Image<float> indirect_part(const Stage& stage) {
+    RayCounts counts;
+    const Image<Rgb> with = estimate(stage, true, counts), without = estimate(stage, false, counts);
+    Image<float> part(with.width, with.height);
+    for (std::size_t i = 0; i < part.size(); ++i) {
+        part.pixels[i] = luminance(with.pixels[i]) - luminance(without.pixels[i]);
+    }
+    return part;
+}
+
+/// A room of 4 m with a lamp at its ceiling.
+Scene make_room() {
+    Scene scene;
+    const int grey = add_lambert(scene, glm::dvec3(0.6), glm::dvec3(0.0), true);
+    add_mesh(scene, make_box(glm::dvec3(4.0), grey));
+    add_light(scene, Light::Kind::point, glm::dvec3(20.0), {0.5, 1.7, -0.3});
+    add_camera(scene, {0.0, 0.0, 1.9}, {0.0, 0.0, 0.0}, 1.2);
+    return scene;
+}
+
+TEST(IndirectEstimate, IsTheFirstBounceInAFurnace) {
+    // Inside a closed body that emits 1 and reflects .5, the light of one bounce is .25 everywhere.
+    Scene scene;
+    add_mesh(scene, make_faceted_sphere(1.0, 24, add_lambert(scene, glm::dvec3(0.5), glm::dvec3(1.0), true)));
+    const Stage stage(std::move(scene), 32, 24);
+    double sum = 0.0;
+    const Image<float> part = indirect_part(stage);
+    for (const float v : part.pixels) {
+        EXPECT_NEAR(v, 0.25, 0.12);
+        sum += v;
+    }
+    EXPECT_NEAR(sum / static_cast<double>(part.size()), 0.25, 0.03);
+}
+
+TEST(IndirectEstimate, NothingIsAddedWhereNothingReflects) {
+    Scene scene;
+    add_mesh(scene, make_quad(20.0, 20.0, add_lambert(scene, glm::dvec3(0.8))), {0.0, -1.0, 0.0}, z_to_up);
+    add_light(scene, Light::Kind::point, glm::dvec3(20.0), {0.0, 2.0, -3.0});
+    const Stage stage(std::move(scene), 32, 24);
+    const Image<float> part = indirect_part(stage);
+    EXPECT_EQ(part.pixels, Image<float>(32, 24, 0.0f).pixels);
+}
+
+TEST(IndirectEstimate, HasNoDetailOnAWall) {
+    const Stage stage(make_room(), 160, 120);
+    const Image<float> part = indirect_part(stage);
+    // The middle of the picture is one wall. Blocks or noise would have large second differences.
+    double largest = 0.0, lowest = 1e9, highest = 0.0;
+    for (int y = 40; y < 80; ++y) {
+        for (int x = 50; x < 110; ++x) {
+            const double here = part(x, y);
+            const double across = part(x - 1, y) - 2.0 * here + part(x + 1, y);
+            const double along = part(x, y - 1) - 2.0 * here + part(x, y + 1);
+            largest = std::max({largest, std::abs(across) / here, std::abs(along) / here});
+            lowest = std::min(lowest, here);
+            highest = std::max(highest, here);
+        }
+    }
+    EXPECT_GT(lowest, 0.0);
+    EXPECT_LT(highest, 4.0 * lowest);
+    EXPECT_LT(largest, 0.03);
+}
+
+TEST(IndirectEstimate, IsTheSameForAnyNumberOfThreads) {
+    const Stage stage(make_room(), 60, 44);
+    RayCounts counts, counts_of_five;
+    const Image<Rgb> one = with_threads(1, [&] { return estimate(stage, true, counts); });
+    const Image<Rgb> five = with_threads(5, [&] { return estimate(stage, true, counts_of_five); });
+    EXPECT_EQ(one.pixels, five.pixels);
+    EXPECT_GT(counts.gather, 0u);
+    EXPECT_EQ(counts.gather, counts_of_five.gather);
+}
+
+TEST(IndirectEstimate, NoBouncesMeansNone) {
+    const auto maps = [](int bounces) {
+        RenderSettings settings;
+        settings.width = 40;
+        settings.height = 30;
+        settings.bounces = bounces;
+        Sequence sequence(make_room(), settings);
+        FrameRequest request;
+        request.frame = false;
+        return std::pair(sequence.render(0, request), sequence.exposure());
+    };
+    const auto [none, exposure_of_none] = maps(0);
+    const auto [one, exposure_of_one] = maps(1);
+    EXPECT_EQ(none.statistics.counts.rays.gather, 0u);
+    EXPECT_GT(one.statistics.counts.rays.gather, 0u);
+    EXPECT_EQ(exposure_of_none, exposure_of_one) << "automatic exposure takes direct light only";
+    for (std::size_t i = 0; i < one.estimate.size(); ++i) {
+        ASSERT_GE(luminance(one.estimate.pixels[i]), luminance(none.estimate.pixels[i]));
+    }
+}
+
+/// The share of pixels whose thresholds differ by more than a factor of 2.
+double share_beyond(const Image<float>& a, const Image<float>& b) {
+    std::size_t beyond = 0;
+    for (std::size_t i = 0; i < a.size(); ++i) {
+        if (!(std::abs(std::log2(a.pixels[i] / b.pixels[i])) < 1.0)) ++beyond;
+    }
+    return static_cast<double>(beyond) / static_cast<double>(a.size());
+}
+
+TEST(IndirectEstimate, GivesTheThresholdsOfTheFinishedFrameInCornell) {
+    const Scene scene = load_scene(source_folder() / "scenes/cornell/scene.json");
+    RenderSettings settings;
+    settings.width = 96;
+    settings.height = 72;
+    settings.spp = 1;
+    settings.gather = 256;
+    settings.accuracy = 0.1;
+    const auto render = [&](int bounces) {
+        settings.bounces = bounces;
+        return Sequence(scene, settings).render(10);
+    };
+    const FrameOutput direct = render(0), all = render(1);
+    // The finished frame's indirect light on the estimate's direct light: both have the same penumbrae.
+    Image<Rgb> finished = direct.estimate;
+    for (std::size_t i = 0; i < finished.size(); ++i) {
+        finished.pixels[i] += glm::max(all.shaded.color.pixels[i] - direct.shaded.color.pixels[i], Rgb(0.0f));
+    }
+    sanitize_estimate(finished);
+    const PerceptionMaps maps =
+        compute_perception(finished, all.velocity, scene.viewing, scene.frame_rate, settings.perception);
+    const Image<float> threshold = compute_threshold(maps.aleph, compute_adaptation_luminance(finished, scene.viewing));
+    EXPECT_LT(share_beyond(all.threshold, threshold), 0.01);
+    EXPECT_GT(share_beyond(direct.threshold, threshold), 0.01) << "indirect light does not matter here";
+}
+
+}  // namespace
+}  // namespace aleph
