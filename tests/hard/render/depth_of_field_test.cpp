@@ -79,7 +79,7 @@ TEST(DepthOfField, MC28_WhatIsInFocusIsSharp) {
 TEST(DepthOfField, MC28_AParallelCameraBlursByTheDistanceFromFocus) {
     const double pixels_per_metre = 0.5 * height / 1.2;
     const Stage stage(make_disc_scene(4.0, static_cast<float>(3.0 / pixels_per_metre), true), width, height);
-    const Spot spot = measure(shade_through(stage, 0.4, 2.5, 256).coverage);
+    const Spot spot = measure(shade_through(stage, 0.4, 2.5, 128).coverage);
     const double blur = pixels_per_metre * 0.4 * 1.5 / 2.5;
     EXPECT_NEAR(std::sqrt(spot.radius * spot.radius - 9.0 - 2.0 * 2.0 / 12.0), blur, 0.015 * blur);
 }

@@ -80,7 +80,7 @@ TEST_P(PathWeights, BothWaysAloneGiveTheSameMean) {
     SurfaceMaterial volume = make_rough_sheet();
     volume.volume = true;
     const glm::vec3 up(0.0f, 1.0f, 0.0f), view = glm::normalize(glm::vec3(-0.7f, 0.6f, 0.2f));
-    constexpr int depth = 3, count = 8000;
+    constexpr int depth = 3, count = 5000;
     std::uint32_t seed = 0;
     for (const SurfaceMaterial& material :
          {make_lambert(0.8f), make_metal(0.3f), make_plastic(), make_rough_sheet(), volume, make_coated()}) {
