@@ -32,6 +32,7 @@ Emitter make_emitter(const PosedInstance& instance, const ShadingMaterial& mater
     emitter.instance = index;
     emitter.double_sided = material.double_sided;
     emitter.textured = material.material != nullptr && material.material->emission_texture.image != no_index;
+    emitter.pierced = material.material != nullptr && material.material->alpha_mode != Material::AlphaMode::opaque;
     emitter.radiance = material.values.emission;
     const Mesh& mesh = *instance.mesh;
     std::vector<double> cumulative;
@@ -143,10 +144,12 @@ LightSample sample_emitter(const ShadingScene& shading, const Emitter& emitter, 
     sample.distance = distance * shadow_end;
     sample.pdf = angles.total > 0.0f ? 1.0f / angles.total : pdf_by_area(emitter, cosine, distance);
     Rgb radiance = emitter.radiance;
-    if (emitter.textured) {
+    if (emitter.textured || emitter.pierced) {
         const Hit hit{emitter.instance, triangle.primitive, b.x, b.y, distance};
+        const SurfacePoint point = make_surface_point(shading, hit, sample.direction);
         const RayFootprint footprint{{}, {}, std::sqrt(share * emitter.area)};
-        radiance = evaluate_material(shading, make_surface_point(shading, hit, sample.direction), footprint).emission;
+        if (emitter.textured) radiance = evaluate_material(shading, point, footprint).emission;
+        if (emitter.pierced) radiance *= surface_coverage(shading, point, footprint);
     }
     sample.incoming = radiance / sample.pdf;
     return sample;

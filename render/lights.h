@@ -19,6 +19,7 @@ struct Emitter {
     int instance = no_index;
     bool double_sided = false;
     bool textured = false;
+    bool pierced = false;    ///< some rays may pass it: a mask, or blended
     Rgb radiance{0.0f};      ///< without texture
     float area = 0.0f;       ///< m2, of all triangles
     glm::vec3 center{0.0f};  ///< m, of a sphere around all triangles

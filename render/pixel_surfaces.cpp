@@ -22,11 +22,12 @@ glm::dvec2 sample_disc(const glm::vec2& u) {
     return {radius * std::cos(angle), radius * std::sin(angle)};
 }
 
-/// Along additive sequences of a pixel's own start, with other steps than the lattice of pixel positions.
+/// Along additive sequences of a pixel's own start. Their steps, sqrt 3 - 1 and (sqrt 13 - 3) / 2, are even by
+/// themselves and together with the golden ratio of the pixels' lattice and the shutter's sqrt 2.
 glm::vec2 lens_point(const SamplePlace& place, std::uint32_t pixel) {
     const glm::vec2 start = RandomStream({place.seed ^ lens_seed_mask, place.frame, pixel, 0}).next_2d();
     const double i = place.index;
-    const glm::dvec2 at(start.x + i * 0.7338918566, start.y + i * 0.6287067210);
+    const glm::dvec2 at(start.x + i * 0.7320508075688772, start.y + i * 0.3027756377319946);
     return glm::min(glm::vec2(at - glm::floor(at)), glm::vec2(0x1.fffffep-1f));
 }
 

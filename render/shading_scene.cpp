@@ -195,11 +195,7 @@ SurfacePoint make_surface_point(const ShadingScene& shading, const Hit& hit, con
             if (glm::dot(shading_normal, point.geometric) > 0.0f) point.normal = shading_normal;
         }
     }
-    // Texture coordinates and what changes along them are for textures and anisotropy alone.
-    const ShadingMaterial& material = shading.materials[point.material];
-    if (material.layered || shading.textures->materials[point.material].any) {
-        add_texture_coordinates(instance, t, e1, e2, u, v, point);
-    }
+    add_texture_coordinates(instance, t, e1, e2, u, v, point);
     if (!mesh.colors.empty()) point.color = interpolate(mesh.colors, t, u, v);
     return point;
 }

@@ -84,9 +84,9 @@ struct SurfacePoint {
     /// m, relative to the anchor. Computed from barycentrics: at grazing incidence, origin + t direction can be metres
     /// off.
     glm::vec3 position{0.0f};
-    glm::vec3 geometric{0.0f};   ///< unit, towards the viewer
-    glm::vec3 normal{0.0f};      ///< shading normal, unit, never facing away from the viewer's side of `geometric`
-    glm::vec2 uv[2]{};           ///< this and the next two: 0 where the material has no use for them
+    glm::vec3 geometric{0.0f};  ///< unit, towards the viewer
+    glm::vec3 normal{0.0f};     ///< shading normal, unit, never facing away from the viewer's side of `geometric`
+    glm::vec2 uv[2]{};
     glm::vec3 edges[2]{};        ///< m, of the triangle, from its first corner
     glm::vec2 uv_edges[2][2]{};  ///< per set of texture coordinates: its difference along each edge
     glm::vec4 color{1.0f};       ///< vertex colour

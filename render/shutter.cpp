@@ -31,8 +31,8 @@ std::optional<ShutterInterval> find_shutter(const Scene& scene, const CameraValu
 }
 
 double place_in_shutter(const ShutterInterval& shutter, int index, double shift) {
-    constexpr double step =
-        0.8566748838545029;  // 1 / x, x^5 = x + 1: with the lattice of a pixel, even in all dimensions
+    // sqrt 2 - 1: even by itself and, unlike the golden ratio, together with the lattice of places in a pixel.
+    constexpr double step = 0.41421356237309505;
     const double at = shift + step * index;
     return shutter.open + (shutter.close - shutter.open) * (at - std::floor(at));
 }

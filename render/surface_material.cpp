@@ -199,6 +199,16 @@ SurfaceMaterial evaluate_material(const ShadingScene& shading, const SurfacePoin
     return finish(look_up);
 }
 
+float surface_coverage(const ShadingScene& shading, const SurfacePoint& point, const RayFootprint& footprint) {
+    const ShadingMaterial& entry = shading.materials[point.material];
+    if (entry.material == nullptr || entry.material->alpha_mode == Material::AlphaMode::opaque) return 1.0f;
+    const MaterialTextures& textures = shading.textures->materials[point.material];
+    float alpha = entry.values.alpha * point.color.w;
+    if (textures.any && is_used(textures.base_color)) alpha *= Lookup(shading, point, footprint)(textures.base_color).w;
+    if (entry.material->alpha_mode == Material::AlphaMode::blend) return std::clamp(alpha, 0.0f, 1.0f);
+    return alpha < static_cast<float>(entry.material->alpha_cutoff) ? 0.0f : 1.0f;
+}
+
 ViewedSurface view_surface(const ShadingScene& shading, const SurfacePoint& point, const glm::vec3& view,
                            const RayFootprint& footprint) {
     ViewedSurface surface{point, evaluate_material(shading, point, footprint), view};

@@ -69,6 +69,9 @@ struct ViewedSurface {
 SurfaceMaterial evaluate_material(const ShadingScene& shading, const SurfacePoint& point,
                                   const RayFootprint& footprint);
 
+/// Share of the rays that the surface stops: less than 1 where a mask or blending lets some pass (Blend::random).
+float surface_coverage(const ShadingScene& shading, const SurfacePoint& point, const RayFootprint& footprint);
+
 /// The surface with its material and the normals that the normal maps give. Where a lobe depends on the view,
 /// interpolated normals too pass keep_visible: at a silhouette they may face away from the viewer, and the lobe would
 /// be black.

@@ -2,10 +2,14 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdint>
+#include <filesystem>
+#include <glm/geometric.hpp>
 #include <vector>
 
 #include "engine/base/errors.h"
+#include "engine/load/source_file.h"
 #include "engine/pose/parts.h"
 #include "engine/rays/ray_scene.h"
 
@@ -23,6 +27,15 @@ ScenePose place_nodes(const Scene& scene, double seconds) {
     return posed;
 }
 
+/// The glTF reader warns by itself of nodes that shrink everything to a point.
+bool has_warning(const Scene& scene, const Node& node, const glm::dmat4& world) {
+    const std::string ending = std::filesystem::path(source_file(scene, node.include)).extension().string();
+    if (ending != ".gltf" && ending != ".glb") return false;
+    double largest = 0.0;
+    for (int column = 0; column < 3; ++column) largest = std::max(largest, glm::length(glm::dvec3(world[column])));
+    return largest < 1e-12;
+}
+
 }  // namespace
 
 void add_flat_warnings(Scene& scene) {
@@ -32,7 +45,8 @@ void add_flat_warnings(Scene& scene) {
     for (const std::int64_t frame : {range.first, range.first + (range.last - range.first) / 2, range.last}) {
         const ScenePose posed = place_nodes(scene, scene.frame_rate.seconds_of(frame));
         for (std::size_t n = 0; n < flat.size(); ++n)
-            flat[n] = flat[n] != 0 && !is_traceable(posed.world[n], glm::dvec3(posed.world[n][3]));
+            flat[n] = flat[n] != 0 && !is_traceable(posed.world[n], glm::dvec3(posed.world[n][3])) &&
+                      !has_warning(scene, scene.nodes[n], posed.world[n]);
     }
     std::size_t first = 0, count = 0;
     for (std::size_t n = flat.size(); n-- > 0;) {

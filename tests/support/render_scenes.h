@@ -198,7 +198,7 @@ inline ShadedFrame shade(const Stage& stage, const RenderSettings& settings, con
 
 /// Path tracing with so many turns at Lambert layers.
 inline RenderSettings path_settings(int bounces, int spp, std::uint32_t seed = 0) {
-    RenderSettings settings = plain_settings(0.0, 1);
+    RenderSettings settings = plain_settings(0.0, 64);
     settings.integrator = Integrator::path;
     settings.bounces = bounces;
     settings.spp = settings.light_samples = spp;

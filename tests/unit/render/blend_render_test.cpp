@@ -50,16 +50,29 @@ TEST(BlendRender, AVeilCastsItsShareOfShadow) {
     EXPECT_NEAR(lit.mean(), 1.0 - alpha, 3.0 * lit.error());
 }
 
-TEST(BlendRender, ABlendedLampGivesItsShareOfLight) {
-    Scene scene;
-    add_mesh(scene, make_quad(2.0, 2.0, add_blended(scene, 0.0, 4.0)), {0.0, 1.0, 0.0}, z_to_down);
-    const Stage stage(std::move(scene));
-    const ViewedSurface surface{
-        make_point(glm::vec3(0.0f), {0.0f, 1.0f, 0.0f}), make_lambert(0.7f), {0.0f, 1.0f, 0.0f}};
-    const Mean lobes = estimate(stage, surface, 20'000, by_lobes(1), 1);
-    for (const int bounces : {0, 1}) {
-        const Mean paths = estimate(stage, surface, 10'000, by_paths(bounces, 1), 2);
-        EXPECT_LT(deviation(paths, lobes), 3.0) << bounces << ": " << paths.mean() << " " << lobes.mean();
+TEST(BlendRender, LampsWithHolesGiveTheirShareOfLight) {
+    // Blended, and masked by a picture of which a quarter is there.
+    for (const bool masked : {false, true}) {
+        Scene scene;
+        add_mesh(scene, make_quad(2.0, 2.0, add_blended(scene, 0.0, 4.0)), {0.0, 1.0, 0.0}, z_to_down);
+        if (masked) {
+            SceneImage image;
+            image.floats = Image<glm::vec4>(2, 2, glm::vec4(1.0f, 1.0f, 1.0f, 0.0f));
+            image.floats(0, 0).w = 1.0f;
+            scene.images.push_back(image);
+            scene.materials[0].alpha_mode = Material::AlphaMode::mask;
+            scene.materials[0].alpha = 1.0;
+            scene.materials[0].base_color_texture = {
+                .image = 0, .wrap_u = Wrap::clamp, .wrap_v = Wrap::clamp, .nearest = true};
+        }
+        const Stage stage(std::move(scene));
+        const ViewedSurface surface{
+            make_point(glm::vec3(0.0f), {0.0f, 1.0f, 0.0f}), make_lambert(0.7f), {0.0f, 1.0f, 0.0f}};
+        const Mean lobes = estimate(stage, surface, 20'000, by_lobes(1), 1);
+        for (const int bounces : {0, 1}) {
+            const Mean paths = estimate(stage, surface, 10'000, by_paths(bounces, 1), 2);
+            EXPECT_LT(deviation(paths, lobes), 3.0) << bounces << ": " << paths.mean() << " " << lobes.mean();
+        }
     }
 }
 

@@ -75,7 +75,7 @@ TEST(EnvironmentMap, MC24_BadTexelsAreCleanedAndCounted) {
     EXPECT_TRUE(std::isfinite(map.mean_luminance));
 }
 
-TEST(EnvironmentMap, MC24_ABlackPictureIsNoLight) {
+TEST(EnvironmentMap, FX11_MC24_ABlackPictureIsNoLight) {
     Scene scene;
     add_surroundings(scene, Image<Rgb>(8, 4, Rgb(0.0f)));
     add_mesh(scene, make_quad(8.0, 8.0, add_lambert(scene, glm::dvec3(0.8))), {0.0, 0.0, -2.0});

@@ -59,7 +59,11 @@ TEST(Frame, RaysByPurposeSumToWhatTheWrapperTraced) {
                 EXPECT_GT(s.counts.rays.shadow, 0u);
                 EXPECT_GT(s.counts.rays.glossy, 0u);
                 EXPECT_EQ(s.counts.rays.gather % 16, 0u);
-                EXPECT_EQ(s.counts.rays.gather, 16 * s.counts.records);
+                if (guide == Guide::none) {
+                    EXPECT_EQ(s.counts.rays.gather, 16 * s.counts.records);
+                } else {  // and those of the quick estimate
+                    EXPECT_GT(s.counts.rays.gather, 16 * s.counts.records);
+                }
                 EXPECT_EQ(s.counts.rays.specular, 0u);
                 EXPECT_GT(s.counts.rays.path, 0u);  // of what reflections show
                 EXPECT_EQ(s.counts.samples, 40u * 30u * static_cast<unsigned>(spp));

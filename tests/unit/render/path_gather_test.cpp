@@ -7,7 +7,7 @@
 namespace aleph {
 namespace {
 
-enum class Walls { plain, glossy, textured };
+enum class Walls { plain, glossy, textured, mirrors };
 
 Scene make_box_scene(Walls walls) {
     Scene scene;
@@ -25,6 +25,15 @@ Scene make_box_scene(Walls walls) {
     if (walls == Walls::glossy) {
         scene.materials[0].specular = 1.0;
         scene.materials[0].roughness = 0.5;
+    }
+    if (walls == Walls::mirrors) {  // the red wall is one, and a pane of glass hangs under the lamp
+        scene.materials[1] = {};
+        scene.materials[1].roughness = 0.0;
+        Material glass;
+        glass.metallic = glass.roughness = 0.0;
+        glass.transmission = 1.0;
+        scene.materials.push_back(glass);
+        add_mesh(scene, make_quad(1.2, 1.2, lamp + 1), {0.0, 0.6, 0.0}, z_to_down);
     }
     if (walls == Walls::textured) {
         SceneImage image;
@@ -73,7 +82,8 @@ TEST_P(PathGather, OneBounceIsThePictureOfTheGather) {
     EXPECT_LE(beyond, width * height / 100);
 }
 
-INSTANTIATE_TEST_SUITE_P(Boxes, PathGather, testing::Values(Walls::plain, Walls::glossy, Walls::textured));
+INSTANTIATE_TEST_SUITE_P(Boxes, PathGather,
+                         testing::Values(Walls::plain, Walls::glossy, Walls::textured, Walls::mirrors));
 
 }  // namespace
 }  // namespace aleph

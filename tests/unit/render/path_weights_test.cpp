@@ -7,7 +7,7 @@
 namespace aleph {
 namespace {
 
-enum class Surroundings { small_lamp, large_lamp, constant, picture };
+enum class Surroundings { small_lamp, large_lamp, many_lamps, constant, picture };
 
 /// A bright floor below the origin, a wall to its left, and a light.
 Scene make_surroundings(Surroundings which) {
@@ -24,6 +24,13 @@ Scene make_surroundings(Surroundings which) {
             break;
         case Surroundings::large_lamp:
             add_mesh(scene, make_quad(4.0, 3.0, lamp), {0.6, 1.5, 0.0}, z_to_down);
+            break;
+        case Surroundings::many_lamps:  // more than are compared at a point
+            for (int i = 0; i < 40; ++i) {
+                const double size = i % 4 == 0 ? 0.4 : 0.2;
+                add_mesh(scene, make_quad(size, size, lamp),
+                         {0.5 * (i % 8) - 1.2, i % 3 == 0 ? -0.7 : 1.2, 0.5 * (i / 8) - 1.0}, z_to_down);
+            }
             break;
         case Surroundings::constant:
             scene.environment = Track<glm::dvec3>(glm::dvec3(1.0, 0.8, 0.6));
@@ -94,8 +101,8 @@ TEST_P(PathWeights, BothWaysAloneGiveTheSameMean) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Lights, PathWeights,
-                         testing::Values(Surroundings::small_lamp, Surroundings::large_lamp, Surroundings::constant,
-                                         Surroundings::picture));
+                         testing::Values(Surroundings::small_lamp, Surroundings::large_lamp, Surroundings::many_lamps,
+                                         Surroundings::constant, Surroundings::picture));
 
 TEST(PathWeights, AMirrorAndASmoothSheetFindLampsByThemselves) {
     const Stage stage(make_surroundings(Surroundings::large_lamp));

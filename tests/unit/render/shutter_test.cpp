@@ -71,7 +71,7 @@ TEST(Shutter, TimesAreEvenAndWithin) {
             for (int i = 0; i < count; ++i) {
                 discrepancy = std::max(discrepancy, std::abs(times[i] - (i + 0.5) / count) + 0.5 / count);
             }
-            EXPECT_LT(discrepancy, 3.5 / count) << count;
+            EXPECT_LT(discrepancy, 3.0 / count) << count;
         }
     }
     EXPECT_EQ(place_in_shutter({3.5, 3.5}, 11, 0.7), 3.5);
