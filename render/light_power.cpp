@@ -81,6 +81,10 @@ std::vector<LightBound> make_light_bounds(const ShadingScene& shading, const Lig
         bound.strength = static_cast<float>(std::numbers::pi * mean * luminance(shading.environment));
         bounds.push_back(bound);
     }
+    // A light that is not a number is chosen as any other: what it lights is dropped and counted, not hidden.
+    for (LightBound& bound : bounds) {
+        if (!std::isfinite(bound.strength)) bound.strength = 1.0f;
+    }
     return bounds;
 }
 

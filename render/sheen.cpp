@@ -77,9 +77,11 @@ float evaluate_sheen(float alpha, const glm::vec3& view, const glm::vec3& light)
 
 float sheen_albedo(float alpha, float cos_view) {
     static const Table table = make_table();
-    const float r = std::clamp(std::sqrt(alpha), least_roughness, 1.0f);
+    // Compared so that a number that is none becomes the least one.
+    const float root = std::sqrt(alpha), r = root > least_roughness ? std::min(root, 1.0f) : least_roughness;
+    const float cosine = cos_view > 0.0f ? std::min(cos_view, 1.0f) : 0.0f;
     const float row = std::sqrt((r - least_roughness) / (1.0f - least_roughness)) * (rows - 1);
-    const float column = spread_cosine(r, std::clamp(cos_view, 0.0f, 1.0f)) * (columns - 1);
+    const float column = spread_cosine(r, cosine) * (columns - 1);
     const int i = std::min(static_cast<int>(row), rows - 2), k = std::min(static_cast<int>(column), columns - 2);
     const float a = row - static_cast<float>(i), b = column - static_cast<float>(k);
     const float scaled = (1.0f - a) * ((1.0f - b) * table[i][k] + b * table[i][k + 1]) +

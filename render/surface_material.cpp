@@ -84,7 +84,7 @@ void add_layers(const MaterialValues& values, const MaterialTextures& textures, 
         surface.sheen = values.sheen_color;
         if (is_used(textures.sheen_color)) surface.sheen *= Rgb(look_up(textures.sheen_color));
         if (is_used(textures.sheen_roughness)) roughness *= look_up(textures.sheen_roughness).w;
-        surface.sheen_alpha = std::max(roughness * roughness, min_sheen_alpha);
+        surface.sheen_alpha = std::max(min_sheen_alpha, roughness * roughness);
     }
     if (values.anisotropy > 0.0f) {
         float strength = values.anisotropy, angle = values.anisotropy_rotation;

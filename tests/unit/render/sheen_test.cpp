@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
 #include <random>
 
 #include "tests/support/lobes.h"
@@ -52,7 +53,11 @@ TEST(Sheen, TableKeepsItsAccuracy) {
     }
     EXPECT_GT(highest, 12.0);
     EXPECT_LT(highest, 13.0);
-    // Out of range: as the nearest in range.
+    // Out of range: as the nearest in range; no number: as the lowest.
+    const float nan = std::numeric_limits<float>::quiet_NaN(), infinity = std::numeric_limits<float>::infinity();
+    EXPECT_EQ(sheen_albedo(nan, nan), sheen_albedo(min_sheen_alpha, 0.0f));
+    EXPECT_EQ(sheen_albedo(-1.0f, -infinity), sheen_albedo(min_sheen_alpha, 0.0f));
+    EXPECT_EQ(sheen_albedo(infinity, infinity), sheen_albedo(1.0f, 1.0f));
     EXPECT_EQ(sheen_albedo(0.0f, 0.3f), sheen_albedo(min_sheen_alpha, 0.3f));
     EXPECT_EQ(sheen_albedo(7.0f, 1.5f), sheen_albedo(1.0f, 1.0f));
     EXPECT_EQ(sheen_albedo(0.5f, -1.0f), sheen_albedo(0.5f, 0.0f));
