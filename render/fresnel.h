@@ -15,7 +15,8 @@ inline float schlick_power(float cosine) {
 /// Unpolarized reflectance of a smooth dielectric interface (Fresnel's equations); 1 at total reflection, exactly 0 for
 /// a ratio of 1 at any cosine.
 /// @param cosine  of the ray with the normal on its side, 0 to 1
-/// @param ratio   index of refraction of the far side over that of the near side. 0 and infinity reflect everything
+/// @param ratio   index of refraction of the far side over that of the near side; 0 and infinity reflect everything
+/// An argument that is no number reflects everything too; a negative ratio counts as its magnitude.
 inline float dielectric_reflectance(float cosine, float ratio) {
     const float c = std::clamp(cosine, 0.0f, 1.0f), c2 = c * c, r2 = ratio * ratio;
     const float step = (ratio - 1.0f) * (ratio + 1.0f);

@@ -13,7 +13,8 @@ inline constexpr float min_sheen_alpha = 1e-3f;
 
 /// Its directional albedo, from a table: by at most 0.004 times the larger of 1 and itself too large, and by at most
 /// 5e-4 times that too small. This visibility term lets it exceed 1, up to 13 at grazing angles and low roughness;
-/// there the layer has to be scaled down.
+/// there the layer has to be scaled down. Arguments out of range count as the nearest in range, no number as the
+/// lowest.
 float sheen_albedo(float alpha, float cos_view);
 
 }  // namespace aleph

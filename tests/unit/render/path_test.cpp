@@ -46,7 +46,11 @@ TEST(Path, MC14_EachBounceAddsItsTerm) {
     for (int bounces = 0; bounces < 5; ++bounces) {
         SCOPED_TRACE(bounces);
         expected += term *= 0.7;  // direct light counts as none
-        expect_value(mean_of(stage, path_settings(bounces, 64)), expected);
+        // The last surface samples lamps only. Points of the wall next to it bring much and are met rarely: the
+        // standard error of one picture is often too small.
+        const Mean mean = mean_of(stage, path_settings(bounces, 64));
+        EXPECT_NEAR(mean.mean(), expected, 0.01 * expected);
+        EXPECT_LT(mean.error(), 0.01 * expected);
     }
 }
 
