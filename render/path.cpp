@@ -64,11 +64,11 @@ class Path {
             if (surface.material.volume) surface.material.ior_ratio = state_.media.ratio_at(surface);
             const LitSurface lit(surface);
             const LobeShares shares = share_lobes(lit, LobeSet::all);
-            const bool diffuse_ends = state_.left.bounces <= 0;
-            add_direct(lit, shares, diffuse_ends);
+            add_direct(lit, shares);
             const ScatterSample sample = sample_scatter(lit, shares, random_.next(), random_.next_2d(), random_.next());
-            if (diffuse_ends && sample.lobe == Lobe::diffuse) return;
-            if (!follow(lit, sample, surface)) return;
+            // After the last bounce the ray still looks for lamps: near a large one, sampling it alone is noise.
+            const bool ends = state_.left.bounces <= 0 && sample.lobe == Lobe::diffuse;
+            if (!follow(lit, sample, surface) || ends) return;
         }
     }
 
@@ -92,14 +92,13 @@ class Path {
     const Rgb& light() const { return light_; }
 
   private:
-    void add_direct(const LitSurface& lit, LobeShares shares, bool diffuse_ends) {
+    void add_direct(const LitSurface& lit, const LobeShares& shares) {
         const SurfaceMaterial& material = lit.material;
         const bool only_mirrors = !material.has_diffuse() && !material.has_sheen() &&
                                   (!material.has_glossy() || material.is_mirror()) &&
                                   (!material.has_glass() || material.is_glass_smooth()) &&
                                   (!material.has_coat() || material.is_coat_mirror());
         if (only_mirrors) return;
-        if (diffuse_ends) shares[static_cast<int>(Lobe::diffuse)] = 0.0f;
         const ScatteredLight direct = choose_light(context_, lit, shares, random_);
         if (direct.radiance == Rgb(0.0f)) return;
         Rgb arrives = direct.radiance * find_transmittance(context_, task_, direct.shadow_ray);
@@ -168,7 +167,9 @@ float Media::ratio_at(const ViewedSurface& surface) const {
     const int inside = find(surface.point.material);
     const int outer = inside == no_index ? size_ - 1 : (inside == size_ - 1 ? size_ - 2 : size_ - 1);
     const float outer_ior = outer >= 0 ? stack_[outer].ior : 1.0f;
-    return surface.material.ior > 0.0f ? outer_ior / surface.material.ior : 0.0f;
+    // A ray that is in another medium as well leaves this one without noticing: the innermost counts.
+    const float inner = inside == no_index ? surface.material.ior : ior();
+    return inner > 0.0f ? outer_ior / inner : 0.0f;
 }
 
 void Media::pass(const ViewedSurface& surface) {

@@ -25,7 +25,8 @@ glm::vec3 perpendicular(const glm::vec3& v, const glm::vec3& n) {
 
 float solid_angle(const glm::vec3& a, const glm::vec3& b, const glm::vec3& c) {
     const float la = glm::length(a), lb = glm::length(b), lc = glm::length(c);
-    const float numerator = std::abs(glm::dot(a, glm::cross(b, c)));
+    // The volume a (b x c), without cancellation for small triangles.
+    const float numerator = std::abs(glm::dot(a, glm::cross(b - a, c - a)));
     if (!(numerator > 0.0f)) return 0.0f;
     const float denominator = la * lb * lc + glm::dot(a, b) * lc + glm::dot(a, c) * lb + glm::dot(b, c) * la;
     return 2.0f * std::atan2(numerator, denominator);

@@ -135,7 +135,7 @@ TEST_F(SilentFiles, NodesThatShrinkTheirMeshesToAPoint) {
     EXPECT_THAT(load(flat).warnings, testing::ElementsAre(HasSubstr("the scale is 0, or next to it, along an axis")));
     // Small, without a mesh, or keyed: no reason to warn.
     GltfDraft small = quiet_draft(folder_);
-    small.json["nodes"][1]["scale"] = {1e-9, 1e-9, 1e-9};
+    small.json["nodes"][1]["scale"] = {1e-6, 1e-6, 1e-6};
     EXPECT_THAT(load(small).warnings, testing::IsEmpty());
     GltfDraft empty = quiet_draft(folder_);
     empty.json["nodes"].push_back({{"scale", {0, 0, 0}}});

@@ -66,7 +66,8 @@ TEST(Channels, TheHelpOfMapsListsEveryChannel) {
     std::istringstream help(app.get_subcommand("maps")->help());
     for (std::string word; help >> word;) words.insert(word);
     for (const std::string& name : written_channels()) {
-        if (name != "variance.Y") EXPECT_TRUE(words.contains(name)) << name;  // the path tracer's
+        if (name == "variance.Y") continue;  // the path tracer's
+        EXPECT_TRUE(words.contains(name)) << name;
     }
 }
 
