@@ -89,6 +89,7 @@ ChannelImage make_frame_image(const FrameOutput& output, bool maps, const Scene&
     file.metadata["frame"] = static_cast<double>(output.statistics.frame);
     file.metadata["whiteLuminance"] = scene.viewing.display_white;
     file.metadata["pixelsPerDegree"] = scene.viewing.pixels_per_degree;
+    file.metadata["displayPersistence"] = scene.viewing.persistence;
     file.metadata["exposureFactor"] = exposure;
     if (output.view.width > 0) {  // pictures that were not rendered here have no camera and no samples
         file.metadata["samplesPerPixel"] = static_cast<double>(settings.spp);

@@ -42,6 +42,7 @@ struct FrameRequest {
     FrameProgress progress;  ///< may be empty
 };
 
+/// Maps of motion and perception are computed for the irradiance cache with a guide, and wherever `maps` are requested.
 struct FrameOutput {
     ShadedFrame shaded;  ///< filled if `frame`
     CameraView view;

@@ -225,7 +225,9 @@ void shade(const IndirectContext& context, const SampleHits& centers, double exp
 
 FrameOutput Sequence::render(std::int64_t frame, const FrameRequest& request) {
     State& s = *state_;
-    const bool perceive = s.settings.perception.guide != Guide::none || request.maps;
+    // Paths do not follow the map.
+    const bool guided = s.settings.perception.guide != Guide::none && s.settings.integrator == Integrator::cache;
+    const bool perceive = guided || request.maps;
     const OtherFrame which = perceive ? find_other_frame(s.scene, s.range, frame) : OtherFrame::none;
     FrameOutput out;
     FrameStatistics& stats = out.statistics;

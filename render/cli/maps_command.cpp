@@ -49,10 +49,10 @@ constexpr const char* maps_footer =
     "  samples.Y records.Y invalid.Y\n"
     "                           samples, irradiance values, samples thrown away (render)\n"
     "\n"
-    "With --images, frame rate (framesPerSecond), whiteLuminance and pixelsPerDegree come from the first EXR file if "
-    "it\n"
-    "has them. --fps, --set viewing.display_white=N and --set viewing.pixels_per_degree=N override them. Motion is\n"
-    "found by comparison: it is unreliable without detail in the picture, and beyond 53 pixels a frame.\n"
+    "With --images, framesPerSecond, whiteLuminance, pixelsPerDegree and displayPersistence come from the first EXR\n"
+    "file if it has them. --fps and --set viewing.KEY=N override them; KEY is display_white, pixels_per_degree or\n"
+    "persistence. Motion is found by comparison: it is unreliable without detail in the\n"
+    "picture, and beyond 53 pixels a frame.\n"
     "\n"
     "Examples:\n"
     "  aleph maps scenes/pool/scene.json --frames 20 -o maps.exr\n"
@@ -103,6 +103,7 @@ void read_shot(Scene& shot, const ChannelImage& first) {
     };
     number("whiteLuminance", shot.viewing.display_white);
     number("pixelsPerDegree", shot.viewing.pixels_per_degree);
+    number("displayPersistence", shot.viewing.persistence);
     const auto rate = first.metadata.find("framesPerSecond");
     if (rate == first.metadata.end()) return;
     const auto* const fraction = std::get_if<std::array<int, 2>>(&rate->second);

@@ -117,11 +117,13 @@ TEST(MapsImages, TheFirstFrameNamesRateAndViewing) {
     first.metadata["framesPerSecond"] = std::array<int, 2>{24000, 1001};
     first.metadata["pixelsPerDegree"] = 40.0;
     first.metadata["whiteLuminance"] = 200.0;
+    first.metadata["displayPersistence"] = 0.25;
     write_exr(frames.file(1), first);
     ASSERT_EQ(run_maps({"--images", frames.pattern(), "-o", frames.out()}).code, 0);
     const ChannelImage maps = frames.maps(1);
     EXPECT_NEAR(median_of(*maps.find("velocity.image")), std::hypot(4.0, 8.0) / 40.0 * 24000.0 / 1001.0, 1e-4);
     EXPECT_EQ(std::get<double>(maps.metadata.at("whiteLuminance")), 200.0);
+    EXPECT_EQ(std::get<double>(maps.metadata.at("displayPersistence")), 0.25);
     ASSERT_EQ(run_maps({"--images", frames.pattern(), "-o", frames.out(), "--fps", "30"}).code, 0);
     EXPECT_NEAR(median_of(*frames.maps(1).find("velocity.image")), std::hypot(4.0, 8.0) / 40.0 * 30.0, 1e-4);
 }
