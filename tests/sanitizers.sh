@@ -17,8 +17,9 @@ case $kind in
     programs=(test_base test_pose test_image_io test_motion test_scene_file test_gltf
       test_alembic test_subdivide test_maps_images test_hostile aleph)
     # Tests of time, memory and size on large texts are for the Release build. test_hostile covers damaged scene files, and
-    # `aleph maps` below covers perception.
+    # `aleph maps` below covers perception. A slow reading of image motion is arithmetic; its other tests run here.
     filter='-HostileSceneFile.*:DamagedSceneFile.*:SceneJsonWrite.KF24*:SceneJsonWrite.ManyNames*:SceneJsonWrite.DT09*'
+    filter+=':SceneJsonWrite.LoadOfSaveIsTheSameScene:Gltf.S13_5_KF24*:ImageMotion.EqualsTheSlowReadingOfTheModel'
     optimize=-O0  # compiling takes longer than running
     ;;
   thread)
