@@ -15,7 +15,7 @@ kind=${1:-}
 case $kind in
   address)
     programs=(test_base test_pose test_image_io test_motion test_scene_file test_gltf
-      test_alembic test_subdivide test_maps_images test_hostile aleph)
+      test_alembic test_subdivide test_hostile aleph)
     # Tests of time, memory and size on large texts are for the Release build. test_hostile covers damaged scene files, and
     # `aleph maps` below covers perception. A slow reading of image motion is arithmetic; its other tests run here.
     filter='-HostileSceneFile.*:DamagedSceneFile.*:SceneJsonWrite.KF24*:SceneJsonWrite.ManyNames*:SceneJsonWrite.DT09*'
