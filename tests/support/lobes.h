@@ -22,7 +22,8 @@ inline ViewedSurface make_viewed(const SurfaceMaterial& material, const glm::vec
 
 /// The surface material of a scene's material without textures.
 /// @param front  seen from its front side
-inline SurfaceMaterial evaluate_plain(Material material, bool front = true) {
+/// @param color  of the vertices
+inline SurfaceMaterial evaluate_plain(Material material, bool front = true, const glm::vec4& color = glm::vec4(1.0f)) {
     Scene scene;
     scene.materials.push_back(std::move(material));
     add_mesh(scene, make_quad(1.0, 1.0, 0));
@@ -30,6 +31,7 @@ inline SurfaceMaterial evaluate_plain(Material material, bool front = true) {
     SurfacePoint point = make_point(glm::vec3(0.0f), {0.0f, 0.0f, 1.0f});
     point.material = 0;
     point.front = front;
+    point.color = color;
     return evaluate_material(stage.shading, point, {});
 }
 

@@ -3,23 +3,11 @@
 #include <gtest/gtest.h>
 
 #include "render/bsdf.h"
+#include "tests/support/lobes.h"
 #include "tests/support/render_scenes.h"
 
 namespace aleph {
 namespace {
-
-/// evaluate_material of the only material of a scene, seen from in front.
-SurfaceMaterial evaluate(Material material, bool front = true, const glm::vec4& color = glm::vec4(1.0f)) {
-    Scene scene;
-    scene.materials.push_back(std::move(material));
-    add_mesh(scene, make_quad(1.0, 1.0, 0));
-    const Stage stage(std::move(scene));
-    SurfacePoint point = make_point(glm::vec3(0.0f), {0.0f, 0.0f, 1.0f});
-    point.material = 0;
-    point.front = front;
-    point.color = color;
-    return evaluate_material(stage.shading, point, {});
-}
 
 /// KHR_materials_unlit: a constant base colour; all other properties are ignored.
 TEST(SurfaceMaterial, UnlitShowsItsBaseColourAndReflectsNothing) {
@@ -29,7 +17,7 @@ TEST(SurfaceMaterial, UnlitShowsItsBaseColourAndReflectsNothing) {
     material.emission = glm::dvec3(9.0);
     material.metallic = 0.5;
     for (const bool front : {true, false}) {
-        const SurfaceMaterial surface = evaluate(material, front, {0.5f, 1.0f, 1.0f, 1.0f});
+        const SurfaceMaterial surface = evaluate_plain(material, front, {0.5f, 1.0f, 1.0f, 1.0f});
         EXPECT_EQ(surface.emission, Rgb(0.25f, 0.25f, 0.75f));
         EXPECT_FALSE(surface.has_diffuse());
         EXPECT_FALSE(surface.has_glossy());
@@ -41,7 +29,7 @@ TEST(SurfaceMaterial, SpecularZeroIsPureLambert) {
     material.base_color = glm::dvec3(0.2, 0.5, 0.8);
     material.metallic = 0.0;
     material.specular = 0.0;
-    const SurfaceMaterial surface = evaluate(material);
+    const SurfaceMaterial surface = evaluate_plain(material);
     EXPECT_FALSE(surface.has_glossy());
     EXPECT_EQ(surface.diffuse, Rgb(0.2f, 0.5f, 0.8f));
     for (const float cosine : {1.0f, 0.9f, 0.5f, 0.2f, 0.05f}) {
@@ -55,7 +43,7 @@ TEST(SurfaceMaterial, GltfNumbersBecomeTheTwoLayers) {
     plastic.base_color = glm::dvec3(0.5);
     plastic.metallic = 0.0;
     plastic.roughness = 0.5;
-    SurfaceMaterial surface = evaluate(plastic);
+    SurfaceMaterial surface = evaluate_plain(plastic);
     EXPECT_NEAR(surface.f0.x, 0.04f, 1e-6f);  // index 1.5
     EXPECT_EQ(surface.f90, 1.0f);
     EXPECT_EQ(surface.alpha, 0.25f);
@@ -64,7 +52,7 @@ TEST(SurfaceMaterial, GltfNumbersBecomeTheTwoLayers) {
     Material metal;
     metal.base_color = glm::dvec3(0.9, 0.6, 0.2);
     metal.roughness = 0.0;
-    surface = evaluate(metal);
+    surface = evaluate_plain(metal);
     EXPECT_EQ(surface.f0, Rgb(0.9f, 0.6f, 0.2f));
     EXPECT_FALSE(surface.has_diffuse());
     EXPECT_EQ(surface.alpha, 0.0f);
@@ -72,12 +60,12 @@ TEST(SurfaceMaterial, GltfNumbersBecomeTheTwoLayers) {
 
     plastic.specular_color = glm::dvec3(2.0, 1.0, 0.5);  // above 1 is allowed, F0 stays at most 1
     plastic.ior = 2.0;
-    surface = evaluate(plastic);
+    surface = evaluate_plain(plastic);
     EXPECT_NEAR(surface.f0.x, 2.0f / 9.0f, 1e-6f);
     EXPECT_NEAR(surface.f0.z, 0.5f / 9.0f, 1e-6f);
     EXPECT_NEAR(surface.f0_max, 2.0f / 9.0f, 1e-6f);
 
-    surface = evaluate(metal, true, {0.5f, 1.0f, 1.0f, 1.0f});
+    surface = evaluate_plain(metal, true, {0.5f, 1.0f, 1.0f, 1.0f});
     EXPECT_NEAR(surface.f0.x, 0.45f, 1e-6f);  // vertex colours multiply
 }
 
@@ -85,10 +73,10 @@ TEST(SurfaceMaterial, EmissionLeavesTheFrontAndBothSidesIfDoubleSided) {
     Material lamp;
     lamp.emission = glm::dvec3(1.0, 2.0, 3.0);
     lamp.emission_strength = 2.0;
-    EXPECT_EQ(evaluate(lamp, true).emission, Rgb(2.0f, 4.0f, 6.0f));
-    EXPECT_EQ(evaluate(lamp, false).emission, Rgb(0.0f));
+    EXPECT_EQ(evaluate_plain(lamp, true).emission, Rgb(2.0f, 4.0f, 6.0f));
+    EXPECT_EQ(evaluate_plain(lamp, false).emission, Rgb(0.0f));
     lamp.double_sided = true;
-    EXPECT_EQ(evaluate(lamp, false).emission, Rgb(2.0f, 4.0f, 6.0f));
+    EXPECT_EQ(evaluate_plain(lamp, false).emission, Rgb(2.0f, 4.0f, 6.0f));
 }
 
 TEST(SurfaceMaterial, TexturesMultiplyTheFactors) {
