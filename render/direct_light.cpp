@@ -46,7 +46,7 @@ class ShadowBatch {
     std::array<Rgb, batch_size> contributions_;
 };
 
-/// compute_direct_light's samples: at random points, weighted against sampling of the lobes.
+/// compute_sampled_light's samples: at random points, weighted against sampling of the lobes.
 struct RandomPattern {
     RandomStream& random;
     LightPoints points;
@@ -119,12 +119,6 @@ Rgb compute_sampled_light(const LightingContext& context, RayTask& task, const V
         met += follow_sample(context, task, lit, sample, beyond, path_random);
     }
     return sum + met / static_cast<float>(points.count);
-}
-
-Rgb compute_direct_light(const LightingContext& context, RayTask& task, const ViewedSurface& surface,
-                         const LightPoints& points, RandomStream& random) {
-    RandomStream side = random;
-    return compute_sampled_light(context, task, surface, points, random, {}, side);
 }
 
 Rgb estimate_direct_light(const LightingContext& context, RayTask& task, const ViewedSurface& surface, int samples) {

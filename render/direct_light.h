@@ -18,13 +18,10 @@ struct LightPoints {
 
 /// Radiance that a surface scatters from the lights, without its own emission. The Lambert layer samples lights only;
 /// the other lobes combine light and lobe sampling by the power heuristic (Veach 1997). Unbiased.
-/// @param points  per light that has an area, and as many samples of the lobes
-/// @param random  moved on by a fixed number of dimensions per call
-Rgb compute_direct_light(const LightingContext& context, RayTask& task, const ViewedSurface& surface,
-                         const LightPoints& points, RandomStream& random);
-
-/// The same, and what the rays that are sampled from the lobes find beyond lamps: reflections and what glass shows, by
-/// paths within the limits of `beyond`.
+/// Within the limits of `beyond`, the rays that are sampled from the lobes go on as paths: they find reflections, and
+/// what glass shows. With a depth of 0 the result is direct light alone.
+/// @param points       per light that has an area, and as many samples of the lobes
+/// @param random       moved on by a fixed number of dimensions per call
 /// @param path_random  for those paths
 Rgb compute_sampled_light(const LightingContext& context, RayTask& task, const ViewedSurface& surface,
                           const LightPoints& points, RandomStream& random, const PathState& beyond,

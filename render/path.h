@@ -25,8 +25,8 @@ class Media {
     float ior() const { return size_ == 0 ? 1.0f : stack_[size_ - 1].ior; }
     /// 1/m, of the innermost; 0 outside.
     Rgb attenuation_inside() const;
-    /// Of the ray that ends at this surface. A ray from nowhere that meets a mesh from inside was in it all along: the
-    /// camera stands in the glass.
+    /// 1/m, of the ray that ends at this surface. If no mesh was entered and the surface is met from inside, the ray
+    /// started inside: the camera is in the glass.
     Rgb attenuation(const ViewedSurface& end) const;
     /// Of the far side over the viewer's side, at a surface with a volume.
     float ratio_at(const ViewedSurface& surface) const;

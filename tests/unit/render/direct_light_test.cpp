@@ -11,6 +11,13 @@
 namespace aleph {
 namespace {
 
+/// Light straight from the lights, without what reflections show.
+Rgb compute_direct_light(const LightingContext& context, RayTask& task, const ViewedSurface& surface,
+                         const LightPoints& points, RandomStream& random) {
+    RandomStream path_random = random;
+    return compute_sampled_light(context, task, surface, points, random, PathState{}, path_random);
+}
+
 constexpr double pi = std::numbers::pi;
 const glm::vec3 up(0.0f, 1.0f, 0.0f);
 
