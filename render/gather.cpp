@@ -78,14 +78,15 @@ float shortest_true_distance(GatherScratch& scratch) {
     return 1e-4f * *middle;
 }
 
-/// Yee 2000, eq. 6.5, in double. The inverse of an infinite distance is 0.
-void set_mean_distance(const std::vector<float>& distances, float shortest, IrradianceSample& out) {
+/// The harmonic mean (Yee 2000, eq. 6.5) in double, where the inverse of an infinite distance is 0, and the nearest.
+void set_distances(const std::vector<float>& distances, float shortest, IrradianceSample& out) {
     double sum = 0.0;
     for (const float d : distances) {
         if (d < shortest) {
             ++out.ignored_distances;
         } else {
             sum += 1.0 / d;
+            out.nearest_distance = std::min(out.nearest_distance, d);
         }
     }
     const double mean = static_cast<double>(std::ssize(distances) - out.ignored_distances) / sum;
@@ -231,7 +232,7 @@ IrradianceSample gather_irradiance(const LightingContext& context, RayTask& task
     for (const Rgb& radiance : scratch.radiance) sum += glm::dvec3(radiance);
     out.irradiance = Rgb(sum * (std::numbers::pi / strata.count()));
     const float shortest = shortest_true_distance(scratch);
-    set_mean_distance(scratch.distances, shortest, out);
+    set_distances(scratch.distances, shortest, out);
     set_clearance(strata, basis, scratch, shortest, out);
     add_gradients(strata, basis, scratch, std::max(shortest, min_distance), out);
     return out;

@@ -27,6 +27,8 @@ struct IrradianceSample {
     std::array<glm::vec3, 3> rotation_gradient{};     ///< per colour channel: dE = dot(cross(N_i, N), gradient)
     std::array<glm::vec3, 3> translation_gradient{};  ///< per colour channel, per m, in the tangent plane
     float harmonic_mean_distance = 0.0f;              ///< m (Yee 2000, eq. 6.5); infinite if no ray hit anything
+    /// m, to the nearest surface met, the point's own left out; infinite if no ray hit anything.
+    float nearest_distance = std::numeric_limits<float>::infinity();
     Clearance clearance = unlimited_clearance();      ///< nearest hits of the rays next to the tangent plane
     /// m, from the tangent plane up to the lowest hit of all other rays.
     float headroom = std::numeric_limits<float>::infinity();
