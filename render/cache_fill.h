@@ -31,12 +31,19 @@ struct IndirectContext {
     FrameProgress progress;        ///< may be empty
 };
 
+/// Rays for a gather at a pixel's accuracy. With RenderSettings::gather 0, as many as bring its standard error to a
+/// fifth of the accuracy, from 64 to 8192; otherwise that number at the frame's accuracy. Where the accuracy is looser,
+/// fewer by its square.
+/// @param ray_variance  relative, of one ray; nothing where it is not known
+int choose_rays(const RenderSettings& settings, float accuracy, const std::optional<float>& ray_variance);
+
 /// Gathers the irradiance at one pixel sample.
 IrradianceSample gather_at(const IndirectContext& context, RayTask& task, const PixelSurface& surface,
-                           GatherScratch& scratch);
+                           GatherScratch& scratch, int rays);
 
-/// Bounds of R_i for a pixel: at its own accuracy, a record reaches at least min_radius_pixels.
-RadiusBounds radius_bounds(const IndirectContext& context, const PixelSurface& surface, float accuracy);
+/// Bounds for a pixel: at its own accuracy, R_i reaches at least min_radius_pixels, and S_i a pixel.
+/// @param footprint  m, of the pixel
+RadiusBounds radius_bounds(const IndirectContext& context, float footprint, float accuracy);
 
 /// Adds records until every surface that this sample of the pixels shows is covered. A gather that is not finite makes
 /// no record: it is counted as invalid, and shading computes that sample's irradiance again if no other record covers

@@ -228,9 +228,21 @@ IrradianceSample gather_irradiance(const LightingContext& context, RayTask& task
     for (std::size_t i = 0; i < scratch.radiance.size(); ++i) scratch.radiance[i] += scratch.beyond[i];
 
     IrradianceSample out;
+    out.rays = strata.count();
     glm::dvec3 sum(0.0);
     for (const Rgb& radiance : scratch.radiance) sum += glm::dvec3(radiance);
     out.irradiance = Rgb(sum * (std::numbers::pi / strata.count()));
+    {
+        double diff = 0.0;
+        for (int j = 0; j < strata.rows; ++j)
+            for (int k = 0; k < strata.columns; ++k) {
+                const int a = j * strata.columns + k, b = j * strata.columns + (k + 1) % strata.columns;
+                const double d = luminance(scratch.radiance[a]) - luminance(scratch.radiance[b]);
+                diff += d * d;
+            }
+        const double n = strata.count(), mean = luminance(out.irradiance) / std::numbers::pi;
+        out.relative_error = mean > 0 ? float(std::sqrt(diff / (2 * n * n)) / mean) : 0.0f;
+    }
     const float shortest = shortest_true_distance(scratch);
     set_distances(scratch.distances, shortest, out);
     set_clearance(strata, basis, scratch, shortest, out);

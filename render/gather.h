@@ -8,6 +8,7 @@
 #include <limits>
 #include <vector>
 
+#include "engine/base/color.h"
 #include "render/direct_light.h"
 
 namespace aleph {
@@ -32,6 +33,8 @@ struct IrradianceSample {
     Clearance clearance = unlimited_clearance();      ///< nearest hits of the rays next to the tangent plane
     /// m, from the tangent plane up to the lowest hit of all other rays.
     float headroom = std::numeric_limits<float>::infinity();
+    float relative_error = 0.0f;  ///< standard error of the irradiance's luminance over its value
+    int rays = 0;                 ///< that were spent
     int ignored_distances = 0;  ///< hits of the point's own surface, left out of the mean
 };
 

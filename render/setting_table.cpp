@@ -166,7 +166,9 @@ void add_light(std::vector<Setting>& table) {
         "sample",
         &S::accuracy, 0.0, 1.0)));
     table.push_back(with_unit(
-        number_setting("gather", "rays over the hemisphere for one irradiance value", &S::gather, 4, 1 << 20), "rays"));
+        number_setting("gather", "rays over the hemisphere for one irradiance value; 0: what the accuracy needs",
+                       &S::gather, 0, 1 << 20),
+        "rays"));
     table.push_back(number_setting(
         "bounces", "bounces of indirect diffuse light; more than 1 needs the integrator path", &S::bounces, 0, 1000));
     table.push_back(with_unit(

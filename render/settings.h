@@ -43,7 +43,7 @@ struct RenderSettings {
     Adapter adapter = Adapter::compress;
     double adapter_k = 100.0;  ///< K of (6.8)
     double accuracy = 0.15;    ///< ambient accuracy alpha_Acc; 0 gathers at every sample
-    int gather = 1024;         ///< hemisphere samples per irradiance value
+    int gather = 0;            ///< hemisphere samples per irradiance value; 0: what the accuracy needs (choose_rays)
     Integrator integrator = Integrator::cache;
     int bounces = 1;                 ///< of indirect diffuse light; at most 1 with the cache
     int path_depth = 32;             ///< longest path: surfaces that scatter, of all kinds
