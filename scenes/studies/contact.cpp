@@ -40,19 +40,13 @@ Wanted parse_wanted(const std::string& text) {
     return {text.substr(0, at), frame};
 }
 
-/// The name of the folder for a file called scene.json, else the name of the file.
-std::string name_of(const std::string& file) {
-    const std::filesystem::path path = std::filesystem::absolute(file);
-    return path.stem() == "scene" ? path.parent_path().filename().string() : path.stem().string();
-}
-
 Panel make_panel(const std::string& text, const StudyOptions& study) {
     const Wanted wanted = parse_wanted(text);
     const Scene scene = load_scene(wanted.file);
     Sequence sequence(scene, study_settings(scene, wanted.file, study));
     const FrameRange range = sequence.range();
     const std::int64_t frame = wanted.frame.value_or(range.first + (range.last - range.first) / 2);
-    std::string caption = name_of(wanted.file);
+    std::string caption = scene_name(wanted.file);
     if (wanted.frame) caption += fmt::format(", frame {}", frame);
     return color_panel(caption, sequence.render(frame).shaded.color);
 }

@@ -1,5 +1,7 @@
 #include "scenes/studies/study_options.h"
 
+#include <algorithm>
+#include <filesystem>
 #include <iostream>
 
 #include "engine/base/parallel.h"
@@ -16,12 +18,17 @@ void add_study_options(CLI::App& app, StudyOptions& options) {
     if (!options.picture.empty())
         app.add_option("-o,--output", options.picture, "file of the picture, .png or .jpg")->capture_default_str();
     add_value(app, "--gather", options.gather, "rays per irradiance value");
-    add_value(app, "--spp", options.spp, "samples per pixel");
+    if (options.spp > 0) add_value(app, "--spp", options.spp, "samples per pixel");
     add_value(app, "-t,--threads", options.threads, "number of threads; 0: all");
 }
 
 void add_quiet_option(CLI::App& app, StudyOptions& options) {
     app.add_flag("-q,--quiet", options.quiet, "do not show progress");
+}
+
+std::string scene_name(const std::string& file) {
+    const std::filesystem::path path = std::filesystem::absolute(file);
+    return path.stem() == "scene" ? path.parent_path().filename().string() : path.stem().string();
 }
 
 void add_accuracy_option(CLI::App& app, double& accuracy) {
@@ -33,7 +40,7 @@ RenderSettings study_settings(const Scene& scene, const std::string& file, const
     apply_settings(settings, scene.settings, file);
     parse_size(options.size, "--size", settings.width, settings.height);
     settings.gather = options.gather;
-    settings.spp = options.spp;
+    settings.spp = std::max(1, options.spp);
     return settings;
 }
 

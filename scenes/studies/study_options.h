@@ -14,16 +14,20 @@ struct StudyOptions {
     std::string size = "640x480";  ///< of the frames, WIDTHxHEIGHT in pixels
     std::string picture{};         ///< .png or .jpg; empty: the study draws none
     int gather = 1024;             ///< rays per irradiance value
-    int spp = 1, threads = 0;
+    int spp = 1;  ///< 0: the study takes pixel centres and has no option for it
+    int threads = 0;
     bool quiet = false;
 };
 
 /// SCENE, the one positional argument of most studies.
 void add_scene_option(CLI::App& app, StudyOptions& options);
-/// --size, --gather, --spp, --threads; --output where there is a picture.
+/// --size, --gather, --threads; --spp where there are samples, --output where there is a picture.
 void add_study_options(CLI::App& app, StudyOptions& options);
 /// -q, --quiet.
 void add_quiet_option(CLI::App& app, StudyOptions& options);
+/// The name of the folder for a file called scene.json, else the name of the file.
+std::string scene_name(const std::string& file);
+
 /// --accuracy.
 void add_accuracy_option(CLI::App& app, double& accuracy);
 
