@@ -88,7 +88,7 @@ void run_cache(const CacheOptions& options) {
     const LightError noise =
         measure_light(Image<float>(settings.width, settings.height), reference, grid, vision.threshold);
     fmt::print(
-        "{}, frame {}, {}, gather {}, {} threads; reference: {} rays at each of {} pixels, every {} in x and y; its "
+        "{}, frame {}, {}, gather {}, {} threads; reference: {} rays at each of {} pixels, one of every {}x{}; its "
         "noise: relative MSE {:.1e}, 99 % of "
         "the pixels within {:.2g} thresholds\n\n",
         study.scene, options.frame, study.size, study.gather, thread_count(), options.reference.strata, noise.pixels,

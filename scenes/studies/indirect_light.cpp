@@ -21,6 +21,7 @@ namespace aleph {
 namespace {
 
 constexpr std::uint32_t reference_seed_mask = 0x7265666cu;  // keeps references apart from all other random numbers
+constexpr std::uint32_t grid_seed = 0x67726964u;
 constexpr float no_light = -1.0f;
 
 /// A pixel that reflects indirect light.
@@ -137,6 +138,14 @@ CachedLight compute_cached_light(const StudyFrame& frame, const RenderSettings& 
     return out;
 }
 
+glm::ivec2 PixelGrid::pixel(int column, int row, int width, int height) const {
+    const int left = column * step, top = row * step;
+    const RandomKey block{grid_seed, 0, static_cast<std::uint32_t>(row), static_cast<std::uint32_t>(column)};
+    const glm::vec2 at = RandomStream(block).next_2d();
+    return {left + static_cast<int>(at.x * static_cast<float>(std::min(step, width - left))),
+            top + static_cast<int>(at.y * static_cast<float>(std::min(step, height - top)))};
+}
+
 ReferenceLight gather_reference(const StudyFrame& frame, const RenderSettings& settings, const PixelGrid& grid,
                                 int strata, const std::function<void(double fraction)>& progress) {
     const int columns = grid.count(settings.width), rows = grid.count(settings.height);
@@ -150,8 +159,9 @@ ReferenceLight gather_reference(const StudyFrame& frame, const RenderSettings& s
         thread_local GatherScratch scratch;
         RayTask task(frame.rays);
         for (std::size_t i = begin; i < end; ++i) {
-            const int x = grid.first() + static_cast<int>(i) % columns * grid.step;
-            const int y = grid.first() + static_cast<int>(i) / columns * grid.step;
+            const glm::ivec2 place = grid.pixel(static_cast<int>(i) % columns, static_cast<int>(i) / columns,
+                                                settings.width, settings.height);
+            const int x = place.x, y = place.y;
             if (frame.centers.hits(x, y).instance == no_index) continue;
             const PixelSurface surface = surface_at(frame, x, y);
             if (!surface.material.has_diffuse()) continue;
@@ -172,7 +182,7 @@ ReferenceLight gather_reference(const StudyFrame& frame, const RenderSettings& s
 
 void add_reference_options(CLI::App& app, ReferenceOptions& options) {
     add_value(app, "--strata", options.strata, "rays of the reference per pixel");
-    add_value(app, "--every", options.grid.step, "the reference has every such pixel in x and y");
+    add_value(app, "--every", options.grid.step, "side of a block of pixels; the reference has one pixel of each");
     app.add_option("--references", options.folder, "folder for references, which are read if they exist")
         ->capture_default_str();
     app.add_flag(
@@ -220,8 +230,9 @@ LightError measure_light(const Image<float>& light, const ReferenceLight& refere
     for (int y = 0; y < reference.halves[0].height; ++y) {
         for (int x = 0; x < reference.halves[0].width; ++x) {
             if (!reference.has(x, y)) continue;
-            const int px = grid.first() + x * grid.step, py = grid.first() + y * grid.step;
-            pixels.push_back({light(px, py), reference.light(x, y), reference.deviation(x, y), threshold(px, py)});
+            const glm::ivec2 at = grid.pixel(x, y, light.width, light.height);
+            pixels.push_back(
+                {light(at.x, at.y), reference.light(x, y), reference.deviation(x, y), threshold(at.x, at.y)});
             light_sum += pixels.back().light;
             reference_sum += pixels.back().reference;
         }
@@ -257,7 +268,8 @@ Image<float> relative_error_map(const Image<float>& light, const ReferenceLight&
     for (int y = 0; y < map.height; ++y) {
         for (int x = 0; x < map.width; ++x) {
             if (!reference.has(x, y)) continue;
-            const double found = light(grid.first() + x * grid.step, grid.first() + y * grid.step);
+            const glm::ivec2 at = grid.pixel(x, y, light.width, light.height);
+            const double found = light(at.x, at.y);
             const double truth = reference.light(x, y);
             map(x, y) = static_cast<float>(std::abs(found - truth) / std::max(truth, 1e-9));
         }

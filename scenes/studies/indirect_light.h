@@ -29,17 +29,18 @@ struct CachedLight {
 /// @param alpha  accuracy of every pixel
 CachedLight compute_cached_light(const StudyFrame& frame, const RenderSettings& settings, const Image<float>& alpha);
 
-/// Pixels where the light is compared. Records are placed first at corners of tiles of even size: odd pixels are as
-/// far from them as any.
+/// The pixels where light is compared: one of every block, any of it with equal chance. Pixels at equal distances would
+/// all or none lie on an edge that runs along the picture's sides.
 struct PixelGrid {
-    int step = 4;
+    int step = 4;  ///< pixels, side of a block
 
-    int first() const { return step > 1 ? step / 2 | 1 : 0; }
-    int count(int pixels) const { return std::max(0, (pixels - first() + step - 1) / step); }
+    int count(int pixels) const { return (pixels + step - 1) / step; }
+    /// @param column, row  of the block
+    glm::ivec2 pixel(int column, int row, int width, int height) const;
 };
 
-/// Dense gathers at the pixels of a grid, without the cache: two halves with random numbers of their own, which no
-/// other gather shares. Their difference tells the noise.
+/// Dense gathers at the pixels of a grid, without the cache, one value per block: two halves with random numbers of
+/// their own, which no other gather shares. Their difference tells the noise.
 struct ReferenceLight {
     Image<float> halves[2];  ///< cd/m2; below 0 where nothing reflects diffusely
 
