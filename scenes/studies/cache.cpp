@@ -92,7 +92,7 @@ void run_cache(const CacheOptions& options) {
         "noise: relative MSE {:.1e}, 99 % of "
         "the pixels within {:.2g} thresholds\n\n",
         study.scene, options.frame, study.size, study.gather, thread_count(), options.reference.strata, noise.pixels,
-        grid.step, noise.noise_mse, noise.noise_percentile_99);
+        grid.step, grid.step, noise.noise_mse, noise.noise_percentile_99);
     const StudyTable table(
         {"accuracy", "records", "late", "rays (M)", "fill (s)", "late (s)", "look-ups (s)", "us each", "relative MSE",
          "without .1 %", "bias (%)", "beyond (%)", "beyond 4 (%)", "worst"},
