@@ -3,9 +3,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
-#include <charconv>
 
-#include "engine/base/errors.h"
 #include "engine/load/load_scene.h"
 #include "render/cli/options.h"
 #include "render/cli/progress.h"
@@ -23,25 +21,8 @@ struct ContactOptions {
     int columns = 4, width = 320;
 };
 
-/// "scene.json@20" is frame 20; "scene.json" is the middle frame of the scene.
-struct Wanted {
-    std::string file;
-    std::optional<std::int64_t> frame;
-};
-
-Wanted parse_wanted(const std::string& text) {
-    const std::size_t at = text.rfind('@');
-    if (at == std::string::npos) return {text, std::nullopt};
-    std::int64_t frame = 0;
-    const char* end = text.data() + text.size();
-    const auto [stop, error] = std::from_chars(text.data() + at + 1, end, frame);
-    if (error != std::errc() || stop != end)
-        throw InputError(text, "", "expected a frame number after the last @, such as scene.json@20");
-    return {text.substr(0, at), frame};
-}
-
 Panel make_panel(const std::string& text, const StudyOptions& study) {
-    const Wanted wanted = parse_wanted(text);
+    const FrameOfScene wanted = parse_frame_of_scene(text);
     const Scene scene = load_scene(wanted.file);
     Sequence sequence(scene, study_settings(scene, wanted.file, study));
     const FrameRange range = sequence.range();

@@ -1,9 +1,11 @@
 #include "scenes/studies/study_options.h"
 
 #include <algorithm>
+#include <charconv>
 #include <filesystem>
 #include <iostream>
 
+#include "engine/base/errors.h"
 #include "engine/base/parallel.h"
 #include "render/cli/options.h"
 
@@ -42,6 +44,22 @@ RenderSettings study_settings(const Scene& scene, const std::string& file, const
     settings.gather = options.gather;
     settings.spp = std::max(1, options.spp);
     return settings;
+}
+
+RenderSettings with_choice(RenderSettings settings, const std::string& key, const std::string& value) {
+    apply_settings(settings, {{key, value}}, "--" + key);
+    return settings;
+}
+
+FrameOfScene parse_frame_of_scene(const std::string& text) {
+    const std::size_t at = text.rfind('@');
+    if (at == std::string::npos) return {text, std::nullopt};
+    std::int64_t frame = 0;
+    const char* end = text.data() + text.size();
+    const auto [stop, error] = std::from_chars(text.data() + at + 1, end, frame);
+    if (error != std::errc() || stop != end)
+        throw InputError(text, "", "expected a frame number after the last @, such as scene.json@20");
+    return {text.substr(0, at), frame};
 }
 
 int run_study(CLI::App& app, const StudyOptions& options, int argc, const char* const* argv,

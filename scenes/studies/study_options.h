@@ -3,6 +3,7 @@
 
 #include <CLI/CLI.hpp>
 #include <functional>
+#include <optional>
 #include <string>
 
 #include "render/settings.h"
@@ -14,7 +15,7 @@ struct StudyOptions {
     std::string size = "640x480";  ///< of the frames, WIDTHxHEIGHT in pixels
     std::string picture{};         ///< .png or .jpg; empty: the study draws none
     int gather = 1024;             ///< rays per irradiance value
-    int spp = 1;  ///< 0: the study takes pixel centres and has no option for it
+    int spp = 1;                   ///< 0: the study takes pixel centres and has no option for it
     int threads = 0;
     bool quiet = false;
 };
@@ -35,6 +36,19 @@ void add_accuracy_option(CLI::App& app, double& accuracy);
 /// @param file  of the scene, for errors
 /// @throws InputError for a setting that is out of range
 RenderSettings study_settings(const Scene& scene, const std::string& file, const StudyOptions& options);
+
+/// With a setting that is a choice, by the names of the scene file.
+/// @throws InputError for an unknown name
+RenderSettings with_choice(RenderSettings settings, const std::string& key, const std::string& value);
+
+struct FrameOfScene {
+    std::string file;
+    std::optional<std::int64_t> frame;
+};
+
+/// "scene.json@20" is frame 20 of a scene; "scene.json" leaves the frame open.
+/// @throws InputError if no number follows the last @
+FrameOfScene parse_frame_of_scene(const std::string& text);
 
 /// Reads the command line and runs a study on the number of threads that the options ask for.
 /// @return the exit code
