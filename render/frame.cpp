@@ -40,7 +40,9 @@ class FrameShading {
           indirect_(context.settings.bounces > 0 && context.settings.path_depth > 1),
           cached_(!by_paths_ && indirect_ && context.settings.accuracy > 0.0),
           cache_(make_cache(context.lighting.shading)),
-          sums_(context.view.width, context.view.height) {}
+          sums_(context.view.width, context.view.height) {
+        if (!by_paths_) out_.indirect = Image<Rgb>(context.view.width, context.view.height);
+    }
 
     void fill() {
         const int spp = context_.settings.spp;
@@ -66,6 +68,7 @@ class FrameShading {
             if (sum.samples == 0) continue;
             const float valid = static_cast<float>(sum.samples);
             out_.color.pixels[p] = Rgb(sum.radiance) * (scale / valid);
+            if (!by_paths_) out_.indirect.pixels[p] *= scale / valid;
             out_.coverage.pixels[p] = static_cast<float>(sum.hits) / valid;
             if (!out_.variance.empty() && sum.samples > 1) {
                 out_.variance.pixels[p] = static_cast<float>(sum.variance() * exposure * exposure);
@@ -152,8 +155,10 @@ class FrameShading {
         radiance += compute_sampled_light(context_.lighting, task, surface, points, random, beyond, path_random);
         if (indirect_ && surface.material.has_diffuse()) {
             const LitSurface lit(surface);
-            radiance +=
+            const Rgb indirect =
                 diffuse_radiance(surface.material, lit.cos_view, find_irradiance(task, surface)) * lit.below_sheen;
+            out_.indirect(surface.x, surface.y) += indirect;
+            radiance += indirect;
         }
         return radiance;
     }

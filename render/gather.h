@@ -34,8 +34,7 @@ struct IrradianceSample {
     Clearance clearance = unlimited_clearance();  ///< nearest hits of the rays next to the tangent plane
     /// m, from the tangent plane up to the lowest hit of all other rays.
     float headroom = std::numeric_limits<float>::infinity();
-    float relative_error = 0.0f;  ///< standard error of the irradiance's luminance over its value
-    int rays = 0;                 ///< that were spent
+    int rays = 0;               ///< that were spent, those below the true surface included
     int ignored_distances = 0;  ///< hits of the point's own surface, left out of the mean
     /// Standard error of the irradiance's luminance over the luminance, estimated from this one gather; 0 if all is
     /// dark, infinite if there are too few cells to tell.

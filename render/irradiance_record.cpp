@@ -56,8 +56,8 @@ std::optional<IrradianceRecord> make_record(const glm::vec3& position, const glm
     record.accuracy = accuracy;
     record.min_radius = bounds.min;
     record.max_growth = 1.0f / (bounds.min_spread * bounds.min_spread);
-    record.relative_error = sample.relative_error;
-    record.ray_variance = sample.relative_error * sample.relative_error * static_cast<float>(sample.rays);
+    record.relative_error = std::min(sample.relative_error, 1.0f);  // infinite where there are too few rays to tell
+    record.ray_variance = record.relative_error * record.relative_error * static_cast<float>(sample.rays);
     record.tangent = make_basis(normal).tangent;
     record.clearance = sample.clearance;
     record.headroom = sample.headroom;
