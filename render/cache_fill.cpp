@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <atomic>
+#include <bit>
 #include <mutex>
 #include <optional>
 
 #include "engine/base/parallel.h"
+#include "render/carried_point.h"
 
 namespace aleph {
 
@@ -15,8 +17,8 @@ constexpr int first_stride = 64;           // pixels, size of the first tiles
 constexpr int max_reviews = 16;            // passes over all pixels after the last tile size
 constexpr std::size_t lookup_grain = 256;  // look-ups per parallel chunk
 
-/// Keeps the random numbers of gathers apart from those of direct light, which have the same frame, pixel and sample:
-/// combined with the seed by exclusive or. Any constant but 0 would do.
+/// Keeps the random numbers of gathers apart from those of direct light: combined with the seed by exclusive or. Any
+/// constant but 0 would do.
 constexpr std::uint32_t gather_seed_mask = 0x67617468u;
 
 /// A pixel whose sample is not covered yet.
@@ -38,6 +40,17 @@ std::vector<glm::ivec2> list_tiles(int width, int height, int stride, bool first
     return tiles;
 }
 
+/// The surface that a pixel shows, in the pose whose light is wanted; nothing if it is not there.
+std::optional<PixelSurface> find_surface(const IndirectContext& context, const SampleHits& sample, int x, int y) {
+    const ShadingScene& wanted = context.lighting.shading;
+    if (context.seen == nullptr) return make_pixel_surface(wanted, context.view, sample, x, y);
+    PixelSurface surface = make_pixel_surface(*context.seen, context.view, sample, x, y);
+    const std::optional<SurfacePoint> point = carry_point(wanted, surface.hit, surface.point);
+    if (!point) return std::nullopt;
+    surface.point = *point;
+    return surface;
+}
+
 /// The tiles whose samples no record covers, in tile order.
 std::vector<Candidate> find_uncovered(const IrradianceCache& cache, const IndirectContext& context,
                                       const SampleHits& sample, const std::vector<glm::ivec2>& tiles,
@@ -49,9 +62,11 @@ std::vector<Candidate> find_uncovered(const IrradianceCache& cache, const Indire
         for (std::size_t i = begin; i < end; ++i) {
             const int x = tiles[i].x, y = tiles[i].y;
             if (sample.hits(x, y).instance == no_index) continue;
-            const PixelSurface surface = make_pixel_surface(context.lighting.shading, context.view, sample, x, y);
-            if (!surface.material.has_diffuse()) continue;
+            const std::optional<PixelSurface> found_surface = find_surface(context, sample, x, y);
+            if (!found_surface || !found_surface->material.has_diffuse()) continue;
+            const PixelSurface& surface = *found_surface;
             const float accuracy = context.accuracy(x, y);
+            if (context.carried != nullptr && context.carried->find(surface, accuracy)) continue;
             const CacheQuery query{surface.point.position, surface.point.normal, accuracy};
             ++asked;
             if (!cache.covers(query)) {
@@ -103,8 +118,7 @@ std::vector<std::optional<IrradianceRecord>> gather_records(const IndirectContex
         RayTask task(context.lighting.rays);
         for (std::size_t i = begin; i < end; ++i) {
             const Candidate& candidate = candidates[i];
-            const PixelSurface surface =
-                make_pixel_surface(context.lighting.shading, context.view, sample, candidate.x, candidate.y);
+            const PixelSurface surface = *find_surface(context, sample, candidate.x, candidate.y);
             const IrradianceSample value = gather_at(context, task, surface, scratch);
             records[i] = make_record(candidate.query.position, candidate.query.normal, value, candidate.bounds);
         }
@@ -150,8 +164,13 @@ SceneBounds bounds_or_unit(const ShadingScene& shading) {
 
 IrradianceSample gather_at(const IndirectContext& context, RayTask& task, const PixelSurface& surface,
                            GatherScratch& scratch) {
-    const RandomKey key{context.settings.seed ^ gather_seed_mask, context.frame, surface.pixel,
-                        static_cast<std::uint32_t>(surface.sample)};
+    // By the place: a surface at rest that a camera at rest sees has the same noise at every time.
+    const Hit& hit = surface.hit;
+    const std::uint64_t place =
+        mix_bits(std::uint64_t{std::bit_cast<std::uint32_t>(hit.u)} << 32 | std::bit_cast<std::uint32_t>(hit.v));
+    const RandomKey key{context.settings.seed ^ gather_seed_mask, static_cast<std::uint32_t>(hit.instance),
+                        static_cast<std::uint32_t>(hit.primitive) ^ static_cast<std::uint32_t>(place >> 32),
+                        static_cast<std::uint32_t>(place)};
     return gather_irradiance(context.lighting, task, surface.point, choose_strata(context.settings.gather), key,
                              scratch, std::max(0, context.settings.path_depth - 2));
 }

@@ -7,11 +7,13 @@
 //   1. all threads look for tiles that need a record. The cache does not change meanwhile;
 //   2. one thread goes through these tiles in order and accepts a tile unless the expected reach of a tile accepted
 //      before covers it. Tiles that are not accepted wait for the next round;
-//   3. all threads gather irradiance for the accepted tiles. Random numbers depend on seed, frame, pixel and sample
-//   only;
+//   3. all threads gather irradiance for the accepted tiles. Random numbers depend on the seed and on the place on the
+//   surface only;
 //   4. one thread inserts the records in the order of their tiles.
 // No step depends on the order in which threads work. The number of records is within a few percent of that of a
 // sequential fill, where each record is inserted before the next pixel is looked at.
+
+#include <optional>
 
 #include "render/irradiance_cache.h"
 #include "render/pixel_surfaces.h"
@@ -19,6 +21,13 @@
 #include "render/shaded_frame.h"
 
 namespace aleph {
+
+/// Indirect light of a frame that is known before its cache is filled.
+struct CarriedLight {
+    virtual ~CarriedLight() = default;
+    /// Irradiance at a surface of the frame; nothing where it is not known to this accuracy. Called from any thread.
+    virtual std::optional<Rgb> find(const PixelSurface& surface, float accuracy) const = 0;
+};
 
 /// What a frame's indirect light is computed from.
 struct IndirectContext {
@@ -29,6 +38,10 @@ struct IndirectContext {
     std::uint32_t frame = 0;       ///< for random numbers
     float max_radius = 1.0f;       ///< m, of records: scene_radius
     FrameProgress progress;        ///< may be empty
+    const CarriedLight* carried = nullptr;  ///< surfaces that it knows get no records; may be null
+    /// If set, the hits were cast in this pose of the scene, and the light is wanted where their surfaces are in
+    /// `lighting` (carry_point).
+    const ShadingScene* seen = nullptr;
 };
 
 /// Gathers the irradiance at one pixel sample.

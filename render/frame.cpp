@@ -161,6 +161,13 @@ class FrameShading {
     /// clamping shrank a record after it covered this place.
     Rgb find_irradiance(ShadingTask& task, const PixelSurface& surface) {
         const float accuracy = context_.accuracy(surface.x, surface.y);
+        if (context_.carried != nullptr) {
+            ++task.lookups;
+            if (const std::optional<Rgb> found = context_.carried->find(surface, accuracy)) {
+                ++task.hits;
+                return *found;
+            }
+        }
         if (cached_ && accuracy > 0.0f) {
             const CacheQuery query{surface.point.position, surface.point.normal,
                                    accuracy * static_cast<float>(context_.settings.shade_reach)};

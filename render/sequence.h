@@ -11,6 +11,8 @@
 
 namespace aleph {
 
+struct SequenceState;
+
 /// Renders frames of one scene. It keeps the ray structures between frames, so that only what moves is updated; a frame
 /// does not depend on the frames rendered before it.
 class Sequence {
@@ -33,8 +35,7 @@ class Sequence {
     FrameRange range() const;
 
   private:
-    struct State;
-    std::unique_ptr<State> state_;
+    std::unique_ptr<SequenceState> state_;
 };
 
 }  // namespace aleph
