@@ -28,13 +28,14 @@ struct Candidate {
     RadiusBounds bounds;
 };
 
-/// Corners of the tiles of this size that larger tiles do not share.
-std::vector<glm::ivec2> list_tiles(int width, int height, int stride, bool first_pass) {
+/// Corners of the tiles of this size that larger tiles do not share, where light is needed.
+/// @param dark  0 where light is known without records
+std::vector<glm::ivec2> list_tiles(const Image<std::uint8_t>& dark, int stride, bool first_pass) {
     std::vector<glm::ivec2> tiles;
-    for (int y = 0; y < height; y += stride) {
-        for (int x = 0; x < width; x += stride) {
+    for (int y = 0; y < dark.height; y += stride) {
+        for (int x = 0; x < dark.width; x += stride) {
             const bool visited = first_pass && stride < first_stride && x % (2 * stride) == 0 && y % (2 * stride) == 0;
-            if (!visited) tiles.push_back({x, y});
+            if (!visited && dark(x, y) != 0) tiles.push_back({x, y});
         }
     }
     return tiles;
@@ -51,6 +52,22 @@ std::optional<PixelSurface> find_surface(const IndirectContext& context, const S
     return surface;
 }
 
+/// 1 for pixels that show a surface whose light is not known (CarriedLight), else 0.
+Image<std::uint8_t> find_dark(const IndirectContext& context, const SampleHits& sample) {
+    Image<std::uint8_t> dark(sample.hits.width, sample.hits.height, 0);
+    parallel_rows(dark.height, 1, [&](int begin, int end) {
+        for (int y = begin; y < end; ++y) {
+            for (int x = 0; x < dark.width; ++x) {
+                if (sample.hits(x, y).instance == no_index) continue;
+                const std::optional<PixelSurface> surface = find_surface(context, sample, x, y);
+                if (!surface || !surface->material.has_diffuse()) continue;
+                dark(x, y) = context.carried == nullptr || !context.carried->find(*surface, context.accuracy(x, y));
+            }
+        }
+    });
+    return dark;
+}
+
 /// The tiles whose samples no record covers, in tile order.
 std::vector<Candidate> find_uncovered(const IrradianceCache& cache, const IndirectContext& context,
                                       const SampleHits& sample, const std::vector<glm::ivec2>& tiles,
@@ -61,12 +78,8 @@ std::vector<Candidate> find_uncovered(const IrradianceCache& cache, const Indire
         std::uint64_t asked = 0;
         for (std::size_t i = begin; i < end; ++i) {
             const int x = tiles[i].x, y = tiles[i].y;
-            if (sample.hits(x, y).instance == no_index) continue;
-            const std::optional<PixelSurface> found_surface = find_surface(context, sample, x, y);
-            if (!found_surface || !found_surface->material.has_diffuse()) continue;
-            const PixelSurface& surface = *found_surface;
+            const PixelSurface surface = *find_surface(context, sample, x, y);
             const float accuracy = context.accuracy(x, y);
-            if (context.carried != nullptr && context.carried->find(surface, accuracy)) continue;
             const CacheQuery query{surface.point.position, surface.point.normal, accuracy};
             ++asked;
             if (!cache.covers(query)) {
@@ -182,15 +195,15 @@ RadiusBounds radius_bounds(const IndirectContext& context, const PixelSurface& s
 }
 
 void fill_cache(IrradianceCache& cache, const IndirectContext& context, const SampleHits& sample, FrameTally& tally) {
-    const int width = sample.hits.width, height = sample.hits.height;
+    const Image<std::uint8_t> dark = find_dark(context, sample);
     const bool first_pass = sample.place.index == 0;
     for (int stride = first_pass ? first_stride : 1; stride >= 1; stride /= 2) {
-        fill_tiles(cache, context, sample, list_tiles(width, height, stride, first_pass), tally);
+        fill_tiles(cache, context, sample, list_tiles(dark, stride, first_pass), tally);
     }
     // A new record near a wall shrinks its neighbours' radii, and pixels that they covered before are uncovered again.
     // Without these reviews, shading would gather at each such pixel. Later samples look at every pixel anyway.
     for (int review = 0; first_pass && review < max_reviews; ++review) {
-        if (fill_tiles(cache, context, sample, list_tiles(width, height, 1, false), tally) == 0) break;
+        if (fill_tiles(cache, context, sample, list_tiles(dark, 1, false), tally) == 0) break;
     }
 }
 

@@ -34,10 +34,10 @@ struct IndirectContext {
     const LightingContext& lighting;
     const CameraView& view;
     const RenderSettings& settings;
-    const Image<float>& accuracy;  ///< alpha per pixel
-    std::uint32_t frame = 0;       ///< for random numbers
-    float max_radius = 1.0f;       ///< m, of records: scene_radius
-    FrameProgress progress;        ///< may be empty
+    const Image<float>& accuracy;           ///< alpha per pixel
+    std::uint32_t frame = 0;                ///< for random numbers
+    float max_radius = 1.0f;                ///< m, of records: scene_radius
+    FrameProgress progress;                 ///< may be empty
     const CarriedLight* carried = nullptr;  ///< surfaces that it knows get no records; may be null
     /// If set, the hits were cast in this pose of the scene, and the light is wanted where their surfaces are in
     /// `lighting` (carry_point).

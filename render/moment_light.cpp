@@ -20,20 +20,29 @@ bool differ(const Rgb& before, const Rgb& after, float weight, float accuracy) {
 
 }  // namespace
 
-MomentLight fill_moment(const std::vector<std::shared_ptr<const KeyView>>& views, const LightingContext& lighting,
-                        const RenderSettings& settings, FrameCounts& counts) {
+std::vector<IrradianceRecord> compute_records(const std::vector<std::shared_ptr<const KeyView>>& views,
+                                              const LightingContext& lighting, const RenderSettings& settings,
+                                              FrameCounts& counts) {
     const KeyView& own = *views.front();
-    MomentLight moment{views.front(), make_cache(lighting.shading)};
+    IrradianceCache cache = make_cache(lighting.shading);
     FrameTally tally;
     tally.records = tally.invalid_samples = Image<float>(own.posed.view.width, own.posed.view.height);
     for (const auto& view : views) {
         IndirectContext context{lighting, view->posed.view, settings, view->accuracy, 0, scene_radius(lighting.shading),
                                 {}};
         if (view != views.front()) context.seen = &view->shading;
-        fill_cache(moment.cache, context, view->centers, tally);
+        fill_cache(cache, context, view->centers, tally);
     }
     tally.counts.rays += counts.rays;
     counts = tally.counts;
+    return cache.records();
+}
+
+/// The records' order decides in which order a look-up adds them, so the cache is always made from the list, whether
+/// it was computed or read from a file.
+MomentLight make_moment_light(std::shared_ptr<const KeyPose> at, const std::vector<IrradianceRecord>& records) {
+    MomentLight moment{at, make_cache(at->shading)};
+    for (const IrradianceRecord& record : records) moment.cache.insert(record);
     return moment;
 }
 
@@ -46,7 +55,7 @@ BlendedLight::BlendedLight(std::shared_ptr<const MomentLight> before, std::share
       reach_(static_cast<float>(reach)) {}
 
 std::optional<Rgb> BlendedLight::read(const MomentLight& moment, const PixelSurface& surface, float accuracy) const {
-    const std::optional<SurfacePoint> point = carry_point(moment.view->shading, surface.hit, surface.point);
+    const std::optional<SurfacePoint> point = carry_point(moment.at->shading, surface.hit, surface.point);
     if (!point) return std::nullopt;
     return moment.cache.interpolate({point->position, point->normal, accuracy * reach_});
 }

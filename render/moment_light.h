@@ -8,16 +8,19 @@
 
 #include "engine/pose/posed_view.h"
 #include "render/cache_fill.h"
-#include "render/key_moments.h"
 #include "render/frame_output.h"
+#include "render/key_moments.h"
 
 namespace aleph {
 
-/// The scene at a key moment as its camera sees it. `shading` points into it: it must not move.
-struct KeyView {
-    std::int64_t frame = 0;
+/// The scene at a key moment. `shading` points into it: it must not move.
+struct KeyPose {
     PosedView posed;
     ShadingScene shading;
+};
+
+/// What a key moment's camera sees.
+struct KeyView : KeyPose {
     SampleHits centers;
     Image<float> accuracy;  ///< alpha per pixel
     RayCounts rays;         ///< of its first hits and its quick estimate
@@ -25,15 +28,20 @@ struct KeyView {
 
 /// The light of a key moment.
 struct MomentLight {
-    std::shared_ptr<const KeyView> view;  ///< the moment's own
+    std::shared_ptr<const KeyPose> at;
     IrradianceCache cache;
 };
+
+/// @param records  of this moment, from compute_records
+MomentLight make_moment_light(std::shared_ptr<const KeyPose> at, const std::vector<IrradianceRecord>& records);
 
 /// Computes the light of a moment at the surfaces that the views show.
 /// @param views     the moment's own, then its neighbours'; their surfaces are taken to where they lie at the moment
 /// @param lighting  the scene at the moment
-MomentLight fill_moment(const std::vector<std::shared_ptr<const KeyView>>& views, const LightingContext& lighting,
-                        const RenderSettings& settings, FrameCounts& counts);
+/// @param counts    increased
+std::vector<IrradianceRecord> compute_records(const std::vector<std::shared_ptr<const KeyView>>& views,
+                                              const LightingContext& lighting, const RenderSettings& settings,
+                                              FrameCounts& counts);
 
 /// Light of the key moments before and after a frame.
 class BlendedLight : public CarriedLight {

@@ -99,6 +99,16 @@ FrameRange Sequence::range() const {
     return state_->range;
 }
 
+void Sequence::load_light(const std::filesystem::path& path) {
+    SequenceState& s = *state_;
+    if (s.shot_light) s.shot_light->set_records(read_cache_file(path, s.fingerprint()));
+}
+
+void Sequence::save_light(const std::filesystem::path& path) {
+    SequenceState& s = *state_;
+    if (s.shot_light) write_cache_file(path, s.fingerprint(), s.shot_light->records());
+}
+
 FrameOutput Sequence::render(std::int64_t frame, const FrameRequest& request) {
     SequenceState& s = *state_;
     FrameOutput out;
@@ -112,7 +122,7 @@ FrameOutput Sequence::render(std::int64_t frame, const FrameRequest& request) {
         const CameraValues& camera = s.now->pose.cameras[s.camera];
         options.lens = find_lens(s.scene, camera);
         if (s.can_change()) shutter = find_shutter(s.scene, camera, frame);
-        if (!shutter) carried = s.find_shot_light(frame, stats);
+        if (!shutter && s.shot_light) carried = s.shot_light->at(frame, stats.moments);
     }
 
     const std::uint64_t traced_before = s.rays_traced(), invalid_before = s.rays.invalid_rays();

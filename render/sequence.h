@@ -2,6 +2,7 @@
 // Frames of an animation, from the scene to the picture. The order of the stages is only here:
 // pose(N), pose(N+1) -> first hits -> quick estimate -> motion field -> saliency, Aleph map -> accuracy -> picture.
 
+#include <filesystem>
 #include <memory>
 #include <string>
 
@@ -26,6 +27,17 @@ class Sequence {
 
     /// @throws InputError if a picture is requested and the camera has an aperture without a focus distance
     FrameOutput render(std::int64_t frame, const FrameRequest& request = {});
+
+    /// Takes the light of key moments from a file that save_light wrote, if there is one. Frames have the same bytes
+    /// with and without it. To be called before the first frame.
+    /// @throws InputError naming the file, if it is not a complete cache file of this scene, these settings and this
+    /// program
+    void load_light(const std::filesystem::path& path);
+
+    /// Writes the light of all key moments that were loaded or computed since load_light, or nothing if frames read
+    /// none (settings.light_step).
+    /// @throws OutputError
+    void save_light(const std::filesystem::path& path);
 
     /// The scene, its subdivision cages at the levels that are rendered.
     const Scene& scene() const;

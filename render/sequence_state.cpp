@@ -45,7 +45,11 @@ SequenceState::SequenceState(Scene given, const RenderSettings& chosen, int came
       textures(make_texture_set(scene)),
       pose_plan(make_pose_plan(scene)),
       rays(scene, pose_plan),
-      blended(has_blended(scene)) {}
+      blended(has_blended(scene)) {
+    if (!reads_moments()) return;
+    shot_light.emplace(KeyMoments{range, scene.cuts, settings.light_step}, settings, !is_world_animated(scene),
+                       !can_change(), key_moments());
+}
 
 /// Takes `posed` to a frame. Its first call poses the whole scene, later calls only what can move.
 void SequenceState::move_to_frame(std::optional<PosedView>& posed, std::int64_t frame) const {
@@ -59,11 +63,12 @@ void SequenceState::move_to_frame(std::optional<PosedView>& posed, std::int64_t 
 
 /// The quick estimate of a posed view to which `view_rays` have been updated, not sanitized.
 Image<Rgb> SequenceState::estimate_view(const RayScene& view_rays, const PosedView& posed, EstimateKind kind,
-                                          bool indirect, RayCounts& counts) const {
+                                        bool indirect, RayCounts& counts) const {
     const ShadingScene view_shading = make_shading_scene(scene, posed.pose, view_rays.anchor(), textures);
     const LightSet view_lights = make_light_set(view_shading);
     const SampleHits centers = cast_centers(view_rays, posed.view, &counts.primary);
-    return compute_estimate({view_shading, view_lights, view_rays}, posed.view, centers, kind, indirect, exposure, counts);
+    return compute_estimate({view_shading, view_lights, view_rays}, posed.view, centers, kind, indirect, exposure,
+                            counts);
 }
 
 /// Brings rays and shading to `now`. @return instances that were updated
@@ -87,7 +92,7 @@ void SequenceState::update_other_rays() {
 /// Motion from `now` to `other`.
 /// @param maps  also finds the pixels that are hidden in the other frame
 void SequenceState::compute_motion(const SampleHits& centers, OtherFrame which, bool maps, StageClock& clock,
-                                     FrameOutput& out) {
+                                   FrameOutput& out) {
     FrameStatistics& stats = out.statistics;
     const bool has_other = which != OtherFrame::none;
     if (settings.motion == MotionSource::model) {
@@ -142,36 +147,48 @@ SampleHits SequenceState::look(std::int64_t frame, bool perceive, bool maps, Fra
     return centers;
 }
 
-/// The view of a key moment, with a pose of its own.
-std::shared_ptr<const KeyView> SequenceState::look_at_key(std::int64_t frame) {
-    FrameOutput out;
-    const auto view = std::make_shared<KeyView>();
-    view->centers = look(frame, is_guided(), false, out);
-    view->frame = frame;
-    view->posed = *now;
-    view->shading = make_shading_scene(scene, view->posed.pose, shading->anchor, textures);
-    view->accuracy = std::move(out.alpha);
-    view->rays = out.statistics.counts.rays;
-    return view;
+/// Copies the scene as it is now.
+void SequenceState::copy_now(KeyPose& pose) const {
+    pose.posed = *now;
+    pose.shading = make_shading_scene(scene, pose.posed.pose, shading->anchor, textures);
 }
 
-/// The light that a frame reads from key moments. Afterwards `now` is another frame.
-std::unique_ptr<CarriedLight> SequenceState::find_shot_light(std::int64_t frame, FrameStatistics& stats) {
-    const bool cached = settings.integrator == Integrator::cache && settings.bounces > 0 && settings.path_depth > 1 &&
-                        settings.accuracy > 0.0;
-    if (!cached || settings.light_step == 0) return nullptr;
-    if (!shot_light) {
-        const MomentSource source{[this](std::int64_t key) { return look_at_key(key); },
-                                  [this](std::int64_t key) {
-                                      move_to_frame(now, key);
-                                      update_rays_and_shading();
-                                      lights = make_light_set(*shading);
-                                      return lighting();
-                                  }};
-        shot_light.emplace(KeyMoments{range, scene.cuts, settings.light_step}, settings, !is_world_animated(scene),
-                           !can_change(), source);
-    }
-    return shot_light->at(frame, stats.moments);
+/// Key moments, taken from `now`, which is another frame afterwards.
+MomentSource SequenceState::key_moments() {
+    const auto light = [this](std::int64_t frame) {
+        move_to_frame(now, frame);
+        update_rays_and_shading();
+        lights = make_light_set(*shading);
+        return lighting();
+    };
+    const auto pose = [this, light](std::int64_t frame) {
+        light(frame);
+        const auto key = std::make_shared<KeyPose>();
+        copy_now(*key);
+        return key;
+    };
+    const auto look_at = [this](std::int64_t frame) {
+        FrameOutput out;
+        const auto view = std::make_shared<KeyView>();
+        view->centers = look(frame, is_guided(), false, out);
+        copy_now(*view);
+        view->accuracy = std::move(out.alpha);
+        view->rays = out.statistics.counts.rays;
+        return view;
+    };
+    return {pose, look_at, light};
+}
+
+/// Of the scene, its settings and this program; made when it is first asked for.
+const CacheFingerprint& SequenceState::fingerprint() {
+    if (!cache_fingerprint) cache_fingerprint = make_cache_fingerprint(scene, settings, camera);
+    return *cache_fingerprint;
+}
+
+/// Whether frames with a closed shutter read their indirect light from key moments.
+bool SequenceState::reads_moments() const {
+    return settings.integrator == Integrator::cache && settings.light_step > 0 && settings.bounces > 0 &&
+           settings.path_depth > 1 && settings.accuracy > 0.0;
 }
 
 }  // namespace aleph

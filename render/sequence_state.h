@@ -24,8 +24,10 @@ struct SequenceState {
     void update_other_rays();
     void compute_motion(const SampleHits& centers, OtherFrame which, bool maps, StageClock& clock, FrameOutput& out);
     SampleHits look(std::int64_t frame, bool perceive, bool maps, FrameOutput& out);
-    std::shared_ptr<const KeyView> look_at_key(std::int64_t frame);
-    std::unique_ptr<CarriedLight> find_shot_light(std::int64_t frame, FrameStatistics& stats);
+    void copy_now(KeyPose& pose) const;
+    MomentSource key_moments();
+    bool reads_moments() const;
+    const CacheFingerprint& fingerprint();
     LightingContext lighting() const { return {*shading, lights, rays}; }
     /// Paths do not follow the map.
     bool is_guided() const {
@@ -51,8 +53,9 @@ struct SequenceState {
     std::unique_ptr<RayScene> other_rays;  ///< for visibility in the other frame, or its quick estimate
     bool blended = false;                  ///< blended surfaces are in the scene
 
-    std::unique_ptr<OpenShutter> open;  ///< the scene while the shutter is open
-    std::optional<ShotLight> shot_light;
+    std::unique_ptr<OpenShutter> open;    ///< the scene while the shutter is open
+    std::optional<ShotLight> shot_light;  ///< if frames read key moments
+    std::optional<CacheFingerprint> cache_fingerprint;
     double exposure = 1.0;
 };
 

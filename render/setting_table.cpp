@@ -193,8 +193,8 @@ void add_light(std::vector<Setting>& table) {
                               "pixels"));
     table.push_back(with_unit(
         number_setting("light_step",
-                       "frames between the key moments at which the cache's indirect light is computed, for all frames "
-                       "around them; 0: every frame computes its own",
+                       "frames between the key moments at which indirect light is computed for the frames around them; "
+                       "0: every frame computes its own",
                        &S::light_step, 0, 1000),
         "frames"));
     table.push_back(

@@ -19,9 +19,7 @@ std::vector<std::int64_t> ShotLight::list_views(std::int64_t moment) const {
     return find_moment_views(moments_, moment);
 }
 
-std::shared_ptr<const MomentLight> ShotLight::find_or_fill(std::int64_t moment, std::vector<MomentStatistics>& filled) {
-    std::shared_ptr<const MomentLight>& light = lights_[moment];
-    if (light) return light;
+std::vector<IrradianceRecord> ShotLight::compute(std::int64_t moment, std::vector<MomentStatistics>& filled) {
     MomentStatistics statistics;
     statistics.frame = moment;
     StageClock clock;
@@ -34,10 +32,22 @@ std::shared_ptr<const MomentLight> ShotLight::find_or_fill(std::int64_t moment, 
         }
         views.push_back(view);
     }
-    light = std::make_shared<MomentLight>(
-        fill_moment(views, source_.light(moment), settings_, statistics.counts));
+    std::vector<IrradianceRecord> records = compute_records(views, source_.light(moment), settings_, statistics.counts);
     clock.add_to(statistics.seconds);
     filled.push_back(statistics);
+    return records;
+}
+
+std::shared_ptr<const MomentLight> ShotLight::find_or_fill(std::int64_t moment, std::vector<MomentStatistics>& filled) {
+    std::shared_ptr<const MomentLight>& light = lights_[moment];
+    if (light) return light;
+    if (records_ && records_->contains(moment)) {
+        light = std::make_shared<MomentLight>(make_moment_light(source_.pose(moment), records_->at(moment)));
+        return light;
+    }
+    const std::vector<IrradianceRecord> records = compute(moment, filled);
+    light = std::make_shared<MomentLight>(make_moment_light(views_.at(moment), records));
+    if (records_) records_->emplace(moment, records);
     return light;
 }
 

@@ -4,15 +4,18 @@
 #include <functional>
 #include <map>
 
+#include "render/cache_file.h"
 #include "render/moment_light.h"
 
 namespace aleph {
 
 /// How the scene is seen at a key moment.
 struct MomentSource {
+    /// The scene at a frame.
+    std::function<std::shared_ptr<const KeyPose>(std::int64_t frame)> pose;
     /// The view of a frame's camera, with its accuracy.
     std::function<std::shared_ptr<const KeyView>(std::int64_t frame)> look;
-    /// The scene at a frame, valid until the next call of either function.
+    /// The scene at a frame, valid until the next call of any of these functions.
     std::function<LightingContext(std::int64_t frame)> light;
 };
 
@@ -28,14 +31,21 @@ class ShotLight {
     /// @param filled  the moments that were computed are added
     std::unique_ptr<CarriedLight> at(std::int64_t frame, std::vector<MomentStatistics>& filled);
 
+    /// Records that need not be computed; from now on those of all moments are kept.
+    void set_records(MomentRecords records) { records_ = std::move(records); }
+    /// Records of all moments that were set or computed since set_records.
+    const MomentRecords& records() const { return *records_; }
+
   private:
     std::vector<std::int64_t> list_views(std::int64_t moment) const;
+    std::vector<IrradianceRecord> compute(std::int64_t moment, std::vector<MomentStatistics>& filled);
     std::shared_ptr<const MomentLight> find_or_fill(std::int64_t moment, std::vector<MomentStatistics>& filled);
 
     KeyMoments moments_;
     const RenderSettings& settings_;
     bool still_, unmoving_;
     MomentSource source_;
+    std::optional<MomentRecords> records_;
     std::map<std::int64_t, std::shared_ptr<const KeyView>> views_;
     std::map<std::int64_t, std::shared_ptr<const MomentLight>> lights_;
 };
