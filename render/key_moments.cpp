@@ -36,6 +36,12 @@ MomentPair find_moments(const KeyMoments& moments, std::int64_t frame) {
         add(cut - 1);
         add(cut);
     }
+    if (moments.breaks && pair.after > pair.before + 1) {
+        for (const std::int64_t jump : moments.breaks(pair.before, pair.after)) {
+            add(jump - 1);
+            add(jump);
+        }
+    }
     if (pair.after > pair.before) {
         pair.weight = static_cast<double>(frame - pair.before) / static_cast<double>(pair.after - pair.before);
     }

@@ -2,6 +2,7 @@
 // Key moments of a shot: the frames at which indirect light is computed. A frame between two of them reads both.
 
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 #include "engine/scene/scene.h"
@@ -9,11 +10,13 @@
 namespace aleph {
 
 /// Key moments are the first frame of the range and every `step`-th before and after it, the last frame of the range,
-/// and both sides of every cut.
+/// and both sides of every cut and of every jump of the light.
 struct KeyMoments {
     FrameRange range;
     std::vector<std::int64_t> cuts;  ///< frames that begin a new shot
     std::int64_t step = 10;          ///< frames, at least 1
+    /// Frames after `first`, up to `last`, before which the light jumps (LightBreaks). May be empty.
+    std::function<std::vector<std::int64_t>(std::int64_t first, std::int64_t last)> breaks;
 };
 
 /// The key moments around a frame: before <= frame <= after. A key moment has itself on both sides.

@@ -101,12 +101,17 @@ FrameRange Sequence::range() const {
 
 void Sequence::load_light(const std::filesystem::path& path) {
     SequenceState& s = *state_;
-    if (s.shot_light) s.shot_light->set_records(read_cache_file(path, s.fingerprint()));
+    if (!s.shot_light) {
+        throw InputError(path.string(), "",
+                         "a cache file needs key moments: the integrator cache, a light_step and an accuracy above 0");
+    }
+    s.shot_light->keep_records(read_cache_file(path, s.fingerprint()));
 }
 
 void Sequence::save_light(const std::filesystem::path& path) {
     SequenceState& s = *state_;
-    if (s.shot_light) write_cache_file(path, s.fingerprint(), s.shot_light->records());
+    ALEPH_CHECK(s.shot_light && s.shot_light->records(), "save_light before load_light");
+    write_cache_file(path, s.fingerprint(), *s.shot_light->records());
 }
 
 FrameOutput Sequence::render(std::int64_t frame, const FrameRequest& request) {

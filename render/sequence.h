@@ -31,12 +31,11 @@ class Sequence {
     /// Takes the light of key moments from a file that save_light wrote, if there is one. Frames have the same bytes
     /// with and without it. To be called before the first frame.
     /// @throws InputError naming the file, if it is not a complete cache file of this scene, these settings and this
-    /// program
+    /// program, or if these settings have no key moments
     void load_light(const std::filesystem::path& path);
 
-    /// Writes the light of all key moments that were loaded or computed since load_light, or nothing if frames read
-    /// none (settings.light_step).
-    /// @throws OutputError
+    /// Writes the light of all key moments that were loaded, and of those that were computed since.
+    /// @throws OutputError; std::logic_error before load_light
     void save_light(const std::filesystem::path& path);
 
     /// The scene, its subdivision cages at the levels that are rendered.

@@ -45,10 +45,12 @@ SequenceState::SequenceState(Scene given, const RenderSettings& chosen, int came
       textures(make_texture_set(scene)),
       pose_plan(make_pose_plan(scene)),
       rays(scene, pose_plan),
-      blended(has_blended(scene)) {
+      blended(has_blended(scene)),
+      light_breaks(scene, pose_plan) {
     if (!reads_moments()) return;
-    shot_light.emplace(KeyMoments{range, scene.cuts, settings.light_step}, settings, !is_world_animated(scene),
-                       !can_change(), key_moments());
+    const auto find_breaks = [this](std::int64_t first, std::int64_t last) { return light_breaks.find(first, last); };
+    shot_light.emplace(KeyMoments{range, scene.cuts, settings.light_step, find_breaks}, settings,
+                       !is_world_animated(scene), !can_change(), key_moments());
 }
 
 /// Takes `posed` to a frame. Its first call poses the whole scene, later calls only what can move.

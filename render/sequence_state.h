@@ -7,6 +7,7 @@
 #include "engine/pose/posed_view.h"
 #include "motion/model_motion.h"
 #include "render/frame_output.h"
+#include "render/light_breaks.h"
 #include "render/measure.h"
 #include "render/open_shutter.h"
 #include "render/settings.h"
@@ -53,7 +54,8 @@ struct SequenceState {
     std::unique_ptr<RayScene> other_rays;  ///< for visibility in the other frame, or its quick estimate
     bool blended = false;                  ///< blended surfaces are in the scene
 
-    std::unique_ptr<OpenShutter> open;    ///< the scene while the shutter is open
+    std::unique_ptr<OpenShutter> open;  ///< the scene while the shutter is open
+    LightBreaks light_breaks;
     std::optional<ShotLight> shot_light;  ///< if frames read key moments
     std::optional<CacheFingerprint> cache_fingerprint;
     double exposure = 1.0;

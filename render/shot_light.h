@@ -31,10 +31,10 @@ class ShotLight {
     /// @param filled  the moments that were computed are added
     std::unique_ptr<CarriedLight> at(std::int64_t frame, std::vector<MomentStatistics>& filled);
 
-    /// Records that need not be computed; from now on those of all moments are kept.
-    void set_records(MomentRecords records) { records_ = std::move(records); }
-    /// Records of all moments that were set or computed since set_records.
-    const MomentRecords& records() const { return *records_; }
+    /// Keeps the records of all moments, beginning with these, which need not be computed.
+    void keep_records(MomentRecords records) { records_ = std::move(records); }
+    /// All that are kept; nothing before keep_records.
+    const std::optional<MomentRecords>& records() const { return records_; }
 
   private:
     std::vector<std::int64_t> list_views(std::int64_t moment) const;
