@@ -5,27 +5,17 @@
 #include <optional>
 
 #include "engine/base/parallel.h"
+#include "render/carried_point.h"
+#include "render/fill_points.h"
+#include "render/gather_at.h"
 
 namespace aleph {
 
 namespace {
 
-constexpr int first_stride = 64;                                    // pixels, size of the first tiles
-constexpr int max_reviews = 16;                                     // passes over all pixels after the last tile size
-constexpr int least_rays = 64, first_rays = 512, most_rays = 8192;  // of a gather
-constexpr double noise_per_accuracy = 0.2;                          // standard error of a record, over alpha
-constexpr std::size_t lookup_grain = 256;                           // look-ups per parallel chunk
-
-/// Keeps the random numbers of gathers apart from those of direct light, which have the same frame, pixel and sample:
-/// combined with the seed by exclusive or. Any constant but 0 would do.
-constexpr std::uint32_t gather_seed_mask = 0x67617468u;
-
-/// The surface of a pixel's sample, as far as look-ups need it.
-struct FillPoint {
-    glm::vec3 position{0.0f};
-    float footprint = -1.0f;  ///< m; negative: no indirect light is needed here
-    glm::vec3 normal{0.0f};
-};
+constexpr int first_stride = 64;           // pixels, size of the first tiles
+constexpr int max_reviews = 16;            // passes over all pixels after the last tile size
+constexpr std::size_t lookup_grain = 256;  // look-ups per parallel chunk
 
 /// A pixel whose sample is not covered yet.
 struct Candidate {
@@ -35,28 +25,13 @@ struct Candidate {
     int rays = 0;  ///< of its gather
 };
 
-Image<FillPoint> find_points(const IndirectContext& context, const SampleHits& sample) {
-    Image<FillPoint> points(sample.hits.width, sample.hits.height);
-    parallel_rows(points.height, 4, [&](int begin, int end) {
-        for (int y = begin; y < end; ++y) {
-            for (int x = 0; x < points.width; ++x) {
-                if (sample.hits(x, y).instance == no_index) continue;
-                const PixelSurface surface = make_pixel_surface(context.lighting.shading, context.view, sample, x, y);
-                if (!surface.material.has_diffuse()) continue;
-                points(x, y) = {surface.point.position, surface.footprint, surface.point.normal};
-            }
-        }
-    });
-    return points;
-}
-
-/// Corners of the tiles of this size that larger tiles do not share.
-std::vector<glm::ivec2> list_tiles(int width, int height, int stride, bool first_pass) {
+/// Corners of the tiles of this size that larger tiles do not share, where light is needed.
+std::vector<glm::ivec2> list_tiles(const Image<FillPoint>& points, int stride, bool first_pass) {
     std::vector<glm::ivec2> tiles;
-    for (int y = 0; y < height; y += stride) {
-        for (int x = 0; x < width; x += stride) {
+    for (int y = 0; y < points.height; y += stride) {
+        for (int x = 0; x < points.width; x += stride) {
             const bool visited = first_pass && stride < first_stride && x % (2 * stride) == 0 && y % (2 * stride) == 0;
-            if (!visited) tiles.push_back({x, y});
+            if (!visited && points(x, y).footprint >= 0.0f) tiles.push_back({x, y});
         }
     }
     return tiles;
@@ -74,7 +49,6 @@ std::vector<Candidate> find_uncovered(const IrradianceCache& cache, const Indire
         for (std::size_t i = begin; i < end; ++i) {
             const int x = tiles[i].x, y = tiles[i].y;
             const FillPoint& point = points(x, y);
-            if (point.footprint < 0.0f) continue;
             const float accuracy = context.accuracy(x, y);
             const CacheQuery query{point.position, point.normal, accuracy, &task};
             ++asked;
@@ -132,8 +106,7 @@ std::vector<std::optional<IrradianceRecord>> gather_records(const IndirectContex
         RayTask task(context.lighting.rays);
         for (std::size_t i = begin; i < end; ++i) {
             const Candidate& candidate = candidates[i];
-            const PixelSurface surface =
-                make_pixel_surface(context.lighting.shading, context.view, sample, candidate.x, candidate.y);
+            const PixelSurface surface = *find_surface(context, sample, candidate.x, candidate.y);
             const IrradianceSample value = gather_at(context, task, surface, scratch, candidate.rays);
             records[i] = make_record(candidate.query.position, candidate.query.normal, candidate.query.accuracy, value,
                                      candidate.bounds);
@@ -178,21 +151,6 @@ SceneBounds bounds_or_unit(const ShadingScene& shading) {
 
 }  // namespace
 
-int choose_rays(const RenderSettings& settings, float accuracy, const std::optional<float>& ray_variance) {
-    const double most = settings.gather > 0 ? settings.gather : most_rays;
-    const double base = settings.gather > 0 ? settings.gather : first_rays;
-    if (!(settings.accuracy > 0.0 && accuracy > 0.0f)) return static_cast<int>(base);
-    double rays = base * std::pow(settings.accuracy / accuracy, 2.0);
-    if (settings.gather == 0 && ray_variance) rays = *ray_variance / std::pow(noise_per_accuracy * accuracy, 2.0);
-    return static_cast<int>(std::clamp(rays, std::min<double>(least_rays, most), most));
-}
-
-IrradianceSample gather_at(const IndirectContext& context, RayTask& task, const PixelSurface& surface,
-                           GatherScratch& scratch, int rays) {
-    const RandomKey key{context.settings.seed ^ gather_seed_mask, context.frame, surface.pixel,
-                        static_cast<std::uint32_t>(surface.sample)};
-    return gather_irradiance(context.lighting, task, surface.point, choose_strata(rays), key, scratch,
-                             std::max(0, context.settings.path_depth - 2));
 }
 
 RadiusBounds radius_bounds(const IndirectContext& context, float footprint, float accuracy) {
@@ -202,16 +160,15 @@ RadiusBounds radius_bounds(const IndirectContext& context, float footprint, floa
 }
 
 void fill_cache(IrradianceCache& cache, const IndirectContext& context, const SampleHits& sample, FrameTally& tally) {
-    const int width = sample.hits.width, height = sample.hits.height;
     const Image<FillPoint> points = find_points(context, sample);
     const bool first_pass = sample.place.index == 0;
     for (int stride = first_pass ? first_stride : 1; stride >= 1; stride /= 2) {
-        fill_tiles(cache, context, sample, points, list_tiles(width, height, stride, first_pass), tally);
+        fill_tiles(cache, context, sample, points, list_tiles(points, stride, first_pass), tally);
     }
     // A new record near a wall shrinks its neighbours' radii, and pixels that they covered before are uncovered again.
     // Without these reviews, shading would gather at each such pixel. Later samples look at every pixel anyway.
     for (int review = 0; first_pass && review < max_reviews; ++review) {
-        if (fill_tiles(cache, context, sample, points, list_tiles(width, height, 1, false), tally) == 0) break;
+        if (fill_tiles(cache, context, sample, points, list_tiles(points, 1, false), tally) == 0) break;
     }
 }
 

@@ -5,6 +5,7 @@
 #include <mutex>
 
 #include "engine/base/parallel.h"
+#include "render/gather_at.h"
 #include "render/pixel_sum.h"
 
 namespace aleph {
@@ -167,6 +168,13 @@ class FrameShading {
     /// clamping shrank a record after it covered this place.
     Rgb find_irradiance(ShadingTask& task, const PixelSurface& surface) {
         const float accuracy = context_.accuracy(surface.x, surface.y);
+        if (context_.carried != nullptr) {
+            ++task.lookups;
+            if (const std::optional<Rgb> found = context_.carried->find(surface, accuracy)) {
+                ++task.hits;
+                return *found;
+            }
+        }
         const CacheQuery place{surface.point.position, surface.point.normal, accuracy, &task};
         if (cached_ && accuracy > 0.0f) {
             CacheQuery query = place;

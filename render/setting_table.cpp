@@ -193,6 +193,12 @@ void add_light(std::vector<Setting>& table) {
     table.push_back(with_unit(number_setting("min_radius_pixels", "least reach of a cache record at its own accuracy",
                                              &S::min_radius_pixels, 0.1, 1000.0),
                               "pixels"));
+    table.push_back(with_unit(
+        number_setting("light_step",
+                       "frames between the key moments at which indirect light is computed for the frames around them; "
+                       "0: every frame computes its own",
+                       &S::light_step, 0, 1000),
+        "frames"));
     table.push_back(
         number_setting("subdivision_level",
                        "level of every subdivision cage, at most its own max_level; -1: as fine as the pixels need",
