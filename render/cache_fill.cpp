@@ -13,9 +13,10 @@ namespace aleph {
 
 namespace {
 
-constexpr int first_stride = 64;           // pixels, size of the first tiles
-constexpr int max_reviews = 16;            // passes over all pixels after the last tile size
-constexpr std::size_t lookup_grain = 256;  // look-ups per parallel chunk
+constexpr int first_stride = 64;            // pixels, size of the first tiles
+constexpr float least_reach_pixels = 0.7f;  // of a record at its own accuracy
+constexpr int max_reviews = 16;             // passes over all pixels after the last tile size
+constexpr std::size_t lookup_grain = 256;   // look-ups per parallel chunk
 
 /// A pixel whose sample is not covered yet.
 struct Candidate {
@@ -153,8 +154,9 @@ SceneBounds bounds_or_unit(const ShadingScene& shading) {
 
 RadiusBounds radius_bounds(const IndirectContext& context, float footprint, float accuracy) {
     const float alpha = std::clamp(accuracy, 1e-3f, 1.0f);
-    const float min = static_cast<float>(context.settings.min_radius_pixels) * footprint / alpha;
-    return {std::min(min, context.max_radius), context.max_radius, footprint / std::sqrt(alpha)};
+    const float pixels = std::max(static_cast<float>(context.settings.min_radius_pixels), least_reach_pixels / alpha);
+    const float min = std::min(pixels * footprint, context.max_radius);
+    return {min, context.max_radius, footprint / std::sqrt(alpha)};
 }
 
 void fill_cache(IrradianceCache& cache, const IndirectContext& context, const SampleHits& sample, FrameTally& tally) {
