@@ -19,7 +19,8 @@ int points_per_light(const LightSet& lights) {
 }  // namespace
 
 Image<Rgb> compute_estimate(const LightingContext& context, const CameraView& view, const SampleHits& centers,
-                            EstimateKind kind, bool indirect, double exposure, RayCounts& counts) {
+                            EstimateKind kind, bool indirect, double exposure, RayCounts& counts,
+                            Image<float>* indirect_luminance) {
     Image<Rgb> estimate(view.width, view.height);
     const float scale = static_cast<float>(exposure);
     const int points = points_per_light(context.lights);
@@ -52,8 +53,23 @@ Image<Rgb> compute_estimate(const LightingContext& context, const CameraView& vi
         const std::lock_guard lock(counts_mutex);
         counts += task.counts;
     });
-    if (!surfaces.empty()) add_indirect_light(context, view, centers, surfaces, scale, estimate, counts);
+    if (surfaces.empty()) {
+        if (indirect_luminance != nullptr) *indirect_luminance = luminance_image(estimate);
+        return estimate;
+    }
+    const Image<Rgb> light = estimate_indirect_light(context, view, centers, surfaces, counts);
+    for (std::size_t i = 0; i < estimate.size(); ++i) estimate.pixels[i] += light.pixels[i] * scale;
+    if (indirect_luminance != nullptr) {
+        *indirect_luminance = luminance_image(light);
+        for (float& y : indirect_luminance->pixels) y *= scale;
+    }
     return estimate;
+}
+
+Image<float> luminance_image(const Image<Rgb>& picture) {
+    Image<float> values(picture.width, picture.height);
+    for (std::size_t i = 0; i < values.size(); ++i) values.pixels[i] = luminance(picture.pixels[i]);
+    return values;
 }
 
 double compute_exposure(const Image<Rgb>& estimate) {

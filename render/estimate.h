@@ -13,8 +13,14 @@ namespace aleph {
 /// direct: emission plus direct light from a fixed pattern of points per light (estimate_direct_light).
 /// @param indirect  with `direct`, also the light of one bounce (indirect_estimate.h)
 /// @param counts    increased by the rays cast
+/// @param indirect_luminance  if not null: of the light of one bounce alone, or of the whole estimate where that is not
+///                            computed
 Image<Rgb> compute_estimate(const LightingContext& context, const CameraView& view, const SampleHits& centers,
-                            EstimateKind kind, bool indirect, double exposure, RayCounts& counts);
+                            EstimateKind kind, bool indirect, double exposure, RayCounts& counts,
+                            Image<float>* indirect_luminance = nullptr);
+
+/// Luminance of every pixel.
+Image<float> luminance_image(const Image<Rgb>& picture);
 
 /// 0.18 / exp(mean log Y) over the pixels of an estimate with Y > 0; 1 if there are none.
 double compute_exposure(const Image<Rgb>& estimate);

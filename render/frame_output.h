@@ -60,11 +60,13 @@ struct FrameOutput {
     MotionField motion;
     Image<float> velocity;  ///< deg/s
     PerceptionMaps perception;
-    Image<float> alpha;              ///< ambient accuracy
-    Image<float> threshold;          ///< cd/m2, of an error that lasts
-    Image<float> threshold_flicker;  ///< cd/m2, of an error that is new in every frame; at most `threshold`
-    Image<float> depth;              ///< planar, m; 1e30 for background. Filled if `maps`
-    Image<glm::vec3> normal;         ///< world, towards the viewer; 0 for background. Filled if `maps`
+    Image<float> indirect_luminance;  ///< of the estimate (compute_estimate); may be empty
+    Image<float> tolerance;           ///< relative error of indirect light that is not seen (compute_tolerance)
+    Image<float> alpha;               ///< ambient accuracy
+    Image<float> threshold;           ///< cd/m2, of an error that lasts
+    Image<float> threshold_flicker;   ///< cd/m2, of an error that is new in every frame; at most `threshold`
+    Image<float> depth;               ///< planar, m; 1e30 for background. Filled if `maps`
+    Image<glm::vec3> normal;          ///< world, towards the viewer; 0 for background. Filled if `maps`
     FrameStatistics statistics;
 };
 

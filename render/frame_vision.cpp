@@ -3,6 +3,7 @@
 #include "motion/velocity.h"
 #include "perception/threshold.h"
 #include "render/accuracy_map.h"
+#include "render/estimate.h"
 
 namespace aleph {
 
@@ -23,7 +24,9 @@ void compute_frame_vision(FrameOutput& out, const Scene& shot, const RenderSetti
     if (adaptation.empty()) adaptation = compute_adaptation_luminance(out.estimate, shot.viewing);
     out.threshold = compute_threshold(out.perception.aleph, adaptation, settings.perception.vision);
     out.threshold_flicker = compute_flicker_threshold(out.threshold, adaptation, shot.frame_rate);
-    out.alpha = compute_accuracy_map(out.perception.aleph, settings);
+    if (out.indirect_luminance.empty()) out.indirect_luminance = luminance_image(out.estimate);
+    out.tolerance = compute_tolerance(out.threshold, out.indirect_luminance, shot.viewing);
+    out.alpha = compute_accuracy_map(out.perception.aleph, out.tolerance, settings);
     clock.add_to(seconds.perception);
 }
 

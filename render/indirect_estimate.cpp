@@ -170,8 +170,9 @@ DiffuseSurface make_diffuse_surface(const PixelSurface& surface) {
             diffuse_radiance(surface.material, cos_view, Rgb(1.0f))};
 }
 
-void add_indirect_light(const LightingContext& context, const CameraView& view, const SampleHits& centers,
-                        const Image<DiffuseSurface>& surfaces, float scale, Image<Rgb>& estimate, RayCounts& counts) {
+Image<Rgb> estimate_indirect_light(const LightingContext& context, const CameraView& view, const SampleHits& centers,
+                                   const Image<DiffuseSurface>& surfaces, RayCounts& counts) {
+    Image<Rgb> light(surfaces.width, surfaces.height);
     GatherGrid grid(surfaces);
     for (int level = 0; level < grid.levels(); ++level) {
         gather_nodes(context, view, centers, list_missing(grid, surfaces, level), grid, counts);
@@ -184,10 +185,11 @@ void add_indirect_light(const LightingContext& context, const CameraView& view, 
                 if (!(surface.footprint > 0.0f)) continue;
                 const GatherGrid::Interpolated found = grid.interpolate(x, y, grid.levels());
                 const Rgb irradiance = found.irradiance + mean * (1.0f - found.confidence);
-                estimate(x, y) += surface.reflected * irradiance * scale;
+                light(x, y) = surface.reflected * irradiance;
             }
         }
     });
+    return light;
 }
 
 }  // namespace aleph

@@ -16,14 +16,13 @@ struct DiffuseSurface {
 };
 DiffuseSurface make_diffuse_surface(const PixelSurface& surface);
 
-/// Adds the light that arrives after one bounce, without the noise and the blocks that the model of vision would take
-/// for detail. All gathers have the same random numbers, so their error varies as slowly as the light itself. Biased:
-/// what is smaller than about 30 pixels of a 640x480 picture, such as the shadow of a chair leg, is smoothed away.
+/// The radiance, towards the viewer, of the light that arrives after one bounce, without the noise and the blocks that
+/// the model of vision would take for detail. All gathers have the same random numbers, so their error varies as slowly
+/// as the light itself. Biased: what is smaller than about 30 pixels of a 640x480 picture, such as the shadow of a
+/// chair leg, is smoothed away.
 /// @param surfaces  of all pixel centres
-/// @param scale     factor on radiance
-/// @param estimate  increased
 /// @param counts    increased by the rays cast
-void add_indirect_light(const LightingContext& context, const CameraView& view, const SampleHits& centers,
-                        const Image<DiffuseSurface>& surfaces, float scale, Image<Rgb>& estimate, RayCounts& counts);
+Image<Rgb> estimate_indirect_light(const LightingContext& context, const CameraView& view, const SampleHits& centers,
+                                   const Image<DiffuseSurface>& surfaces, RayCounts& counts);
 
 }  // namespace aleph

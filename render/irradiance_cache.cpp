@@ -26,6 +26,9 @@ constexpr float smoothing_reach = 2.0f, max_noise_difference = 2.5f;
 /// The variance of gather rays is expected from the records within this multiple of the reach.
 constexpr float variance_reach = 4.0f;
 
+/// A record of a looser pixel has more noise: it covers no pixel whose accuracy is smaller by more than this factor.
+constexpr float max_looser = 1.5f;
+
 /// Whether a ray passes between two points of surfaces. It is lifted off both.
 bool is_in_sight(RayTask& task, const IrradianceRecord& record, const CacheQuery& query) {
     constexpr float lift = 0.02f;
@@ -198,6 +201,7 @@ bool IrradianceCache::covers(const CacheQuery& query) const {
     bool found = false;
     index_.visit_near(query.position, accuracy, 0.0f, [&](int i) {
         const IrradianceRecord& record = records_[i];
+        if (record.accuracy > max_looser * accuracy) return true;
         found = is_usable(record, query, interpolation_error(record, query.position, query.normal), accuracy);
         return !found;
     });
@@ -212,7 +216,8 @@ std::optional<Rgb> IrradianceCache::interpolate(const CacheQuery& query) const {
         const IrradianceRecord& record = records_[i];
         const float error = interpolation_error(record, query.position, query.normal);
         if (is_usable(record, query, error, accuracy)) {
-            const float weight = 1.0f - error / accuracy;
+            const float looser = std::max(1.0f, record.accuracy / accuracy);
+            const float weight = (1.0f - error / accuracy) / (looser * looser);
             sum += extrapolate(record, query.position, query.normal) * weight;
             total += weight;
         }

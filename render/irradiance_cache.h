@@ -40,7 +40,7 @@ class IrradianceCache {
     /// Adds a record, and corrects it and its neighbours by each other.
     void insert(IrradianceRecord record);
 
-    /// True if at least one record has an error below the query's accuracy.
+    /// True if at least one record has an error below the query's accuracy, and was computed for about that accuracy.
     bool covers(const CacheQuery& query) const;
 
     /// The weighted mean of all records whose error is below the query's accuracy, or nothing if there is none.

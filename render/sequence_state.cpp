@@ -137,14 +137,14 @@ SampleHits SequenceState::look(std::int64_t frame, bool perceive, bool maps, Fra
 
     if (perceive) {
         out.estimate = compute_estimate(lighting(), out.view, centers, settings.estimate, settings.bounces > 0,
-                                        exposure, stats.counts.rays);
+                                        exposure, stats.counts.rays, &out.indirect_luminance);
         note_estimate(out, sanitize_estimate(out.estimate), scene.viewing);
         clock.add_to(stats.seconds.estimate);
         compute_motion(centers, which, maps, clock, out);
         compute_frame_vision(out, scene, settings, maps, clock);
     } else {
         out.perception.aleph = Image<float>(settings.width, settings.height, 1.0f);
-        out.alpha = compute_accuracy_map(out.perception.aleph, settings);
+        out.alpha = Image<float>(settings.width, settings.height, static_cast<float>(settings.accuracy));
     }
     return centers;
 }

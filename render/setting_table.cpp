@@ -150,9 +150,11 @@ void add_perception(std::vector<Setting>& table) {
                                                   "true makes grey neutral in the opponent colour channels of saliency",
                                                   &PerceptionSettings::neutral_opponent)));
     table.push_back(without_scene(choice_setting<Adapter>(
-        "adapter", "formula from Aleph map to accuracy: thesis (6.7) (compress), or (6.8) (scale-add)",
+        "adapter",
+        "how accuracy follows the Aleph map: thesis (6.7) (compress), (6.8) (scale-add), or the visible threshold itself "
+        "(threshold)",
         [](S& s) -> Adapter& { return s.adapter; },
-        {{"compress", Adapter::compress}, {"scale-add", Adapter::scale_add}})));
+        {{"compress", Adapter::compress}, {"scale-add", Adapter::scale_add}, {"threshold", Adapter::threshold}})));
     table.push_back(
         without_scene(number_setting("adapter_k", "K of the adapter scale-add", &S::adapter_k, 1e-6, 1e12)));
 }

@@ -22,10 +22,11 @@ enum class MotionSource {
     image,  ///< from the quick estimates of two frames alone (5.1.1)
 };
 
-/// Formula from the Aleph map to the ambient accuracy of each pixel.
+/// From the model of vision to the ambient accuracy of each pixel.
 enum class Adapter {
     compress,   ///< (6.7)
     scale_add,  ///< (6.8)
+    threshold,  ///< the visible threshold itself (threshold_accuracy)
 };
 
 /// How a pixel's light is computed.

@@ -55,7 +55,8 @@ Result run_accuracy(const StudyFrame& frame, RenderSettings settings, double acc
     settings.accuracy = accuracy;
     validate(settings);
     Result result;
-    result.light = compute_cached_light(frame, settings, compute_accuracy_map(vision.aleph, settings));
+    result.light =
+        compute_cached_light(frame, settings, compute_accuracy_map(vision.aleph, vision.tolerance, settings));
     result.error = measure_light(result.light.light, reference, grid, vision.threshold);
     return result;
 }

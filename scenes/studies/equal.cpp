@@ -112,7 +112,8 @@ class FrameStudy {
             settings = with_choice(with_choice(settings, "adapter", adapter), "guide", options_.guide);
         }
         validate(settings);
-        return compute_cached_light(frame_, settings, compute_accuracy_map(judge.maps.aleph, settings));
+        return compute_cached_light(frame_, settings,
+                                    compute_accuracy_map(judge.maps.aleph, judge.maps.tolerance, settings));
     }
 
     void add_point(const StudyTable& table, Variant& variant, const std::string& accuracy, const CachedLight& light,

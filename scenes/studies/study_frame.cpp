@@ -29,7 +29,8 @@ FrameVision compute_vision(const Scene& scene, RenderSettings settings, Guide gu
     request.maps = true;
     const double start = processor_seconds();
     FrameOutput out = sequence.render(frame, request);
-    return {std::move(out.perception.aleph), std::move(out.threshold), processor_seconds() - start};
+    return {std::move(out.perception.aleph), std::move(out.threshold), std::move(out.tolerance),
+            processor_seconds() - start};
 }
 
 double processor_seconds() {

@@ -35,6 +35,7 @@ struct StudyFrame {
 struct FrameVision {
     Image<float> aleph;      ///< contrast elevation
     Image<float> threshold;  ///< cd/m2, of an error that lasts
+    Image<float> tolerance;  ///< relative error of indirect light that is not seen
     double seconds = 0.0;    ///< of a processor, for the estimate, motion and maps
 };
 
