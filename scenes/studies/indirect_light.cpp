@@ -31,15 +31,6 @@ struct LitPixel {
     int x = 0, y = 0;
 };
 
-Rgb reflect_unit_irradiance(const PixelSurface& surface) {
-    const LitSurface lit(surface);
-    return diffuse_radiance(surface.material, lit.cos_view, Rgb(1.0f)) * lit.below_sheen;
-}
-
-PixelSurface surface_at(const StudyFrame& frame, int x, int y) {
-    return make_pixel_surface(frame.shading, frame.posed.view, frame.centers, x, y);
-}
-
 /// The pixels that reflect diffusely, row by row.
 std::vector<LitPixel> find_lit_pixels(const StudyFrame& frame, const RenderSettings& settings,
                                       const Image<float>& alpha) {
