@@ -5,6 +5,7 @@
 #include <mutex>
 
 #include "engine/base/parallel.h"
+#include "render/gather_at.h"
 #include "render/pixel_sum.h"
 
 namespace aleph {
@@ -50,6 +51,7 @@ class FrameShading {
             if (context_.progress) context_.progress(fill_share * i / spp, "fill");
             fill_cache(cache_, context_, cast(still(), i), out_);
         }
+        cache_.finish();
     }
 
     void shade() {
@@ -166,9 +168,17 @@ class FrameShading {
     /// clamping shrank a record after it covered this place.
     Rgb find_irradiance(ShadingTask& task, const PixelSurface& surface) {
         const float accuracy = context_.accuracy(surface.x, surface.y);
+        if (context_.carried != nullptr) {
+            ++task.lookups;
+            if (const std::optional<Rgb> found = context_.carried->find(surface, accuracy)) {
+                ++task.hits;
+                return *found;
+            }
+        }
+        const CacheQuery place{surface.point.position, surface.point.normal, accuracy, &task};
         if (cached_ && accuracy > 0.0f) {
-            const CacheQuery query{surface.point.position, surface.point.normal,
-                                   accuracy * static_cast<float>(context_.settings.shade_reach)};
+            CacheQuery query = place;
+            query.accuracy *= static_cast<float>(context_.settings.shade_reach);
             ++task.lookups;
             if (const std::optional<Rgb> found = cache_.interpolate(query)) {
                 ++task.hits;
@@ -177,7 +187,8 @@ class FrameShading {
         }
         ++task.computed;
         out_.records(surface.x, surface.y) += 1.0f;
-        return gather_at(context_, task, surface, task.scratch).irradiance;
+        const int rays = choose_rays(context_.settings, accuracy, cache_.expected_ray_variance(place));
+        return gather_at(context_, task, surface, task.scratch, rays).irradiance;
     }
 
     /// Adds what a row's task counted.
