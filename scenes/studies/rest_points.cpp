@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "engine/base/parallel.h"
-#include "scenes/studies/indirect_light.h"
+#include "scenes/studies/reference_light.h"
 
 namespace aleph {
 

@@ -21,7 +21,7 @@ namespace aleph {
 namespace {
 
 struct ShotOptions {
-    StudyOptions study{.size = "160x120", .gather = 256, .spp = 0};
+    StudyOptions study{.size = "160x120", .gather = 0, .spp = 0};
     std::string frames = "0-59";
     std::vector<std::string> steps = {"0", "10"};
     std::string guide = "none";
