@@ -151,8 +151,6 @@ SceneBounds bounds_or_unit(const ShadingScene& shading) {
 
 }  // namespace
 
-}
-
 RadiusBounds radius_bounds(const IndirectContext& context, float footprint, float accuracy) {
     const float alpha = std::clamp(accuracy, 1e-3f, 1.0f);
     const float min = static_cast<float>(context.settings.min_radius_pixels) * footprint / alpha;

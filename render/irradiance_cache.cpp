@@ -176,11 +176,20 @@ void IrradianceCache::finish() {
     parallel_for(records_.size(), 64, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) smooth[i] = smoothed(records_[i]);
     });
-    const std::vector<int> order = index_.ordered();
+    std::vector<IrradianceRecord> ordered;
+    ordered.reserve(smooth.size());
+    for (const int i : index_.ordered()) ordered.push_back(smooth[i]);
+    restore(std::move(ordered));
+}
+
+void IrradianceCache::restore(std::vector<IrradianceRecord> records) {
+    records_ = std::move(records);
     index_ = index_.emptied();
-    for (std::size_t i = 0; i < order.size(); ++i) {
-        records_[i] = smooth[order[i]];
-        index_.add(records_[i].position, {records_[i].radius, spread_of(records_[i])}, records_[i].accuracy);
+    ray_variance_sum_ = 0.0;
+    for (const IrradianceRecord& record : records_) {
+        index_.add(record.position, {record.radius, spread_of(record)}, record.accuracy);
+        max_accuracy_ = std::max(max_accuracy_, record.accuracy);
+        ray_variance_sum_ += record.ray_variance;
     }
 }
 

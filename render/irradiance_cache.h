@@ -58,6 +58,9 @@ class IrradianceCache {
     /// has to be inserted afterwards, but may.
     void finish();
 
+    /// Replaces all records by those of another cache after finish(), as they are.
+    void restore(std::vector<IrradianceRecord> records);
+
     const std::vector<IrradianceRecord>& records() const { return records_; }
 
   private:

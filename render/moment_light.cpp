@@ -35,6 +35,7 @@ std::vector<IrradianceRecord> compute_records(const std::vector<std::shared_ptr<
     }
     tally.counts.rays += counts.rays;
     counts = tally.counts;
+    cache.finish();
     return cache.records();
 }
 
@@ -42,7 +43,7 @@ std::vector<IrradianceRecord> compute_records(const std::vector<std::shared_ptr<
 /// it was computed or read from a file.
 MomentLight make_moment_light(std::shared_ptr<const KeyPose> at, const std::vector<IrradianceRecord>& records) {
     MomentLight moment{at, make_cache(at->shading)};
-    for (const IrradianceRecord& record : records) moment.cache.insert(record);
+    moment.cache.restore(records);
     return moment;
 }
 
