@@ -10,7 +10,8 @@
 #include "engine/load/load_scene.h"
 #include "render/accuracy_map.h"
 #include "render/cli/options.h"
-#include "scenes/studies/indirect_light.h"
+#include "scenes/studies/cached_light.h"
+#include "scenes/studies/reference_light.h"
 #include "scenes/studies/sheet.h"
 #include "scenes/studies/study_options.h"
 #include "scenes/studies/study_table.h"
@@ -20,7 +21,7 @@ namespace aleph {
 namespace {
 
 struct CacheOptions {
-    StudyOptions study{.size = "512x512", .picture = "cache.png", .spp = 0};
+    StudyOptions study{.size = "512x512", .picture = "cache.png", .gather = 0, .spp = 0};
     ReferenceOptions reference;
     std::vector<std::string> accuracies = {".5", ".3", ".2", ".15", ".1", ".07", ".05"};
     std::string pictured{};

@@ -10,8 +10,9 @@
 #include "render/accuracy_map.h"
 #include "render/cli/options.h"
 #include "render/setting_table.h"
+#include "scenes/studies/cached_light.h"
 #include "scenes/studies/cost_curve.h"
-#include "scenes/studies/indirect_light.h"
+#include "scenes/studies/reference_light.h"
 #include "scenes/studies/study_options.h"
 #include "scenes/studies/study_table.h"
 
@@ -27,7 +28,7 @@ std::vector<std::string> list_adapters() {
 }
 
 struct EqualOptions {
-    StudyOptions study{.size = "240x180", .spp = 0};
+    StudyOptions study{.size = "240x180", .gather = 0, .spp = 0};
     ReferenceOptions reference{.strata = 4096, .grid = {2}};
     std::vector<std::string> frames;
     std::vector<std::string> accuracies = {"1", ".7", ".5", ".35", ".25", ".18", ".12", ".08", ".05"};

@@ -8,16 +8,32 @@ namespace aleph {
 
 StudyFrame::StudyFrame(const Sequence& sequence, const RenderSettings& settings, std::int64_t number)
     : scene(sequence.scene()),
+      plan(make_pose_plan(scene)),
+      camera(find_camera(scene, "")),
       frame(number),
-      posed(make_posed_view(scene, scene.frame_rate.seconds_of(number), find_camera(scene, ""), settings.width,
-                            settings.height)),
+      posed(make_posed_view(scene, scene.frame_rate.seconds_of(number), camera, settings.width, settings.height)),
       textures(make_texture_set(scene)),
-      rays(scene),
+      rays(scene, plan),
       shading((rays.update(posed.pose, compute_anchor(posed.view)),
                make_shading_scene(scene, posed.pose, compute_anchor(posed.view), textures))),
       lights(make_light_set(shading)),
       centers(cast_centers(rays, posed.view, nullptr)),
       exposure(sequence.exposure()) {}
+
+void StudyFrame::move_to(std::int64_t number) {
+    frame = number;
+    update_posed_view(scene, plan, scene.frame_rate.seconds_of(number), camera, posed);
+    const glm::dvec3 anchor = compute_anchor(posed.view);
+    rays.update_moving(posed.pose, anchor);
+    update_shading_scene(shading, plan, anchor);
+    lights = make_light_set(shading);
+    centers = cast_centers(rays, posed.view, nullptr);
+}
+
+Rgb reflect_unit_irradiance(const PixelSurface& surface) {
+    const LitSurface lit(surface);
+    return diffuse_radiance(surface.material, lit.cos_view, Rgb(1.0f)) * lit.below_sheen;
+}
 
 FrameVision compute_vision(const Scene& scene, RenderSettings settings, Guide guide, Vision vision,
                            std::int64_t frame) {

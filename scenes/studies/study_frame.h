@@ -14,6 +14,9 @@ struct StudyFrame {
     StudyFrame(const StudyFrame&) = delete;
     StudyFrame& operator=(const StudyFrame&) = delete;
 
+    /// Takes it to another frame.
+    void move_to(std::int64_t number);
+
     LightingContext lighting() const { return {shading, lights, rays}; }
     /// cd/m2 of a radiance.
     double display_luminance(const Rgb& radiance) const {
@@ -21,6 +24,8 @@ struct StudyFrame {
     }
 
     const Scene& scene;
+    PosePlan plan;
+    int camera;
     std::int64_t frame;
     PosedView posed;
     TextureSet textures;
@@ -40,6 +45,14 @@ struct FrameVision {
 };
 
 FrameVision compute_vision(const Scene& scene, RenderSettings settings, Guide guide, Vision vision, std::int64_t frame);
+
+/// The surface at a pixel's centre. Undefined if nothing is there.
+inline PixelSurface surface_at(const StudyFrame& frame, int x, int y) {
+    return make_pixel_surface(frame.shading, frame.posed.view, frame.centers, x, y);
+}
+
+/// Radiance that a surface reflects towards its viewer of an indirect irradiance of 1.
+Rgb reflect_unit_irradiance(const PixelSurface& surface);
 
 /// Seconds of processor time that the program has used, in all its threads: less disturbed by other programs than the
 /// time of a clock.

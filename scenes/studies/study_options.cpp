@@ -19,7 +19,7 @@ void add_study_options(CLI::App& app, StudyOptions& options) {
     app.add_option("--size", options.size, "WIDTHxHEIGHT of the frames in pixels")->capture_default_str();
     if (!options.picture.empty())
         app.add_option("-o,--output", options.picture, "file of the picture, .png or .jpg")->capture_default_str();
-    add_value(app, "--gather", options.gather, "rays per irradiance value");
+    add_value(app, "--gather", options.gather, "rays per irradiance value; 0: as many as the accuracy needs");
     if (options.spp > 0) add_value(app, "--spp", options.spp, "samples per pixel");
     add_value(app, "-t,--threads", options.threads, "number of threads; 0: all");
 }

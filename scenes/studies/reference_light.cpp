@@ -1,4 +1,4 @@
-#include "scenes/studies/indirect_light.h"
+#include "scenes/studies/reference_light.h"
 
 #include <OpenImageIO/strutil.h>
 #include <fmt/format.h>
@@ -7,7 +7,6 @@
 #include <atomic>
 #include <cmath>
 #include <fstream>
-#include <mutex>
 #include <sstream>
 
 #include "engine/base/errors.h"
@@ -24,66 +23,6 @@ constexpr std::uint32_t reference_seed_mask = 0x7265666cu;  // keeps references 
 constexpr std::uint32_t grid_seed = 0x67726964u;
 constexpr float no_light = -1.0f;
 
-/// A pixel that reflects indirect light.
-struct LitPixel {
-    CacheQuery query;
-    Rgb reflected{0.0f};  ///< radiance at an irradiance of 1
-    int x = 0, y = 0;
-};
-
-Rgb reflect_unit_irradiance(const PixelSurface& surface) {
-    const LitSurface lit(surface);
-    return diffuse_radiance(surface.material, lit.cos_view, Rgb(1.0f)) * lit.below_sheen;
-}
-
-PixelSurface surface_at(const StudyFrame& frame, int x, int y) {
-    return make_pixel_surface(frame.shading, frame.posed.view, frame.centers, x, y);
-}
-
-/// The pixels that reflect diffusely, row by row.
-std::vector<LitPixel> find_lit_pixels(const StudyFrame& frame, const RenderSettings& settings,
-                                      const Image<float>& alpha) {
-    std::vector<std::vector<LitPixel>> rows(static_cast<std::size_t>(alpha.height));
-    parallel_rows(alpha.height, 1, [&](int y, int) {
-        for (int x = 0; x < alpha.width; ++x) {
-            if (frame.centers.hits(x, y).instance == no_index) continue;
-            const PixelSurface surface = surface_at(frame, x, y);
-            if (!surface.material.has_diffuse()) continue;
-            const float accuracy = alpha(x, y) * static_cast<float>(settings.shade_reach);
-            rows[static_cast<std::size_t>(y)].push_back(
-                {{surface.point.position, surface.point.normal, accuracy}, reflect_unit_irradiance(surface), x, y});
-        }
-    });
-    std::vector<LitPixel> all;
-    for (const auto& row : rows) all.insert(all.end(), row.begin(), row.end());
-    return all;
-}
-
-/// Gathers at the pixels for which no record was found, as shading does.
-void gather_late(const IndirectContext& context, const StudyFrame& frame, const std::vector<LitPixel>& pixels,
-                 const std::vector<std::uint8_t>& found, CachedLight& out) {
-    std::mutex mutex;
-    parallel_for(pixels.size(), 64, [&](std::size_t begin, std::size_t end) {
-        thread_local GatherScratch scratch;
-        RayTask task(frame.rays);
-        std::size_t late = 0;
-        for (std::size_t i = begin; i < end; ++i) {
-            if (found[i]) continue;
-            const LitPixel& pixel = pixels[i];
-            const PixelSurface surface = surface_at(frame, pixel.x, pixel.y);
-            const Rgb irradiance = gather_at(context, task, surface, scratch).irradiance;
-            out.light(pixel.x, pixel.y) = static_cast<float>(frame.display_luminance(pixel.reflected * irradiance));
-            out.records(pixel.x, pixel.y) += 1.0f;
-            ++late;
-        }
-        const std::lock_guard lock(mutex);
-        out.late += late;
-        out.gather_rays += task.counts.gather;
-        out.shadow_rays += task.counts.shadow;
-    });
-    out.record_count += out.late;
-}
-
 std::filesystem::path reference_path(const StudyFrame& frame, const RenderSettings& settings, const std::string& file,
                                      const ReferenceOptions& options) {
     std::ifstream stream(file, std::ios::binary);
@@ -95,48 +34,6 @@ std::filesystem::path reference_path(const StudyFrame& frame, const RenderSettin
 }
 
 }  // namespace
-
-CachedLight compute_cached_light(const StudyFrame& frame, const RenderSettings& settings, const Image<float>& alpha) {
-    const LightingContext lighting = frame.lighting();
-    const IndirectContext context{lighting,
-                                  frame.posed.view,
-                                  settings,
-                                  alpha,
-                                  static_cast<std::uint32_t>(frame.frame),
-                                  scene_radius(frame.shading),
-                                  {}};
-    CachedLight out;
-    out.light = Image<float>(alpha.width, alpha.height);
-    IrradianceCache cache = make_cache(frame.shading);
-    FrameTally tally{Image<float>(alpha.width, alpha.height), Image<float>(alpha.width, alpha.height), {}};
-    double start = processor_seconds();
-    fill_cache(cache, context, frame.centers, tally);
-    out.fill_seconds = processor_seconds() - start;
-    out.records = std::move(tally.records);
-    out.record_count = tally.counts.records;
-    out.gather_rays = tally.counts.rays.gather;
-    out.shadow_rays = tally.counts.rays.shadow;
-
-    const std::vector<LitPixel> pixels = find_lit_pixels(frame, settings, alpha);
-    std::vector<std::uint8_t> found(pixels.size());
-    out.lookups = pixels.size();
-    start = processor_seconds();
-    parallel_for(pixels.size(), 1024, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t i = begin; i < end; ++i) {
-            const std::optional<Rgb> irradiance = cache.interpolate(pixels[i].query);
-            found[i] = irradiance.has_value();
-            if (irradiance) {
-                out.light(pixels[i].x, pixels[i].y) =
-                    static_cast<float>(frame.display_luminance(pixels[i].reflected * *irradiance));
-            }
-        }
-    });
-    out.lookup_seconds = processor_seconds() - start;
-    start = processor_seconds();
-    gather_late(context, frame, pixels, found, out);
-    out.late_seconds = processor_seconds() - start;
-    return out;
-}
 
 glm::ivec2 PixelGrid::pixel(int column, int row, int width, int height) const {
     const int left = column * step, top = row * step;
