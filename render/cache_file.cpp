@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
+#include <algorithm>
 #include <cstring>
 #include <nlohmann/json.hpp>
 #include <set>
@@ -34,14 +34,20 @@ std::string format_fingerprint(const CacheFingerprint& fingerprint) {
     return json.dump();
 }
 
+bool is_fingerprint(const Json& json) {
+    if (!json.is_object() || !json.contains("settings") || !json["settings"].is_object()) return false;
+    return std::ranges::all_of(json["settings"], [](const Json& value) { return value.is_string(); }) &&
+           json.contains("build") && json.contains("scene");
+}
+
 /// What differs between a file's fingerprint and the one that is wanted; empty if nothing does.
 std::string find_difference(const Json& found, const CacheFingerprint& wanted) {
-    if (found.at("build") != wanted.build) return "it was written by another build of aleph";
+    if (found["build"] != wanted.build) return "it was written by another build of aleph";
     for (const auto& [key, value] : wanted.settings) {
-        const std::string here = setting_text(value), there = found.at("settings").value(key, "not set");
+        const std::string here = setting_text(value), there = found["settings"].value(key, "not set");
         if (here != there) return fmt::format("its setting {} is {}, here {}", key, printable(there), printable(here));
     }
-    if (found.at("scene") != wanted.scene) return "it belongs to another scene, or the scene has changed";
+    if (found["scene"] != wanted.scene) return "it belongs to another scene, or the scene has changed";
     return {};
 }
 
@@ -139,7 +145,7 @@ MomentRecords read_cache_file(const std::filesystem::path& path, const CacheFing
     }
     in.bytes(magic.size());
     const Json found = Json::parse(in.bytes(in.value<std::uint64_t>()), nullptr, false);
-    if (!found.is_object() || !found.contains("settings") || !found["settings"].is_object()) in.damaged();
+    if (!is_fingerprint(found)) in.damaged();
     const std::string difference = find_difference(found, fingerprint);
     if (!difference.empty()) throw InputError(file, "", "the cache file cannot be used: " + difference);
     if (in.value<std::uint64_t>() != sizeof(IrradianceRecord)) in.damaged();
