@@ -153,7 +153,7 @@ IrradianceSample gather_at(const IndirectContext& context, RayTask& task, const 
     const RandomKey key{context.settings.seed ^ gather_seed_mask, context.frame, surface.pixel,
                         static_cast<std::uint32_t>(surface.sample)};
     return gather_irradiance(context.lighting, task, surface.point, choose_strata(context.settings.gather), key,
-                             scratch, std::max(0, context.settings.path_depth - 2));
+                             scratch, {.depth = std::max(0, context.settings.path_depth - 2)});
 }
 
 RadiusBounds radius_bounds(const IndirectContext& context, const PixelSurface& surface, float accuracy) {
