@@ -26,6 +26,12 @@ struct Candidate {
     int rays = 0;  ///< of its gather
 };
 
+/// A record, unless its gather was not finite, and the direct light that it found for the cells of the grid.
+struct Gathered {
+    std::optional<IrradianceRecord> record;
+    std::vector<DirectSample> direct;
+};
+
 /// Corners of the tiles of this size that larger tiles do not share, where light is needed.
 std::vector<glm::ivec2> list_tiles(const Image<FillPoint>& points, int stride, bool first_pass) {
     std::vector<glm::ivec2> tiles;
@@ -96,11 +102,10 @@ std::vector<Candidate> accept_candidates(const IrradianceCache& cache, const Ind
     return accepted;
 }
 
-/// The candidates' records, computed in parallel; nothing for a gather that is not finite.
-std::vector<std::optional<IrradianceRecord>> gather_records(const IndirectContext& context, const SampleHits& sample,
-                                                            const std::vector<Candidate>& candidates,
-                                                            RayCounts& counts) {
-    std::vector<std::optional<IrradianceRecord>> records(candidates.size());
+/// The candidates' records, computed in parallel.
+std::vector<Gathered> gather_records(const IndirectContext& context, const SampleHits& sample,
+                                     const std::vector<Candidate>& candidates, RayCounts& counts) {
+    std::vector<Gathered> records(candidates.size());
     std::mutex counts_mutex;
     parallel_for(candidates.size(), 1, [&](std::size_t begin, std::size_t end) {
         thread_local GatherScratch scratch;
@@ -108,9 +113,10 @@ std::vector<std::optional<IrradianceRecord>> gather_records(const IndirectContex
         for (std::size_t i = begin; i < end; ++i) {
             const Candidate& candidate = candidates[i];
             const PixelSurface surface = *find_surface(context, sample, candidate.x, candidate.y);
-            const IrradianceSample value = gather_at(context, task, surface, scratch, candidate.rays);
-            records[i] = make_record(candidate.query.position, candidate.query.normal, candidate.query.accuracy, value,
-                                     candidate.bounds);
+            const IrradianceSample value =
+                gather_at(context, task, surface, scratch, candidate.rays, &records[i].direct);
+            records[i].record = make_record(candidate.query.position, candidate.query.normal, candidate.query.accuracy,
+                                            value, candidate.bounds);
         }
         const std::lock_guard lock(counts_mutex);
         counts += task.counts;
@@ -129,8 +135,9 @@ std::size_t fill_tiles(IrradianceCache& cache, const IndirectContext& context, c
         const auto records = gather_records(context, sample, accepted, tally.counts.rays);
         for (std::size_t i = 0; i < accepted.size(); ++i) {
             tally.records(accepted[i].x, accepted[i].y) += 1.0f;
-            if (records[i]) {
-                cache.insert(*records[i]);
+            if (context.direct != nullptr) context.direct->insert(records[i].direct);
+            if (records[i].record) {
+                cache.insert(*records[i].record);
             } else {
                 tally.invalid_samples(accepted[i].x, accepted[i].y) += 1.0f;
                 ++tally.counts.invalid_samples;

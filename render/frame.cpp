@@ -42,6 +42,7 @@ class FrameShading {
           cached_(!by_paths_ && indirect_ && context.settings.accuracy > 0.0),
           cache_(make_cache(context.lighting.shading)),
           sums_(context.view.width, context.view.height) {
+        if (cached_) context_.direct = &direct_;
         if (!by_paths_) out_.indirect = Image<Rgb>(context.view.width, context.view.height);
     }
 
@@ -207,7 +208,8 @@ class FrameShading {
         }
     }
 
-    const IndirectContext& context_;
+    IndirectContext context_;
+    DirectGrid direct_;
     const SampleHits& centers_;
     const SampleOptions& options_;
     ShadedFrame& out_;

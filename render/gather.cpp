@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "render/gather_summary.h"
+#include "render/lambert_hit.h"
 
 namespace aleph {
 
@@ -49,60 +50,132 @@ Rgb follow_lobes(const LightingContext& context, RayTask& task, const LitSurface
     return follow_sample(context, task, lit, sample, state, random);
 }
 
-/// Fills in distances, the light of longer paths, and for all hits unshadowed radiance with its shadow rays.
-void light_hits(const LightingContext& context, RayTask& task, const SurfacePoint& point,
-                const HemisphereStrata& strata, int depth, const CellNumbers& numbers, RandomStream& random,
-                GatherScratch& scratch) {
-    const std::size_t cells = static_cast<std::size_t>(strata.count());
+/// One gather while its hits are lit.
+struct Lighting {
+    const LightingContext& context;
+    RayTask& task;
+    const GatherOptions& options;
+    const HemisphereStrata& strata;
+    const CellNumbers& numbers;
+    const glm::vec3& normal;  ///< of the hemisphere
+    RandomStream& random;
+    GatherScratch& scratch;
+
+    /// sr, that a ray represents. Cells towards the horizon are 1 / cosine larger.
+    float solid_angle(const glm::vec3& direction) const {
+        const float cosine = std::max(glm::dot(normal, direction), min_ray_cosine);
+        return pi / (static_cast<float>(strata.count()) * cosine);
+    }
+    /// One light, chosen for a surface that the ray of this cell of the strata hit.
+    ScatteredLight choose(const LitSurface& lit, const LobeShares& shares, int cell) const {
+        const int row = cell / strata.columns, column = cell % strata.columns;
+        return choose_light(context, lit, shares,
+                            {random.next(), numbers.light(row, column), numbers.light_point(row, column)});
+    }
+};
+
+/// Adds a sample of direct light, and the light of longer paths by other lobes than Lambert's.
+void light_hit(const Lighting& lighting, std::size_t i) {
+    GatherScratch& scratch = lighting.scratch;
+    const ShadingScene& shading = lighting.context.shading;
+    const int cell = scratch.cells[i];
+    const glm::vec3& direction = scratch.rays[i].direction;
+    const SurfacePoint met = make_surface_point(shading, scratch.hits[i], direction);
+    const RayFootprint footprint =
+        make_cone_footprint(met, direction, scratch.hits[i].distance, lighting.solid_angle(direction));
+    const ViewedSurface surface = view_surface(shading, met, -direction, footprint);
+    const LitSurface lit(surface);
+    LobeShares shares{};
+    const int depth = lighting.options.depth;
+    if (depth > 0 && surface.material.has_specular()) {
+        shares = share_lobes(lit, LobeSet::all);
+        scratch.radiance[cell] = follow_lobes(lighting.context, lighting.task, lit, shares, depth, lighting.random);
+        shares[static_cast<int>(Lobe::diffuse)] = 0.0f;
+    }
+    const ScatteredLight scattered = lighting.choose(lit, shares, cell);
+    if (scattered.radiance == Rgb(0.0f)) return;
+    scratch.shadow_rays.push_back(scattered.shadow_ray);
+    scratch.shadow_samples.push_back({scattered.radiance, Rgb(1.0f), cell});
+}
+
+/// Finds the hit's cell of the direct grid.
+void note_grid_hit(const Lighting& lighting, std::size_t i) {
+    GatherScratch& scratch = lighting.scratch;
+    const Hit& hit = scratch.hits[i];
+    const glm::vec3& direction = scratch.rays[i].direction;
+    const float solid_angle = lighting.solid_angle(direction);
+    const LambertHit met = make_lambert_hit(lighting.context.shading, hit, direction, solid_angle);
+    if (met.albedo == Rgb(0.0f)) return;
+    const float width = hit.distance * std::sqrt(solid_angle);
+    const std::uint64_t cell = DirectGrid::key_of(hit.instance, met.position, met.geometric, width);
+    lighting.options.grid->prefetch(cell);
+    scratch.grid_hits.push_back({cell, met.albedo, static_cast<int>(i)});
+}
+
+/// Direct light from the grid's cell. If the cell has too few samples, one more is taken, and counts with them.
+void light_grid_hit(const Lighting& lighting, const GridHit& noted) {
+    GatherScratch& scratch = lighting.scratch;
+    const int cell = scratch.cells[noted.ray];
+    const DirectGrid::Cell& known = lighting.options.grid->find(noted.grid);
+    if (known.count >= DirectGrid::enough) {
+        scratch.radiance[cell] = noted.albedo * known.sum / static_cast<float>(known.count);
+        return;
+    }
+    const Rgb scale = noted.albedo / static_cast<float>(known.count + 1);
+    scratch.radiance[cell] = scale * known.sum;
+    const glm::vec3& direction = scratch.rays[noted.ray].direction;
+    ViewedSurface white;
+    white.point = make_surface_point(lighting.context.shading, scratch.hits[noted.ray], direction);
+    white.material.diffuse = Rgb(1.0f);
+    white.view = -direction;
+    const ScatteredLight scattered = lighting.choose(LitSurface(white), {}, cell);
+    if (scattered.radiance == Rgb(0.0f)) {
+        if (lighting.options.found != nullptr) lighting.options.found->push_back({noted.grid, Rgb(0.0f)});
+        return;
+    }
+    scratch.shadow_rays.push_back(scattered.shadow_ray);
+    scratch.shadow_samples.push_back({scattered.radiance, scale, cell, noted.grid});
+}
+
+/// Fills in distances, light that is known, and for all other hits unshadowed light with its shadow rays.
+void light_hits(const Lighting& lighting) {
+    GatherScratch& scratch = lighting.scratch;
+    const ShadingScene& shading = lighting.context.shading;
+    const std::size_t cells = static_cast<std::size_t>(lighting.strata.count());
     scratch.distances.assign(cells, infinite);
     scratch.radiance.assign(cells, Rgb(0.0f));
     scratch.shadow_rays.clear();
-    scratch.unshadowed.clear();
-    scratch.shadow_cells.clear();
-    // sr, of a cell around the normal; cells towards the horizon are 1 / cosine larger.
-    const float cell_angle = pi / static_cast<float>(cells);
+    scratch.shadow_samples.clear();
+    scratch.grid_hits.clear();
     for (std::size_t i = 0; i < scratch.rays.size(); ++i) {
         const Hit& hit = scratch.hits[i];
         if (hit.instance == no_index) continue;
-        const int cell = scratch.cells[i];
-        scratch.distances[cell] = hit.distance;
-        const glm::vec3& direction = scratch.rays[i].direction;
-        const SurfacePoint met = make_surface_point(context.shading, hit, direction);
-        const float cosine = std::max(glm::dot(point.normal, direction), min_ray_cosine);
-        const RayFootprint footprint = make_cone_footprint(met, direction, hit.distance, cell_angle / cosine);
-        const ViewedSurface surface = view_surface(context.shading, met, -direction, footprint);
-        const LitSurface lit(surface);
-        LobeShares shares{};
-        if (depth > 0 && surface.material.has_specular()) {
-            shares = share_lobes(lit, LobeSet::all);
-            scratch.radiance[cell] = follow_lobes(context, task, lit, shares, depth, random);
-            shares[static_cast<int>(Lobe::diffuse)] = 0.0f;
+        scratch.distances[scratch.cells[i]] = hit.distance;
+        if (lighting.options.grid != nullptr && is_plain_lambert(shading, shading.instances[hit.instance].material)) {
+            note_grid_hit(lighting, i);
+        } else {
+            light_hit(lighting, i);
         }
-        const int row = cell / strata.columns, column = cell % strata.columns;
-        const LightNumbers light{random.next(), numbers.light(row, column), numbers.light_point(row, column)};
-        const ScatteredLight scattered = choose_light(context, lit, shares, light);
-        if (scattered.radiance == Rgb(0.0f)) continue;
-        scratch.shadow_rays.push_back(scattered.shadow_ray);
-        scratch.unshadowed.push_back(scattered.radiance);
-        scratch.shadow_cells.push_back(cell);
     }
+    for (const GridHit& noted : scratch.grid_hits) light_grid_hit(lighting, noted);
 }
 
 /// Casts the shadow rays and adds the light that is not in shadow.
-void add_unshadowed(const LightingContext& context, RayTask& task, GatherScratch& scratch) {
+void add_unshadowed(const LightingContext& context, RayTask& task, const GatherOptions& options,
+                    GatherScratch& scratch) {
     const std::size_t count = scratch.shadow_rays.size();
-    if (context.shading.has_sheets) {
-        for (std::size_t s = 0; s < count; ++s) {
-            scratch.radiance[scratch.shadow_cells[s]] +=
-                scratch.unshadowed[s] * find_transmittance(context, task, scratch.shadow_rays[s]);
-        }
-        return;
+    if (!context.shading.has_sheets) {
+        scratch.blocked.resize(count);
+        task.tracer.occluded(scratch.shadow_rays, scratch.blocked);
+        task.counts.shadow += count;
     }
-    scratch.blocked.resize(count);
-    task.tracer.occluded(scratch.shadow_rays, scratch.blocked);
-    task.counts.shadow += count;
     for (std::size_t s = 0; s < count; ++s) {
-        if (!scratch.blocked[s]) scratch.radiance[scratch.shadow_cells[s]] += scratch.unshadowed[s];
+        const ShadowSample& sample = scratch.shadow_samples[s];
+        const Rgb passed = context.shading.has_sheets ? find_transmittance(context, task, scratch.shadow_rays[s])
+                                                      : Rgb(scratch.blocked[s] ? 0.0f : 1.0f);
+        const Rgb arrives = passed == Rgb(0.0f) ? passed : sample.unshadowed * passed;
+        scratch.radiance[sample.cell] += sample.scale * arrives;
+        if (sample.grid != 0 && options.found != nullptr) options.found->push_back({sample.grid, arrives});
     }
 }
 
@@ -110,15 +183,15 @@ void add_unshadowed(const LightingContext& context, RayTask& task, GatherScratch
 
 IrradianceSample gather_irradiance(const LightingContext& context, RayTask& task, const SurfacePoint& point,
                                    const HemisphereStrata& strata, const RandomKey& key, GatherScratch& scratch,
-                                   int depth) {
+                                   const GatherOptions& options) {
     RandomStream random(key);
     const Basis basis = make_basis(point.normal);
     const CellNumbers numbers(random);
     place_rays(strata, basis, point, numbers, scratch);
     task.tracer.intersect(scratch.rays, scratch.hits, true);
     task.counts.gather += scratch.rays.size();
-    light_hits(context, task, point, strata, depth, numbers, random, scratch);
-    add_unshadowed(context, task, scratch);
+    light_hits({context, task, options, strata, numbers, point.normal, random, scratch});
+    add_unshadowed(context, task, options, scratch);
 
     IrradianceSample out;
     out.rays = strata.count();

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "engine/base/color.h"
+#include "render/direct_grid.h"
 #include "render/direct_light.h"
 #include "render/hemisphere_strata.h"
 
@@ -55,6 +56,21 @@ inline int sector_of(float x, float y) {
     return (x < 0.0f ? 1 : 0) | (y < 0.0f ? 2 : 0) | (across < along ? 4 : 0) | (diagonal ? 8 : 0);
 }
 
+/// Light of a sampled light, until its shadow ray is cast.
+struct ShadowSample {
+    Rgb unshadowed{0.0f};
+    Rgb scale{1.0f};         ///< of what arrives, to radiance
+    int cell = 0;            ///< of the strata
+    std::uint64_t grid = 0;  ///< cell of the direct grid that the light is a sample of; 0: none
+};
+
+/// A hit whose direct light may be known.
+struct GridHit {
+    std::uint64_t grid = 0;
+    Rgb albedo{0.0f};
+    int ray = 0;
+};
+
 /// Buffers that a thread reuses, so that only its first gathers allocate.
 struct GatherScratch {
     // One for every ray that is cast, in the order of visit_blocks.
@@ -67,10 +83,18 @@ struct GatherScratch {
     std::vector<std::uint8_t> below;  ///< no ray is cast: the direction is below the true surface
     // One for every shadow ray.
     std::vector<Ray> shadow_rays;
-    std::vector<Rgb> unshadowed;  ///< radiance if nothing is in the way
-    std::vector<int> shadow_cells;
+    std::vector<ShadowSample> shadow_samples;
     std::vector<std::uint8_t> blocked;
+    std::vector<GridHit> grid_hits;
     std::vector<float> sorted;
+};
+
+struct GatherOptions {
+    int depth = 0;  ///< surfaces that may scatter after the first on paths by other lobes than Lambert's; 0: none
+    /// Direct light of pure Lambert surfaces comes from here where it is known: biased, with far fewer shadow rays.
+    /// Null: every hit casts its own shadow ray, without bias.
+    const DirectGrid* grid = nullptr;
+    std::vector<DirectSample>* found = nullptr;  ///< if given, samples for the grid are added
 };
 
 /// Gathers the light that other surfaces scatter to a point after one bounce. The hemisphere lies about the shading
@@ -79,9 +103,8 @@ struct GatherScratch {
 /// surface that is hit reflects or passes light by more than its Lambert layer, a path goes on with that share as its
 /// probability.
 /// @param key    all random numbers depend on it
-/// @param depth  surfaces that may scatter after the first on such a path; 0: none
 IrradianceSample gather_irradiance(const LightingContext& context, RayTask& task, const SurfacePoint& point,
                                    const HemisphereStrata& strata, const RandomKey& key, GatherScratch& scratch,
-                                   int depth = 0);
+                                   const GatherOptions& options = {});
 
 }  // namespace aleph

@@ -27,7 +27,7 @@ int choose_rays(const RenderSettings& settings, float accuracy, const std::optio
 }
 
 IrradianceSample gather_at(const IndirectContext& context, RayTask& task, const PixelSurface& surface,
-                           GatherScratch& scratch, int rays) {
+                           GatherScratch& scratch, int rays, std::vector<DirectSample>* found) {
     // By the place: a surface at rest that a camera at rest sees has the same noise at every time.
     const Hit& hit = surface.hit;
     const std::uint64_t place =
@@ -36,7 +36,7 @@ IrradianceSample gather_at(const IndirectContext& context, RayTask& task, const 
                         static_cast<std::uint32_t>(hit.primitive) ^ static_cast<std::uint32_t>(place >> 32),
                         static_cast<std::uint32_t>(place)};
     return gather_irradiance(context.lighting, task, surface.point, choose_strata(rays), key, scratch,
-                             std::max(0, context.settings.path_depth - 2));
+                             {std::max(0, context.settings.path_depth - 2), context.direct, found});
 }
 
 }  // namespace aleph

@@ -15,7 +15,8 @@ namespace aleph {
 int choose_rays(const RenderSettings& settings, float accuracy, const std::optional<float>& ray_variance);
 
 /// Gathers the irradiance at one pixel sample.
+/// @param found  samples of direct light for the grid of the context; null: they are dropped
 IrradianceSample gather_at(const IndirectContext& context, RayTask& task, const PixelSurface& surface,
-                           GatherScratch& scratch, int rays);
+                           GatherScratch& scratch, int rays, std::vector<DirectSample>* found = nullptr);
 
 }  // namespace aleph

@@ -25,11 +25,13 @@ std::vector<IrradianceRecord> compute_records(const std::vector<std::shared_ptr<
                                               FrameCounts& counts) {
     const KeyView& own = *views.front();
     IrradianceCache cache = make_cache(lighting.shading);
+    DirectGrid direct;
     FrameTally tally;
     tally.records = tally.invalid_samples = Image<float>(own.posed.view.width, own.posed.view.height);
     for (const auto& view : views) {
         IndirectContext context{lighting, view->posed.view, settings, view->accuracy, 0, scene_radius(lighting.shading),
                                 {}};
+        context.direct = &direct;
         if (view != views.front()) context.seen = &view->shading;
         fill_cache(cache, context, view->centers, tally);
     }

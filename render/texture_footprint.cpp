@@ -31,8 +31,12 @@ RayFootprint make_pixel_footprint(const CameraView& view, const SurfacePoint& po
 
 RayFootprint make_cone_footprint(const SurfacePoint& point, const glm::vec3& direction, float distance,
                                  float solid_angle) {
-    const float cosine = std::max(-glm::dot(point.geometric, direction), min_cone_cosine);
-    return {{}, {}, distance * std::sqrt(solid_angle / cosine)};
+    const float cosine = -glm::dot(point.geometric, direction);
+    return {{}, {}, std::sqrt(cone_footprint_area(cosine, distance, solid_angle))};
+}
+
+float cone_footprint_area(float cosine, float distance, float solid_angle) {
+    return distance * distance * solid_angle / std::max(cosine, min_cone_cosine);
 }
 
 UvFootprint make_uv_footprint(const SurfacePoint& point, const RayFootprint& footprint, int uv_set) {

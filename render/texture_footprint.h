@@ -27,6 +27,10 @@ RayFootprint make_pixel_footprint(const CameraView& view, const SurfacePoint& po
 RayFootprint make_cone_footprint(const SurfacePoint& point, const glm::vec3& direction, float distance,
                                  float solid_angle);
 
+/// Its area, m2.
+/// @param cosine  between the ray and the true normal, at least 0
+float cone_footprint_area(float cosine, float distance, float solid_angle);
+
 /// The footprint in one of the surface's sets of texture coordinates.
 UvFootprint make_uv_footprint(const SurfacePoint& point, const RayFootprint& footprint, int uv_set);
 

@@ -94,13 +94,15 @@ void gather_late(const IrradianceCache& cache, const IndirectContext& context, c
 
 CachedLight compute_cached_light(const StudyFrame& frame, const RenderSettings& settings, const Image<float>& alpha) {
     const LightingContext lighting = frame.lighting();
+    DirectGrid direct;
     const IndirectContext context{.lighting = lighting,
                                   .view = frame.posed.view,
                                   .settings = settings,
                                   .accuracy = alpha,
                                   .frame = static_cast<std::uint32_t>(frame.frame),
                                   .max_radius = scene_radius(frame.shading),
-                                  .progress = {}};
+                                  .progress = {},
+                                  .direct = &direct};
     CachedLight out;
     out.light = Image<float>(alpha.width, alpha.height);
     IrradianceCache cache = make_cache(frame.shading);

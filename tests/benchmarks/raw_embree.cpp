@@ -49,7 +49,10 @@ RTCRayHit16 make_packet(const CameraView& view, const glm::vec3& origin, int x0,
     return packet;
 }
 
-std::size_t trace_singles(RTCScene scene, RTCIntersectContext& context, std::span<const RawRay> rays) {
+std::size_t trace_singles(RTCScene scene, std::span<const RawRay> rays) {
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    context.flags = RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
     std::size_t hits = 0;
     for (const RawRay& raw : rays) {
         if (raw.occlusion) {
@@ -67,7 +70,8 @@ std::size_t trace_singles(RTCScene scene, RTCIntersectContext& context, std::spa
 }
 
 /// Packets that fill up, one for each kind of ray.
-std::size_t trace_packets(RTCScene scene, RTCIntersectContext& context, std::span<const RawRay> rays) {
+std::size_t trace_packets(RTCScene scene, bool coherent, std::span<const RawRay> rays) {
+    RTCIntersectContext context;
     std::size_t hits = 0;
     std::array<std::array<RTCRay, lanes>, 2> waiting;
     std::array<int, 2> counts{};
@@ -82,6 +86,10 @@ std::size_t trace_packets(RTCScene scene, RTCIntersectContext& context, std::spa
             packet.ray.tnear[lane] = ray.tnear, packet.ray.tfar[lane] = ray.tfar, packet.ray.mask[lane] = ~0u;
             packet.hit.geomID[lane] = packet.hit.instID[0][lane] = RTC_INVALID_GEOMETRY_ID;
         }
+        rtcInitIntersectContext(&context);
+        // With the coherent flag this Embree's occlusion packets can loop for ever over instances.
+        context.flags =
+            coherent && kind == 0 ? RTC_INTERSECT_CONTEXT_FLAG_COHERENT : RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
         if (kind == 1) {
             rtcOccluded16(valid, scene, &context, &packet.ray);
         } else {
@@ -156,14 +164,12 @@ std::size_t RawEmbree::trace() {
     return met;
 }
 
-std::size_t RawEmbree::trace(const std::vector<RawRay>& rays, bool packets) const {
+std::size_t RawEmbree::trace(const std::vector<RawRay>& rays, Packets packets) const {
     std::atomic<std::size_t> hits{0};
     parallel_for(rays.size(), std::size_t{1} << 14, [&](std::size_t begin, std::size_t end) {
-        RTCIntersectContext context;
-        rtcInitIntersectContext(&context);
-        context.flags = RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
         const std::span<const RawRay> part = std::span(rays).subspan(begin, end - begin);
-        hits += packets ? trace_packets(top_, context, part) : trace_singles(top_, context, part);
+        hits += packets == Packets::none ? trace_singles(top_, part)
+                                         : trace_packets(top_, packets == Packets::coherent, part);
     });
     return hits;
 }

@@ -27,10 +27,14 @@ class RawEmbree {
     /// Traces every ray once. @return number of hits
     std::size_t trace();
 
+    enum class Packets {
+        none,        ///< rays one by one
+        incoherent,  ///< of 16 rays of the same kind, in their order
+        coherent,    ///< the same, with Embree's coherent flag for those that look for the nearest hit
+    };
     /// Traces given rays on all threads.
-    /// @param packets  in incoherent packets of 16 of the same kind, in their order; otherwise one by one
     /// @return number of hits
-    std::size_t trace(const std::vector<RawRay>& rays, bool packets) const;
+    std::size_t trace(const std::vector<RawRay>& rays, Packets packets) const;
 
   private:
     RTCDevice device_ = nullptr;

@@ -58,9 +58,9 @@ TEST(Frame, RaysByPurposeSumToWhatTheWrapperTraced) {
                 EXPECT_EQ(s.invalid_rays, 0u);
                 EXPECT_GT(s.counts.rays.shadow, 0u);
                 EXPECT_GT(s.counts.rays.glossy, 0u);
-                EXPECT_EQ(s.counts.rays.gather % 16, 0u);
+                EXPECT_GT(s.counts.rays.gather, 15 * s.counts.records);  // a few are below smooth-shaded facets
                 if (guide == Guide::none) {
-                    EXPECT_EQ(s.counts.rays.gather, 16 * s.counts.records);
+                    EXPECT_LE(s.counts.rays.gather, 16 * s.counts.records);
                 } else {  // and those of the quick estimate
                     EXPECT_GT(s.counts.rays.gather, 16 * s.counts.records);
                 }

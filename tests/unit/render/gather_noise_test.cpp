@@ -2,33 +2,14 @@
 
 #include <gtest/gtest.h>
 
-#include "tests/support/render_scenes.h"
+#include "tests/support/cluttered_room.h"
 
 namespace aleph {
 namespace {
 
-/// A cluttered room with lamps that cast shadows.
-Scene make_room() {
-    Scene scene;
-    const int grey = add_lambert(scene, glm::dvec3(0.5), glm::dvec3(0.0), true);
-    const int dark = add_lambert(scene, glm::dvec3(0.05), glm::dvec3(0.0), true);
-    const int lamp = add_lambert(scene, glm::dvec3(0.0), glm::dvec3(20.0));
-    add_mesh(scene, make_box({4.0, 3.0, 5.0}, grey));
-    for (int i = 0; i < 32; ++i) {
-        const double turn = 2.4 * i, across = 0.6 + 0.035 * i;
-        add_mesh(scene, make_box({0.15, 0.3 + 0.02 * i, 0.2}, i % 2 == 0 ? dark : grey),
-                 {across * std::cos(turn), -1.2 + 0.08 * i, across * std::sin(turn)},
-                 glm::angleAxis(turn, glm::dvec3(0.0, 1.0, 0.0)));
-    }
-    for (const double x : {-1.2, 0.0, 1.2}) {
-        for (const double z : {-1.5, 1.5}) add_mesh(scene, make_quad(0.2, 0.2, lamp), {x, 1.4, z}, z_to_down);
-    }
-    return scene;
-}
-
 /// The mean over points. At single points, where light varies smoothly, the estimate is up to twice the spread.
 TEST(GatherNoise, TheEstimateIsTheSpreadOverSeeds) {
-    const Stage stage(make_room());
+    const Stage stage(make_cluttered_room());
     RayTask task(stage.rays);
     GatherScratch scratch;
     const SurfacePoint points[] = {
@@ -53,7 +34,7 @@ TEST(GatherNoise, TheEstimateIsTheSpreadOverSeeds) {
 }
 
 TEST(GatherNoise, EdgesOfTheEstimate) {
-    const Stage stage(make_room());
+    const Stage stage(make_cluttered_room());
     RayTask task(stage.rays);
     GatherScratch scratch;
     const SurfacePoint point = make_point({-0.2f, -1.499f, -0.2f}, {0.0f, 1.0f, 0.0f});

@@ -1,0 +1,69 @@
+#pragma once
+// Direct light that gathers share. The direct irradiance of a Lambert surface is averaged over small cells of space,
+// so that gather rays which meet a cell that is already known cast no shadow ray.
+//
+// A cell is about half as wide as the part of the surface that one gather ray represents, rounded to a power of two
+// metres: the average stays within what the ray would average over anyway, whatever the size of the scene. Cells
+// belong to one instance and to one of six directions that its true normal can face most.
+//
+// The grid does not change while gathers run. A gather that meets a cell with too few samples computes one of its own,
+// and notes it; after a round, the notes are inserted in the order of the records. So the light does not depend on the
+// number of threads. The light is biased by averaging over the cell, and gathers that share a cell share its noise.
+
+#include <cstdint>
+#include <glm/vec3.hpp>
+#include <span>
+#include <vector>
+
+#include "engine/base/color.h"
+
+namespace aleph {
+
+/// One sample of direct light in a cell.
+struct DirectSample {
+    std::uint64_t cell = 0;
+    Rgb light{0.0f};  ///< radiance that a white Lambert surface scatters
+};
+
+class DirectGrid {
+  public:
+    /// Samples after which a cell's mean is used alone.
+    static constexpr std::uint32_t enough = 13;
+
+    /// What a cell holds.
+    struct Cell {
+        std::uint64_t key = 0;  ///< 0: none
+        Rgb sum{0.0f};          ///< of DirectSample::light
+        std::uint32_t count = 0;
+    };
+
+    DirectGrid();
+
+    /// The cell of a surface point; never 0.
+    /// @param position   m, relative to the anchor
+    /// @param geometric  the true normal
+    /// @param width      m, of the part of the surface that the ray represents
+    static std::uint64_t key_of(int instance, const glm::vec3& position, const glm::vec3& geometric, float width);
+
+    /// A cell with a count of 0 if there is none.
+    const Cell& find(std::uint64_t key) const;
+    /// Fetches the cell's place in memory, for a find soon afterwards.
+    void prefetch(std::uint64_t key) const { __builtin_prefetch(&cells_[key & mask_]); }
+
+    /// Not while other threads use the grid. Samples that are not finite are left out.
+    void insert(std::span<const DirectSample> samples);
+
+    std::size_t size() const { return used_; }  ///< number of cells
+    std::uint64_t samples() const { return samples_; }
+
+  private:
+    Cell& place_of(std::uint64_t key);
+    void grow();
+
+    std::vector<Cell> cells_;  ///< open addressing; a power of two of them, at most half used
+    std::uint64_t mask_ = 0;
+    std::size_t used_ = 0;
+    std::uint64_t samples_ = 0;
+};
+
+}  // namespace aleph

@@ -1,0 +1,60 @@
+#include "render/lambert_hit.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "render/texture_footprint.h"
+
+namespace aleph {
+
+namespace {
+
+/// Base-colour texture, at the hit of a triangle.
+Rgb look_up_albedo(const ShadingScene& shading, const TextureUse& use, const Mesh& mesh, const Hit& hit,
+                   float footprint_area, float triangle_area) {
+    const std::vector<glm::vec2>& uv = mesh.uv[use.uv_set];
+    if (uv.empty()) return Rgb(sample_texture(*shading.textures, use, glm::vec2(0.0f), {}));
+    const glm::uvec3& t = mesh.triangles[hit.primitive];
+    const glm::vec2 e1 = uv[t.y] - uv[t.x], e2 = uv[t.z] - uv[t.x];
+    const float scale = std::sqrt(footprint_area * std::abs(e1.x * e2.y - e1.y * e2.x) / triangle_area);
+    const UvFootprint footprint{{scale, 0.0f}, {0.0f, scale}, true};
+    return Rgb(sample_texture(*shading.textures, use, uv[t.x] + e1 * hit.u + e2 * hit.v, footprint));
+}
+
+}  // namespace
+
+bool is_plain_lambert(const ShadingScene& shading, int material) {
+    const ShadingMaterial& entry = shading.materials[material];
+    const MaterialValues& values = entry.values;
+    const bool unlit = entry.material != nullptr && entry.material->unlit;
+    return values.specular == 0.0f && values.metallic == 0.0f && values.transmission == 0.0f && !entry.layered &&
+           !unlit && !shading.textures->materials[material].maps_normals;
+}
+
+LambertHit make_lambert_hit(const ShadingScene& shading, const Hit& hit, const glm::vec3& direction,
+                            float solid_angle) {
+    const PosedInstance& instance = shading.instances[hit.instance];
+    const Mesh& mesh = *instance.mesh;
+    const glm::uvec3& t = mesh.triangles[hit.primitive];
+    const glm::vec3 p0 = instance.corner(t.x), e1 = instance.corner(t.y) - p0, e2 = instance.corner(t.z) - p0;
+    LambertHit met;
+    met.position = instance.linear * (p0 + e1 * hit.u + e2 * hit.v) + instance.translation;
+    const glm::vec3 across = instance.normals * glm::cross(e1, e2);  // as long as twice the triangle's area
+    const float area = glm::length(across);
+    met.geometric = area > 0.0f ? across / area : -direction;
+    const float cosine = glm::dot(met.geometric, direction);
+    if (cosine > 0.0f) met.geometric = -met.geometric;
+    met.albedo = shading.materials[instance.material].values.base_color;
+    if (!mesh.colors.empty()) {
+        met.albedo *=
+            Rgb(mesh.colors[t.x] * (1.0f - hit.u - hit.v) + mesh.colors[t.y] * hit.u + mesh.colors[t.z] * hit.v);
+    }
+    const TextureUse& use = shading.textures->materials[instance.material].base_color;
+    if (use.texture != no_index) {
+        const float footprint_area = cone_footprint_area(std::abs(cosine), hit.distance, solid_angle);
+        met.albedo *= look_up_albedo(shading, use, mesh, hit, footprint_area, area);
+    }
+    return met;
+}
+
+}  // namespace aleph

@@ -1,0 +1,142 @@
+// Direct light from a grid of cells: the cells, and gathers with it against gathers without.
+
+#include "render/direct_grid.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/support/cluttered_room.h"
+
+namespace aleph {
+namespace {
+
+const glm::vec3 up(0.0f, 1.0f, 0.0f);
+
+TEST(DirectGrid, CellsAreHalfAsWideAsTheRaysFootprint) {
+    const auto key = [](const glm::vec3& position, float width) { return DirectGrid::key_of(3, position, up, width); };
+    // From 1 / sqrt(2) to sqrt(2) times a width of 1/8, cells are 1/16 wide.
+    for (const float width : {0.0885f, 0.125f, 0.1767f}) {
+        EXPECT_EQ(key({0.01f, 0.01f, 0.01f}, width), key({0.06f, 0.06f, 0.06f}, 0.125f));
+        EXPECT_NE(key({0.01f, 0.01f, 0.01f}, width), key({0.07f, 0.01f, 0.01f}, width));
+        EXPECT_NE(key({0.01f, 0.01f, 0.01f}, width), key({-0.01f, 0.01f, 0.01f}, width));
+    }
+    EXPECT_NE(key(glm::vec3(0.01f), 0.17f), key(glm::vec3(0.01f), 0.18f));
+    // Widths and places of any size have cells.
+    for (const float width : {0.0f, 1e-30f, 1e30f, std::numeric_limits<float>::infinity()}) {
+        for (const float place : {0.0f, -1e9f, 1e30f}) EXPECT_NE(key(glm::vec3(place), width), 0u);
+    }
+}
+
+TEST(DirectGrid, CellsBelongToOneInstanceAndOneSide) {
+    const glm::vec3 place(0.3f, 0.1f, -0.2f);
+    std::vector<std::uint64_t> keys;
+    for (const int instance : {0, 1, 2}) {
+        for (int axis = 0; axis < 3; ++axis) {
+            for (const float sign : {-1.0f, 1.0f}) {
+                glm::vec3 normal(0.3f);
+                normal[axis] = sign;
+                keys.push_back(DirectGrid::key_of(instance, place, glm::normalize(normal), 0.1f));
+            }
+        }
+    }
+    std::sort(keys.begin(), keys.end());
+    EXPECT_EQ(std::unique(keys.begin(), keys.end()), keys.end());
+}
+
+TEST(DirectGrid, SamplesAddUp) {
+    DirectGrid grid;
+    constexpr std::uint64_t cells = 50'000;  // it grows
+    for (std::uint64_t i = 0; i < cells; ++i) {
+        const DirectSample samples[] = {{mix_bits(i) | 1, Rgb(1.0f)}, {mix_bits(i) | 1, Rgb(static_cast<float>(i))}};
+        grid.insert(samples);
+    }
+    const DirectSample bad[] = {{7, Rgb(std::nanf(""))}, {7, Rgb(std::numeric_limits<float>::infinity())}};
+    grid.insert(bad);
+    EXPECT_EQ(grid.size(), cells);
+    EXPECT_EQ(grid.samples(), 2 * cells);
+    for (std::uint64_t i = 0; i < cells; ++i) {
+        const DirectGrid::Cell& cell = grid.find(mix_bits(i) | 1);
+        ASSERT_EQ(cell.count, 2u);
+        ASSERT_EQ(cell.sum, Rgb(1.0f + static_cast<float>(i)));
+    }
+    EXPECT_EQ(grid.find(7).count, 0u);
+}
+
+/// Gathers all over the floor and a wall, with a grid that they fill or without one.
+struct Gathers {
+    std::vector<double> light;
+    RayCounts counts;
+
+    Gathers(const Stage& stage, std::uint32_t seed, bool with_grid) {
+        DirectGrid grid;
+        GatherScratch scratch;
+        RayTask task(stage.rays);
+        std::vector<DirectSample> found;
+        for (int i = 0; i < 800; ++i) {
+            const float x = fraction(static_cast<float>(i) * 0.75487767f),
+                        y = fraction(static_cast<float>(i) * 0.56984029f);
+            const SurfacePoint point =
+                i % 2 == 0 ? make_point({3.8f * x - 1.9f, -1.499f, 4.8f * y - 2.4f}, up)
+                           : make_point({-1.999f, 2.8f * x - 1.4f, 4.8f * y - 2.4f}, {1.0f, 0.0f, 0.0f});
+            GatherOptions options;
+            if (with_grid) options = {0, &grid, &found};
+            const RandomKey key{seed, 0, static_cast<std::uint32_t>(i), 0};
+            light.push_back(gather_irradiance(stage.lighting(), task, point, choose_strata(96), key, scratch, options)
+                                .irradiance.y);
+            if (i % 16 == 15) {
+                grid.insert(found);
+                found.clear();
+            }
+        }
+        counts = task.counts;
+    }
+};
+
+TEST(DirectGrid, GathersAreBiasedByLessThanOnePercent) {
+    const Stage stage(make_cluttered_room());
+    Mean bias, error, error_without;
+    RayCounts with, without;
+    for (std::uint32_t seed = 0; seed < 5; ++seed) {
+        const Gathers truth(stage, seed, false), grid(stage, seed + 100, true), other(stage, seed + 200, false);
+        double sum = 0.0, expected = 0.0;
+        for (std::size_t i = 0; i < truth.light.size(); ++i) {
+            sum += grid.light[i];
+            expected += truth.light[i];
+            error.add(std::abs(grid.light[i] / truth.light[i] - 1.0));
+            error_without.add(std::abs(other.light[i] / truth.light[i] - 1.0));
+        }
+        bias.add(sum / expected - 1.0);
+        with += grid.counts;
+        without += truth.counts;
+    }
+    EXPECT_LT(std::abs(bias.mean()), 0.006 + 2.0 * bias.error());
+    EXPECT_LT(bias.error(), 0.004);
+    EXPECT_LT(error.mean(), error_without.mean());  // the cells' means have less noise than single samples
+    EXPECT_EQ(with.gather, without.gather);
+    EXPECT_LT(static_cast<double>(with.shadow), 0.85 * static_cast<double>(without.shadow));
+}
+
+TEST(DirectGrid, AGridOfItsOwnSamplesNeedsNoShadowRays) {
+    const Stage stage(make_cluttered_room());
+    RayTask task(stage.rays);
+    GatherScratch scratch;
+    const SurfacePoint point = make_point({-0.2f, -1.499f, -0.2f}, up);
+    DirectGrid grid;
+    const auto gather = [&](std::vector<DirectSample>* found) {
+        return gather_irradiance(stage.lighting(), task, point, choose_strata(256), {1, 2, 3, 4}, scratch,
+                                 {0, &grid, found});
+    };
+    std::vector<DirectSample> found;
+    const IrradianceSample first = gather(&found);
+    // An empty grid changes nothing.
+    const IrradianceSample alone =
+        gather_irradiance(stage.lighting(), task, point, choose_strata(256), {1, 2, 3, 4}, scratch);
+    EXPECT_NEAR(first.irradiance.y, alone.irradiance.y, 1e-5f * alone.irradiance.y);
+    EXPECT_FALSE(found.empty());
+    for (std::uint32_t i = 0; i < DirectGrid::enough; ++i) grid.insert(found);
+    const std::uint64_t shadow = task.counts.shadow;
+    EXPECT_GT(gather(nullptr).irradiance.y, 0.0f);
+    EXPECT_EQ(task.counts.shadow, shadow);
+}
+
+}  // namespace
+}  // namespace aleph
