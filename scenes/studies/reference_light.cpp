@@ -67,7 +67,7 @@ ReferenceLight gather_reference(const StudyFrame& frame, const RenderSettings& s
                 const RandomKey key{settings.seed ^ reference_seed_mask, static_cast<std::uint32_t>(frame.frame),
                                     surface.pixel, half};
                 const Rgb irradiance =
-                    gather_irradiance(lighting, task, surface.point, cells, key, scratch, depth).irradiance;
+                    gather_irradiance(lighting, task, surface.point, cells, key, scratch, {depth}).irradiance;
                 out.halves[half].pixels[i] = static_cast<float>(frame.display_luminance(reflected * irradiance));
             }
         }
