@@ -105,7 +105,7 @@ void Sequence::State::move_to_frame(std::optional<PosedView>& posed, std::int64_
 /// The quick estimate of a posed view to which `view_rays` have been updated, not sanitized.
 Image<Rgb> Sequence::State::estimate_view(const RayScene& view_rays, const PosedView& posed, EstimateKind kind,
                                           bool indirect, RayCounts& counts) const {
-    const ShadingScene view_shading = make_shading_scene(scene, posed.pose, view_rays.anchor(), textures);
+    const ShadingScene view_shading = make_shading_scene(scene, posed.pose, view_rays, textures);
     const LightSet lights = make_light_set(view_shading);
     const SampleHits centers = cast_centers(view_rays, posed.view, &counts.primary);
     return compute_estimate({view_shading, lights, view_rays}, posed.view, centers, kind, indirect, exposure, counts);
@@ -113,12 +113,11 @@ Image<Rgb> Sequence::State::estimate_view(const RayScene& view_rays, const Posed
 
 /// Brings rays and shading to `now`. @return instances that were updated
 std::size_t Sequence::State::update_rays_and_shading() {
-    const glm::dvec3 anchor = compute_anchor(now->view);
-    const std::size_t touched = rays.update_moving(now->pose, anchor);
+    const std::size_t touched = rays.update_moving(now->pose, compute_anchor(now->view));
     if (shading) {
-        update_shading_scene(*shading, pose_plan, anchor);
+        update_shading_scene(*shading, pose_plan, rays);
     } else {
-        shading = make_shading_scene(scene, now->pose, anchor, textures);
+        shading = make_shading_scene(scene, now->pose, rays, textures);
     }
     return touched;
 }
