@@ -1,38 +1,38 @@
 #include "render/cache_fill.h"
 
 #include <algorithm>
-#include <atomic>
 #include <mutex>
 #include <optional>
 
 #include "engine/base/parallel.h"
+#include "render/carried_point.h"
+#include "render/fill_points.h"
+#include "render/gather_at.h"
 
 namespace aleph {
 
 namespace {
 
-constexpr int first_stride = 64;           // pixels, size of the first tiles
-constexpr int max_reviews = 16;            // passes over all pixels after the last tile size
-constexpr std::size_t lookup_grain = 256;  // look-ups per parallel chunk
-
-/// Keeps the random numbers of gathers apart from those of direct light, which have the same frame, pixel and sample:
-/// combined with the seed by exclusive or. Any constant but 0 would do.
-constexpr std::uint32_t gather_seed_mask = 0x67617468u;
+constexpr int first_stride = 64;            // pixels, size of the first tiles
+constexpr float least_reach_pixels = 0.7f;  // of a record at its own accuracy
+constexpr int max_reviews = 16;             // passes over all pixels after the last tile size
+constexpr std::size_t lookup_grain = 256;   // look-ups per parallel chunk
 
 /// A pixel whose sample is not covered yet.
 struct Candidate {
     int x = 0, y = 0;
     CacheQuery query;
     RadiusBounds bounds;
+    int rays = 0;  ///< of its gather
 };
 
-/// Corners of the tiles of this size that larger tiles do not share.
-std::vector<glm::ivec2> list_tiles(int width, int height, int stride, bool first_pass) {
+/// Corners of the tiles of this size that larger tiles do not share, where light is needed.
+std::vector<glm::ivec2> list_tiles(const Image<FillPoint>& points, int stride, bool first_pass) {
     std::vector<glm::ivec2> tiles;
-    for (int y = 0; y < height; y += stride) {
-        for (int x = 0; x < width; x += stride) {
+    for (int y = 0; y < points.height; y += stride) {
+        for (int x = 0; x < points.width; x += stride) {
             const bool visited = first_pass && stride < first_stride && x % (2 * stride) == 0 && y % (2 * stride) == 0;
-            if (!visited) tiles.push_back({x, y});
+            if (!visited && points(x, y).footprint >= 0.0f) tiles.push_back({x, y});
         }
     }
     return tiles;
@@ -40,30 +40,31 @@ std::vector<glm::ivec2> list_tiles(int width, int height, int stride, bool first
 
 /// The tiles whose samples no record covers, in tile order.
 std::vector<Candidate> find_uncovered(const IrradianceCache& cache, const IndirectContext& context,
-                                      const SampleHits& sample, const std::vector<glm::ivec2>& tiles,
-                                      FillStatistics& statistics) {
+                                      const Image<FillPoint>& points, const std::vector<glm::ivec2>& tiles,
+                                      FrameCounts& counts) {
     std::vector<std::vector<Candidate>> found((tiles.size() + lookup_grain - 1) / lookup_grain);
-    std::atomic<std::uint64_t> lookups{0};
+    std::mutex counts_mutex;
     parallel_for(tiles.size(), lookup_grain, [&](std::size_t begin, std::size_t end) {
-        std::uint64_t asked = 0;
+        RayTask task(context.lighting.rays);
+        std::uint64_t asked = 0, missed = 0;
         for (std::size_t i = begin; i < end; ++i) {
             const int x = tiles[i].x, y = tiles[i].y;
-            if (sample.hits(x, y).instance == no_index) continue;
-            const PixelSurface surface = make_pixel_surface(context.lighting.shading, context.view, sample, x, y);
-            if (!surface.material.has_diffuse()) continue;
+            const FillPoint& point = points(x, y);
             const float accuracy = context.accuracy(x, y);
-            const CacheQuery query{surface.point.position, surface.point.normal, accuracy};
+            const CacheQuery query{point.position, point.normal, accuracy, &task};
             ++asked;
-            if (!cache.covers(query)) {
-                found[begin / lookup_grain].push_back({x, y, query, radius_bounds(context, surface, accuracy)});
-            }
+            if (cache.covers(query)) continue;
+            ++missed;
+            found[begin / lookup_grain].push_back(
+                {x, y, {query.position, query.normal, accuracy}, radius_bounds(context, point.footprint, accuracy)});
         }
-        lookups += asked;
+        const std::lock_guard lock(counts_mutex);
+        counts.rays += task.counts;
+        counts.cache.lookups += asked;
+        counts.cache.hits += asked - missed;
     });
     std::vector<Candidate> uncovered;
     for (const auto& chunk : found) uncovered.insert(uncovered.end(), chunk.begin(), chunk.end());
-    statistics.lookups += lookups;
-    statistics.hits += lookups - uncovered.size();
     return uncovered;
 }
 
@@ -74,7 +75,7 @@ std::vector<Candidate> accept_candidates(const IrradianceCache& cache, const Ind
                                          std::vector<Candidate>& waiting) {
     IrradianceCache expected = make_cache(context.lighting.shading);
     std::vector<Candidate> accepted, later;
-    for (const Candidate& candidate : waiting) {
+    for (Candidate& candidate : waiting) {
         if (expected.covers(candidate.query)) {
             later.push_back(candidate);
             continue;
@@ -82,10 +83,13 @@ std::vector<Candidate> accept_candidates(const IrradianceCache& cache, const Ind
         IrradianceRecord record;
         record.position = candidate.query.position;
         record.normal = candidate.query.normal;
+        record.accuracy = candidate.query.accuracy;
         record.min_radius = candidate.bounds.min;
         record.radius =
             std::max(cache.radius_bound(record.position, record.normal, context.max_radius), record.min_radius);
         expected.insert(record);
+        candidate.rays =
+            choose_rays(context.settings, candidate.query.accuracy, cache.expected_ray_variance(candidate.query));
         accepted.push_back(candidate);
     }
     waiting = std::move(later);
@@ -103,10 +107,10 @@ std::vector<std::optional<IrradianceRecord>> gather_records(const IndirectContex
         RayTask task(context.lighting.rays);
         for (std::size_t i = begin; i < end; ++i) {
             const Candidate& candidate = candidates[i];
-            const PixelSurface surface =
-                make_pixel_surface(context.lighting.shading, context.view, sample, candidate.x, candidate.y);
-            const IrradianceSample value = gather_at(context, task, surface, scratch);
-            records[i] = make_record(candidate.query.position, candidate.query.normal, value, candidate.bounds);
+            const PixelSurface surface = *find_surface(context, sample, candidate.x, candidate.y);
+            const IrradianceSample value = gather_at(context, task, surface, scratch, candidate.rays);
+            records[i] = make_record(candidate.query.position, candidate.query.normal, candidate.query.accuracy, value,
+                                     candidate.bounds);
         }
         const std::lock_guard lock(counts_mutex);
         counts += task.counts;
@@ -116,10 +120,10 @@ std::vector<std::optional<IrradianceRecord>> gather_records(const IndirectContex
 
 /// Rounds over the tiles until every one is covered or has been tried. Returns the number of records added.
 std::size_t fill_tiles(IrradianceCache& cache, const IndirectContext& context, const SampleHits& sample,
-                       std::vector<glm::ivec2> tiles, FrameTally& tally) {
+                       const Image<FillPoint>& points, std::vector<glm::ivec2> tiles, FrameTally& tally) {
     const std::size_t records_before = cache.records().size();
     while (!tiles.empty()) {
-        std::vector<Candidate> waiting = find_uncovered(cache, context, sample, tiles, tally.counts.cache);
+        std::vector<Candidate> waiting = find_uncovered(cache, context, points, tiles, tally.counts);
         if (waiting.empty()) break;
         const std::vector<Candidate> accepted = accept_candidates(cache, context, waiting);
         const auto records = gather_records(context, sample, accepted, tally.counts.rays);
@@ -148,30 +152,23 @@ SceneBounds bounds_or_unit(const ShadingScene& shading) {
 
 }  // namespace
 
-IrradianceSample gather_at(const IndirectContext& context, RayTask& task, const PixelSurface& surface,
-                           GatherScratch& scratch) {
-    const RandomKey key{context.settings.seed ^ gather_seed_mask, context.frame, surface.pixel,
-                        static_cast<std::uint32_t>(surface.sample)};
-    return gather_irradiance(context.lighting, task, surface.point, choose_strata(context.settings.gather), key,
-                             scratch, std::max(0, context.settings.path_depth - 2));
-}
-
-RadiusBounds radius_bounds(const IndirectContext& context, const PixelSurface& surface, float accuracy) {
-    const float min =
-        static_cast<float>(context.settings.min_radius_pixels) * surface.footprint / std::clamp(accuracy, 1e-3f, 1.0f);
-    return {std::min(min, context.max_radius), context.max_radius};
+RadiusBounds radius_bounds(const IndirectContext& context, float footprint, float accuracy) {
+    const float alpha = std::clamp(accuracy, 1e-3f, 1.0f);
+    const float pixels = std::max(static_cast<float>(context.settings.min_radius_pixels), least_reach_pixels / alpha);
+    const float min = std::min(pixels * footprint, context.max_radius);
+    return {min, context.max_radius, footprint / std::sqrt(alpha)};
 }
 
 void fill_cache(IrradianceCache& cache, const IndirectContext& context, const SampleHits& sample, FrameTally& tally) {
-    const int width = sample.hits.width, height = sample.hits.height;
+    const Image<FillPoint> points = find_points(context, sample);
     const bool first_pass = sample.place.index == 0;
     for (int stride = first_pass ? first_stride : 1; stride >= 1; stride /= 2) {
-        fill_tiles(cache, context, sample, list_tiles(width, height, stride, first_pass), tally);
+        fill_tiles(cache, context, sample, points, list_tiles(points, stride, first_pass), tally);
     }
     // A new record near a wall shrinks its neighbours' radii, and pixels that they covered before are uncovered again.
     // Without these reviews, shading would gather at each such pixel. Later samples look at every pixel anyway.
     for (int review = 0; first_pass && review < max_reviews; ++review) {
-        if (fill_tiles(cache, context, sample, list_tiles(width, height, 1, false), tally) == 0) break;
+        if (fill_tiles(cache, context, sample, points, list_tiles(points, 1, false), tally) == 0) break;
     }
 }
 

@@ -7,36 +7,22 @@
 //   1. all threads look for tiles that need a record. The cache does not change meanwhile;
 //   2. one thread goes through these tiles in order and accepts a tile unless the expected reach of a tile accepted
 //      before covers it. Tiles that are not accepted wait for the next round;
-//   3. all threads gather irradiance for the accepted tiles. Random numbers depend on seed, frame, pixel and sample
-//   only;
+//   3. all threads gather irradiance for the accepted tiles. Random numbers depend on the seed and on the place on the
+//   surface only;
 //   4. one thread inserts the records in the order of their tiles.
 // No step depends on the order in which threads work. The number of records is within a few percent of that of a
 // sequential fill, where each record is inserted before the next pixel is looked at.
 
+#include <optional>
+
+#include "render/indirect_context.h"
 #include "render/irradiance_cache.h"
-#include "render/pixel_surfaces.h"
-#include "render/settings.h"
-#include "render/shaded_frame.h"
 
 namespace aleph {
 
-/// What a frame's indirect light is computed from.
-struct IndirectContext {
-    const LightingContext& lighting;
-    const CameraView& view;
-    const RenderSettings& settings;
-    const Image<float>& accuracy;  ///< alpha per pixel
-    std::uint32_t frame = 0;       ///< for random numbers
-    float max_radius = 1.0f;       ///< m, of records: scene_radius
-    FrameProgress progress;        ///< may be empty
-};
-
-/// Gathers the irradiance at one pixel sample.
-IrradianceSample gather_at(const IndirectContext& context, RayTask& task, const PixelSurface& surface,
-                           GatherScratch& scratch);
-
-/// Bounds of R_i for a pixel: at its own accuracy, a record reaches at least min_radius_pixels.
-RadiusBounds radius_bounds(const IndirectContext& context, const PixelSurface& surface, float accuracy);
+/// Bounds for a pixel: at its own accuracy, R_i reaches at least min_radius_pixels, and S_i a pixel.
+/// @param footprint  m, of the pixel
+RadiusBounds radius_bounds(const IndirectContext& context, float footprint, float accuracy);
 
 /// Adds records until every surface that this sample of the pixels shows is covered. A gather that is not finite makes
 /// no record: it is counted as invalid, and shading computes that sample's irradiance again if no other record covers

@@ -5,6 +5,7 @@
 #include <mutex>
 
 #include "engine/base/parallel.h"
+#include "render/gather_at.h"
 #include "render/pixel_sum.h"
 
 namespace aleph {
@@ -40,7 +41,9 @@ class FrameShading {
           indirect_(context.settings.bounces > 0 && context.settings.path_depth > 1),
           cached_(!by_paths_ && indirect_ && context.settings.accuracy > 0.0),
           cache_(make_cache(context.lighting.shading)),
-          sums_(context.view.width, context.view.height) {}
+          sums_(context.view.width, context.view.height) {
+        if (!by_paths_) out_.indirect = Image<Rgb>(context.view.width, context.view.height);
+    }
 
     void fill() {
         const int spp = context_.settings.spp;
@@ -48,6 +51,7 @@ class FrameShading {
             if (context_.progress) context_.progress(fill_share * i / spp, "fill");
             fill_cache(cache_, context_, cast(still(), i), out_);
         }
+        cache_.finish();
     }
 
     void shade() {
@@ -65,6 +69,7 @@ class FrameShading {
             if (sum.samples == 0) continue;
             const float valid = static_cast<float>(sum.samples);
             out_.color.pixels[p] = Rgb(sum.radiance) * (scale / valid);
+            if (!by_paths_) out_.indirect.pixels[p] *= scale / valid;
             out_.coverage.pixels[p] = static_cast<float>(sum.hits) / valid;
             if (!out_.variance.empty() && sum.samples > 1) {
                 out_.variance.pixels[p] = static_cast<float>(sum.variance() * exposure * exposure);
@@ -151,8 +156,10 @@ class FrameShading {
         radiance += compute_sampled_light(context_.lighting, task, surface, points, random, beyond, path_random);
         if (indirect_ && surface.material.has_diffuse()) {
             const LitSurface lit(surface);
-            radiance +=
+            const Rgb indirect =
                 diffuse_radiance(surface.material, lit.cos_view, find_irradiance(task, surface)) * lit.below_sheen;
+            out_.indirect(surface.x, surface.y) += indirect;
+            radiance += indirect;
         }
         return radiance;
     }
@@ -161,9 +168,17 @@ class FrameShading {
     /// clamping shrank a record after it covered this place.
     Rgb find_irradiance(ShadingTask& task, const PixelSurface& surface) {
         const float accuracy = context_.accuracy(surface.x, surface.y);
+        if (context_.carried != nullptr) {
+            ++task.lookups;
+            if (const std::optional<Rgb> found = context_.carried->find(surface, accuracy)) {
+                ++task.hits;
+                return *found;
+            }
+        }
+        const CacheQuery place{surface.point.position, surface.point.normal, accuracy, &task};
         if (cached_ && accuracy > 0.0f) {
-            const CacheQuery query{surface.point.position, surface.point.normal,
-                                   accuracy * static_cast<float>(context_.settings.shade_reach)};
+            CacheQuery query = place;
+            query.accuracy *= static_cast<float>(context_.settings.shade_reach);
             ++task.lookups;
             if (const std::optional<Rgb> found = cache_.interpolate(query)) {
                 ++task.hits;
@@ -172,7 +187,8 @@ class FrameShading {
         }
         ++task.computed;
         out_.records(surface.x, surface.y) += 1.0f;
-        return gather_at(context_, task, surface, task.scratch).irradiance;
+        const int rays = choose_rays(context_.settings, accuracy, cache_.expected_ray_variance(place));
+        return gather_at(context_, task, surface, task.scratch, rays).irradiance;
     }
 
     /// Adds what a row's task counted.

@@ -22,6 +22,13 @@ struct StageSeconds {
 /// The stages by name, in that order.
 std::array<std::pair<const char*, double>, 10> list_stages(const StageSeconds& seconds);
 
+/// What computing the light of a key moment took.
+struct MomentStatistics {
+    std::int64_t frame = 0;
+    FrameCounts counts;  ///< the quick estimates of its views included
+    double seconds = 0.0;
+};
+
 struct FrameStatistics {
     std::int64_t frame = 0;
     StageSeconds seconds;
@@ -33,6 +40,8 @@ struct FrameStatistics {
     double median_luminance = 0.0;  ///< of the estimate, cd/m2; thresholds of vision hold from 1e-3 to 1e4
     std::size_t instances_touched = 0;
     double peak_memory_mib = 0.0;
+    /// Key moments that were computed for this frame, not counted above: those it needs that no frame before it did.
+    std::vector<MomentStatistics> moments;
 };
 
 /// What is computed beyond the statistics.

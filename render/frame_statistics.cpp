@@ -13,6 +13,21 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+Json moments_json(const std::vector<MomentStatistics>& moments) {
+    Json list = Json::array();
+    for (const MomentStatistics& m : moments) {
+        list.push_back({{"frame", m.frame},
+                        {"records", m.counts.records},
+                        {"rays",
+                         {{"primary", m.counts.rays.primary},
+                          {"shadow", m.counts.rays.shadow},
+                          {"gather", m.counts.rays.gather},
+                          {"total", m.counts.rays.total()}}},
+                        {"seconds", m.seconds}});
+    }
+    return list;
+}
+
 Json frame_json(const FrameStatistics& f) {
     Json seconds = Json::object();
     for (const auto& [stage, value] : list_stages(f.seconds)) seconds[stage] = value;
@@ -34,6 +49,7 @@ Json frame_json(const FrameStatistics& f) {
           {"lookups", f.counts.cache.lookups},
           {"hits", f.counts.cache.hits},
           {"rounds", f.counts.cache.rounds}}},
+        {"moments", moments_json(f.moments)},
         {"samples", f.counts.samples},
         {"nan", f.counts.invalid_samples},
         {"estimate",

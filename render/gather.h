@@ -8,7 +8,9 @@
 #include <limits>
 #include <vector>
 
+#include "engine/base/color.h"
 #include "render/direct_light.h"
+#include "render/hemisphere_strata.h"
 
 namespace aleph {
 
@@ -29,10 +31,14 @@ struct IrradianceSample {
     float harmonic_mean_distance = 0.0f;              ///< m (Yee 2000, eq. 6.5); infinite if no ray hit anything
     /// m, to the nearest surface met, the point's own left out; infinite if no ray hit anything.
     float nearest_distance = std::numeric_limits<float>::infinity();
-    Clearance clearance = unlimited_clearance();      ///< nearest hits of the rays next to the tangent plane
+    Clearance clearance = unlimited_clearance();  ///< nearest hits of the rays next to the tangent plane
     /// m, from the tangent plane up to the lowest hit of all other rays.
     float headroom = std::numeric_limits<float>::infinity();
+    int rays = 0;               ///< that were spent, those below the true surface included
     int ignored_distances = 0;  ///< hits of the point's own surface, left out of the mean
+    /// Standard error of the irradiance's luminance over the luminance, estimated from this one gather; 0 if all is
+    /// dark, infinite if there are too few cells to tell.
+    float relative_error = 0.0f;
 };
 
 /// Whether all three channels are finite.
@@ -49,32 +55,29 @@ inline int sector_of(float x, float y) {
     return (x < 0.0f ? 1 : 0) | (y < 0.0f ? 2 : 0) | (across < along ? 4 : 0) | (diagonal ? 8 : 0);
 }
 
-/// Division of a hemisphere into cells: rows in elevation, columns in azimuth, about pi times as many columns as rows.
-struct HemisphereStrata {
-    int rows = 1;
-    int columns = 1;
-    int count() const { return rows * columns; }
-};
-
-/// Strata with exactly `samples` cells if a pair of divisors is near the ideal ratio, otherwise with a few less.
-HemisphereStrata choose_strata(int samples);
-
-/// Buffers that a thread reuses, so that only its first gather allocates.
+/// Buffers that a thread reuses, so that only its first gathers allocate.
 struct GatherScratch {
-    std::vector<Ray> rays;         ///< one per cell of the strata, row by row
-    std::vector<Hit> hits;         ///< of `rays`
-    std::vector<Rgb> radiance;     ///< along `rays`
-    std::vector<Rgb> beyond;       ///< the part of it that comes by longer paths
-    std::vector<float> distances;  ///< of `hits`, m; infinite for a miss
+    // One for every ray that is cast, in the order of visit_blocks.
+    std::vector<Ray> rays;
+    std::vector<Hit> hits;
+    std::vector<int> cells;  ///< of the strata
+    // One for every cell.
+    std::vector<Rgb> radiance;
+    std::vector<float> distances;     ///< m; infinite where nothing is met
+    std::vector<std::uint8_t> below;  ///< no ray is cast: the direction is below the true surface
+    // One for every shadow ray.
     std::vector<Ray> shadow_rays;
-    std::vector<int> shadow_owner;  ///< per shadow ray: index into `rays`
+    std::vector<Rgb> unshadowed;  ///< radiance if nothing is in the way
+    std::vector<int> shadow_cells;
     std::vector<std::uint8_t> blocked;
     std::vector<float> sorted;
 };
 
-/// Gathers the light that other surfaces scatter to a point after one bounce. At each hit one light is chosen in
-/// proportion to its unshadowed contribution, and one shadow ray is cast towards it. Where the surface that is hit
-/// reflects or passes light by more than its Lambert layer, a path goes on with that share as its probability.
+/// Gathers the light that other surfaces scatter to a point after one bounce. The hemisphere lies about the shading
+/// normal. Directions below the true surface count as black and infinitely far, and no rays are cast there. At each hit
+/// one light is chosen in proportion to its unshadowed contribution, and one shadow ray is cast towards it. Where the
+/// surface that is hit reflects or passes light by more than its Lambert layer, a path goes on with that share as its
+/// probability.
 /// @param key    all random numbers depend on it
 /// @param depth  surfaces that may scatter after the first on such a path; 0: none
 IrradianceSample gather_irradiance(const LightingContext& context, RayTask& task, const SurfacePoint& point,

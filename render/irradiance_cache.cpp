@@ -3,179 +3,202 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <limits>
+#include <numbers>
+
+#include "engine/base/parallel.h"
+#include "render/ray_task.h"
 
 namespace aleph {
 
 namespace {
 
-constexpr float min_error = 1e-3f;  // keeps the weight finite at the record itself: at most 1000
 constexpr float infinite = std::numeric_limits<float>::infinity();
-constexpr int max_level = 24;  // of the octree
 
-/// A record reaches alpha R_i. It goes into the cell whose half size is about its reach at alpha = 0.3, so that a cell
-/// holds records of similar reach and a look-up visits few cells.
-constexpr float reach_for_index = 0.3f;
+/// Of neighbour clamping, in R_i per distance.
+constexpr float clamp_slope = 1.0f;
 
-/// Ward (1988) rejects every record in front of the point's tangent plane. This share of R_i is tolerated, so that
-/// rounding, and shading normals that differ from the facets they lie on, do not reject a record's own surface.
-constexpr float max_in_front = 0.05f;
+/// Records are compared within this multiple of their reach: where shading uses both, and somewhat farther.
+constexpr float comparison_reach = 2.0f;
 
-/// Tolerance of the headroom, as a share of R_i, for rounding.
-constexpr float headroom_tolerance = 1e-3f;
+/// Likewise, where records are averaged to lower their noise, and how many standard deviations they may differ.
+constexpr float smoothing_reach = 2.0f, max_noise_difference = 2.5f;
 
-glm::vec3 limit_gradient(const glm::vec3& gradient, float irradiance, float radius) {
-    const float length = glm::length(gradient);
-    if (!std::isfinite(length)) return glm::vec3(0.0f);
-    return length * radius > irradiance ? gradient * (irradiance / (length * radius)) : gradient;
+/// The variance of gather rays is expected from the records within this multiple of the reach.
+constexpr float variance_reach = 4.0f;
+
+/// Whether a ray passes between two points of surfaces. It is lifted off both.
+bool is_in_sight(RayTask& task, const IrradianceRecord& record, const CacheQuery& query) {
+    constexpr float lift = 0.02f;
+    const float distance = glm::length(query.position - record.position);
+    const glm::vec3 from = query.position + query.normal * (lift * distance);
+    const glm::vec3 to = record.position + record.normal * (lift * distance);
+    const float length = glm::length(to - from);
+    if (!(length > 0.0f)) return true;
+    ++task.counts.shadow;
+    return !task.tracer.occluded({from, (to - from) / length, 0.0f, length});
+}
+
+/// Whether a record may be used for the query, by its error and by what may stand between.
+bool is_usable(const IrradianceRecord& record, const CacheQuery& query, float error, float accuracy) {
+    if (!(error < accuracy)) return false;
+    if (!is_beyond_clearance(record, query.position)) return true;
+    return query.task != nullptr && is_in_sight(*query.task, record, query);
+}
+
+/// S_i, m.
+float spread_of(const IrradianceRecord& record) {
+    return record.growth > 0.0f ? 1.0f / std::sqrt(record.growth) : infinite;
+}
+
+/// Whether a record's value can be compared with another's, moved to its place.
+bool is_comparable(const IrradianceRecord& from, const IrradianceRecord& to, float accuracy) {
+    return glm::length(from.normal - to.normal) < accuracy * std::numbers::sqrt2_v<float> &&
+           interpolation_error(from, to.position, to.normal) < infinite;
 }
 
 }  // namespace
 
-std::optional<IrradianceRecord> make_record(const glm::vec3& position, const glm::vec3& normal,
-                                            const IrradianceSample& sample, const RadiusBounds& bounds) {
-    if (!is_finite(sample.irradiance)) return std::nullopt;
-    IrradianceRecord record;
-    record.position = position;
-    record.normal = normal;
-    record.irradiance = sample.irradiance;
-    record.min_radius = bounds.min;
-    record.radius = std::clamp(sample.harmonic_mean_distance, bounds.min, std::max(bounds.min, bounds.max));
-    record.tangent = make_basis(normal).tangent;
-    record.clearance = sample.clearance;
-    record.headroom = sample.headroom;
-    for (int c = 0; c < 3; ++c) {
-        const float irradiance = sample.irradiance[c];
-        record.translation_gradient[c] = limit_gradient(sample.translation_gradient[c], irradiance, record.radius);
-        record.rotation_gradient[c] = limit_gradient(sample.rotation_gradient[c], irradiance, 1.0f);
-    }
-    return record;
-}
-
-float interpolation_error(const IrradianceRecord& record, const glm::vec3& position, const glm::vec3& normal) {
-    if (!(glm::dot(normal, record.normal) > 0.0f)) return infinite;
-    const glm::vec3 offset = position - record.position;
-    if (glm::dot(offset, normal + record.normal) * 0.5f < -max_in_front * record.radius) return infinite;
-    if (glm::dot(offset, record.normal) > record.headroom + headroom_tolerance * record.radius) return infinite;
-    const float x = glm::dot(offset, record.tangent);
-    const float y = glm::dot(offset, glm::cross(record.normal, record.tangent));
-    const float clear = record.clearance[sector_of(x, y)];
-    if (x * x + y * y > clear * clear) return infinite;
-    constexpr float inverse_root_two = 0.70710678f;
-    return glm::length(offset) / record.radius + glm::length(normal - record.normal) * inverse_root_two;
-}
-
-Rgb extrapolate(const IrradianceRecord& record, const glm::vec3& position, const glm::vec3& normal) {
-    const glm::vec3 offset = position - record.position, turn = glm::cross(record.normal, normal);
-    Rgb value = record.irradiance;
-    for (int c = 0; c < 3; ++c) {
-        value[c] += glm::dot(turn, record.rotation_gradient[c]) + glm::dot(offset, record.translation_gradient[c]);
-        value[c] = std::clamp(value[c], 0.0f, 2.0f * record.irradiance[c]);
-    }
-    return value;
-}
-
-IrradianceCache::IrradianceCache(const glm::vec3& bounds_low, const glm::vec3& bounds_high) {
-    const glm::vec3 size = bounds_high - bounds_low;
-    Cell root;
-    root.center = 0.5f * (bounds_low + bounds_high);
-    root.half_size = std::max({0.5f * size.x, 0.5f * size.y, 0.5f * size.z, 1e-6f});
-    root.children.fill(-1);
-    cells_.push_back(root);
-}
-
-int IrradianceCache::find_or_add_cell(const glm::vec3& position, float radius) {
-    int cell = 0;
-    const glm::vec3 off = glm::abs(position - cells_[0].center);
-    const bool inside = std::max({off.x, off.y, off.z}) <= cells_[0].half_size;  // otherwise it stays in the root
-    for (int level = 0; inside && level < max_level; ++level) {
-        Cell& here = cells_[cell];
-        here.max_radius = std::max(here.max_radius, radius);
-        if (here.half_size * 0.5f < reach_for_index * radius) break;
-        const int octant = (position.x > here.center.x ? 1 : 0) | (position.y > here.center.y ? 2 : 0) |
-                           (position.z > here.center.z ? 4 : 0);
-        int child = here.children[octant];
-        if (child < 0) {
-            Cell added;
-            added.half_size = 0.5f * here.half_size;
-            added.center = here.center +
-                           added.half_size * glm::vec3(octant & 1 ? 1 : -1, octant & 2 ? 1 : -1, octant & 4 ? 1 : -1);
-            added.children.fill(-1);
-            child = static_cast<int>(cells_.size());
-            here.children[octant] = child;
-            cells_.push_back(added);
-        }
-        cell = child;
-    }
-    Cell& found = cells_[cell];
-    found.max_radius = std::max(found.max_radius, radius);
-    return cell;
-}
-
-/// Calls visit_record(index) for every record that may lie within reach_factor * its radius + extra_reach of the
-/// position, until it returns false.
-template <class VisitRecord>
-void IrradianceCache::visit(const glm::vec3& position, float reach_factor, float extra_reach,
-                            const VisitRecord& visit_record) const {
-    int stack[max_level * 8 + 8];
-    int top = 0;
-    stack[top++] = 0;
-    while (top > 0) {
-        const Cell& cell = cells_[stack[--top]];
-        for (int record = cell.first_record; record >= 0; record = next_[record]) {
-            if (!visit_record(record)) return;
-        }
-        for (const int child : cell.children) {
-            if (child < 0) continue;
-            const Cell& below = cells_[child];
-            const float reach = below.half_size + reach_factor * below.max_radius + extra_reach;
-            if (std::abs(position.x - below.center.x) <= reach && std::abs(position.y - below.center.y) <= reach &&
-                std::abs(position.z - below.center.z) <= reach) {
-                stack[top++] = child;
-            }
-        }
-    }
-}
-
 float IrradianceCache::radius_bound(const glm::vec3& position, const glm::vec3& normal, float max_radius) const {
     float bound = max_radius;
-    visit(position, 1.0f, max_radius, [&](int i) {
-        const IrradianceRecord& other = records_[i];
-        if (glm::dot(normal, other.normal) > 0.0f) {
-            bound = std::min(bound, other.radius + glm::length(position - other.position));
-        }
-        return true;
-    });
+    index_.visit(
+        [&](const RecordIndex::Cell& cell) {
+            return clamp_slope * cell.distance_to(position) + cell.min_radius < bound;
+        },
+        [&](int i) {
+            const IrradianceRecord& other = records_[i];
+            if (glm::dot(normal, other.normal) > 0.0f) {
+                bound = std::min(bound, other.radius + clamp_slope * glm::length(position - other.position));
+            }
+            return true;
+        });
     return bound;
 }
 
-/// Krivanek et al. 2006, section 4: the radii of two records differ by no more than their distance.
+/// Krivanek et al. 2006, section 4: the radii of two records differ by no more than their distance allows.
 void IrradianceCache::clamp_to_neighbours(IrradianceRecord& record) {
     record.radius = radius_bound(record.position, record.normal, record.radius);
     record.radius = std::max(record.radius, record.min_radius);
-    visit(record.position, 1.0f, 0.0f, [&](int i) {
+    index_.visit(
+        [&](const RecordIndex::Cell& cell) {
+            return cell.most.radius > record.radius + clamp_slope * cell.distance_to(record.position);
+        },
+        [&](int i) {
+            IrradianceRecord& other = records_[i];
+            const float most = record.radius + clamp_slope * glm::length(record.position - other.position);
+            if (other.radius > most && glm::dot(record.normal, other.normal) > 0.0f) {
+                other.radius = std::max(most, other.min_radius);
+                index_.lower_radius(other.position, other.radius);
+            }
+            return true;
+        });
+}
+
+/// Shortens S_i of the new record and of those near it where they do not agree.
+void IrradianceCache::compare_with_neighbours(IrradianceRecord& record) {
+    max_accuracy_ = std::max(max_accuracy_, record.accuracy);
+    const float reach = comparison_reach * record.accuracy * record.radius;
+    index_.visit_near(record.position, comparison_reach * max_accuracy_, reach, [&](int i) {
         IrradianceRecord& other = records_[i];
-        const float distance = glm::length(record.position - other.position);
-        if (glm::dot(record.normal, other.normal) > 0.0f && other.radius > record.radius + distance) {
-            other.radius = std::max(record.radius + distance, other.min_radius);
-        }
+        const float accuracy = comparison_reach * std::max(record.accuracy, other.accuracy);
+        const float within = std::max(reach, comparison_reach * other.accuracy * other.radius);
+        if (glm::length(record.position - other.position) > within) return true;
+        if (!is_comparable(other, record, accuracy) || !is_comparable(record, other, accuracy)) return true;
+        const float growth = measure_growth(record, other);
+        record.growth = std::min(std::max(record.growth, growth), record.max_growth);
+        other.growth = std::min(std::max(other.growth, growth), other.max_growth);
         return true;
     });
 }
 
 void IrradianceCache::insert(IrradianceRecord record) {
     clamp_to_neighbours(record);
-    const int cell = find_or_add_cell(record.position, record.radius);
-    next_.push_back(cells_[cell].first_record);
-    cells_[cell].first_record = static_cast<int>(records_.size());
+    compare_with_neighbours(record);
+    ray_variance_sum_ += record.ray_variance;
     records_.push_back(record);
+    index_.add(record.position, {record.radius}, record.accuracy);
+}
+
+std::optional<float> IrradianceCache::expected_ray_variance(const CacheQuery& query) const {
+    if (records_.empty()) return std::nullopt;
+    float sum = 0.0f, total = 0.0f;
+    const float reach = variance_reach * query.accuracy;
+    index_.visit_near(query.position, reach, 0.0f, [&](int i) {
+        const IrradianceRecord& record = records_[i];
+        const float weight = 1.0f - glm::length(query.position - record.position) / (reach * record.radius);
+        if (weight > 0.0f && glm::dot(query.normal, record.normal) > 0.0f) {
+            sum += weight * record.ray_variance;
+            total += weight;
+        }
+        return true;
+    });
+    if (total > 0.0f) return sum / total;
+    return static_cast<float>(ray_variance_sum_ / static_cast<double>(records_.size()));
+}
+
+IrradianceRecord IrradianceCache::smoothed(const IrradianceRecord& record) const {
+    const float accuracy = smoothing_reach * record.accuracy;
+    Rgb irradiance(0.0f);
+    std::array<glm::vec3, 3> translation{}, rotation{};
+    float total = 0.0f;
+    index_.visit_near(record.position, accuracy, accuracy * record.radius, [&](int i) {
+        const IrradianceRecord& other = records_[i];
+        const float error = std::max(interpolation_error(other, record.position, record.normal),
+                                     interpolation_error(record, other.position, other.normal));
+        if (!(error < accuracy)) return true;
+        if (is_beyond_clearance(other, record.position) || is_beyond_clearance(record, other.position)) return true;
+        const Rgb value = extrapolate(other, record.position, record.normal);
+        const float own = luminance(record.irradiance);
+        const float larger = std::max(own, luminance(other.irradiance));
+        if (std::abs(luminance(value) - own) > max_noise_difference * combined_noise(record, other) * larger) {
+            return true;
+        }
+        const float weight = 1.0f - error / accuracy;
+        irradiance += value * weight;
+        for (int c = 0; c < 3; ++c) {
+            translation[c] += other.translation_gradient[c] * weight;
+            rotation[c] += other.rotation_gradient[c] * weight;
+        }
+        total += weight;
+        return true;
+    });
+    IrradianceRecord smooth = record;
+    if (!(total > 0.0f)) return smooth;
+    smooth.irradiance = irradiance / total;
+    for (int c = 0; c < 3; ++c) {
+        smooth.translation_gradient[c] = translation[c] / total;
+        smooth.rotation_gradient[c] = rotation[c] / total;
+    }
+    return smooth;
+}
+
+void IrradianceCache::finish() {
+    std::vector<IrradianceRecord> smooth(records_.size());
+    parallel_for(records_.size(), 64, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) smooth[i] = smoothed(records_[i]);
+    });
+    std::vector<IrradianceRecord> ordered;
+    ordered.reserve(smooth.size());
+    for (const int i : index_.ordered()) ordered.push_back(smooth[i]);
+    restore(std::move(ordered));
+}
+
+void IrradianceCache::restore(std::vector<IrradianceRecord> records) {
+    records_ = std::move(records);
+    index_ = index_.emptied();
+    ray_variance_sum_ = 0.0;
+    for (const IrradianceRecord& record : records_) {
+        index_.add(record.position, {record.radius, spread_of(record)}, record.accuracy);
+        max_accuracy_ = std::max(max_accuracy_, record.accuracy);
+        ray_variance_sum_ += record.ray_variance;
+    }
 }
 
 bool IrradianceCache::covers(const CacheQuery& query) const {
     const float accuracy = std::min(query.accuracy, 1.0f);
     bool found = false;
-    visit(query.position, accuracy, 0.0f, [&](int i) {
-        found = interpolation_error(records_[i], query.position, query.normal) < accuracy;
+    index_.visit_near(query.position, accuracy, 0.0f, [&](int i) {
+        const IrradianceRecord& record = records_[i];
+        found = is_usable(record, query, interpolation_error(record, query.position, query.normal), accuracy);
         return !found;
     });
     return found;
@@ -185,11 +208,11 @@ std::optional<Rgb> IrradianceCache::interpolate(const CacheQuery& query) const {
     const float accuracy = std::min(query.accuracy, 1.0f);
     Rgb sum(0.0f);
     float total = 0.0f;
-    visit(query.position, accuracy, 0.0f, [&](int i) {
+    index_.visit_near(query.position, accuracy, 0.0f, [&](int i) {
         const IrradianceRecord& record = records_[i];
         const float error = interpolation_error(record, query.position, query.normal);
-        if (error < accuracy) {
-            const float weight = 1.0f / std::max(error, min_error);
+        if (is_usable(record, query, error, accuracy)) {
+            const float weight = 1.0f - error / accuracy;
             sum += extrapolate(record, query.position, query.normal) * weight;
             total += weight;
         }

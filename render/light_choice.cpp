@@ -35,7 +35,7 @@ Ray make_shadow_ray(const LitSurface& lit, const LightSample& sample) {
 }
 
 ScatteredLight choose_light(const LightingContext& context, const LitSurface& lit, const LobeShares& shares,
-                            RandomStream& random) {
+                            const LightNumbers& numbers) {
     const int lights = context.lights.count();
     if (lights == 0) return {};
     const int candidates = std::min(lights, max_candidates);
@@ -47,8 +47,8 @@ ScatteredLight choose_light(const LightingContext& context, const LitSurface& li
     for (int c = 0; c < candidates; ++c) {
         choices[c].light = c;
         if (candidates < lights) {
-            choices[c] = choose_at_random(context.lights,
-                                          (static_cast<float>(c) + random.next()) / static_cast<float>(candidates));
+            choices[c] = choose_at_random(
+                context.lights, (static_cast<float>(c) + numbers.candidates) / static_cast<float>(candidates));
             choices[c].probability *= static_cast<float>(candidates);
         }
         weights[c] =
@@ -58,16 +58,24 @@ ScatteredLight choose_light(const LightingContext& context, const LitSurface& li
     }
     if (!std::isfinite(total)) return {{}, Rgb(total)};  // not hidden: the sample is dropped and counted
     if (!(total > 0.0f)) return {};
-    float left = random.next() * total;
+    float left = numbers.choice * total;
     int c = 0;
     while (c + 1 < candidates && left >= weights[c]) left -= weights[c++];
     while (c > 0 && !(weights[c] > 0.0f)) --c;  // rounding at the end
-    const LightSample sample =
-        sample_light(context.shading, context.lights, choices[c].light, receiver, random.next_2d());
+    const LightSample sample = sample_light(context.shading, context.lights, choices[c].light, receiver, numbers.point);
     if (sample.incoming == Rgb(0.0f) || !lit.is_reached(sample.direction)) return {};
     const float probability = choices[c].probability * weights[c] / total;
     return {make_shadow_ray(lit, sample),
             scatter_towards(lit, sample.direction, sample.pdf, shares) * sample.incoming / probability};
+}
+
+ScatteredLight choose_light(const LightingContext& context, const LitSurface& lit, const LobeShares& shares,
+                            RandomStream& random) {
+    LightNumbers numbers;
+    if (context.lights.count() > max_candidates) numbers.candidates = random.next();
+    numbers.choice = random.next();
+    numbers.point = random.next_2d();
+    return choose_light(context, lit, shares, numbers);
 }
 
 Rgb find_transmittance(const LightingContext& context, RayTask& task, const Ray& ray) {

@@ -34,7 +34,7 @@ CameraRay make_sample_ray(const CameraView& view, const SampleHits& sample, int 
 
 /// The surface of one pixel sample.
 struct PixelSurface : ViewedSurface {
-    Hit hit;                  ///< of the sample's ray
+    Hit hit{};                ///< of the sample's ray
     float distance = 0.0f;    ///< from the camera, m
     float footprint = 0.0f;   ///< size of a pixel at that distance, m
     int x = 0, y = 0;         ///< of the pixel

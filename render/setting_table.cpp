@@ -166,7 +166,9 @@ void add_light(std::vector<Setting>& table) {
         "sample",
         &S::accuracy, 0.0, 1.0)));
     table.push_back(with_unit(
-        number_setting("gather", "rays over the hemisphere for one irradiance value", &S::gather, 4, 1 << 20), "rays"));
+        number_setting("gather", "rays over the hemisphere for one irradiance value; 0: what the accuracy needs",
+                       &S::gather, 0, 1 << 20),
+        "rays"));
     table.push_back(number_setting(
         "bounces", "bounces of indirect diffuse light; more than 1 needs the integrator path", &S::bounces, 0, 1000));
     table.push_back(with_unit(
@@ -191,6 +193,12 @@ void add_light(std::vector<Setting>& table) {
     table.push_back(with_unit(number_setting("min_radius_pixels", "least reach of a cache record at its own accuracy",
                                              &S::min_radius_pixels, 0.1, 1000.0),
                               "pixels"));
+    table.push_back(with_unit(
+        number_setting("light_step",
+                       "frames between the key moments at which indirect light is computed for the frames around them; "
+                       "0: every frame computes its own",
+                       &S::light_step, 0, 1000),
+        "frames"));
     table.push_back(
         number_setting("subdivision_level",
                        "level of every subdivision cage, at most its own max_level; -1: as fine as the pixels need",

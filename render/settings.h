@@ -43,14 +43,15 @@ struct RenderSettings {
     Adapter adapter = Adapter::compress;
     double adapter_k = 100.0;  ///< K of (6.8)
     double accuracy = 0.15;    ///< ambient accuracy alpha_Acc; 0 gathers at every sample
-    int gather = 1024;         ///< hemisphere samples per irradiance value
+    int gather = 0;            ///< hemisphere samples per irradiance value; 0: what the accuracy needs (choose_rays)
     Integrator integrator = Integrator::cache;
     int bounces = 1;                 ///< of indirect diffuse light; at most 1 with the cache
     int path_depth = 32;             ///< longest path: surfaces that scatter, of all kinds
     int spp = 16;                    ///< samples per pixel; 1 is the pixel's centre
     int light_samples = 16;          ///< direct-light samples per pixel and light, shared out among its spp
     double shade_reach = 1.4;        ///< how far shading uses a record, as a multiple of how far filling does
-    double min_radius_pixels = 4.0;  ///< least reach of a record at its own accuracy, pixels
+    double min_radius_pixels = 20.0;  ///< least R of a record (irradiance_record.h), pixels
+    int light_step = 10;             ///< frames between key moments of indirect light; 0: every frame computes its own
     int subdivision_level = -1;      ///< of every subdivision cage; -1: as fine as the pixels need (cage_level.h)
 
     bool operator==(const RenderSettings&) const = default;

@@ -35,6 +35,9 @@ struct FrameTally {
 
 struct ShadedFrame : FrameTally {
     Image<Rgb> color;       ///< mean of the valid samples, linear, exposure applied; 0 if no sample is valid
+    /// The part of `color` that surfaces reflect of their indirect irradiance, read from the cache or gathered. Empty
+    /// if light is found by paths.
+    Image<Rgb> indirect;
     Image<float> coverage;  ///< share of the valid samples that hit a surface
     Image<float> samples;   ///< pixel samples taken
     /// Variance of the pixel's mean luminance, exposure applied, from its samples. With Integrator::path and 2 samples

@@ -166,7 +166,13 @@ Rgb environment_radiance(const ShadingScene& shading, const glm::vec3& direction
     return shading.environment * look_up(*shading.environment_map, direction * shading.environment_rotation);
 }
 
-SurfacePoint make_surface_point(const ShadingScene& shading, const Hit& hit, const glm::vec3& direction) {
+namespace {
+
+/// @param sees_front  whether the front is seen, from its unit normal
+/// @param fallback    unit normal of a triangle without area
+template <class SeesFront>
+SurfacePoint make_point(const ShadingScene& shading, const Hit& hit, const SeesFront& sees_front,
+                        const glm::vec3& fallback) {
     const PosedInstance& instance = shading.instances[hit.instance];
     const Mesh& mesh = *instance.mesh;
     const glm::uvec3 t = mesh.triangles[hit.primitive];
@@ -184,8 +190,8 @@ SurfacePoint make_surface_point(const ShadingScene& shading, const Hit& hit, con
     // normal_matrix keeps outward normals outward, under reflections too.
     glm::vec3 geometric = instance.normals * glm::cross(e1, e2);
     const float length = glm::length(geometric);
-    geometric = length > 0.0f ? geometric / length : -direction / glm::length(direction);
-    point.front = glm::dot(geometric, direction) < 0.0f;
+    geometric = length > 0.0f ? geometric / length : fallback;
+    point.front = sees_front(geometric);
     point.geometric = point.front ? geometric : -geometric;
     point.offset = offset_scale * rounding_bound(instance, p0, e1, e2, point.position, geometric);
     point.normal = point.geometric;
@@ -202,6 +208,17 @@ SurfacePoint make_surface_point(const ShadingScene& shading, const Hit& hit, con
     add_texture_coordinates(instance, t, e1, e2, u, v, point);
     if (!mesh.colors.empty()) point.color = interpolate(mesh.colors, t, u, v);
     return point;
+}
+
+}  // namespace
+
+SurfacePoint make_surface_point(const ShadingScene& shading, const Hit& hit, const glm::vec3& direction) {
+    const auto sees_front = [&](const glm::vec3& normal) { return glm::dot(normal, direction) < 0.0f; };
+    return make_point(shading, hit, sees_front, -direction / glm::length(direction));
+}
+
+SurfacePoint make_surface_point(const ShadingScene& shading, const Hit& hit, bool front) {
+    return make_point(shading, hit, [front](const glm::vec3&) { return front; }, {0.0f, 1.0f, 0.0f});
 }
 
 }  // namespace aleph

@@ -105,4 +105,8 @@ struct SurfacePoint {
 /// @param direction  of the ray that hit it; need not be unit
 SurfacePoint make_surface_point(const ShadingScene& shading, const Hit& hit, const glm::vec3& direction);
 
+/// The same from one side of the surface.
+/// @param front  the front side of its winding
+SurfacePoint make_surface_point(const ShadingScene& shading, const Hit& hit, bool front);
+
 }  // namespace aleph

@@ -94,13 +94,16 @@ void write_frames(const FrameJob& job, const SceneOptions& options, const FrameR
     }
 }
 
-void render_frames(PreparedScene prepared, const SceneOptions& options, const FrameRequest& request) {
+void render_frames(PreparedScene prepared, const SceneOptions& options, const FrameRequest& request,
+                   const std::string& cache) {
     prepare_frames_output(prepared, options, request.maps);
     const ThreadLimit limit(options.threads);
     Sequence sequence(std::move(prepared.scene), prepared.settings, options.camera);
+    if (!cache.empty()) sequence.load_light(cache);
     const auto make = [&](int frame, const FrameRequest& asked) { return sequence.render(frame, asked); };
     write_frames({sequence.scene(), prepared.settings, sequence.exposure(), prepared.frames, prepared.name, make},
                  options, request);
+    if (!cache.empty()) sequence.save_light(cache);
 }
 
 }  // namespace aleph

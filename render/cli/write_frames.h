@@ -29,6 +29,8 @@ void prepare_frames_output(const PreparedScene& prepared, const SceneOptions& op
 void write_frames(const FrameJob& job, const SceneOptions& options, const FrameRequest& request);
 
 /// Renders the frames of a scene, or their maps, and writes them. The files have the channels of what is requested.
-void render_frames(PreparedScene prepared, const SceneOptions& options, const FrameRequest& request);
+/// @param cache  file that keeps the light of key moments; empty: none
+void render_frames(PreparedScene prepared, const SceneOptions& options, const FrameRequest& request,
+                   const std::string& cache = "");
 
 }  // namespace aleph

@@ -51,12 +51,6 @@ struct Experiment {
     }
 };
 
-/// Reads a setting that is a choice, so that its names are those of the scene file.
-RenderSettings with_choice(RenderSettings settings, const std::string& key, const std::string& value) {
-    apply_settings(settings, {{key, value}}, "--" + key);
-    return settings;
-}
-
 /// The reference differs from what it judges in its integrator, its samples and its seed.
 RenderSettings reference_settings(const AccuracyOptions& options, RenderSettings settings) {
     settings.perception.guide = Guide::none;

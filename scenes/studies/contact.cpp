@@ -3,9 +3,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
-#include <charconv>
 
-#include "engine/base/errors.h"
 #include "engine/load/load_scene.h"
 #include "render/cli/options.h"
 #include "render/cli/progress.h"
@@ -23,36 +21,13 @@ struct ContactOptions {
     int columns = 4, width = 320;
 };
 
-/// "scene.json@20" is frame 20; "scene.json" is the middle frame of the scene.
-struct Wanted {
-    std::string file;
-    std::optional<std::int64_t> frame;
-};
-
-Wanted parse_wanted(const std::string& text) {
-    const std::size_t at = text.rfind('@');
-    if (at == std::string::npos) return {text, std::nullopt};
-    std::int64_t frame = 0;
-    const char* end = text.data() + text.size();
-    const auto [stop, error] = std::from_chars(text.data() + at + 1, end, frame);
-    if (error != std::errc() || stop != end)
-        throw InputError(text, "", "expected a frame number after the last @, such as scene.json@20");
-    return {text.substr(0, at), frame};
-}
-
-/// The name of the folder for a file called scene.json, else the name of the file.
-std::string name_of(const std::string& file) {
-    const std::filesystem::path path = std::filesystem::absolute(file);
-    return path.stem() == "scene" ? path.parent_path().filename().string() : path.stem().string();
-}
-
 Panel make_panel(const std::string& text, const StudyOptions& study) {
-    const Wanted wanted = parse_wanted(text);
+    const FrameOfScene wanted = parse_frame_of_scene(text);
     const Scene scene = load_scene(wanted.file);
     Sequence sequence(scene, study_settings(scene, wanted.file, study));
     const FrameRange range = sequence.range();
     const std::int64_t frame = wanted.frame.value_or(range.first + (range.last - range.first) / 2);
-    std::string caption = name_of(wanted.file);
+    std::string caption = scene_name(wanted.file);
     if (wanted.frame) caption += fmt::format(", frame {}", frame);
     return color_panel(caption, sequence.render(frame).shaded.color);
 }

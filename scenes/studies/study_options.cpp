@@ -1,7 +1,11 @@
 #include "scenes/studies/study_options.h"
 
+#include <algorithm>
+#include <charconv>
+#include <filesystem>
 #include <iostream>
 
+#include "engine/base/errors.h"
 #include "engine/base/parallel.h"
 #include "render/cli/options.h"
 
@@ -16,12 +20,17 @@ void add_study_options(CLI::App& app, StudyOptions& options) {
     if (!options.picture.empty())
         app.add_option("-o,--output", options.picture, "file of the picture, .png or .jpg")->capture_default_str();
     add_value(app, "--gather", options.gather, "rays per irradiance value");
-    add_value(app, "--spp", options.spp, "samples per pixel");
+    if (options.spp > 0) add_value(app, "--spp", options.spp, "samples per pixel");
     add_value(app, "-t,--threads", options.threads, "number of threads; 0: all");
 }
 
 void add_quiet_option(CLI::App& app, StudyOptions& options) {
     app.add_flag("-q,--quiet", options.quiet, "do not show progress");
+}
+
+std::string scene_name(const std::string& file) {
+    const std::filesystem::path path = std::filesystem::absolute(file);
+    return path.stem() == "scene" ? path.parent_path().filename().string() : path.stem().string();
 }
 
 void add_accuracy_option(CLI::App& app, double& accuracy) {
@@ -33,8 +42,24 @@ RenderSettings study_settings(const Scene& scene, const std::string& file, const
     apply_settings(settings, scene.settings, file);
     parse_size(options.size, "--size", settings.width, settings.height);
     settings.gather = options.gather;
-    settings.spp = options.spp;
+    settings.spp = std::max(1, options.spp);
     return settings;
+}
+
+RenderSettings with_choice(RenderSettings settings, const std::string& key, const std::string& value) {
+    apply_settings(settings, {{key, value}}, "--" + key);
+    return settings;
+}
+
+FrameOfScene parse_frame_of_scene(const std::string& text) {
+    const std::size_t at = text.rfind('@');
+    if (at == std::string::npos) return {text, std::nullopt};
+    std::int64_t frame = 0;
+    const char* end = text.data() + text.size();
+    const auto [stop, error] = std::from_chars(text.data() + at + 1, end, frame);
+    if (error != std::errc() || stop != end)
+        throw InputError(text, "", "expected a frame number after the last @, such as scene.json@20");
+    return {text.substr(0, at), frame};
 }
 
 int run_study(CLI::App& app, const StudyOptions& options, int argc, const char* const* argv,

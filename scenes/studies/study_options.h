@@ -3,6 +3,7 @@
 
 #include <CLI/CLI.hpp>
 #include <functional>
+#include <optional>
 #include <string>
 
 #include "render/settings.h"
@@ -14,16 +15,20 @@ struct StudyOptions {
     std::string size = "640x480";  ///< of the frames, WIDTHxHEIGHT in pixels
     std::string picture{};         ///< .png or .jpg; empty: the study draws none
     int gather = 1024;             ///< rays per irradiance value
-    int spp = 1, threads = 0;
+    int spp = 1;                   ///< 0: the study takes pixel centres and has no option for it
+    int threads = 0;
     bool quiet = false;
 };
 
 /// SCENE, the one positional argument of most studies.
 void add_scene_option(CLI::App& app, StudyOptions& options);
-/// --size, --gather, --spp, --threads; --output where there is a picture.
+/// --size, --gather, --threads; --spp where there are samples, --output where there is a picture.
 void add_study_options(CLI::App& app, StudyOptions& options);
 /// -q, --quiet.
 void add_quiet_option(CLI::App& app, StudyOptions& options);
+/// The name of the folder for a file called scene.json, else the name of the file.
+std::string scene_name(const std::string& file);
+
 /// --accuracy.
 void add_accuracy_option(CLI::App& app, double& accuracy);
 
@@ -31,6 +36,19 @@ void add_accuracy_option(CLI::App& app, double& accuracy);
 /// @param file  of the scene, for errors
 /// @throws InputError for a setting that is out of range
 RenderSettings study_settings(const Scene& scene, const std::string& file, const StudyOptions& options);
+
+/// With a setting that is a choice, by the names of the scene file.
+/// @throws InputError for an unknown name
+RenderSettings with_choice(RenderSettings settings, const std::string& key, const std::string& value);
+
+struct FrameOfScene {
+    std::string file;
+    std::optional<std::int64_t> frame;
+};
+
+/// "scene.json@20" is frame 20 of a scene; "scene.json" leaves the frame open.
+/// @throws InputError if no number follows the last @
+FrameOfScene parse_frame_of_scene(const std::string& text);
 
 /// Reads the command line and runs a study on the number of threads that the options ask for.
 /// @return the exit code

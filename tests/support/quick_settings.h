@@ -12,6 +12,7 @@ inline RenderSettings quick_settings(int width, int height) {
     settings.spp = 1;
     settings.gather = 64;
     settings.light_samples = 4;
+    settings.light_step = 0;  // every frame by itself
     return settings;
 }
 

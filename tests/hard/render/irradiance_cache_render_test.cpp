@@ -112,47 +112,6 @@ Scene make_room() {
     return scene;
 }
 
-TEST(IrradianceCache, IC12_TinyAccuracyConvergesToGatheringEverywhere) {
-    const Stage stage(make_room(), 16, 12);
-    constexpr int runs = 12;
-    std::vector<Mean> cached(16 * 12), gathered(16 * 12);
-    Mean cached_mean, gathered_mean;
-    for (std::uint32_t run = 0; run < runs; ++run) {
-        RenderSettings settings = plain_settings(1e-4, 256);
-        settings.light_samples = 4;
-        settings.min_radius_pixels = 0.1;
-        settings.seed = run;
-        const ShadedFrame small = shade(stage, settings);
-        settings.accuracy = 0.0;
-        settings.seed = 100 + run;
-        const ShadedFrame none = shade(stage, settings);
-        double small_sum = 0.0, none_sum = 0.0;
-        for (std::size_t i = 0; i < small.color.size(); ++i) {
-            cached[i].add(small.color.pixels[i].x);
-            gathered[i].add(none.color.pixels[i].x);
-            small_sum += small.color.pixels[i].x;
-            none_sum += none.color.pixels[i].x;
-        }
-        cached_mean.add(small_sum);
-        gathered_mean.add(none_sum);
-    }
-    EXPECT_NEAR(cached_mean.mean(), gathered_mean.mean(), 3.0 * std::hypot(cached_mean.error(), gathered_mean.error()));
-    int beyond = 0;
-    for (std::size_t i = 0; i < cached.size(); ++i) {
-        const double error = std::hypot(cached[i].error(), gathered[i].error());
-        if (std::abs(cached[i].mean() - gathered[i].mean()) > 3.0 * error) ++beyond;
-    }
-    EXPECT_LE(beyond, 6);  // of 192, Student's t with 22 degrees of freedom: 1.3 expected, 6 has a chance of 2e-3
-}
-
-TEST(IrradianceCache, IC12_AccuracyOneRendersWithFewRecords) {
-    const Stage stage(make_room(), 64, 48);
-    const ShadedFrame coarse = shade(stage, plain_settings(1.0, 64)), fine = shade(stage, plain_settings(0.1, 64));
-    EXPECT_GT(coarse.counts.records, 5u);
-    EXPECT_LT(2 * coarse.counts.records, fine.counts.records);  // nearby walls limit records at any accuracy
-    EXPECT_EQ(coarse.counts.invalid_samples, 0u);
-}
-
 TEST(IrradianceCache, IC13_TheSameRecordsFromAnyNumberOfThreads) {
     const Stage stage(make_room(), 96, 72);
     RenderSettings settings = plain_settings(0.15, 64);

@@ -262,24 +262,5 @@ TEST(IrradianceCache, IC15_EmptyAndOneRecord) {
     EXPECT_FALSE(cache.covers({glm::vec3(0.5f), up, 0.0f}));  // accuracy 0 accepts nothing
 }
 
-/// Not timed: with a search that visits every record, this would take an hour, longer than ctest lets a program run.
-TEST(IrradianceCache, IC15_LookUpsInAMillionRecords) {
-    constexpr int side = 1000, look_ups = 1'000'000;
-    IrradianceCache cache(glm::vec3(0.0f), glm::vec3(1.0f));
-    Randoms random;
-    const glm::vec3 up(0.0f, 1.0f, 0.0f);
-    const float spacing = 1.0f / static_cast<float>(side);
-    for (int i = 0; i < side * side; ++i) {  // on a square, each reaching a few of its neighbours
-        const glm::vec3 corner(static_cast<float>(i % side), 0.0f, static_cast<float>(i / side));
-        cache.insert(make_plain_record((corner + glm::vec3(0.5f, 0.0f, 0.5f)) * spacing, up, 2.0f * spacing));
-    }
-    for (int i = 0; i < look_ups; ++i) {
-        const CacheQuery query{{random.uniform(0.0f, 1.0f), 0.0f, random.uniform(0.0f, 1.0f)}, up, 0.75f};
-        const std::optional<Rgb> found = cache.interpolate(query);
-        ASSERT_TRUE(found.has_value());
-        ASSERT_NEAR(found->x, 1.0f, 1e-4f);
-    }
-}
-
 }  // namespace
 }  // namespace aleph

@@ -15,12 +15,14 @@ namespace {
 /// A value other than the default for every key.
 const std::map<std::string, SettingValue>& other_values() {
     static const std::map<std::string, SettingValue> values{
-        {"size", "320x200"},        {"seed", 4294967295.0},    {"guide", "full"},      {"estimate", "flat"},
-        {"motion", "image"},        {"vision", "castle"},      {"bands", "measured"},  {"grid", "center"},
-        {"neutral_opponent", true}, {"adapter", "scale-add"},  {"adapter_k", 50.0},    {"accuracy", 0.3},
-        {"gather", 64.0},           {"bounces", 0.0},          {"spp", 4.0},           {"sampling", "uniform"},
-        {"integrator", "path"},     {"path_depth", 5.0},       {"light_samples", 7.0}, {"shade_reach", 1.1},
-        {"min_radius_pixels", 2.5}, {"subdivision_level", 3.0}};
+        {"size", "320x200"},      {"seed", 4294967295.0},    {"guide", "full"},
+        {"estimate", "flat"},     {"motion", "image"},       {"vision", "castle"},
+        {"bands", "measured"},    {"grid", "center"},        {"neutral_opponent", true},
+        {"adapter", "scale-add"}, {"adapter_k", 50.0},       {"accuracy", 0.3},
+        {"gather", 64.0},         {"bounces", 0.0},          {"spp", 4.0},
+        {"sampling", "uniform"},  {"integrator", "path"},    {"path_depth", 5.0},
+        {"light_samples", 7.0},   {"shade_reach", 1.1},      {"min_radius_pixels", 2.5},
+        {"light_step", 5.0},      {"subdivision_level", 3.0}};
     return values;
 }
 
@@ -96,6 +98,7 @@ TEST(Settings, FieldsReceiveWhatKeysSay) {
     EXPECT_EQ(s.light_samples, 7);
     EXPECT_EQ(s.shade_reach, 1.1);
     EXPECT_EQ(s.min_radius_pixels, 2.5);
+    EXPECT_EQ(s.light_step, 5);
     EXPECT_EQ(s.subdivision_level, 3);
 }
 
@@ -140,6 +143,7 @@ TEST(Settings, MC20_NumbersOutOfRangeOfAnyKind) {
                                                          {"seed", {-1.0, 4294967296.0, 0.5, nan_value}},
                                                          {"shade_reach", {0.99, 2.01, nan_value}},
                                                          {"min_radius_pixels", {0.0, -1.0, 1001.0, nan_value}},
+                                                         {"light_step", {-1.0, 1001.0, 2.5, nan_value}},
                                                          {"subdivision_level", {-2.0, 11.0, 0.5, nan_value}}};
     for (const auto& [key, values] : bad) {
         for (const double value : values) EXPECT_NE(refusal(key, value).find(" from "), std::string::npos) << key;

@@ -1,0 +1,34 @@
+#include "render/fill_points.h"
+
+#include "engine/base/parallel.h"
+#include "render/carried_point.h"
+
+namespace aleph {
+
+std::optional<PixelSurface> find_surface(const IndirectContext& context, const SampleHits& sample, int x, int y) {
+    const ShadingScene& wanted = context.lighting.shading;
+    if (context.seen == nullptr) return make_pixel_surface(wanted, context.view, sample, x, y);
+    PixelSurface surface = make_pixel_surface(*context.seen, context.view, sample, x, y);
+    const std::optional<SurfacePoint> point = carry_point(wanted, surface.hit, surface.point);
+    if (!point) return std::nullopt;
+    surface.point = *point;
+    return surface;
+}
+
+Image<FillPoint> find_points(const IndirectContext& context, const SampleHits& sample) {
+    Image<FillPoint> points(sample.hits.width, sample.hits.height);
+    parallel_rows(points.height, 4, [&](int begin, int end) {
+        for (int y = begin; y < end; ++y) {
+            for (int x = 0; x < points.width; ++x) {
+                if (sample.hits(x, y).instance == no_index) continue;
+                const std::optional<PixelSurface> surface = find_surface(context, sample, x, y);
+                if (!surface || !surface->material.has_diffuse()) continue;
+                if (context.carried != nullptr && context.carried->find(*surface, context.accuracy(x, y))) continue;
+                points(x, y) = {surface->point.position, surface->footprint, surface->point.normal};
+            }
+        }
+    });
+    return points;
+}
+
+}  // namespace aleph

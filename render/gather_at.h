@@ -1,0 +1,21 @@
+#pragma once
+// A gather at a pixel: how many rays, and from which random numbers.
+
+#include <optional>
+
+#include "render/gather.h"
+#include "render/indirect_context.h"
+
+namespace aleph {
+
+/// Rays for a gather at a pixel's accuracy. With RenderSettings::gather 0, as many as bring its standard error to a
+/// fifth of the accuracy, from 64 to 8192; otherwise that number at the frame's accuracy. Where the accuracy is looser,
+/// fewer by its square.
+/// @param ray_variance  relative, of one ray; nothing where it is not known
+int choose_rays(const RenderSettings& settings, float accuracy, const std::optional<float>& ray_variance);
+
+/// Gathers the irradiance at one pixel sample.
+IrradianceSample gather_at(const IndirectContext& context, RayTask& task, const PixelSurface& surface,
+                           GatherScratch& scratch, int rays);
+
+}  // namespace aleph

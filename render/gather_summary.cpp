@@ -1,0 +1,162 @@
+#include "render/gather_summary.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace aleph {
+
+namespace {
+
+constexpr float pi = std::numbers::pi_v<float>;
+constexpr float min_distance = 1e-20f;  // m; keeps gradients finite if the median distance is 0
+constexpr float infinite = std::numeric_limits<float>::infinity();
+
+/// Angles of a row of strata, measured from the normal.
+struct Row {
+    float sin_low, sin_high;  ///< of its bounds
+    float cos2_low;           ///< squared cosine of the lower bound
+    float tangent;            ///< of its middle
+};
+
+Row make_row(int j, int rows) {
+    const float low = static_cast<float>(j) / static_cast<float>(rows);
+    const float high = static_cast<float>(j + 1) / static_cast<float>(rows);
+    const float middle = 0.5f * (low + high);
+    return {std::sqrt(low), std::sqrt(high), 1.0f - low, std::sqrt(middle / (1.0f - middle))};
+}
+
+/// Ward and Heckbert 1992, eqs. 1 (rotation) and 2 (translation): sums over all cells. The boundary between two cells
+/// moves by the parallax of the nearer surface. The point's own horizon moves with the point: where a cell is below it,
+/// the boundary has no parallax.
+/// @param shortest  m; distances count as at least this
+void add_gradients(const HemisphereStrata& strata, const Basis& basis, const GatherScratch& scratch, float shortest,
+                   IrradianceSample& out) {
+    const int rows = strata.rows, columns = strata.columns;
+    const float column_width = 2.0f * pi / static_cast<float>(columns);
+    const auto parallax = [&](int a, int b) {
+        if (scratch.below[a] || scratch.below[b]) return 0.0f;
+        return 1.0f / std::max(shortest, std::min(scratch.distances[a], scratch.distances[b]));
+    };
+    for (int k = 0; k < columns; ++k) {
+        const int before = k == 0 ? columns - 1 : k - 1;
+        Rgb rotation(0.0f), along(0.0f), across(0.0f);
+        for (int j = 0; j < rows; ++j) {
+            const Row row = make_row(j, rows);
+            const int cell = strata.cell(j, k), beside = strata.cell(j, before);
+            const Rgb& here = scratch.radiance[cell];
+            rotation += here * row.tangent;
+            if (j > 0) {
+                const int above = strata.cell(j - 1, k);
+                along += (here - scratch.radiance[above]) * (row.sin_low * row.cos2_low * parallax(cell, above));
+            }
+            across += (here - scratch.radiance[beside]) * ((row.sin_high - row.sin_low) * parallax(cell, beside));
+        }
+        const float middle = (static_cast<float>(k) + 0.5f) * column_width;
+        const float edge = static_cast<float>(k) * column_width;
+        const glm::vec3 u = basis.tangent * std::cos(middle) + basis.bitangent * std::sin(middle);
+        const glm::vec3 v = basis.bitangent * std::cos(middle) - basis.tangent * std::sin(middle);
+        const glm::vec3 v_edge = basis.bitangent * std::cos(edge) - basis.tangent * std::sin(edge);
+        for (int c = 0; c < 3; ++c) {
+            out.rotation_gradient[c] += v * (rotation[c] * pi / static_cast<float>(strata.count()));
+            out.translation_gradient[c] += u * (along[c] * column_width) + v_edge * across[c];
+        }
+    }
+}
+
+/// m. Shorter distances are hits of the point's own surface, by rounding: 1e-4 of the median distance.
+float shortest_true_distance(GatherScratch& scratch) {
+    std::vector<float>& met = scratch.sorted;
+    met.clear();
+    for (const float d : scratch.distances) {
+        if (std::isfinite(d)) met.push_back(d);
+    }
+    if (met.empty()) return 0.0f;
+    const auto middle = met.begin() + std::ssize(met) / 2;
+    std::nth_element(met.begin(), middle, met.end());
+    return 1e-4f * *middle;
+}
+
+/// The harmonic mean (Yee 2000, eq. 6.5) in double, where the inverse of an infinite distance is 0, and the nearest.
+void set_distances(const std::vector<float>& distances, float shortest, IrradianceSample& out) {
+    double sum = 0.0;
+    for (const float d : distances) {
+        if (d < shortest) {
+            ++out.ignored_distances;
+        } else {
+            sum += 1.0 / d;
+            out.nearest_distance = std::min(out.nearest_distance, d);
+        }
+    }
+    const double mean = static_cast<double>(std::ssize(distances) - out.ignored_distances) / sum;
+    out.harmonic_mean_distance = sum > 0.0 ? static_cast<float>(mean) : infinite;
+}
+
+/// Distances to what may stand between this point and a neighbour: along the tangent plane from the rows next to the
+/// horizon, above it from all other rows.
+void set_clearance(const HemisphereStrata& strata, const Basis& basis, const GatherScratch& scratch, float shortest,
+                   IrradianceSample& out) {
+    out.clearance.fill(infinite);
+    // At least two rays per sector: a single one may miss an obstacle.
+    const int sectors = static_cast<int>(out.clearance.size());
+    const int rows = std::clamp((2 * sectors - 1 + strata.columns) / strata.columns, 1, strata.rows);
+    const int first_low = (strata.rows - rows) * strata.columns;
+    for (std::size_t i = 0; i < scratch.rays.size(); ++i) {
+        const int cell = scratch.cells[i];
+        const float distance = scratch.distances[cell];
+        if (distance < shortest) continue;
+        const glm::vec3 local = basis.to_local(scratch.rays[i].direction);
+        if (cell < first_low) {
+            out.headroom = std::min(out.headroom, distance * local.z);
+            continue;
+        }
+        float& clear = out.clearance[sector_of(local.x, local.y)];
+        clear = std::min(clear, distance * std::sqrt(local.x * local.x + local.y * local.y));
+    }
+}
+
+/// Neighbouring cells' numbers are spread evenly, so the error is smaller than of independent ones. Measured: without
+/// this factor the estimate is 1.0 to 1.5 times the spread over seeds, most where the light varies smoothly.
+constexpr float share_of_independent = 0.8f;
+
+/// The standard error of the irradiance's luminance over the luminance itself. With one sample in each cell, the
+/// variance is estimated from differences of neighbouring cells, as for systematic samples (Cochran 1977, "Sampling
+/// Techniques", ch. 8; Wolter 2007, "Introduction to Variance Estimation", ch. 8). The differences are mixed: a - b - c
+/// + d over squares of four cells, whose variance is that of four cells. Light that varies along rows and columns
+/// smoothly, and edges along either, cancel in them.
+float estimate_relative_error(const HemisphereStrata& strata, GatherScratch& scratch) {
+    const int rows = strata.rows, columns = strata.columns;
+    std::vector<float>& brightness = scratch.sorted;
+    brightness.resize(scratch.radiance.size());
+    double sum = 0.0;
+    for (std::size_t i = 0; i < brightness.size(); ++i) {
+        brightness[i] = luminance(scratch.radiance[i]);
+        sum += brightness[i];
+    }
+    if (!(sum > 0.0)) return 0.0f;
+    if (rows < 2 || columns < 2) return infinite;
+    double squares = 0.0;
+    for (int j = 1; j < rows; ++j) {
+        for (int k = 0; k < columns; ++k) {
+            const int before = k == 0 ? columns - 1 : k - 1;
+            const float mixed = brightness[strata.cell(j, k)] - brightness[strata.cell(j - 1, k)] -
+                                brightness[strata.cell(j, before)] + brightness[strata.cell(j - 1, before)];
+            squares += static_cast<double>(mixed) * mixed;
+        }
+    }
+    const double cell_variance = squares / (4.0 * (rows - 1) * columns);
+    return share_of_independent * static_cast<float>(std::sqrt(cell_variance * strata.count()) / sum);
+}
+
+}  // namespace
+
+void summarize_hemisphere(const HemisphereStrata& strata, const Basis& basis, GatherScratch& scratch,
+                          IrradianceSample& out) {
+    const float shortest = shortest_true_distance(scratch);
+    set_distances(scratch.distances, shortest, out);
+    set_clearance(strata, basis, scratch, shortest, out);
+    add_gradients(strata, basis, scratch, std::max(shortest, min_distance), out);
+    out.relative_error = estimate_relative_error(strata, scratch);
+}
+
+}  // namespace aleph

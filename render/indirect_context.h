@@ -1,0 +1,36 @@
+#pragma once
+// What a frame's indirect light is computed from.
+
+#include <optional>
+
+#include "engine/base/color.h"
+#include "render/light_choice.h"
+#include "render/pixel_surfaces.h"
+#include "render/settings.h"
+#include "render/shaded_frame.h"
+
+namespace aleph {
+
+/// Indirect light of a frame that is known before its cache is filled.
+struct CarriedLight {
+    virtual ~CarriedLight() = default;
+    /// Irradiance at a surface of the frame; nothing where it is not known to this accuracy. Called from any thread.
+    virtual std::optional<Rgb> find(const PixelSurface& surface, float accuracy) const = 0;
+};
+
+/// What a frame's indirect light is computed from.
+struct IndirectContext {
+    const LightingContext& lighting;
+    const CameraView& view;
+    const RenderSettings& settings;
+    const Image<float>& accuracy;           ///< alpha per pixel
+    std::uint32_t frame = 0;                ///< for random numbers
+    float max_radius = 1.0f;                ///< m, of records: scene_radius
+    FrameProgress progress;                 ///< may be empty
+    const CarriedLight* carried = nullptr;  ///< surfaces that it knows get no records; may be null
+    /// If set, the hits were cast in this pose of the scene, and the light is wanted where their surfaces are in
+    /// `lighting` (carry_point).
+    const ShadingScene* seen = nullptr;
+};
+
+}  // namespace aleph

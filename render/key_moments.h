@@ -1,0 +1,36 @@
+#pragma once
+// Key moments of a shot: the frames at which indirect light is computed. A frame between two of them reads both.
+
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+#include "engine/scene/scene.h"
+
+namespace aleph {
+
+/// Key moments are the first frame of the range and every `step`-th before and after it, the last frame of the range,
+/// and both sides of every cut and of every jump of the light.
+struct KeyMoments {
+    FrameRange range;
+    std::vector<std::int64_t> cuts;  ///< frames that begin a new shot
+    std::int64_t step = 10;          ///< frames, at least 1
+    /// Frames after `first`, up to `last`, before which the light jumps (LightBreaks). May be empty.
+    std::function<std::vector<std::int64_t>(std::int64_t first, std::int64_t last)> breaks;
+};
+
+/// The key moments around a frame: before <= frame <= after. A key moment has itself on both sides.
+struct MomentPair {
+    std::int64_t before = 0, after = 0;
+    double weight = 0.0;  ///< of `after`; 1 - weight is that of `before`
+
+    bool operator==(const MomentPair&) const = default;
+};
+
+MomentPair find_moments(const KeyMoments& moments, std::int64_t frame);
+
+/// Frames whose views meet a key moment: its own, and the key moments before and after it, unless a cut or an end of
+/// the range lies between.
+std::vector<std::int64_t> find_moment_views(const KeyMoments& moments, std::int64_t moment);
+
+}  // namespace aleph

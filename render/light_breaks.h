@@ -1,0 +1,35 @@
+#pragma once
+// Jumps of a shot's light: frames between which it cannot be interpolated.
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <vector>
+
+#include "engine/pose/plan.h"
+
+namespace aleph {
+
+/// Looks at every frame of a span. Only transforms, visibility, lights and materials are posed, not the points of
+/// deforming meshes.
+class LightBreaks {
+  public:
+    /// Keeps references to both.
+    LightBreaks(const Scene& scene, const PosePlan& plan) : scene_(scene), plan_(plan) {}
+
+    /// Frames after `first`, up to `last`, that differ from the frame before them by a jump: a mesh or a lamp comes or
+    /// goes; or the light of a lamp, of an emissive material or of the environment changes by more than a quarter of
+    /// the largest value that it has in the span.
+    const std::vector<std::int64_t>& find(std::int64_t first, std::int64_t last);
+
+  private:
+    struct Sources;
+    Sources look(std::int64_t frame);
+
+    const Scene& scene_;
+    const PosePlan& plan_;
+    std::optional<ScenePose> posed_;
+    std::map<std::pair<std::int64_t, std::int64_t>, std::vector<std::int64_t>> found_;
+};
+
+}  // namespace aleph

@@ -1,0 +1,76 @@
+#include "render/moment_light.h"
+
+#include <algorithm>
+
+#include "render/carried_point.h"
+
+namespace aleph {
+
+namespace {
+
+/// Linear interpolation is refused where the moments' light differs by more than this share of what it errs at most
+/// there, in units of the accuracy.
+constexpr float max_difference = 1.0f;
+
+/// Whether linear interpolation between two moments may err by more than the accuracy.
+bool differ(const Rgb& before, const Rgb& after, float weight, float accuracy) {
+    const float a = luminance(before), b = luminance(after);
+    return 4.0f * weight * (1.0f - weight) * std::abs(a - b) > max_difference * accuracy * (a + b);
+}
+
+}  // namespace
+
+std::vector<IrradianceRecord> compute_records(const std::vector<std::shared_ptr<const KeyView>>& views,
+                                              const LightingContext& lighting, const RenderSettings& settings,
+                                              FrameCounts& counts) {
+    const KeyView& own = *views.front();
+    IrradianceCache cache = make_cache(lighting.shading);
+    FrameTally tally;
+    tally.records = tally.invalid_samples = Image<float>(own.posed.view.width, own.posed.view.height);
+    for (const auto& view : views) {
+        IndirectContext context{lighting, view->posed.view, settings, view->accuracy, 0, scene_radius(lighting.shading),
+                                {}};
+        if (view != views.front()) context.seen = &view->shading;
+        fill_cache(cache, context, view->centers, tally);
+    }
+    tally.counts.rays += counts.rays;
+    counts = tally.counts;
+    cache.finish();
+    return cache.records();
+}
+
+/// The records' order decides in which order a look-up adds them, so the cache is always made from the list, whether
+/// it was computed or read from a file.
+MomentLight make_moment_light(std::shared_ptr<const KeyPose> at, const std::vector<IrradianceRecord>& records) {
+    MomentLight moment{at, make_cache(at->shading)};
+    moment.cache.restore(records);
+    return moment;
+}
+
+BlendedLight::BlendedLight(std::shared_ptr<const MomentLight> before, std::shared_ptr<const MomentLight> after,
+                           double weight, bool still, double reach)
+    : before_(std::move(before)),
+      after_(std::move(after)),
+      weight_(static_cast<float>(weight)),
+      still_(still),
+      reach_(static_cast<float>(reach)) {}
+
+std::optional<Rgb> BlendedLight::read(const MomentLight& moment, const PixelSurface& surface, float accuracy) const {
+    const std::optional<SurfacePoint> point = carry_point(moment.at->shading, surface.hit, surface.point);
+    if (!point) return std::nullopt;
+    return moment.cache.interpolate({point->position, point->normal, accuracy * reach_});
+}
+
+std::optional<Rgb> BlendedLight::find(const PixelSurface& surface, float accuracy) const {
+    const std::optional<Rgb> before = read(*before_, surface, accuracy);
+    if (!after_) return before;
+    const std::optional<Rgb> after = read(*after_, surface, accuracy);
+    if (!before || !after) {
+        if (still_) return before ? before : after;
+        return std::nullopt;
+    }
+    if (!still_ && differ(*before, *after, weight_, accuracy)) return std::nullopt;
+    return *before * (1.0f - weight_) + *after * weight_;
+}
+
+}  // namespace aleph

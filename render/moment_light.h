@@ -1,0 +1,67 @@
+#pragma once
+// Indirect light of key moments (key_moments.h): computed at each of them, and read by the frames in between.
+//
+// Records belong to surfaces. A frame looks up the light of a surface point where that point lies at the moment, so
+// records ride with rigid and with deforming objects. Between two moments the light is interpolated linearly in time.
+
+#include <memory>
+
+#include "engine/pose/posed_view.h"
+#include "render/cache_fill.h"
+#include "render/frame_output.h"
+#include "render/key_moments.h"
+
+namespace aleph {
+
+/// The scene at a key moment. `shading` points into it: it must not move.
+struct KeyPose {
+    PosedView posed;
+    ShadingScene shading;
+};
+
+/// What a key moment's camera sees.
+struct KeyView : KeyPose {
+    SampleHits centers;
+    Image<float> accuracy;  ///< alpha per pixel
+    RayCounts rays;         ///< of its first hits and its quick estimate
+};
+
+/// The light of a key moment.
+struct MomentLight {
+    std::shared_ptr<const KeyPose> at;
+    IrradianceCache cache;
+};
+
+/// @param records  of this moment, from compute_records
+MomentLight make_moment_light(std::shared_ptr<const KeyPose> at, const std::vector<IrradianceRecord>& records);
+
+/// Computes the light of a moment at the surfaces that the views show.
+/// @param views     the moment's own, then its neighbours'; their surfaces are taken to where they lie at the moment
+/// @param lighting  the scene at the moment
+/// @param counts    increased
+std::vector<IrradianceRecord> compute_records(const std::vector<std::shared_ptr<const KeyView>>& views,
+                                              const LightingContext& lighting, const RenderSettings& settings,
+                                              FrameCounts& counts);
+
+/// Light of the key moments before and after a frame.
+class BlendedLight : public CarriedLight {
+  public:
+    /// @param after   null at a key moment
+    /// @param weight  of `after`
+    /// @param still   nothing but the camera changes: light that only one of the moments has holds at the other
+    /// @param reach   RenderSettings::shade_reach
+    BlendedLight(std::shared_ptr<const MomentLight> before, std::shared_ptr<const MomentLight> after, double weight,
+                 bool still, double reach);
+
+    std::optional<Rgb> find(const PixelSurface& surface, float accuracy) const override;
+
+  private:
+    std::optional<Rgb> read(const MomentLight& moment, const PixelSurface& surface, float accuracy) const;
+
+    std::shared_ptr<const MomentLight> before_, after_;
+    float weight_;
+    bool still_;
+    float reach_;
+};
+
+}  // namespace aleph

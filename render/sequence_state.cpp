@@ -1,0 +1,195 @@
+#include "render/sequence_state.h"
+
+#include <algorithm>
+
+#include "engine/pose/cage_level.h"
+#include "engine/rays/alpha_cutout.h"
+#include "motion/image_motion.h"
+#include "perception/sanitize.h"
+#include "render/accuracy_map.h"
+#include "render/estimate.h"
+#include "render/frame_vision.h"
+#include "render/texture.h"
+
+namespace aleph {
+
+namespace {
+
+/// The scene with its subdivision cages at the levels that the picture needs.
+Scene refine_cages(Scene scene, int camera, const RenderSettings& settings) {
+    if (scene.cages.empty()) return scene;
+    std::vector<int> levels(scene.cages.size(), settings.subdivision_level);
+    if (settings.subdivision_level < 0) levels = choose_cage_levels(scene, camera, settings.width, settings.height);
+    const std::unique_ptr<Scene> refined = make_scene_at_levels(scene, levels);
+    return refined ? std::move(*refined) : std::move(scene);
+}
+
+bool is_cut(const Scene& scene, std::int64_t frame) {
+    return std::find(scene.cuts.begin(), scene.cuts.end(), frame) != scene.cuts.end();
+}
+
+/// Motion to the next frame; from the previous one at the scene's last frame; none across a cut.
+OtherFrame find_other_frame(const Scene& scene, const FrameRange& range, std::int64_t frame) {
+    const bool is_last = frame == range.last && range.last > range.first;
+    if (is_cut(scene, is_last ? frame : frame + 1)) return OtherFrame::none;
+    return is_last ? OtherFrame::previous : OtherFrame::next;
+}
+
+}  // namespace
+
+SequenceState::SequenceState(Scene given, const RenderSettings& chosen, int camera_index)
+    : scene(refine_cages(std::move(given), camera_index, chosen)),
+      settings(chosen),
+      camera(camera_index),
+      range(frame_range(scene)),
+      textures(make_texture_set(scene)),
+      pose_plan(make_pose_plan(scene)),
+      rays(scene, pose_plan),
+      blended(has_blended(scene)),
+      light_breaks(scene, pose_plan) {
+    if (!reads_moments()) return;
+    const auto find_breaks = [this](std::int64_t first, std::int64_t last) { return light_breaks.find(first, last); };
+    shot_light.emplace(KeyMoments{range, scene.cuts, settings.light_step, find_breaks}, settings,
+                       !is_world_animated(scene), !can_change(), key_moments());
+}
+
+/// Takes `posed` to a frame. Its first call poses the whole scene, later calls only what can move.
+void SequenceState::move_to_frame(std::optional<PosedView>& posed, std::int64_t frame) const {
+    const double seconds = scene.frame_rate.seconds_of(frame);
+    if (posed) {
+        update_posed_view(scene, pose_plan, seconds, camera, *posed);
+    } else {
+        posed = make_posed_view(scene, seconds, camera, settings.width, settings.height);
+    }
+}
+
+/// The quick estimate of a posed view to which `view_rays` have been updated, not sanitized.
+Image<Rgb> SequenceState::estimate_view(const RayScene& view_rays, const PosedView& posed, EstimateKind kind,
+                                        bool indirect, RayCounts& counts) const {
+    const ShadingScene view_shading = make_shading_scene(scene, posed.pose, view_rays, textures);
+    const LightSet view_lights = make_light_set(view_shading);
+    const SampleHits centers = cast_centers(view_rays, posed.view, &counts.primary);
+    return compute_estimate({view_shading, view_lights, view_rays}, posed.view, centers, kind, indirect, exposure,
+                            counts);
+}
+
+/// Brings rays and shading to `now`. @return instances that were updated
+std::size_t SequenceState::update_rays_and_shading() {
+    const std::size_t touched = rays.update_moving(now->pose, compute_anchor(now->view));
+    if (shading) {
+        update_shading_scene(*shading, pose_plan, rays);
+    } else {
+        shading = make_shading_scene(scene, now->pose, rays, textures);
+    }
+    return touched;
+}
+
+/// Brings other_rays to `other`.
+void SequenceState::update_other_rays() {
+    if (!other_rays) other_rays = std::make_unique<RayScene>(rays.share_meshes());
+    other_rays->update_moving(other->pose, compute_anchor(other->view));
+}
+
+/// Motion from `now` to `other`.
+/// @param maps  also finds the pixels that are hidden in the other frame
+void SequenceState::compute_motion(const SampleHits& centers, OtherFrame which, bool maps, StageClock& clock,
+                                   FrameOutput& out) {
+    FrameStatistics& stats = out.statistics;
+    const bool has_other = which != OtherFrame::none;
+    if (settings.motion == MotionSource::model) {
+        if (!model_motion) model_motion.emplace(scene, pose_plan);
+        out.motion = model_motion->compute(*now, has_other ? *other : *now, centers.hits, which);
+        if (!has_other || !maps) return;
+        update_other_rays();
+        stats.counts.rays.primary += mark_hidden(out.motion, scene, *other, centers.hits, *other_rays);
+        return;
+    }
+    Image<Rgb> other_estimate;
+    if (has_other) {
+        update_other_rays();
+        other_estimate = estimate_view(*other_rays, *other, settings.estimate, settings.bounces > 0, stats.counts.rays);
+        sanitize_estimate(other_estimate);
+    }
+    clock.add_to(stats.seconds.estimate);
+    out.motion = compute_image_motion(out.estimate, other_estimate, which);
+}
+
+/// The stages before the picture: pose, first hits and, if asked for, estimate, motion, perception. Afterwards `now`,
+/// rays, shading and lights are those of the frame.
+/// @param maps  every map
+/// @return hits through the pixel centres
+SampleHits SequenceState::look(std::int64_t frame, bool perceive, bool maps, FrameOutput& out) {
+    const OtherFrame which = perceive ? find_other_frame(scene, range, frame) : OtherFrame::none;
+    FrameStatistics& stats = out.statistics;
+    StageClock clock;
+    move_to_frame(now, frame);
+    if (which != OtherFrame::none) move_to_frame(other, other_frame_number(frame, which));
+    out.view = now->view;
+    clock.add_to(stats.seconds.pose);
+
+    stats.instances_touched = update_rays_and_shading();
+    lights = make_light_set(*shading);
+    clock.add_to(stats.seconds.update);
+
+    SampleHits centers = cast_centers(rays, out.view, &stats.counts.rays.primary);
+    clock.add_to(stats.seconds.first_hits);
+
+    if (perceive) {
+        out.estimate = compute_estimate(lighting(), out.view, centers, settings.estimate, settings.bounces > 0,
+                                        exposure, stats.counts.rays);
+        note_estimate(out, sanitize_estimate(out.estimate), scene.viewing);
+        clock.add_to(stats.seconds.estimate);
+        compute_motion(centers, which, maps, clock, out);
+        compute_frame_vision(out, scene, settings, maps, clock);
+    } else {
+        out.perception.aleph = Image<float>(settings.width, settings.height, 1.0f);
+        out.alpha = compute_accuracy_map(out.perception.aleph, settings);
+    }
+    return centers;
+}
+
+/// Copies the scene as it is now.
+void SequenceState::copy_now(KeyPose& pose) const {
+    pose.posed = *now;
+    pose.shading = make_shading_scene(scene, pose.posed.pose, rays, textures);
+}
+
+/// Key moments, taken from `now`, which is another frame afterwards.
+MomentSource SequenceState::key_moments() {
+    const auto light = [this](std::int64_t frame) {
+        move_to_frame(now, frame);
+        update_rays_and_shading();
+        lights = make_light_set(*shading);
+        return lighting();
+    };
+    const auto pose = [this, light](std::int64_t frame) {
+        light(frame);
+        const auto key = std::make_shared<KeyPose>();
+        copy_now(*key);
+        return key;
+    };
+    const auto look_at = [this](std::int64_t frame) {
+        FrameOutput out;
+        const auto view = std::make_shared<KeyView>();
+        view->centers = look(frame, is_guided(), false, out);
+        copy_now(*view);
+        view->accuracy = std::move(out.alpha);
+        view->rays = out.statistics.counts.rays;
+        return view;
+    };
+    return {pose, look_at, light};
+}
+
+/// Of the scene, its settings and this program; made when it is first asked for.
+const CacheFingerprint& SequenceState::fingerprint() {
+    if (!cache_fingerprint) cache_fingerprint = make_cache_fingerprint(scene, settings, camera);
+    return *cache_fingerprint;
+}
+
+/// Whether frames with a closed shutter read their indirect light from key moments.
+bool SequenceState::reads_moments() const {
+    return settings.integrator == Integrator::cache && settings.light_step > 0 && settings.bounces > 0 &&
+           settings.path_depth > 1 && settings.accuracy > 0.0;
+}
+
+}  // namespace aleph

@@ -1,0 +1,64 @@
+#pragma once
+// What a Sequence keeps between frames, and the stages of a frame before its picture is shaded.
+
+#include <memory>
+#include <optional>
+
+#include "engine/pose/posed_view.h"
+#include "motion/model_motion.h"
+#include "render/frame_output.h"
+#include "render/light_breaks.h"
+#include "render/measure.h"
+#include "render/open_shutter.h"
+#include "render/settings.h"
+#include "render/shot_light.h"
+
+namespace aleph {
+
+struct SequenceState {
+    SequenceState(Scene given, const RenderSettings& chosen, int camera_index);
+
+    void move_to_frame(std::optional<PosedView>& posed, std::int64_t frame) const;
+    Image<Rgb> estimate_view(const RayScene& view_rays, const PosedView& posed, EstimateKind kind, bool indirect,
+                             RayCounts& counts) const;
+    std::size_t update_rays_and_shading();
+    void update_other_rays();
+    void compute_motion(const SampleHits& centers, OtherFrame which, bool maps, StageClock& clock, FrameOutput& out);
+    SampleHits look(std::int64_t frame, bool perceive, bool maps, FrameOutput& out);
+    void copy_now(KeyPose& pose) const;
+    MomentSource key_moments();
+    bool reads_moments() const;
+    const CacheFingerprint& fingerprint();
+    LightingContext lighting() const { return {*shading, lights, rays}; }
+    /// Paths do not follow the map.
+    bool is_guided() const {
+        return settings.perception.guide != Guide::none && settings.integrator == Integrator::cache;
+    }
+    bool can_change() const { return is_world_animated(scene) || !pose_plan.cameras.empty(); }
+    std::uint64_t rays_traced() const {
+        return rays.rays_traced() + (other_rays ? other_rays->rays_traced() : 0) + (open ? open->rays_traced() : 0);
+    }
+
+    const Scene scene;
+    const RenderSettings settings;
+    const int camera;
+    const FrameRange range;
+    TextureSet textures;
+    PosePlan pose_plan;
+    RayScene rays;
+    // Kept from frame to frame and updated, which gives the same results as making them anew.
+    std::optional<PosedView> now, other;
+    std::optional<ShadingScene> shading;  ///< of `now`
+    LightSet lights;                      ///< of `now`
+    std::optional<ModelMotion> model_motion;
+    std::unique_ptr<RayScene> other_rays;  ///< for visibility in the other frame, or its quick estimate
+    bool blended = false;                  ///< blended surfaces are in the scene
+
+    std::unique_ptr<OpenShutter> open;  ///< the scene while the shutter is open
+    LightBreaks light_breaks;
+    std::optional<ShotLight> shot_light;  ///< if frames read key moments
+    std::optional<CacheFingerprint> cache_fingerprint;
+    double exposure = 1.0;
+};
+
+}  // namespace aleph

@@ -1,0 +1,39 @@
+#include "scenes/studies/study_frame.h"
+
+#include <ctime>
+
+#include "render/texture.h"
+
+namespace aleph {
+
+StudyFrame::StudyFrame(const Sequence& sequence, const RenderSettings& settings, std::int64_t number)
+    : scene(sequence.scene()),
+      frame(number),
+      posed(make_posed_view(scene, scene.frame_rate.seconds_of(number), find_camera(scene, ""), settings.width,
+                            settings.height)),
+      textures(make_texture_set(scene)),
+      rays(scene),
+      shading(
+          (rays.update(posed.pose, compute_anchor(posed.view)), make_shading_scene(scene, posed.pose, rays, textures))),
+      lights(make_light_set(shading)),
+      centers(cast_centers(rays, posed.view, nullptr)),
+      exposure(sequence.exposure()) {}
+
+FrameVision compute_vision(const Scene& scene, RenderSettings settings, Guide guide, Vision vision,
+                           std::int64_t frame) {
+    settings.perception.guide = guide;
+    settings.perception.vision = vision;
+    Sequence sequence(scene, settings);
+    FrameRequest request;
+    request.frame = false;
+    request.maps = true;
+    const double start = processor_seconds();
+    FrameOutput out = sequence.render(frame, request);
+    return {std::move(out.perception.aleph), std::move(out.threshold), processor_seconds() - start};
+}
+
+double processor_seconds() {
+    return static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
+}
+
+}  // namespace aleph

@@ -1,0 +1,100 @@
+// Gathers at smooth-shaded facets, where a part of the hemisphere about the shading normal is below the surface.
+
+#include <gtest/gtest.h>
+
+#include "tests/support/render_scenes.h"
+
+namespace aleph {
+namespace {
+
+/// A sphere with vertex normals in the middle of a lit room, 6 m wide.
+struct BallInRoom {
+    static constexpr double radius = 0.5;
+
+    static Scene make_scene(int segments) {
+        Scene scene;
+        const int white = add_lambert(scene, glm::dvec3(0.6), glm::dvec3(0.0), true);
+        Shape ball;
+        ball.kind = Shape::Kind::sphere;
+        ball.radius = radius;
+        ball.segments = segments;
+        add_mesh(scene, make_shape_mesh(ball, white));
+        add_mesh(scene, make_box(glm::dvec3(6.0), white));
+        for (int i = 0; i < 8; ++i) {
+            const glm::dvec3 corner(i & 1 ? 1.5 : -1.5, i & 2 ? 1.5 : -1.5, i & 4 ? 1.5 : -1.5);
+            add_light(scene, Light::Kind::point, glm::dvec3(10.0), corner);
+        }
+        return scene;
+    }
+
+    explicit BallInRoom(int segments) : stage(make_scene(segments)) {}
+
+    /// The mean of gathers at the facet that is met from this direction, which is unit.
+    IrradianceSample gather(const glm::vec3& from) {
+        RayTask task(stage.rays);
+        const Ray ray{from * 2.0f - glm::vec3(stage.shading.anchor), -from};
+        const Hit hit = task.tracer.intersect(ray);
+        SurfacePoint point = make_surface_point(stage.shading, hit, ray.direction);
+        IrradianceSample mean;
+        constexpr std::uint32_t count = 16;
+        double inverse = 0.0;
+        for (std::uint32_t seed = 0; seed < count; ++seed) {
+            const IrradianceSample sample =
+                gather_irradiance(stage.lighting(), task, point, choose_strata(512), {seed, 0, 0, 0}, scratch);
+            mean.irradiance += sample.irradiance / static_cast<float>(count);
+            mean.nearest_distance = std::min(mean.nearest_distance, sample.nearest_distance);
+            mean.headroom = std::min(mean.headroom, sample.headroom);
+            for (const float clear : sample.clearance) mean.clearance[0] = std::min(mean.clearance[0], clear);
+            inverse += 1.0 / sample.harmonic_mean_distance / count;
+            mean.translation_gradient[1] += sample.translation_gradient[1] / static_cast<float>(count);
+        }
+        mean.harmonic_mean_distance = static_cast<float>(1.0 / inverse);
+        return mean;
+    }
+
+    Stage stage;
+    GatherScratch scratch;
+};
+
+TEST(GatherHemisphere, IC17_CoarseSmoothMeshesHaveTheRadiiOfFineOnes) {
+    BallInRoom fine(512);
+    for (const int segments : {12, 48}) {
+        BallInRoom coarse(segments);
+        for (int i = 0; i < 24; ++i) {
+            const float y = 0.9f - 1.8f * (static_cast<float>(i) + 0.5f) / 24.0f, phi = 2.4f * static_cast<float>(i);
+            const float across = std::sqrt(1.0f - y * y);
+            const glm::vec3 from(across * std::cos(phi), y, across * std::sin(phi));
+            const IrradianceSample expected = fine.gather(from), found = coarse.gather(from);
+            SCOPED_TRACE(testing::Message() << segments << " segments, point " << i);
+            EXPECT_NEAR(found.irradiance.y, expected.irradiance.y, 0.05f * expected.irradiance.y);
+            EXPECT_NEAR(found.harmonic_mean_distance, expected.harmonic_mean_distance,
+                        0.05f * expected.harmonic_mean_distance);
+            EXPECT_NEAR(found.nearest_distance, expected.nearest_distance, 0.05f * expected.nearest_distance);
+            EXPECT_NEAR(found.clearance[0], expected.clearance[0], 0.15f * expected.clearance[0]);
+            EXPECT_EQ(std::isinf(found.headroom), std::isinf(expected.headroom));
+            // The facet's own horizon is no edge that moves: the gradient stays that of the room.
+            const float gradient = glm::length(found.translation_gradient[1] - expected.translation_gradient[1]);
+            EXPECT_LT(gradient, 0.1f * expected.irradiance.y);
+        }
+    }
+}
+
+TEST(GatherHemisphere, IC17_NoRaysBelowTheTrueSurface) {
+    Scene scene;
+    add_mesh(scene, make_faceted_sphere(2.0, 32, add_lambert(scene, glm::dvec3(0.5), glm::dvec3(0.0), true)));
+    add_light(scene, Light::Kind::point, glm::dvec3(1.0), {0.5, 1.0, 0.2});
+    const Stage stage(std::move(scene));
+    RayTask task(stage.rays);
+    GatherScratch scratch;
+    SurfacePoint point = make_point(glm::vec3(0.0f), {0.0f, 1.0f, 0.0f});
+    point.normal = glm::normalize(glm::vec3(1.0f, 1.0f, 0.0f));
+    const IrradianceSample sample = gather_irradiance(stage.lighting(), task, point, choose_strata(1024), {}, scratch);
+    // At 45 degrees, (1 + cos) / 2 of the cosine-weighted hemisphere is above the surface.
+    EXPECT_NEAR(static_cast<double>(task.counts.gather), 1024 * 0.5 * (1.0 + std::sqrt(0.5)), 16.0);
+    for (const Ray& ray : scratch.rays) EXPECT_GT(ray.direction.y, 0.0f);
+    EXPECT_NEAR(sample.nearest_distance, 2.0f, 0.02f);
+    EXPECT_EQ(sample.ignored_distances, 0);
+}
+
+}  // namespace
+}  // namespace aleph

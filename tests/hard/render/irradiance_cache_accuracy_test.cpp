@@ -1,0 +1,112 @@
+// What the accuracy of the irradiance cache buys: at 0 and near it the light of the path tracer, and less error at
+// every step on the way there.
+
+#include <gtest/gtest.h>
+
+#include "engine/load/load_scene.h"
+#include "tests/support/indirect_pictures.h"
+#include "tests/support/paths.h"
+
+namespace aleph {
+namespace {
+
+constexpr int small_width = 16, small_height = 12;
+using PixelMeans = std::vector<Mean>;
+
+/// Luminance per pixel, and last of the whole picture, over `runs` seeds. Pictures are of pixel centres.
+PixelMeans render_runs(const Stage& stage, RenderSettings settings, std::uint32_t runs) {
+    PixelMeans means(small_width * small_height + 1);
+    for (std::uint32_t run = 0; run < runs; ++run) {
+        ++settings.seed;
+        const ShadedFrame out = shade(stage, settings);
+        double sum = 0.0;
+        for (std::size_t i = 0; i < out.color.size(); ++i) {
+            means[i].add(luminance(out.color.pixels[i]));
+            sum += luminance(out.color.pixels[i]);
+        }
+        means.back().add(sum);
+    }
+    return means;
+}
+
+double distance(const Mean& a, const Mean& b) {
+    return std::abs(a.mean() - b.mean()) / std::hypot(a.error(), b.error());
+}
+
+/// A red block in a white room.
+/// @param fov  of a camera that looks at the block's foot, radians
+Scene make_block_room(double fov) {
+    Scene scene = make_lamp_room({-0.8, 1.0, 0.5});
+    add_mesh(scene, make_box({0.8, 0.8, 0.8}, add_lambert(scene, {0.7, 0.1, 0.1})), {0.5, -1.1, -0.5},
+             glm::angleAxis(0.4, glm::dvec3(0.0, 1.0, 0.0)));
+    add_camera(scene, {0.0, 0.0, 1.8}, {0.2, -1.4, -0.1}, fov);
+    return scene;
+}
+
+// The other settings are the defaults: with a smallest radius of a few pixels, a cache would interpolate at any
+// accuracy. Light from one point: only indirect light is random.
+TEST(IrradianceCache, IC12_TowardsAccuracyZeroItIsMonteCarlo) {
+    const Stage stage(make_block_room(0.1), small_width, small_height);
+    const PixelMeans traced = render_runs(stage, path_settings(1, 1), 800);
+    for (const double accuracy : {0.0, 1e-30, 1e-3}) {
+        RenderSettings settings = plain_settings(accuracy, 128);
+        settings.seed = 10'000;
+        settings.light_samples = 1;
+        const PixelMeans cached = render_runs(stage, settings, 12);
+        EXPECT_LT(distance(traced.back(), cached.back()), 3.0) << accuracy;
+        double squares = 0.0;
+        for (std::size_t i = 0; i + 1 < traced.size(); ++i) squares += std::pow(distance(traced[i], cached[i]), 2);
+        const double pixels = static_cast<double>(traced.size() - 1);
+        EXPECT_LT(squares, pixels + 3.0 * std::sqrt(2.0 * pixels)) << "chi squared at accuracy " << accuracy;
+    }
+}
+
+TEST(IrradianceCache, IC12_AccuracyOneRendersWithFewRecords) {
+    const Stage stage(make_block_room(1.0), 64, 48);
+    const ShadedFrame coarse = shade(stage, plain_settings(1.0, 64)), fine = shade(stage, plain_settings(0.1, 64));
+    EXPECT_GT(coarse.counts.records, 5u);
+    EXPECT_LT(2 * coarse.counts.records, fine.counts.records);
+    EXPECT_EQ(coarse.counts.invalid_samples, 0u);
+}
+
+/// Relative mean squared error of the indirect light, e = 1 % of its mean.
+double relative_mse(const Image<Rgb>& light, const std::vector<std::pair<glm::ivec2, double>>& truth) {
+    double mean = 0.0, sum = 0.0;
+    for (const auto& [pixel, value] : truth) mean += value / static_cast<double>(truth.size());
+    for (const auto& [pixel, value] : truth) {
+        const double error = luminance(light(pixel.x, pixel.y)) - value;
+        sum += error * error / (value * value + 1e-4 * mean * mean);
+    }
+    return sum / static_cast<double>(truth.size());
+}
+
+/// Odd pixels: records are placed first at even ones.
+std::vector<std::pair<glm::ivec2, double>> gather_truth(const Stage& stage) {
+    const SampleHits centers = cast_centers(stage.rays, stage.view, nullptr);
+    std::vector<std::pair<glm::ivec2, double>> truth;
+    for (int y = 3; y < stage.view.height; y += 4) {
+        for (int x = 3; x < stage.view.width; x += 4) {
+            if (centers.hits(x, y).instance == no_index) continue;
+            const PixelSurface surface = make_pixel_surface(stage.shading, stage.view, centers, x, y);
+            if (surface.material.has_diffuse())
+                truth.push_back({{x, y}, luminance(gather_indirect(stage, surface, 4096))});
+        }
+    }
+    return truth;
+}
+
+TEST(IrradianceCache, IC21_EveryStepOfAccuracyLowersTheError) {
+    const Stage stage(load_scene(source_folder() / "scenes/cornell/scene.json"), 64, 48);
+    const auto truth = gather_truth(stage);
+    ASSERT_GT(truth.size(), 100u);
+    double before = 1e30;
+    for (const double accuracy : {0.5, 0.3, 0.2, 0.15, 0.1, 0.05}) {
+        const double error = relative_mse(shade_indirect(stage, plain_settings(accuracy, 1024)).indirect, truth);
+        EXPECT_LT(error, before) << "at accuracy " << accuracy;
+        before = error;
+    }
+    EXPECT_LT(before, 1e-3);
+}
+
+}  // namespace
+}  // namespace aleph

@@ -1,0 +1,169 @@
+// Light at key moments: frames do not depend on their order, no light is stale, and nothing flickers.
+
+#include <gtest/gtest.h>
+
+#include <cstdio>
+
+#include "tests/support/frame_bytes.h"
+#include "tests/support/shot_scenes.h"
+#include "tests/support/with_threads.h"
+
+namespace aleph {
+namespace {
+
+/// Root of the mean square of the relative difference in luminance.
+double relative_rms(const Image<Rgb>& a, const Image<Rgb>& b) {
+    double sum = 0.0;
+    for (std::size_t i = 0; i < a.size(); ++i) {
+        const double x = luminance(a.pixels[i]), y = luminance(b.pixels[i]);
+        if (x + y > 0.0) sum += std::pow(2.0 * (x - y) / (x + y), 2.0);
+    }
+    return std::sqrt(sum / static_cast<double>(a.size()));
+}
+
+Image<Rgb> render_alone(const Scene& scene, const RenderSettings& settings, int frame) {
+    return Sequence(scene, settings).render(frame).shaded.color;
+}
+
+std::uint64_t count_records(const FrameStatistics& statistics) {
+    std::uint64_t count = statistics.counts.records;
+    for (const MomentStatistics& moment : statistics.moments) count += moment.counts.records;
+    return count;
+}
+
+/// Records of frames 0 to 20 in a sequence.
+std::uint64_t count_shot_records(const Scene& scene, int light_step) {
+    Sequence sequence(scene, shot_settings(light_step));
+    std::uint64_t count = 0;
+    for (int frame = 0; frame < shot_frames; ++frame) count += count_records(sequence.render(frame).statistics);
+    return count;
+}
+
+TEST(KeyMoments, IC14_AFrameAloneInASequenceInAnyOrderOnAnyThreads) {
+    const Scene scene = make_shot_with_mover();
+    RenderSettings settings = shot_settings(4);
+    settings.perception.guide = Guide::full;
+    settings.spp = 2;
+    settings.gather = 16;
+    Sequence forward(scene, settings);
+    std::vector<std::string> expected;
+    for (int frame = 0; frame <= 9; ++frame) expected.push_back(frame_bytes(forward, scene, settings, frame));
+    EXPECT_FALSE(expected[5] == expected[6]);
+    Sequence jumping(scene, settings);
+    for (const int frame : {9, 2, 6, 5}) {
+        EXPECT_TRUE(frame_bytes(jumping, scene, settings, frame) == expected[frame]) << frame;
+    }
+    for (const int threads : {1, 3}) {
+        with_threads(threads, [&] {
+            Sequence alone(scene, settings);
+            EXPECT_TRUE(frame_bytes(alone, scene, settings, 6) == expected[6]) << threads << " threads";
+        });
+    }
+}
+
+/// What moves fast or near is computed in the frame: key moments err hardly more than a fill of the frame's own.
+TEST(KeyMoments, IC14_LightOfAnotherTimeIsNotUsed) {
+    Scene scene = make_shot();
+    const int board = add_mesh(scene, make_box({1.5, 1.5, 0.05}, 1));
+    scene.nodes[board].translation = move_between({-2.0, 0.8, -1.5}, {2.5, 0.8, 0.5});
+    RenderSettings dense = shot_settings(0);
+    dense.accuracy = 0.0;
+    dense.gather = 1024;
+    const Image<Rgb> truth = render_alone(scene, dense, 5);
+    const double own = relative_rms(render_alone(scene, shot_settings(0), 5), truth);
+    const double moments = relative_rms(render_alone(scene, shot_settings(10), 5), truth);
+    std::printf("relative error: own fill %.4f, key moments %.4f\n", own, moments);
+    EXPECT_LT(moments, 1.3 * own);
+}
+
+TEST(KeyMoments, IC14_WhereNothingMovesOneMomentServesAllFrames) {
+    const Scene scene = make_shot();
+    EXPECT_EQ(count_shot_records(scene, 10), count_records(Sequence(scene, shot_settings(0)).render(0).statistics));
+    EXPECT_TRUE(render_alone(scene, shot_settings(10), 13).pixels == render_alone(scene, shot_settings(10), 0).pixels);
+}
+
+TEST(KeyMoments, IC20_WhatIsAtRestDoesNotFlicker) {
+    const Scene scene = make_shot_with_mover();
+    RenderSettings settings = shot_settings(10);
+    settings.gather = 256;
+    Sequence sequence(scene, settings);
+    std::vector<double> changes;
+    Image<Rgb> before;
+    for (int frame = 0; frame < 30; ++frame) {
+        const FrameOutput out = sequence.render(frame, {.frame = true, .maps = frame == 0, .progress = {}});
+        static Image<float> threshold;
+        if (frame == 0) threshold = out.threshold;
+        const Image<Rgb>& now = out.shaded.color;
+        for (int y = 0; frame > 0 && y < now.height; ++y) {
+            for (int x = 0; x < now.width / 2; ++x) {  // the mover is in the right half
+                const double change = std::abs(luminance(now(x, y)) - luminance(before(x, y)));
+                changes.push_back(change * scene.viewing.display_white / threshold(x, y));
+            }
+        }
+        before = now;
+    }
+    std::ranges::sort(changes);
+    const double nearly_all = changes[changes.size() * 999 / 1000];
+    std::printf("change at rest from frame to frame, thresholds: 99.9 %% %.4f, largest %.4f\n", nearly_all,
+                changes.back());
+    EXPECT_LT(nearly_all, 0.1);
+}
+
+TEST(KeyMoments, FX10_WhereOnlyTheCameraMovesLightIsCarriedOver) {
+    const Scene scene = make_shot_with_moving_camera();
+    const std::uint64_t own = count_shot_records(scene, 0), moments = count_shot_records(scene, 10);
+    std::printf("records of %d frames: %llu on their own, %llu with key moments\n", shot_frames,
+                static_cast<unsigned long long>(own), static_cast<unsigned long long>(moments));
+    EXPECT_LT(5 * moments, own);
+    EXPECT_LT(relative_rms(render_alone(scene, shot_settings(10), 5), render_alone(scene, shot_settings(0), 5)), 0.05);
+}
+
+TEST(KeyMoments, FX10_ALampThatBlinksLightsNoFrameBeforeOrAfter) {
+    Scene scene = make_shot();
+    Track<glm::dvec3>& color = scene.lights[0].color;
+    color.values = {glm::dvec3(8.0), glm::dvec3(2.0), glm::dvec3(8.0)};
+    color.interpolation = Interpolation::step;
+    color.sampling.period = 5.0 / 30.0;
+    Sequence sequence(scene, shot_settings(20));
+    for (const int frame : {4, 5, 9, 10}) {
+        const FrameOutput out = sequence.render(frame);
+        EXPECT_LT(relative_rms(out.shaded.color, render_alone(scene, shot_settings(0), frame)), 0.02) << frame;
+        EXPECT_LT(out.statistics.counts.records, 10u) << frame;
+    }
+}
+
+TEST(KeyMoments, FX10_AnObjectThatMovesLaterLeavesNoTraceBefore) {
+    Scene scene = make_shot();
+    const int board = add_mesh(scene, make_box({2.0, 2.0, 0.05}, 1));
+    Track<glm::dvec3>& place = scene.nodes[board].translation;
+    place.values = {{0.0, 1.0, 8.0}, {0.0, 1.0, 8.0}, {0.0, 1.0, -2.0}};  // from behind the camera
+    place.sampling.period = 9.0 / 30.0;
+    RenderSettings settings = shot_settings(20);
+    settings.gather = 256;
+    RenderSettings own = settings;
+    own.light_step = 0;
+    EXPECT_LT(relative_rms(render_alone(scene, settings, 8), render_alone(scene, own, 8)), 0.06);
+}
+
+/// Everything turns together, so no light changes: all of it rides with the surfaces.
+TEST(KeyMoments, RecordsRideWithTheirSurfaces) {
+    Scene scene = make_shot();
+    Node turntable;
+    turntable.rotation.values = {no_turn, glm::angleAxis(1.5, glm::dvec3(0, 1, 0))};
+    scene.nodes.insert(scene.nodes.begin(), turntable);
+    for (std::size_t n = 1; n + 1 < scene.nodes.size(); ++n) scene.nodes[n].parent = 0;
+    scene.nodes.back().translation = glm::dvec3(0.0, 9.0, 0.01);
+    scene.nodes.back().rotation = glm::quatLookAt(glm::dvec3(0, -1, 0), glm::dvec3(0, 0, -1));
+    Sequence sequence(scene, shot_settings(10));
+    const FrameOutput first = sequence.render(0);
+    const FrameOutput middle = sequence.render(5);
+    ASSERT_EQ(first.statistics.moments.size(), 1u);
+    std::printf("%llu records at the moment, %llu in the frame\n",
+                static_cast<unsigned long long>(first.statistics.moments[0].counts.records),
+                static_cast<unsigned long long>(middle.statistics.counts.records));
+    EXPECT_LT(20 * middle.statistics.counts.records, first.statistics.moments[0].counts.records);
+    EXPECT_LT(relative_rms(middle.shaded.color, render_alone(scene, shot_settings(0), 5)), 0.05);
+}
+
+}  // namespace
+}  // namespace aleph

@@ -1,0 +1,44 @@
+#pragma once
+// Indirect light alone, from pictures and from dense gathers, in scenes of Lambert surfaces.
+
+#include "tests/support/render_scenes.h"
+
+namespace aleph {
+
+/// What surfaces reflect of their indirect irradiance: a picture less the same picture's direct light.
+struct IndirectPicture {
+    Image<Rgb> all;       ///< with direct light
+    Image<Rgb> indirect;  ///< without
+    FrameCounts counts;
+};
+
+inline IndirectPicture shade_indirect(const Stage& stage, RenderSettings settings) {
+    settings.light_samples = 1;
+    const ShadedFrame all = shade(stage, settings);
+    settings.bounces = 0;
+    IndirectPicture out{all.color, shade(stage, settings).color, all.counts};
+    for (std::size_t i = 0; i < out.all.size(); ++i)
+        out.indirect.pixels[i] = out.all.pixels[i] - out.indirect.pixels[i];
+    return out;
+}
+
+/// What a surface reflects of the irradiance of a gather with so many strata and random numbers of its own.
+inline Rgb gather_indirect(const Stage& stage, const PixelSurface& surface, int strata) {
+    RayTask task(stage.rays);
+    GatherScratch scratch;
+    const RandomKey key{0x72656665u, 0, surface.pixel, 0};
+    const Rgb irradiance =
+        gather_irradiance(stage.lighting(), task, surface.point, choose_strata(strata), key, scratch).irradiance;
+    return surface.material.diffuse * irradiance / std::numbers::pi_v<float>;
+}
+
+/// A closed white room, 4 m by 3 m by 4 m about the origin, with a lamp.
+inline Scene make_lamp_room(const glm::dvec3& lamp, double intensity = 60.0) {
+    Scene scene;
+    const int white = add_lambert(scene, glm::dvec3(0.7), glm::dvec3(0.0), true);
+    add_mesh(scene, make_box({4.0, 3.0, 4.0}, white));
+    add_light(scene, Light::Kind::point, glm::dvec3(intensity), lamp);
+    return scene;
+}
+
+}  // namespace aleph
