@@ -66,7 +66,7 @@ void SequenceState::move_to_frame(std::optional<PosedView>& posed, std::int64_t 
 /// The quick estimate of a posed view to which `view_rays` have been updated, not sanitized.
 Image<Rgb> SequenceState::estimate_view(const RayScene& view_rays, const PosedView& posed, EstimateKind kind,
                                         bool indirect, RayCounts& counts) const {
-    const ShadingScene view_shading = make_shading_scene(scene, posed.pose, view_rays.anchor(), textures);
+    const ShadingScene view_shading = make_shading_scene(scene, posed.pose, view_rays, textures);
     const LightSet view_lights = make_light_set(view_shading);
     const SampleHits centers = cast_centers(view_rays, posed.view, &counts.primary);
     return compute_estimate({view_shading, view_lights, view_rays}, posed.view, centers, kind, indirect, exposure,
@@ -75,12 +75,11 @@ Image<Rgb> SequenceState::estimate_view(const RayScene& view_rays, const PosedVi
 
 /// Brings rays and shading to `now`. @return instances that were updated
 std::size_t SequenceState::update_rays_and_shading() {
-    const glm::dvec3 anchor = compute_anchor(now->view);
-    const std::size_t touched = rays.update_moving(now->pose, anchor);
+    const std::size_t touched = rays.update_moving(now->pose, compute_anchor(now->view));
     if (shading) {
-        update_shading_scene(*shading, pose_plan, anchor);
+        update_shading_scene(*shading, pose_plan, rays);
     } else {
-        shading = make_shading_scene(scene, now->pose, anchor, textures);
+        shading = make_shading_scene(scene, now->pose, rays, textures);
     }
     return touched;
 }
@@ -152,7 +151,7 @@ SampleHits SequenceState::look(std::int64_t frame, bool perceive, bool maps, Fra
 /// Copies the scene as it is now.
 void SequenceState::copy_now(KeyPose& pose) const {
     pose.posed = *now;
-    pose.shading = make_shading_scene(scene, pose.posed.pose, shading->anchor, textures);
+    pose.shading = make_shading_scene(scene, pose.posed.pose, rays, textures);
 }
 
 /// Key moments, taken from `now`, which is another frame afterwards.
