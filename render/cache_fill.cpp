@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <atomic>
-#include <bit>
 #include <mutex>
 #include <optional>
 
@@ -20,6 +19,8 @@ constexpr std::size_t lookup_grain = 256;  // look-ups per parallel chunk
 /// Keeps the random numbers of gathers apart from those of direct light: combined with the seed by exclusive or. Any
 /// constant but 0 would do.
 constexpr std::uint32_t gather_seed_mask = 0x67617468u;
+
+constexpr float place_cells = 256.0f;  // along each side of a triangle, for random numbers
 
 /// A pixel whose sample is not covered yet.
 struct Candidate {
@@ -167,6 +168,20 @@ std::size_t fill_tiles(IrradianceCache& cache, const IndirectContext& context, c
     return cache.records().size() - records_before;
 }
 
+/// Records have random numbers of their place: a surface at rest that a camera at rest sees has the same noise at every
+/// time. Places are cells of a triangle, so that the last bits of a hit hardly ever matter. Without records, the noise
+/// of every sample is its own.
+RandomKey choose_key(const IndirectContext& context, const PixelSurface& surface) {
+    const std::uint32_t seed = context.settings.seed ^ gather_seed_mask;
+    if (!(context.settings.accuracy > 0.0)) {
+        return {seed, context.frame, surface.pixel, static_cast<std::uint32_t>(surface.sample)};
+    }
+    const Hit& hit = surface.hit;
+    const auto cell = [](float at) { return static_cast<std::uint32_t>(std::max(at, 0.0f) * place_cells); };
+    return {seed, static_cast<std::uint32_t>(hit.instance), static_cast<std::uint32_t>(hit.primitive),
+            cell(hit.u) << 16 | cell(hit.v)};
+}
+
 SceneBounds bounds_or_unit(const ShadingScene& shading) {
     const SceneBounds& bounds = shading.bounds;
     if (!(bounds.low.x <= bounds.high.x)) return {glm::vec3(-1.0f), glm::vec3(1.0f)};
@@ -177,13 +192,7 @@ SceneBounds bounds_or_unit(const ShadingScene& shading) {
 
 IrradianceSample gather_at(const IndirectContext& context, RayTask& task, const PixelSurface& surface,
                            GatherScratch& scratch) {
-    // By the place: a surface at rest that a camera at rest sees has the same noise at every time.
-    const Hit& hit = surface.hit;
-    const std::uint64_t place =
-        mix_bits(std::uint64_t{std::bit_cast<std::uint32_t>(hit.u)} << 32 | std::bit_cast<std::uint32_t>(hit.v));
-    const RandomKey key{context.settings.seed ^ gather_seed_mask, static_cast<std::uint32_t>(hit.instance),
-                        static_cast<std::uint32_t>(hit.primitive) ^ static_cast<std::uint32_t>(place >> 32),
-                        static_cast<std::uint32_t>(place)};
+    const RandomKey key = choose_key(context, surface);
     return gather_irradiance(context.lighting, task, surface.point, choose_strata(context.settings.gather), key,
                              scratch, std::max(0, context.settings.path_depth - 2));
 }
