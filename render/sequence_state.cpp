@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "engine/base/errors.h"
 #include "engine/pose/cage_level.h"
 #include "engine/rays/alpha_cutout.h"
 #include "motion/image_motion.h"
@@ -36,6 +37,15 @@ OtherFrame find_other_frame(const Scene& scene, const FrameRange& range, std::in
 }
 
 }  // namespace
+
+Lens find_lens(const Scene& scene, const CameraValues& camera) {
+    if (!(camera.aperture > 0.0)) return {};
+    if (!(camera.focus_distance > 0.0)) {
+        throw InputError(scene.file, "camera of node " + printable(scene.nodes[camera.node].name),
+                         "with an aperture, its focus distance has to be above 0");
+    }
+    return {camera.aperture, camera.focus_distance};
+}
 
 SequenceState::SequenceState(Scene given, const RenderSettings& chosen, int camera_index)
     : scene(refine_cages(std::move(given), camera_index, chosen)),
@@ -171,13 +181,25 @@ MomentSource SequenceState::key_moments() {
     const auto look_at = [this](std::int64_t frame) {
         FrameOutput out;
         const auto view = std::make_shared<KeyView>();
-        view->centers = look(frame, is_guided(), false, out);
+        look(frame, is_guided(), false, out);
+        view->frame = frame;
         copy_now(*view);
         view->accuracy = std::move(out.alpha);
         view->rays = out.statistics.counts.rays;
         return view;
     };
-    return {pose, look_at, light};
+    const auto cast = [this](const KeyView& view, int sample, RayCounts& counts) {
+        if (!other_rays) other_rays = std::make_unique<RayScene>(rays.share_meshes());
+        other_rays->update_moving(view.posed.pose, view.shading.anchor);
+        const SamplePlace place{sample,
+                                settings.spp,
+                                find_lens(scene, view.posed.pose.cameras[camera]),
+                                settings.seed,
+                                static_cast<std::uint32_t>(view.frame),
+                                blended ? Blend::random : Blend::cutout};
+        return cast_sample(*other_rays, view.posed.view, place, &counts.primary);
+    };
+    return {pose, look_at, cast, light};
 }
 
 /// Of the scene, its settings and this program; made when it is first asked for.

@@ -56,8 +56,7 @@ int run(int argc, char** argv) {
     for (const auto& [name, packets] : {std::pair("single rays", RawEmbree::Packets::none),
                                         std::pair("packets of 16", RawEmbree::Packets::incoherent)}) {
         shade(2);  // other rays
-        const double seconds = seconds_of(
-            [&] { raw.trace(recorded, packets ? RawEmbree::Packets::incoherent : RawEmbree::Packets::none); });
+        const double seconds = seconds_of([&] { raw.trace(recorded, packets); });
         const double rate = static_cast<double>(recorded.size()) / seconds;
         best = std::max(best, rate);
         fmt::print("  Embree alone, {:<14} {:8.2f} Mray/s\n", name, 1e-6 * rate);
