@@ -23,9 +23,8 @@ StudyFrame::StudyFrame(const Sequence& sequence, const RenderSettings& settings,
 void StudyFrame::move_to(std::int64_t number) {
     frame = number;
     update_posed_view(scene, plan, scene.frame_rate.seconds_of(number), camera, posed);
-    const glm::dvec3 anchor = compute_anchor(posed.view);
-    rays.update_moving(posed.pose, anchor);
-    update_shading_scene(shading, plan, anchor);
+    rays.update_moving(posed.pose, compute_anchor(posed.view));
+    update_shading_scene(shading, plan, rays);
     lights = make_light_set(shading);
     centers = cast_centers(rays, posed.view, nullptr);
 }
