@@ -1,7 +1,6 @@
 #include "render/gather_at.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 
 namespace aleph {
@@ -14,6 +13,22 @@ constexpr double noise_per_accuracy = 0.2;  // standard error of a record, over 
 /// Keeps the random numbers of gathers apart from those of direct light: combined with the seed by exclusive or. Any
 /// constant but 0 would do.
 constexpr std::uint32_t gather_seed_mask = 0x67617468u;
+
+constexpr float place_cells = 256.0f;  // along each side of a triangle, for random numbers
+
+/// Records have random numbers of their place: a surface at rest that a camera at rest sees has the same noise at every
+/// time. Places are cells of a triangle, so that the last bits of a hit hardly ever matter. Without records, the noise
+/// of every sample is its own.
+RandomKey choose_key(const IndirectContext& context, const PixelSurface& surface) {
+    const std::uint32_t seed = context.settings.seed ^ gather_seed_mask;
+    if (!(context.settings.accuracy > 0.0)) {
+        return {seed, context.frame, surface.pixel, static_cast<std::uint32_t>(surface.sample)};
+    }
+    const Hit& hit = surface.hit;
+    const auto cell = [](float at) { return static_cast<std::uint32_t>(std::max(at, 0.0f) * place_cells); };
+    return {seed, static_cast<std::uint32_t>(hit.instance), static_cast<std::uint32_t>(hit.primitive),
+            cell(hit.u) << 16 | cell(hit.v)};
+}
 
 }  // namespace
 
@@ -28,13 +43,7 @@ int choose_rays(const RenderSettings& settings, float accuracy, const std::optio
 
 IrradianceSample gather_at(const IndirectContext& context, RayTask& task, const PixelSurface& surface,
                            GatherScratch& scratch, int rays, std::vector<DirectSample>* found) {
-    // By the place: a surface at rest that a camera at rest sees has the same noise at every time.
-    const Hit& hit = surface.hit;
-    const std::uint64_t place =
-        mix_bits(std::uint64_t{std::bit_cast<std::uint32_t>(hit.u)} << 32 | std::bit_cast<std::uint32_t>(hit.v));
-    const RandomKey key{context.settings.seed ^ gather_seed_mask, static_cast<std::uint32_t>(hit.instance),
-                        static_cast<std::uint32_t>(hit.primitive) ^ static_cast<std::uint32_t>(place >> 32),
-                        static_cast<std::uint32_t>(place)};
+    const RandomKey key = choose_key(context, surface);
     return gather_irradiance(context.lighting, task, surface.point, choose_strata(rays), key, scratch,
                              {std::max(0, context.settings.path_depth - 2), context.direct, found});
 }

@@ -1,6 +1,6 @@
 #include "render/moment_light.h"
 
-#include <algorithm>
+#include <cmath>
 
 #include "render/carried_point.h"
 
@@ -8,21 +8,19 @@ namespace aleph {
 
 namespace {
 
-/// Linear interpolation is refused where the moments' light differs by more than this share of what it errs at most
-/// there, in units of the accuracy.
-constexpr float max_difference = 1.0f;
-
-/// Whether linear interpolation between two moments may err by more than the accuracy.
+/// Whether linear interpolation between two moments may err too much: half way, if they differ by more than the
+/// accuracy, relative to their mean; nearer to one of them, if they differ by accordingly more, as the error of linear
+/// interpolation is 0 at both ends.
 bool differ(const Rgb& before, const Rgb& after, float weight, float accuracy) {
     const float a = luminance(before), b = luminance(after);
-    return 4.0f * weight * (1.0f - weight) * std::abs(a - b) > max_difference * accuracy * (a + b);
+    return 4.0f * weight * (1.0f - weight) * std::abs(a - b) > 0.5f * accuracy * (a + b);
 }
 
 }  // namespace
 
 std::vector<IrradianceRecord> compute_records(const std::vector<std::shared_ptr<const KeyView>>& views,
                                               const LightingContext& lighting, const RenderSettings& settings,
-                                              FrameCounts& counts) {
+                                              const CastView& cast, FrameCounts& counts) {
     const KeyView& own = *views.front();
     IrradianceCache cache = make_cache(lighting.shading);
     DirectGrid direct;
@@ -33,7 +31,9 @@ std::vector<IrradianceRecord> compute_records(const std::vector<std::shared_ptr<
                                 {}};
         context.direct = &direct;
         if (view != views.front()) context.seen = &view->shading;
-        fill_cache(cache, context, view->centers, tally);
+        for (int i = 0; i < settings.spp; ++i) {
+            fill_cache(cache, context, cast(*view, i, tally.counts.rays), tally);
+        }
     }
     tally.counts.rays += counts.rays;
     counts = tally.counts;

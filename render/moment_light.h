@@ -4,6 +4,7 @@
 // Records belong to surfaces. A frame looks up the light of a surface point where that point lies at the moment, so
 // records ride with rigid and with deforming objects. Between two moments the light is interpolated linearly in time.
 
+#include <functional>
 #include <memory>
 
 #include "engine/pose/posed_view.h"
@@ -21,7 +22,7 @@ struct KeyPose {
 
 /// What a key moment's camera sees.
 struct KeyView : KeyPose {
-    SampleHits centers;
+    std::int64_t frame = 0;
     Image<float> accuracy;  ///< alpha per pixel
     RayCounts rays;         ///< of its first hits and its quick estimate
 };
@@ -35,13 +36,16 @@ struct MomentLight {
 /// @param records  of this moment, from compute_records
 MomentLight make_moment_light(std::shared_ptr<const KeyPose> at, const std::vector<IrradianceRecord>& records);
 
+/// One sample of every pixel of a view; adds its rays.
+using CastView = std::function<SampleHits(const KeyView& view, int sample, RayCounts& counts)>;
+
 /// Computes the light of a moment at the surfaces that the views show.
 /// @param views     the moment's own, then its neighbours'; their surfaces are taken to where they lie at the moment
 /// @param lighting  the scene at the moment
 /// @param counts    increased
 std::vector<IrradianceRecord> compute_records(const std::vector<std::shared_ptr<const KeyView>>& views,
                                               const LightingContext& lighting, const RenderSettings& settings,
-                                              FrameCounts& counts);
+                                              const CastView& cast, FrameCounts& counts);
 
 /// Light of the key moments before and after a frame.
 class BlendedLight : public CarriedLight {

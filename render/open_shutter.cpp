@@ -8,12 +8,11 @@ SampleMoment OpenShutter::move_to(double seconds, int width, int height) {
     } else {
         posed_ = make_posed_view(scene_, seconds, camera_, width, height);
     }
-    const glm::dvec3 anchor = compute_anchor(posed_->view);
-    rays_.update_moving(posed_->pose, anchor);
+    rays_.update_moving(posed_->pose, compute_anchor(posed_->view));
     if (shading_) {
-        update_shading_scene(*shading_, plan_, anchor);
+        update_shading_scene(*shading_, plan_, rays_);
     } else {
-        shading_ = make_shading_scene(scene_, posed_->pose, anchor, textures_);
+        shading_ = make_shading_scene(scene_, posed_->pose, rays_, textures_);
     }
     lights_ = make_light_set(*shading_);
     return {{*shading_, lights_, rays_}, posed_->view};

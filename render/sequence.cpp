@@ -18,15 +18,6 @@ constexpr int exposure_columns = 160;
 constexpr std::uint32_t shutter_seed_mask = 0x73687574u;  // keeps the shutter apart from other uses of the same key
 constexpr float background_depth = 1e30f;
 
-Lens find_lens(const Scene& scene, const CameraValues& camera) {
-    if (!(camera.aperture > 0.0)) return {};
-    if (!(camera.focus_distance > 0.0)) {
-        throw InputError(scene.file, "camera of node " + printable(scene.nodes[camera.node].name),
-                         "with an aperture, its focus distance has to be above 0");
-    }
-    return {camera.aperture, camera.focus_distance};
-}
-
 void fill_geometry_maps(const ShadingScene& shading, const SampleHits& centers, FrameOutput& out) {
     const CameraView& view = out.view;
     out.depth = Image<float>(view.width, view.height, background_depth);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "engine/base/errors.h"
 #include "engine/pose/cage_level.h"
 #include "engine/rays/alpha_cutout.h"
 #include "motion/image_motion.h"
@@ -37,6 +38,15 @@ OtherFrame find_other_frame(const Scene& scene, const FrameRange& range, std::in
 
 }  // namespace
 
+Lens find_lens(const Scene& scene, const CameraValues& camera) {
+    if (!(camera.aperture > 0.0)) return {};
+    if (!(camera.focus_distance > 0.0)) {
+        throw InputError(scene.file, "camera of node " + printable(scene.nodes[camera.node].name),
+                         "with an aperture, its focus distance has to be above 0");
+    }
+    return {camera.aperture, camera.focus_distance};
+}
+
 SequenceState::SequenceState(Scene given, const RenderSettings& chosen, int camera_index)
     : scene(refine_cages(std::move(given), camera_index, chosen)),
       settings(chosen),
@@ -66,7 +76,7 @@ void SequenceState::move_to_frame(std::optional<PosedView>& posed, std::int64_t 
 /// The quick estimate of a posed view to which `view_rays` have been updated, not sanitized.
 Image<Rgb> SequenceState::estimate_view(const RayScene& view_rays, const PosedView& posed, EstimateKind kind,
                                         bool indirect, RayCounts& counts) const {
-    const ShadingScene view_shading = make_shading_scene(scene, posed.pose, view_rays.anchor(), textures);
+    const ShadingScene view_shading = make_shading_scene(scene, posed.pose, view_rays, textures);
     const LightSet view_lights = make_light_set(view_shading);
     const SampleHits centers = cast_centers(view_rays, posed.view, &counts.primary);
     return compute_estimate({view_shading, view_lights, view_rays}, posed.view, centers, kind, indirect, exposure,
@@ -75,12 +85,11 @@ Image<Rgb> SequenceState::estimate_view(const RayScene& view_rays, const PosedVi
 
 /// Brings rays and shading to `now`. @return instances that were updated
 std::size_t SequenceState::update_rays_and_shading() {
-    const glm::dvec3 anchor = compute_anchor(now->view);
-    const std::size_t touched = rays.update_moving(now->pose, anchor);
+    const std::size_t touched = rays.update_moving(now->pose, compute_anchor(now->view));
     if (shading) {
-        update_shading_scene(*shading, pose_plan, anchor);
+        update_shading_scene(*shading, pose_plan, rays);
     } else {
-        shading = make_shading_scene(scene, now->pose, anchor, textures);
+        shading = make_shading_scene(scene, now->pose, rays, textures);
     }
     return touched;
 }
@@ -152,7 +161,7 @@ SampleHits SequenceState::look(std::int64_t frame, bool perceive, bool maps, Fra
 /// Copies the scene as it is now.
 void SequenceState::copy_now(KeyPose& pose) const {
     pose.posed = *now;
-    pose.shading = make_shading_scene(scene, pose.posed.pose, shading->anchor, textures);
+    pose.shading = make_shading_scene(scene, pose.posed.pose, rays, textures);
 }
 
 /// Key moments, taken from `now`, which is another frame afterwards.
@@ -172,13 +181,25 @@ MomentSource SequenceState::key_moments() {
     const auto look_at = [this](std::int64_t frame) {
         FrameOutput out;
         const auto view = std::make_shared<KeyView>();
-        view->centers = look(frame, is_guided(), false, out);
+        look(frame, is_guided(), false, out);
+        view->frame = frame;
         copy_now(*view);
         view->accuracy = std::move(out.alpha);
         view->rays = out.statistics.counts.rays;
         return view;
     };
-    return {pose, look_at, light};
+    const auto cast = [this](const KeyView& view, int sample, RayCounts& counts) {
+        if (!other_rays) other_rays = std::make_unique<RayScene>(rays.share_meshes());
+        other_rays->update_moving(view.posed.pose, view.shading.anchor);
+        const SamplePlace place{sample,
+                                settings.spp,
+                                find_lens(scene, view.posed.pose.cameras[camera]),
+                                settings.seed,
+                                static_cast<std::uint32_t>(view.frame),
+                                blended ? Blend::random : Blend::cutout};
+        return cast_sample(*other_rays, view.posed.view, place, &counts.primary);
+    };
+    return {pose, look_at, cast, light};
 }
 
 /// Of the scene, its settings and this program; made when it is first asked for.

@@ -15,6 +15,9 @@
 
 namespace aleph {
 
+/// @throws InputError if the camera has an aperture without a focus distance
+Lens find_lens(const Scene& scene, const CameraValues& camera);
+
 struct SequenceState {
     SequenceState(Scene given, const RenderSettings& chosen, int camera_index);
 

@@ -19,16 +19,18 @@ glm::mat3 abs_of(const glm::mat3& m) {
     return {glm::abs(m[0]), glm::abs(m[1]), glm::abs(m[2])};
 }
 
-/// By how much rounding moves a point of a triangle along its normal, there and in the object's space where Embree
-/// tests the triangle, in units of the relative rounding: the sum of the terms' sizes, component by component (as in
-/// Pharr, Jakob and Humphreys 2023, "Physically Based Rendering", 6.8). What lies in the plane of the triangle hardly
-/// counts, so that a wide floor has an offset about as small as a narrow one's. It counts a little, because a plane
-/// through the origin has no rounding, and yet a ray that starts in it would meet it.
+/// By how much rounding moves a point of a triangle along its normal, there and in the object's space or that of the
+/// flat tree, where Embree tests the triangle, in units of the relative rounding: the sum of the terms' sizes,
+/// component by component (as in Pharr, Jakob and Humphreys 2023, "Physically Based Rendering", 6.8). What lies in the
+/// plane of the triangle hardly counts, so that a wide floor has an offset about as small as a narrow one's. It counts
+/// a little, because a plane through the origin has no rounding, and yet a ray that starts in it would meet it.
 /// @param p0, e1, e2  object space: a corner and the edges from it
 float rounding_bound(const PosedInstance& instance, const glm::vec3& p0, const glm::vec3& e1, const glm::vec3& e2,
                      const glm::vec3& position, const glm::vec3& normal) {
     const glm::vec3 own = abs_of(instance.linear) * glm::max(glm::abs(p0), glm::max(glm::abs(e1), glm::abs(e2)));
-    const glm::vec3 placed = instance.rounding * glm::max(glm::abs(instance.translation), glm::abs(position));
+    glm::vec3 place = glm::max(glm::abs(instance.translation), glm::abs(position));
+    if (instance.flat) place = glm::max(place, glm::abs(position - instance.flat_origin));
+    const glm::vec3 placed = instance.rounding * place;
     return glm::dot(glm::abs(normal), own + placed) + 0x1p-8f * std::max({own.x, own.y, own.z});
 }
 
@@ -70,7 +72,7 @@ void set_surroundings(ShadingScene& shading) {
     });
 }
 
-PosedInstance make_instance(const ShadingScene& shading, int i) {
+PosedInstance make_instance(const ShadingScene& shading, const RayScene& rays, int i) {
     const ScenePose& pose = *shading.pose;
     const Instance& instance = pose.instances[i];
     const Mesh& mesh = shading.scene->meshes[instance.mesh];
@@ -81,6 +83,8 @@ PosedInstance make_instance(const ShadingScene& shading, int i) {
     posed.linear = glm::mat3(glm::dmat3(world));
     posed.translation = glm::vec3(glm::dvec3(world[3]) - shading.anchor);
     posed.normals = glm::mat3(normal_matrix(world));
+    posed.flat = rays.is_flat(i);
+    if (posed.flat) posed.flat_origin = glm::vec3(rays.flat_origin() - shading.anchor);
     const PosedMesh& deformed = pose.meshes[instance.mesh];
     if (!deformed.positions.empty()) posed.deformed = &deformed;
     // Rays leave out instances without volume or with bad points, so these must not emit light or count for the scene's
@@ -105,13 +109,13 @@ void add_texture_coordinates(const PosedInstance& instance, const glm::uvec3& t,
 
 }  // namespace
 
-ShadingScene make_shading_scene(const Scene& scene, const ScenePose& pose, const glm::dvec3& anchor,
+ShadingScene make_shading_scene(const Scene& scene, const ScenePose& pose, const RayScene& rays,
                                 const TextureSet& textures) {
     ShadingScene shading;
     shading.scene = &scene;
     shading.pose = &pose;
     shading.textures = &textures;
-    shading.anchor = anchor;
+    shading.anchor = rays.anchor();
     if (!textures.environment.empty()) shading.environment_map = &textures.environment;
     set_surroundings(shading);
     std::vector<bool> can_shine;
@@ -123,7 +127,7 @@ ShadingScene make_shading_scene(const Scene& scene, const ScenePose& pose, const
     can_shine.push_back(false);
     shading.instances.reserve(pose.instances.size());
     for (int i = 0; i < std::ssize(pose.instances); ++i) {
-        shading.instances.push_back(make_instance(shading, i));
+        shading.instances.push_back(make_instance(shading, rays, i));
         const PosedInstance& instance = shading.instances.back();
         if (can_shine[instance.material]) shading.emitting.push_back(i);
         add(shading.bounds, instance);
@@ -131,10 +135,10 @@ ShadingScene make_shading_scene(const Scene& scene, const ScenePose& pose, const
     return shading;
 }
 
-void update_shading_scene(ShadingScene& shading, const PosePlan& plan, const glm::dvec3& anchor) {
+void update_shading_scene(ShadingScene& shading, const PosePlan& plan, const RayScene& rays) {
     const ScenePose& pose = *shading.pose;
-    if (anchor != shading.anchor) {
-        shading = make_shading_scene(*shading.scene, pose, anchor, *shading.textures);
+    if (rays.anchor() != shading.anchor) {
+        shading = make_shading_scene(*shading.scene, pose, rays, *shading.textures);
         return;
     }
     if (!shading.still_bounds) {
@@ -151,7 +155,7 @@ void update_shading_scene(ShadingScene& shading, const PosePlan& plan, const glm
     shading.bounds = *shading.still_bounds;
     for (const int i : plan.instances) {
         PosedInstance& instance = shading.instances[i];
-        instance = make_instance(shading, i);
+        instance = make_instance(shading, rays, i);
         add(shading.bounds, instance);
     }
 }

@@ -23,6 +23,9 @@ struct PosedInstance {
     glm::vec3 translation{0.0f};  ///< m, relative to the anchor
     glm::mat3 normals{1.0f};      ///< object to world for normals (cofactors), not normalised
     glm::mat3 rounding{1.0f};  ///< |linear| |linear^-1|: growth of a rounding error on the way to object space and back
+    /// m, relative to the anchor: of the coordinates in which rays meet it, where they are those of the flat tree.
+    glm::vec3 flat_origin{0.0f};
+    bool flat = false;
     bool visible = false;
     const PosedMesh* deformed = nullptr;  ///< in place of the mesh's own points and normals; null: rigid
 
@@ -67,13 +70,14 @@ struct ShadingScene {
 };
 
 /// Keeps pointers to scene, pose and textures, which must outlive it.
+/// @param rays  of the scene, updated to the pose: gives the anchor, and which instances are flat
 /// @param textures  make_texture_set(scene)
-ShadingScene make_shading_scene(const Scene& scene, const ScenePose& pose, const glm::dvec3& anchor,
+ShadingScene make_shading_scene(const Scene& scene, const ScenePose& pose, const RayScene& rays,
                                 const TextureSet& textures);
 
 /// Updates it after update_pose(plan) changed *shading.pose. The result equals that of make_shading_scene, but only the
 /// instances and materials that the plan names are computed again; if the anchor moved, everything is.
-void update_shading_scene(ShadingScene& shading, const PosePlan& plan, const glm::dvec3& anchor);
+void update_shading_scene(ShadingScene& shading, const PosePlan& plan, const RayScene& rays);
 
 /// Radiance that a ray meets which hits nothing.
 /// @param direction  unit, world

@@ -32,7 +32,8 @@ std::vector<IrradianceRecord> ShotLight::compute(std::int64_t moment, std::vecto
         }
         views.push_back(view);
     }
-    std::vector<IrradianceRecord> records = compute_records(views, source_.light(moment), settings_, statistics.counts);
+    std::vector<IrradianceRecord> records =
+        compute_records(views, source_.light(moment), settings_, source_.cast, statistics.counts);
     clock.add_to(statistics.seconds);
     filled.push_back(statistics);
     return records;

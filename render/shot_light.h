@@ -15,7 +15,9 @@ struct MomentSource {
     std::function<std::shared_ptr<const KeyPose>(std::int64_t frame)> pose;
     /// The view of a frame's camera, with its accuracy.
     std::function<std::shared_ptr<const KeyView>(std::int64_t frame)> look;
-    /// The scene at a frame, valid until the next call of any of these functions.
+    /// One sample of every pixel of a view.
+    CastView cast;
+    /// The scene at a frame, valid until the next call of `pose` or `look`.
     std::function<LightingContext(std::int64_t frame)> light;
 };
 

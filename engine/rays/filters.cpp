@@ -18,11 +18,12 @@ constexpr float tie = 0x1p-19f;
 
 /// Instance and primitive of lane i of `count`.
 std::pair<int, unsigned> identify(const MeshStructures& meshes, RTCHitN* hits, unsigned count, unsigned i) {
-    const MeshStructures::Object& object = meshes.objects[RTCHitN_instID(hits, count, i, 0)];
-    return {object.first_instance + static_cast<int>(RTCHitN_geomID(hits, count, i)), RTCHitN_primID(hits, count, i)};
+    return {meshes.instance_of(RTCHitN_instID(hits, count, i, 0), RTCHitN_geomID(hits, count, i)),
+            RTCHitN_primID(hits, count, i)};
 }
 
-/// Whether the triangle that lane i hits shows its back to the ray. Both are in the object's space.
+/// Whether the triangle that lane i hits shows its back to the ray. Both are in the object's space, or that of the flat
+/// tree.
 bool shows_back(RTCRayN* rays, RTCHitN* hits, unsigned count, unsigned i) {
     return RTCRayN_dir_x(rays, count, i) * RTCHitN_Ng_x(hits, count, i) +
                RTCRayN_dir_y(rays, count, i) * RTCHitN_Ng_y(hits, count, i) +
@@ -37,7 +38,62 @@ bool comes_first(const MeshStructures& meshes, const RTCFilterFunctionNArguments
     if (a.first != b.first) return a.first < b.first;
     const bool a_back = shows_back(offered.ray, offered.hit, offered.N, i);
     const bool b_back = shows_back(offered.ray, accepted, offered.N, i);
-    return a_back != b_back ? b_back : a.second < b.second;
+    if (a_back == b_back) return a.second < b.second;
+    return b_back == (meshes.mirrored[static_cast<std::size_t>(a.first)] == 0);
+}
+
+constexpr float beyond = 1.0f + tie;
+
+/// Lane i, which is valid.
+void keep_lane(const RTCFilterFunctionNArguments& arguments, unsigned i) {
+    FilterContext& context = *reinterpret_cast<FilterContext*>(arguments.context);
+    const unsigned count = arguments.N;  // lane i of the packet is ray i of ours
+    float& offered = RTCRayN_tfar(arguments.ray, count, i);
+    if (!(offered * beyond < context.nearest[i])) {  // as a rule what was accepted before lies clearly farther
+        const bool lost = RTCHitN_geomID(context.accepted, count, i) != RTC_INVALID_GEOMETRY_ID &&
+                          (offered > context.nearest[i] * beyond ||
+                           !comes_first(*context.common.state->meshes, arguments, context.accepted, i));
+        if (lost) {
+            context.nearest[i] = std::min(context.nearest[i], offered);
+            arguments.valid[i] = 0;
+            return;
+        }
+    }
+    context.nearest[i] = std::min(context.nearest[i], offered);
+    context.distance[i] = offered;
+    // A little more than the hit: what ties with it must be offered too, whichever comes first.
+    offered = std::min(context.nearest[i] * beyond, context.far[i]);
+}
+
+template <unsigned Width>
+unsigned find_valid_lanes(const int* valid) {
+    unsigned lanes = 0;
+    for (unsigned i = 0; i < Width; ++i) lanes |= (valid[i] != 0 ? 1u : 0u) << i;
+    return lanes;
+}
+
+/// Many valid lanes at a time are handled together. Rays that have parted are offered hits one by one.
+template <unsigned Width>
+void keep_in_packet(const RTCFilterFunctionNArguments& arguments) {
+    FilterContext& context = *reinterpret_cast<FilterContext*>(arguments.context);
+    int* const valid = arguments.valid;
+    const unsigned lanes = find_valid_lanes<Width>(valid);
+    if (std::popcount(lanes) > 3) {
+        float* const offered = &RTCRayN_tfar(arguments.ray, Width, 0);
+        int close = 0;
+        for (unsigned i = 0; i < Width; ++i) close |= valid[i] & (offered[i] * beyond < context.nearest[i] ? 0 : -1);
+        if (close == 0) {
+            for (unsigned i = 0; i < Width; ++i) {
+                const bool accept = valid[i] != 0;
+                context.nearest[i] = accept ? offered[i] : context.nearest[i];
+                context.distance[i] = accept ? offered[i] : context.distance[i];
+                offered[i] = accept ? std::min(offered[i] * beyond, context.far[i]) : offered[i];
+            }
+            return;
+        }
+    }
+    for (unsigned left = lanes; left != 0; left &= left - 1)
+        keep_lane(arguments, static_cast<unsigned>(std::countr_zero(left)));
 }
 
 /// Uniform in [0, 1), of one ray at one surface.
@@ -73,37 +129,16 @@ FilterContext::FilterContext(const RayScene::State& state, Blend blend, bool coh
 }
 
 void keep_lowest_of_nearest(const RTCFilterFunctionNArguments* arguments) {
-    FilterContext& context = *reinterpret_cast<FilterContext*>(arguments->context);
-    const MeshStructures& meshes = *context.common.state->meshes;
-    const unsigned count = arguments->N;  // lane i of the packet is ray i of ours
-    int* const valid = arguments->valid;
-    float* const offered = &RTCRayN_tfar(arguments->ray, count, 0);
-    constexpr float beyond = 1.0f + tie;
-    int close = 0;
-    for (unsigned i = 0; i < count; ++i) close |= valid[i] & (offered[i] * beyond < context.nearest[i] ? 0 : -1);
-    if (close == 0) {  // as a rule: whatever was accepted before lies clearly farther
-        for (unsigned i = 0; i < count; ++i) {
-            const bool accept = valid[i] != 0;
-            context.nearest[i] = accept ? offered[i] : context.nearest[i];
-            context.distance[i] = accept ? offered[i] : context.distance[i];
-            offered[i] = accept ? std::min(offered[i] * beyond, context.far[i]) : offered[i];
-        }
-        return;
-    }
-    for (unsigned i = 0; i < count; ++i) {
-        if (valid[i] == 0) continue;
-        const bool lost =
-            !(offered[i] * beyond < context.nearest[i]) &&
-            RTCHitN_geomID(context.accepted, count, i) != RTC_INVALID_GEOMETRY_ID &&
-            (offered[i] > context.nearest[i] * beyond || !comes_first(meshes, *arguments, context.accepted, i));
-        context.nearest[i] = std::min(context.nearest[i], offered[i]);
-        if (lost) {
-            valid[i] = 0;
-            continue;
-        }
-        context.distance[i] = offered[i];
-        // A little more than the hit: what ties with it must be offered too, whichever comes first.
-        offered[i] = std::min(context.nearest[i] * beyond, context.far[i]);
+    switch (arguments->N) {
+        case 8:
+            keep_in_packet<8>(*arguments);
+            break;
+        case 16:
+            keep_in_packet<16>(*arguments);
+            break;
+        default:
+            for (unsigned i = 0; i < arguments->N; ++i)
+                if (arguments->valid[i] != 0) keep_lane(*arguments, i);
     }
 }
 

@@ -10,6 +10,7 @@
 #include "engine/base/flush_denormals.h"
 #include "engine/pose/plan.h"
 #include "engine/rays/state.h"
+#include "engine/scene/transforms.h"
 
 namespace aleph {
 namespace {
@@ -61,6 +62,29 @@ EmbreeScene build_mesh_scene(const EmbreeDevice& device, const Scene& scene, con
     return built;
 }
 
+/// The tree of all flat instances; Embree's geometry numbers are those of the instances. Null: there are none.
+EmbreeScene build_flat_scene(const EmbreeDevice& device, const Scene& scene, const FlatPlan& plan,
+                             const std::vector<std::unique_ptr<const AlphaCutout>>& cutouts) {
+    EmbreeScene built;
+    for (std::size_t i = 0; i < plan.flat.size(); ++i) {
+        if (plan.flat[i] == 0) continue;
+        if (built == nullptr) built = device.make_scene(RTC_SCENE_FLAG_ROBUST, RTC_BUILD_QUALITY_HIGH);
+        const auto [node, index] = plan.instances[i];
+        const Mesh& mesh = scene.meshes[index];
+        const glm::dmat3 linear(plan.world[node]);
+        const glm::dvec3 place = glm::dvec3(plan.world[node][3]) - plan.origin;
+        const TriangleGeometry made =
+            make_triangle_geometry(device, mesh.positions.size(), mesh.triangles, cutouts[index].get());
+        std::ranges::transform(mesh.positions, made.points.begin(),
+                               [&](const glm::vec3& p) { return glm::vec3(linear * glm::dvec3(p) + place); });
+        rtcCommitGeometry(made.geometry.get());
+        rtcAttachGeometryByID(built.get(), made.geometry.get(), static_cast<unsigned>(i));
+    }
+    if (built != nullptr) rtcCommitScene(built.get());
+    device.check();
+    return built;
+}
+
 /// Up to so many objects that stand still are kept in one top-level scene with the moving ones: sorting them again
 /// takes almost no time, while a second top-level scene makes every ray a tenth slower.
 constexpr std::size_t max_still_beside_moving = 256;
@@ -83,8 +107,10 @@ struct MeshKinds {
 /// Gathers the scene's meshes into objects, one node after the other.
 class ObjectMaker {
   public:
-    ObjectMaker(MeshStructures& structures, const Scene& scene, const PosePlan& plan)
-        : structures_(structures), scene_(scene), plan_(plan), kinds_(scene, plan_) {}
+    ObjectMaker(MeshStructures& structures, const Scene& scene, const PosePlan& plan, const FlatPlan& flat)
+        : structures_(structures), scene_(scene), plan_(plan), flat_(flat), kinds_(scene, plan_) {
+        structures_.flat_scene = build_flat_scene(*structures_.device, scene_, flat_, structures_.cutouts);
+    }
 
     void add_node(int node) {
         const std::vector<int>& meshes = scene_.nodes[node].meshes;
@@ -96,7 +122,8 @@ class ObjectMaker {
                     deforming(meshes[place], place);
             } else if (kinds_.comes_and_goes[mesh] != 0) {
                 add(node, place, true).mesh_scene = rigid_scene(meshes, {place});
-            } else {
+            } else if (const int i = first_instance_ + static_cast<int>(place);
+                       flat_.flat[i] == 0 && flat_.shown[i] != 0) {
                 rigid.push_back(place);
             }
         }
@@ -143,6 +170,7 @@ class ObjectMaker {
     MeshStructures& structures_;
     const Scene& scene_;
     const PosePlan& plan_;
+    const FlatPlan& flat_;
     MeshKinds kinds_;
     int first_instance_ = 0;
     std::vector<MeshStructures::Object> still_;
@@ -150,9 +178,21 @@ class ObjectMaker {
     std::map<std::pair<std::vector<int>, std::vector<unsigned>>, RTCScene> rigid_;
 };
 
+void note_flat(MeshStructures& structures, const FlatPlan& plan) {
+    structures.flat = plan.flat;
+    structures.flat_origin = plan.origin;
+    structures.mirrored.resize(plan.flat.size(), 0);
+    for (std::size_t i = 0; i < plan.flat.size(); ++i) {
+        if (plan.flat[i] == 0) continue;
+        ++structures.flat_count;
+        structures.mirrored[i] = orientation_sign(plan.world[plan.instances[i].node]) < 0.0;
+    }
+}
+
 }  // namespace
 
-MeshStructures::MeshStructures(const Scene& scene, const PosePlan& plan, std::unique_ptr<EmbreeDevice> embree)
+MeshStructures::MeshStructures(const Scene& scene, const PosePlan& plan, std::unique_ptr<EmbreeDevice> embree,
+                               bool flatten)
     : device(std::move(embree)) {
     const FlushDenormals flush;
     if (rtcGetDeviceProperty(device->handle(), RTC_DEVICE_PROPERTY_NATIVE_RAY8_SUPPORTED)) packet_width = 8;
@@ -168,7 +208,9 @@ MeshStructures::MeshStructures(const Scene& scene, const PosePlan& plan, std::un
         any_cutout = true;
         any_blended = any_blended || cutouts[i]->blended;
     }
-    ObjectMaker maker(*this, scene, plan);
+    const FlatPlan flat_plan = make_flat_plan(scene, plan, flatten);
+    note_flat(*this, flat_plan);
+    ObjectMaker maker(*this, scene, plan, flat_plan);
     for (std::size_t n = 0; n < scene.nodes.size(); ++n) maker.add_node(static_cast<int>(n));
     maker.finish();
 }

@@ -155,7 +155,9 @@ std::size_t RayScene::update(const ScenePose& posed, const glm::dvec3& anchor) {
     std::size_t touched = 0;
     for (Layer* layer : {&state_->moving, &state_->still})
         touched += place_objects(*layer, layer->placements.size(), *state_->meshes, changes, posed, anchor);
+    if (!state_->placed || anchor != state_->anchor) touched += state_->meshes->flat_count;
     state_->anchor = anchor;
+    state_->flat_shift = glm::vec3(anchor - state_->meshes->flat_origin);
     state_->placed = true;
     return touched;
 }
@@ -170,6 +172,12 @@ std::size_t RayScene::update_moving(const ScenePose& posed, const glm::dvec3& an
 
 const glm::dvec3& RayScene::anchor() const {
     return state_->anchor;
+}
+bool RayScene::is_flat(int instance) const {
+    return state_->meshes->flat[static_cast<std::size_t>(instance)] != 0;
+}
+const glm::dvec3& RayScene::flat_origin() const {
+    return state_->meshes->flat_origin;
 }
 std::size_t RayScene::degenerate_triangles() const {
     return state_->meshes->degenerate_triangles;

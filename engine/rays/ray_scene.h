@@ -28,8 +28,8 @@ bool are_traceable(const std::vector<glm::dvec3>& positions);
 
 class RayScene {
   public:
-    /// Builds the structures of every rigid mesh; those of deforming meshes are built by the first update. Degenerate
-    /// triangles are left out and counted.
+    /// Builds the structures of every rigid mesh; those of deforming meshes are built by the first update. What stands
+    /// still is put into one tree (flat_plan.h). Degenerate triangles are left out and counted.
     /// @throws InputError for a mesh that cannot be traced; std::bad_alloc, also from Embree
     /// @param plan  make_pose_plan(scene); only read during the call
     RayScene(const Scene& scene, const PosePlan& plan);
@@ -52,6 +52,10 @@ class RayScene {
     std::size_t update_moving(const ScenePose& posed, const glm::dvec3& anchor);
 
     const glm::dvec3& anchor() const;
+    /// Whether the instance stands still and its triangles are traced in one tree with others, in coordinates relative
+    /// to flat_origin (m, world), not to its object's. Rounding of a hit follows that distance.
+    bool is_flat(int instance) const;
+    const glm::dvec3& flat_origin() const;
     std::size_t degenerate_triangles() const;
     std::size_t skipped_instances() const;
     /// Number of rays traced, and of invalid ones (NaN, infinite, out of range), which count as misses.

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "engine/rays/embree_device.h"
+#include "engine/rays/flat_plan.h"
 #include "engine/rays/ray_scene.h"
 #include "engine/rays/refit.h"
 
@@ -15,8 +16,8 @@ namespace aleph {
 /// Embree silently drops geometry beyond this; we refuse it with an error.
 inline constexpr float max_coordinate = 1.844e18f;
 
-/// Embree's structures of every mesh in object space, built once and shared by the RayScenes of neighbouring frames,
-/// and which instances they belong to.
+/// Embree's structures of every mesh, built once and shared by the RayScenes of neighbouring frames, and which
+/// instances they belong to. What stands still is in one flat tree (FlatPlan); other meshes are in object space.
 struct MeshStructures {
     /// Meshes of one node that are placed together.
     struct Object {
@@ -28,15 +29,21 @@ struct MeshStructures {
         int deforming = no_index;       ///< into `deforming`
     };
 
+    /// @param flatten  false: every node has its own tree, for comparison
     /// @throws InputError: a mesh that cannot be traced; what EmbreeDevice throws
     MeshStructures(const Scene& scene, const PosePlan& plan,
-                   std::unique_ptr<EmbreeDevice> device = std::make_unique<EmbreeDevice>());
+                   std::unique_ptr<EmbreeDevice> device = std::make_unique<EmbreeDevice>(), bool flatten = true);
     MeshStructures(const MeshStructures&) = delete;
     MeshStructures& operator=(const MeshStructures&) = delete;
 
     std::unique_ptr<EmbreeDevice> device;
     int packet_width = 1;  ///< 16, 8, or 1: the widest packets that the processor traces as such
     std::vector<EmbreeScene> mesh_scenes;
+    EmbreeScene flat_scene;              ///< null: nothing is flat. Embree's geometry numbers are those of instances
+    std::vector<std::uint8_t> flat;      ///< per instance: in the flat tree
+    std::vector<std::uint8_t> mirrored;  ///< per instance: in the flat tree, where its triangles show the other side
+    glm::dvec3 flat_origin{0.0};         ///< m, world: the flat tree's coordinates are relative to it
+    std::size_t flat_count = 0;          ///< instances in it
     /// First what can move, deform, come or go, then what never does; in the order of the scene within both.
     std::vector<Object> objects;
     std::size_t moving_count = 0;
@@ -47,6 +54,12 @@ struct MeshStructures {
     bool any_cutout = false;
     bool any_blended = false;  ///< of the cutouts
     std::size_t degenerate_triangles = 0;
+
+    /// The ScenePose::instances index of a hit, from Embree's numbers.
+    int instance_of(unsigned object, unsigned geometry) const {
+        const int first = object == RTC_INVALID_GEOMETRY_ID ? 0 : objects[object].first_instance;
+        return first + static_cast<int>(geometry);
+    }
 };
 
 /// One object's place in its layer's top-level scene.
@@ -77,7 +90,8 @@ struct RayScene::State {
     std::array<const Layer*, 2> layers() const { return {&still, &moving}; }
     std::vector<float> alpha;  ///< per material, now; empty where no mesh has an alpha mask
     glm::dvec3 anchor{0.0};
-    bool placed = false;  ///< by an update
+    glm::vec3 flat_shift{0.0f};  ///< m: to be added to the origins of rays for the flat tree
+    bool placed = false;         ///< by an update
     std::atomic<std::uint64_t> rays_traced{0}, invalid_rays{0};
 };
 

@@ -20,21 +20,35 @@ glm::vec3 embree_direction(const Ray& ray) {
     return {clean(ray.direction.x), clean(ray.direction.y), clean(ray.direction.z)};
 }
 
+/// Without branches: it is asked for every ray. NaN fails every comparison.
 bool is_valid(const Ray& ray) {
     const auto fits = [](const glm::vec3& v) {
-        // NaN fails every comparison.
-        return std::abs(v.x) < max_ray_component && std::abs(v.y) < max_ray_component &&
-               std::abs(v.z) < max_ray_component;
+        return (std::abs(v.x) < max_ray_component) & (std::abs(v.y) < max_ray_component) &
+               (std::abs(v.z) < max_ray_component);
     };
-    return fits(ray.origin) && fits(ray.direction) && ray.near >= 0.0f && ray.near < max_ray_component &&
-           ray.far >= ray.near && embree_direction(ray) != glm::vec3(0.0f);
+    const glm::vec3 d = embree_direction(ray);
+    return fits(ray.origin) & fits(ray.direction) & (ray.near >= 0.0f) & (ray.near < max_ray_component) &
+           (ray.far >= ray.near) & ((d.x != 0.0f) | (d.y != 0.0f) | (d.z != 0.0f));
+}
+
+/// Traces rays through the flat tree and the layers, one after the other, until trace(tree) returns false.
+/// @param place  place(shift) moves the origins of the rays to the coordinates of the next tree, m
+template <class Place, class Trace>
+void visit_trees(const RayScene::State& state, const Place& place, const Trace& trace) {
+    if (RTCScene flat = state.meshes->flat_scene.get(); flat != nullptr && state.placed) {
+        place(state.flat_shift);
+        if (!trace(flat)) return;
+    }
+    if (state.still.enabled + state.moving.enabled == 0) return;
+    place(glm::vec3(0.0f));
+    for (const Layer* layer : state.layers())
+        if (layer->enabled > 0 && !trace(layer->top.get())) return;
 }
 
 Hit make_hit(const MeshStructures& meshes, unsigned object, unsigned geometry, unsigned primitive, float u, float v,
              float distance) {
     if (geometry == RTC_INVALID_GEOMETRY_ID) return {};
-    return {meshes.objects[object].first_instance + static_cast<int>(geometry), static_cast<int>(primitive), u, v,
-            distance};
+    return {meshes.instance_of(object, geometry), static_cast<int>(primitive), u, v, distance};
 }
 
 /// Embree's packet types by width.
@@ -59,48 +73,80 @@ struct PacketCounts {
     std::uint64_t traced = 0, invalid = 0;
 };
 
-/// Fills lane i; invalid rays and lanes beyond the end are switched off.
-template <class Rays>
-void fill_lane(Rays& packet, int* valid, int lane, const Ray* ray, PacketCounts& counts) {
-    const bool good = ray != nullptr && is_valid(*ray);
-    if (ray != nullptr) ++(good ? counts.traced : counts.invalid);
-    valid[lane] = good ? -1 : 0;
-    const Ray& r = good ? *ray : Ray{};
-    packet.org_x[lane] = r.origin.x;
-    packet.org_y[lane] = r.origin.y;
-    packet.org_z[lane] = r.origin.z;
-    const glm::vec3 direction = embree_direction(r);
-    packet.dir_x[lane] = direction.x;
-    packet.dir_y[lane] = direction.y;
-    packet.dir_z[lane] = direction.z;
-    packet.tnear[lane] = r.near;
-    packet.tfar[lane] = r.far;
-    packet.time[lane] = 0.0f;
-    packet.mask[lane] = ~0u;
-    packet.id[lane] = static_cast<unsigned>(lane);
-    packet.flags[lane] = 0;
+/// Origins of a packet's rays, relative to the anchor.
+template <int Width>
+struct Origins {
+    alignas(64) float x[Width], y[Width], z[Width];
+
+    template <class Rays>
+    void place(const glm::vec3& shift, Rays& packet) const {
+        for (int lane = 0; lane < Width; ++lane) {
+            packet.org_x[lane] = x[lane] + shift.x;
+            packet.org_y[lane] = y[lane] + shift.y;
+            packet.org_z[lane] = z[lane] + shift.z;
+        }
+    }
+};
+
+/// Fills a packet but for the origins; invalid rays and lanes beyond the end are switched off.
+template <int Width, class Rays>
+void fill(std::span<const Ray> rays, Rays& packet, Origins<Width>& origins, int* valid, PacketCounts& counts) {
+    std::uint64_t good_count = 0;
+    for (int lane = 0; lane < Width; ++lane) {
+        const bool present = static_cast<std::size_t>(lane) < rays.size();
+        const Ray& given = rays[present ? static_cast<std::size_t>(lane) : 0];
+        const bool good = is_valid(given) & present;
+        good_count += good ? 1 : 0;
+        valid[lane] = good ? -1 : 0;
+        const Ray ray = good ? given : Ray{};
+        const glm::vec3 direction = embree_direction(ray);
+        origins.x[lane] = ray.origin.x;
+        origins.y[lane] = ray.origin.y;
+        origins.z[lane] = ray.origin.z;
+        packet.dir_x[lane] = direction.x;
+        packet.dir_y[lane] = direction.y;
+        packet.dir_z[lane] = direction.z;
+        packet.tnear[lane] = ray.near;
+        packet.tfar[lane] = ray.far;
+    }
+    counts.traced += good_count;
+    counts.invalid += rays.size() - good_count;
+}
+
+/// What no ray of ours changes.
+template <int Width, class Rays>
+void fill_constants(Rays& packet) {
+    for (int lane = 0; lane < Width; ++lane) {
+        packet.time[lane] = 0.0f;
+        packet.mask[lane] = ~0u;
+        packet.id[lane] = static_cast<unsigned>(lane);
+        packet.flags[lane] = 0;
+    }
 }
 
 template <int Width>
-PacketCounts intersect_packets(const RayScene::State& state, Blend blend, std::span<const Ray> rays,
-                               std::span<Hit> hits, bool coherent) {
+PacketCounts intersect_packets(const RayScene::State& state, Blend blend, std::span<const Ray> all, std::span<Hit> hits,
+                               bool coherent) {
     PacketCounts counts;
     alignas(64) int valid[Width];
     alignas(64) typename Packet<Width>::RayHits packet;
-    for (std::size_t begin = 0; begin < rays.size(); begin += Width) {
-        for (int lane = 0; lane < Width; ++lane) {
-            const std::size_t i = begin + static_cast<std::size_t>(lane);
-            fill_lane(packet.ray, valid, lane, i < rays.size() ? &rays[i] : nullptr, counts);
-            packet.hit.geomID[lane] = RTC_INVALID_GEOMETRY_ID;
-            packet.hit.instID[0][lane] = RTC_INVALID_GEOMETRY_ID;
-        }
-        const std::size_t count = std::min<std::size_t>(Width, rays.size() - begin);
+    Origins<Width> origins;
+    fill_constants<Width>(packet.ray);
+    for (std::size_t begin = 0; begin < all.size(); begin += Width) {
+        const std::span<const Ray> rays = all.subspan(begin, std::min<std::size_t>(Width, all.size() - begin));
+        fill<Width>(rays, packet.ray, origins, valid, counts);
+        for (int lane = 0; lane < Width; ++lane)
+            packet.hit.geomID[lane] = packet.hit.instID[0][lane] = RTC_INVALID_GEOMETRY_ID;
         FilterContext context(state, blend, coherent, &packet.hit);
-        context.common.set_rays(rays.subspan(begin, count));
+        context.common.set_rays(rays);
         std::copy_n(packet.ray.tfar, Width, context.far.begin());
-        for (const Layer* layer : state.layers())
-            if (layer->enabled > 0) Packet<Width>::intersect(valid, layer->top.get(), &context.common.embree, &packet);
-        for (std::size_t lane = 0; lane < count; ++lane) {
+        visit_trees(
+            state, [&](const glm::vec3& shift) { origins.place(shift, packet.ray); },
+            [&](RTCScene tree) {
+                Packet<Width>::intersect(valid, tree, &context.common.embree, &packet);
+                return true;
+            });
+        for (std::size_t lane = 0; lane < rays.size(); ++lane) {
             hits[begin + lane] =
                 make_hit(*state.meshes, packet.hit.instID[0][lane], packet.hit.geomID[lane], packet.hit.primID[lane],
                          packet.hit.u[lane], packet.hit.v[lane], context.distance[lane]);
@@ -110,33 +156,45 @@ PacketCounts intersect_packets(const RayScene::State& state, Blend blend, std::s
 }
 
 template <int Width>
-PacketCounts occluded_packets(const RayScene::State& state, Blend blend, std::span<const Ray> rays,
+PacketCounts occluded_packets(const RayScene::State& state, Blend blend, std::span<const Ray> all,
                               std::span<std::uint8_t> blocked) {
     PacketCounts counts;
     // Never "coherent": with that flag this Embree's occlusion packets can loop for ever over instances.
     RayContext context(state, blend, false);
     alignas(64) int valid[Width];
     alignas(64) typename Packet<Width>::Rays packet;
-    for (std::size_t begin = 0; begin < rays.size(); begin += Width) {
-        for (int lane = 0; lane < Width; ++lane) {
-            const std::size_t i = begin + static_cast<std::size_t>(lane);
-            fill_lane(packet, valid, lane, i < rays.size() ? &rays[i] : nullptr, counts);
-        }
-        const std::size_t count = std::min<std::size_t>(Width, rays.size() - begin);
-        context.set_rays(rays.subspan(begin, count));
-        for (const Layer* layer : state.layers()) {
-            if (layer->enabled == 0) continue;
-            Packet<Width>::occluded(valid, layer->top.get(), &context.embree, &packet);
-            bool open = false;  // a ray that is stopped has a negative end and is over
-            for (std::size_t lane = 0; lane < count; ++lane) {
-                if (packet.tfar[lane] < 0.0f) valid[lane] = 0;
-                open = open || valid[lane] != 0;
-            }
-            if (!open) break;
-        }
-        for (std::size_t lane = 0; lane < count; ++lane) blocked[begin + lane] = packet.tfar[lane] < 0.0f;
+    Origins<Width> origins;
+    fill_constants<Width>(packet);
+    for (std::size_t begin = 0; begin < all.size(); begin += Width) {
+        const std::span<const Ray> rays = all.subspan(begin, std::min<std::size_t>(Width, all.size() - begin));
+        fill<Width>(rays, packet, origins, valid, counts);
+        context.set_rays(rays);
+        visit_trees(
+            state, [&](const glm::vec3& shift) { origins.place(shift, packet); },
+            [&](RTCScene tree) {
+                Packet<Width>::occluded(valid, tree, &context.embree, &packet);
+                int open = 0;  // a ray that is stopped has a negative end and is over
+                for (int lane = 0; lane < Width; ++lane) {
+                    valid[lane] = packet.tfar[lane] < 0.0f ? 0 : valid[lane];
+                    open |= valid[lane];
+                }
+                return open != 0;
+            });
+        for (std::size_t lane = 0; lane < rays.size(); ++lane) blocked[begin + lane] = packet.tfar[lane] < 0.0f;
     }
     return counts;
+}
+
+RTCRay make_ray(const Ray& ray) {
+    const glm::vec3 direction = embree_direction(ray);
+    return {ray.origin.x, ray.origin.y, ray.origin.z, ray.near, direction.x, direction.y,
+            direction.z,  0.0f,         ray.far,      ~0u,      0,           0};
+}
+
+void place_origin(const glm::vec3& origin, RTCRay& ray) {
+    ray.org_x = origin.x;
+    ray.org_y = origin.y;
+    ray.org_z = origin.z;
 }
 
 }  // namespace
@@ -154,17 +212,18 @@ Hit Tracer::intersect(const Ray& ray) {
         return {};
     }
     ++traced_;
-    RTCRayHit query{};
-    const glm::vec3 direction = embree_direction(ray);
-    query.ray = {ray.origin.x, ray.origin.y, ray.origin.z, ray.near, direction.x, direction.y,
-                 direction.z,  0.0f,         ray.far,      ~0u,      0,           0};
+    RTCRayHit query{make_ray(ray), {}};
     query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
     query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
     FilterContext context(state_, blend_, false, &query.hit);
     context.common.set_rays({&ray, 1});
     context.far[0] = ray.far;
-    for (const Layer* layer : state_.layers())
-        if (layer->enabled > 0) rtcIntersect1(layer->top.get(), &context.common.embree, &query);
+    visit_trees(
+        state_, [&](const glm::vec3& shift) { place_origin(ray.origin + shift, query.ray); },
+        [&](RTCScene tree) {
+            rtcIntersect1(tree, &context.common.embree, &query);
+            return true;
+        });
     return make_hit(*state_.meshes, query.hit.instID[0], query.hit.geomID, query.hit.primID, query.hit.u, query.hit.v,
                     context.distance[0]);
 }
@@ -177,14 +236,14 @@ bool Tracer::occluded(const Ray& ray) {
     ++traced_;
     RayContext context(state_, blend_, false);
     context.set_rays({&ray, 1});
-    const glm::vec3 direction = embree_direction(ray);
-    RTCRay query = {ray.origin.x, ray.origin.y, ray.origin.z, ray.near, direction.x, direction.y,
-                    direction.z,  0.0f,         ray.far,      ~0u,      0,           0};
-    for (const Layer* layer : state_.layers()) {
-        if (layer->enabled > 0) rtcOccluded1(layer->top.get(), &context.embree, &query);
-        if (query.tfar < 0.0f) return true;
-    }
-    return false;
+    RTCRay query = make_ray(ray);
+    visit_trees(
+        state_, [&](const glm::vec3& shift) { place_origin(ray.origin + shift, query); },
+        [&](RTCScene tree) {
+            rtcOccluded1(tree, &context.embree, &query);
+            return query.tfar >= 0.0f;
+        });
+    return query.tfar < 0.0f;
 }
 
 void Tracer::intersect(std::span<const Ray> rays, std::span<Hit> hits, bool coherent) {

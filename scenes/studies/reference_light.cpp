@@ -49,7 +49,7 @@ ReferenceLight gather_reference(const StudyFrame& frame, const RenderSettings& s
     ReferenceLight out;
     for (Image<float>& half : out.halves) half = Image<float>(columns, rows, no_light);
     const HemisphereStrata cells = choose_strata(std::max(1, strata / 2));
-    const GatherOptions options{.depth = std::max(0, settings.path_depth - 2)};
+    const int depth = std::max(0, settings.path_depth - 2);
     const LightingContext lighting = frame.lighting();
     std::atomic<std::size_t> done{0};
     parallel_for(out.halves[0].size(), 4, [&](std::size_t begin, std::size_t end) {
@@ -67,7 +67,7 @@ ReferenceLight gather_reference(const StudyFrame& frame, const RenderSettings& s
                 const RandomKey key{settings.seed ^ reference_seed_mask, static_cast<std::uint32_t>(frame.frame),
                                     surface.pixel, half};
                 const Rgb irradiance =
-                    gather_irradiance(lighting, task, surface.point, cells, key, scratch, options).irradiance;
+                    gather_irradiance(lighting, task, surface.point, cells, key, scratch, {depth}).irradiance;
                 out.halves[half].pixels[i] = static_cast<float>(frame.display_luminance(reflected * irradiance));
             }
         }

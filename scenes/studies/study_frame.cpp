@@ -15,7 +15,7 @@ StudyFrame::StudyFrame(const Sequence& sequence, const RenderSettings& settings,
       textures(make_texture_set(scene)),
       rays(scene, plan),
       shading((rays.update(posed.pose, compute_anchor(posed.view)),
-               make_shading_scene(scene, posed.pose, compute_anchor(posed.view), textures))),
+               make_shading_scene(scene, posed.pose, rays, textures))),
       lights(make_light_set(shading)),
       centers(cast_centers(rays, posed.view, nullptr)),
       exposure(sequence.exposure()) {}

@@ -15,9 +15,7 @@ namespace {
 
 constexpr int lanes = 16;
 
-RTCScene build_mesh(RTCDevice device, const Mesh& mesh) {
-    RTCScene scene = rtcNewScene(device);
-    rtcSetSceneFlags(scene, RTC_SCENE_FLAG_ROBUST);
+void add_mesh(RTCDevice device, RTCScene scene, const Mesh& mesh) {
     RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
     auto* points = static_cast<glm::vec3*>(rtcSetNewGeometryBuffer(
         geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, sizeof(glm::vec3), mesh.positions.size()));
@@ -28,6 +26,12 @@ RTCScene build_mesh(RTCDevice device, const Mesh& mesh) {
     rtcCommitGeometry(geometry);
     rtcAttachGeometry(scene, geometry);
     rtcReleaseGeometry(geometry);
+}
+
+RTCScene build_mesh(RTCDevice device, const Mesh& mesh) {
+    RTCScene scene = rtcNewScene(device);
+    rtcSetSceneFlags(scene, RTC_SCENE_FLAG_ROBUST);
+    add_mesh(device, scene, mesh);
     rtcCommitScene(scene);
     return scene;
 }
@@ -113,12 +117,25 @@ std::size_t trace_packets(RTCScene scene, bool coherent, std::span<const RawRay>
 
 }  // namespace
 
-RawEmbree::RawEmbree(const Scene& scene, const ScenePose& frame, const CameraView& view) {
+RawEmbree::RawEmbree(const Scene& scene, const ScenePose& frame, const CameraView& view, bool flat) {
     const FlushDenormals flush;
     device_ = rtcNewDevice(nullptr);
     top_ = rtcNewScene(device_);
     rtcSetSceneFlags(top_, RTC_SCENE_FLAG_ROBUST);
     const glm::dvec3 anchor = compute_anchor(view);
+    if (flat) {
+        build_flat(scene, frame, anchor);
+    } else {
+        build_instances(scene, frame, anchor);
+    }
+    rtcCommitScene(top_);
+    const glm::vec3 origin(view.position - anchor);
+    for (int y = 0; y + 4 <= view.height; y += 4) {
+        for (int x = 0; x + 4 <= view.width; x += 4) prepared_.push_back(make_packet(view, origin, x, y));
+    }
+}
+
+void RawEmbree::build_instances(const Scene& scene, const ScenePose& frame, const glm::dvec3& anchor) {
     for (const Mesh& mesh : scene.meshes) meshes_.push_back(build_mesh(device_, mesh));
     for (const Instance& instance : frame.instances) {
         if (!frame.visible[instance.node]) continue;
@@ -135,11 +152,23 @@ RawEmbree::RawEmbree(const Scene& scene, const ScenePose& frame, const CameraVie
         rtcAttachGeometry(top_, geometry);
         rtcReleaseGeometry(geometry);
     }
-    rtcCommitScene(top_);
-    const glm::vec3 origin(view.position - anchor);
-    for (int y = 0; y + 4 <= view.height; y += 4) {
-        for (int x = 0; x + 4 <= view.width; x += 4) prepared_.push_back(make_packet(view, origin, x, y));
+}
+
+void RawEmbree::build_flat(const Scene& scene, const ScenePose& frame, const glm::dvec3& anchor) {
+    Mesh all;
+    for (std::size_t i = 0; i < frame.instances.size(); ++i) {
+        if (frame.shown[i] == 0) continue;
+        const auto [node, index] = frame.instances[i];
+        const Mesh& mesh = scene.meshes[index];
+        const std::vector<glm::dvec3>& deformed = frame.meshes[index].positions;
+        const auto first = static_cast<std::uint32_t>(all.positions.size());
+        for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
+            const glm::dvec3 p = deformed.empty() ? glm::dvec3(mesh.positions[v]) : deformed[v];
+            all.positions.emplace_back(glm::dvec3(frame.world[node] * glm::dvec4(p, 1.0)) - anchor);
+        }
+        for (const glm::uvec3& t : mesh.triangles) all.triangles.push_back(t + first);
     }
+    add_mesh(device_, top_, all);
 }
 
 RawEmbree::~RawEmbree() {

@@ -19,7 +19,8 @@ struct RawRay {
 class RawEmbree {
   public:
     /// Instances as RayScene makes them; rays through the pixel centres in blocks of 4 x 4.
-    RawEmbree(const Scene& scene, const ScenePose& frame, const CameraView& view);
+    /// @param flat  all triangles in one tree relative to the anchor, in place of one for every mesh
+    RawEmbree(const Scene& scene, const ScenePose& frame, const CameraView& view, bool flat = false);
     ~RawEmbree();
     RawEmbree(const RawEmbree&) = delete;
     RawEmbree& operator=(const RawEmbree&) = delete;
@@ -37,6 +38,9 @@ class RawEmbree {
     std::size_t trace(const std::vector<RawRay>& rays, Packets packets) const;
 
   private:
+    void build_instances(const Scene& scene, const ScenePose& frame, const glm::dvec3& anchor);
+    void build_flat(const Scene& scene, const ScenePose& frame, const glm::dvec3& anchor);
+
     RTCDevice device_ = nullptr;
     RTCScene top_ = nullptr;
     std::vector<RTCScene> meshes_;

@@ -104,13 +104,13 @@ std::vector<Row> measure(int objects) {
     RayScene next_rays = rays->share_meshes();
     next_rays.update(next.pose, anchor);
     ModelMotion motion(scene, plan);
-    ShadingScene shading = make_shading_scene(scene, now.pose, anchor, textures);
-    update_shading_scene(shading, plan, anchor);
+    ShadingScene shading = make_shading_scene(scene, now.pose, *rays, textures);
+    update_shading_scene(shading, plan, *rays);
     for (int i = 1; i <= frames; ++i) {
         const double seconds = i / 30.0;
         if (i % 10 == 0) {
             rows[0].best.time([&] { pose(scene, seconds); });
-            rows[4].best.time([&] { make_shading_scene(scene, now.pose, anchor, textures); });
+            rows[4].best.time([&] { make_shading_scene(scene, now.pose, *rays, textures); });
         }
         const Image<Hit> hits = cast_first_hits(next_rays, next.view);  // next becomes now
         update_posed_view(scene, plan, (i + 1) / 30.0, 0, next);
@@ -118,7 +118,7 @@ std::vector<Row> measure(int objects) {
         rows[9].best.time([&] {
             rows[1].best.time([&] { update_posed_view(scene, plan, seconds, 0, now); });
             rows[3].best.time([&] { rays->update_moving(now.pose, anchor); });
-            rows[5].best.time([&] { update_shading_scene(shading, plan, anchor); });
+            rows[5].best.time([&] { update_shading_scene(shading, plan, *rays); });
             rows[6].best.time([&] { make_light_set(shading); });
             MotionField field;
             rows[7].best.time([&] { field = motion.compute(now, next, hits); });

@@ -134,8 +134,7 @@ struct Stage {
           view(make_camera_view(frame.cameras[0], width, height)),
           textures(make_texture_set(scene)),
           rays(scene),
-          shading((rays.update(frame, compute_anchor(view)),
-                   make_shading_scene(scene, frame, compute_anchor(view), textures))),
+          shading((rays.update(frame, compute_anchor(view)), make_shading_scene(scene, frame, rays, textures))),
           lights(make_light_set(shading)) {}
     Stage(const Stage&) = delete;
     Stage& operator=(const Stage&) = delete;

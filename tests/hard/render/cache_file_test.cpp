@@ -60,7 +60,7 @@ TEST(CacheFile, IC22_FramesAreEqualWithAndWithoutIt) {
     loaded.load_light(folder / "light");
     EXPECT_TRUE(loaded.render(3).statistics.moments.empty()) << "computed again";
     RenderSettings more_samples = settings;
-    more_samples.spp = 3;
+    more_samples.light_samples = 7;
     EXPECT_NO_THROW(Sequence(scene, more_samples).load_light(folder / "light"));
 }
 

@@ -58,7 +58,7 @@ TEST(IrradianceCache, IC06_ARecordInTheOpenDoesNotCoverTheNextObject) {
     };
     const float largest = scene_radius(stage.shading);
     IrradianceCache cache = make_cache(stage.shading);
-    cache.insert(make_record(first, up, gather(first), {1e-3f, largest}).value());
+    cache.insert(make_record(first, up, 1.0f, gather(first), {1e-3f, largest}).value());
     EXPECT_LE(cache.records()[0].radius, largest);
     EXPECT_TRUE(std::isfinite(cache.records()[0].radius));
     EXPECT_FALSE(cache.covers({second, up, 1.0f}));

@@ -39,6 +39,7 @@ IrradianceRecord make_plain_record(const glm::vec3& position, const glm::vec3& n
     record.normal = normal;
     record.radius = radius;
     record.irradiance = Rgb(irradiance);
+    record.accuracy = 1e-3f;  // for every query
     return record;
 }
 
@@ -49,8 +50,9 @@ std::optional<glm::dvec3> search_all(const IrradianceCache& cache, const CacheQu
     double total = 0.0;
     for (const IrradianceRecord& record : cache.records()) {
         const float error = interpolation_error(record, query.position, query.normal);
-        if (!(error < accuracy)) continue;
-        const double weight = 1.0 / std::max(static_cast<double>(error), 1e-3);
+        if (!(error < accuracy) || is_beyond_clearance(record, query.position)) continue;
+        const double looser = std::max(1.0f, record.accuracy / accuracy);
+        const double weight = (1.0 - static_cast<double>(error) / accuracy) / (looser * looser);
         sum += glm::dvec3(extrapolate(record, query.position, query.normal)) * weight;
         total += weight;
     }
@@ -86,26 +88,28 @@ TEST(IrradianceCache, IC03_AtTheRecordItsOwnValueComesBack) {
     const std::optional<Rgb> found = cache.interpolate({glm::vec3(0.0f), up, 0.1f});
     ASSERT_TRUE(found.has_value());
     EXPECT_NEAR(found->x, 7.0f, 7e-5f);
-    // A record whose error is nearly alpha has the weight 1 / .9, against 1000.
-    cache.insert(make_plain_record({0.9f, 0.0f, 0.0f}, up, 1.0f, 0.0f));
-    EXPECT_NEAR(cache.interpolate({glm::vec3(0.0f), up, 1.0f})->x, 7.0 * 1000.0 / (1000.0 + 1.0 / 0.9), 1e-4);
+    // A record whose error is nearly alpha has next to no weight.
+    cache.insert(make_plain_record({0.9f, 0.0f, 0.0f}, up, 1.0f, 7.0f));
+    const IrradianceRecord& far = cache.records()[1];
+    EXPECT_NEAR(interpolation_error(far, glm::vec3(0.0f), up), 0.9f, 1e-6f);
+    EXPECT_EQ(cache.interpolate({glm::vec3(0.0f), up, 1.0f})->x, 7.0f);
 }
 
 TEST(IrradianceCache, IC04_RadiiStayWithinTheirBounds) {
     const glm::vec3 up(0.0f, 1.0f, 0.0f);
     IrradianceSample corner;
     corner.irradiance = Rgb(1.0f);
-    corner.harmonic_mean_distance = 0.0f;
-    EXPECT_EQ(make_record(glm::vec3(0.0f), up, corner, {0.01f, 5.0f})->radius, 0.01f);
-    corner.harmonic_mean_distance = infinite;
-    EXPECT_EQ(make_record(glm::vec3(0.0f), up, corner, {0.01f, 5.0f})->radius, 5.0f);
-    corner.harmonic_mean_distance = 1.0f;
-    EXPECT_EQ(make_record(glm::vec3(0.0f), up, corner, {0.01f, 5.0f})->radius, 1.0f);
+    corner.nearest_distance = 0.0f;
+    EXPECT_EQ(make_record(glm::vec3(0.0f), up, 1.0f, corner, {0.01f, 5.0f})->radius, 0.01f);
+    corner.nearest_distance = infinite;
+    EXPECT_EQ(make_record(glm::vec3(0.0f), up, 1.0f, corner, {0.01f, 5.0f})->radius, 5.0f);
+    corner.nearest_distance = 1.0f;
+    EXPECT_EQ(make_record(glm::vec3(0.0f), up, 1.0f, corner, {0.01f, 5.0f})->radius, 3.5f);  // times the distance
     // Neighbour clamping stops at the smallest radius too.
     IrradianceCache cache(glm::vec3(-1.0f), glm::vec3(1.0f));
-    corner.harmonic_mean_distance = 0.0f;
-    cache.insert(make_record(glm::vec3(0.0f), up, corner, {1e-6f, 5.0f}).value());
-    cache.insert(make_record(glm::vec3(0.0f), up, corner, {0.02f, 5.0f}).value());
+    corner.nearest_distance = 0.0f;
+    cache.insert(make_record(glm::vec3(0.0f), up, 1.0f, corner, {1e-6f, 5.0f}).value());
+    cache.insert(make_record(glm::vec3(0.0f), up, 1.0f, corner, {0.02f, 5.0f}).value());
     EXPECT_EQ(cache.records()[1].radius, 0.02f);
 }
 
@@ -145,7 +149,7 @@ TEST(IrradianceCache, IC07_GradientsNextToAWallStayBounded) {
         const IrradianceSample sample = gather_irradiance(stage.lighting(), task, make_point(glm::vec3(0.0f), up),
                                                           choose_strata(1024), {}, scratch);
         ASSERT_GT(sample.irradiance.x, 0.0f) << distance;
-        const IrradianceRecord record = make_record(glm::vec3(0.0f), up, sample, any_radius).value();
+        const IrradianceRecord record = make_record(glm::vec3(0.0f), up, 1.0f, sample, any_radius).value();
         for (std::size_t c = 0; c < 3; ++c) {
             const float e = record.irradiance[static_cast<int>(c)] * 1.0001f;
             ASSERT_LE(glm::length(record.translation_gradient[c]) * record.radius, e) << distance;
@@ -161,33 +165,34 @@ TEST(IrradianceCache, IC07_GradientsNextToAWallStayBounded) {
     // An infinite gradient, as from a distance of 0, counts as 0.
     IrradianceSample broken;
     broken.irradiance = Rgb(1.0f);
-    broken.harmonic_mean_distance = 1.0f;
+    broken.nearest_distance = 1.0f;
     broken.translation_gradient.fill(glm::vec3(infinite, 0.0f, 0.0f));
     broken.rotation_gradient.fill(glm::vec3(std::nanf(""), 0.0f, 0.0f));
-    const IrradianceRecord record = make_record(glm::vec3(0.0f), {0.0f, 1.0f, 0.0f}, broken, any_radius).value();
+    const IrradianceRecord record = make_record(glm::vec3(0.0f), {0.0f, 1.0f, 0.0f}, 1.0f, broken, any_radius).value();
     EXPECT_EQ(extrapolate(record, glm::vec3(0.1f), {1.0f, 0.0f, 0.0f}), Rgb(1.0f));
 }
 
 TEST(IrradianceCache, IrradianceThatIsNotFiniteMakesNoRecord) {
     const glm::vec3 up(0.0f, 1.0f, 0.0f);
     IrradianceSample sample;
-    sample.harmonic_mean_distance = 1.0f;
+    sample.nearest_distance = 1.0f;
     for (const float bad : {std::nanf(""), infinite, -infinite}) {
         for (int c = 0; c < 3; ++c) {
             sample.irradiance = Rgb(1.0f);
             sample.irradiance[c] = bad;
-            EXPECT_FALSE(make_record(glm::vec3(0.0f), up, sample, any_radius).has_value()) << bad << ' ' << c;
+            EXPECT_FALSE(make_record(glm::vec3(0.0f), up, 1.0f, sample, any_radius).has_value()) << bad << ' ' << c;
         }
     }
     sample.irradiance = Rgb(1.0f);
-    EXPECT_TRUE(make_record(glm::vec3(0.0f), up, sample, any_radius).has_value());
+    EXPECT_TRUE(make_record(glm::vec3(0.0f), up, 1.0f, sample, any_radius).has_value());
 }
 
 TEST(IrradianceCache, IC08_RecordsInFrontOfThePointAreRefused) {
     const glm::vec3 up(0.0f, 1.0f, 0.0f);
     const IrradianceRecord above = make_plain_record({0.0f, 0.1f, 0.0f}, up, 1.0f);
     EXPECT_EQ(interpolation_error(above, glm::vec3(0.0f), up), infinite);  // the record is on a step above the point
-    EXPECT_NEAR(interpolation_error(above, {0.0f, 0.2f, 0.0f}, up), 0.1f, 1e-6f);
+    EXPECT_NEAR(interpolation_error(above, {0.0f, 0.19f, 0.0f}, up), 0.09f, 1e-6f);
+    EXPECT_EQ(interpolation_error(above, {0.0f, 0.21f, 0.0f}, up), infinite);        // the point is on a step
     EXPECT_NEAR(interpolation_error(above, {0.0f, 0.06f, 0.0f}, up), 0.04f, 1e-6f);  // within .05 R_i
 }
 

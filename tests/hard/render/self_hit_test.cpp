@@ -98,6 +98,33 @@ TEST(SelfHits, RC04_SecondRaysDoNotMeetTheirOwnSurface) {
     });
 }
 
+TEST(SelfHits, RC04_FarFromTheOriginOfTheFlatTreeTooSecondRaysDoNotMeetTheirOwnSurface) {
+    // The camera and the anchor are beside the ball, the origin of the flat tree is 40 m away.
+    Scene scene;
+    const int white = add_lambert(scene, glm::dvec3(0.5));
+    const glm::dvec3 others(24.3, -22.9, 25.1), turn(1.0, 2.0, 3.0);
+    add_mesh(scene, make_faceted_sphere(0.1, 48, white), {0.0, 0.0, 0.0}, glm::angleAxis(0.7, glm::normalize(turn)));
+    for (const double up : {0.0, 1.0}) add_mesh(scene, make_quad(1.0, 1.0, white), others + glm::dvec3(0.0, up, 0.0));
+    add_camera(scene, {0.0, 0.0, 0.3}, {0.0, 0.0, 0.0});
+    const Stage stage(std::move(scene), 8, 8);
+    ASSERT_TRUE(stage.rays.is_flat(0));
+    ASSERT_GT(glm::length(stage.rays.flat_origin() - stage.rays.anchor()), 30.0);
+    Directions random;
+    Tracer tracer(stage.rays);
+    int again = 0;
+    for (int i = 0; i < 4000; ++i) {
+        const glm::vec3 from(0.3 * random.next()), target(0.07 * random.next());
+        const Ray ray{from - glm::vec3(stage.shading.anchor), target - from};
+        const Hit hit = tracer.intersect(ray);
+        ASSERT_EQ(hit.instance, 0);
+        const SurfacePoint point = make_surface_point(stage.shading, hit, ray.direction);
+        const Hit next = tracer.intersect({point.ray_origin(), random.leave(point.geometric)});
+        again += next.instance == 0;
+        EXPECT_LT(point.offset, 1e-4f);
+    }
+    EXPECT_LT(again, 20);
+}
+
 TEST(SelfHits, RC04_TheFurnaceHoldsAtEverySize) {
     // Inside a closed body of radiance 1 and albedo .5 the light of all orders adds up to 2.
     for_every_ball([](const Ball& ball) {

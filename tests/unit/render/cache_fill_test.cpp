@@ -8,6 +8,7 @@
 #include <cstdio>
 
 #include "engine/load/load_scene.h"
+#include "render/gather_at.h"
 #include "tests/support/paths.h"
 #include "tests/support/render_scenes.h"
 
@@ -25,7 +26,12 @@ struct Fill {
           settings(plain_settings(accuracy, 64)),
           alpha(width, height, static_cast<float>(accuracy)),
           centers(cast_centers(stage.rays, stage.view, nullptr)),
-          context{lighting, stage.view, settings, alpha, 0, scene_radius(stage.shading), {}} {}
+          context{.lighting = lighting,
+                  .view = stage.view,
+                  .settings = settings,
+                  .accuracy = alpha,
+                  .max_radius = scene_radius(stage.shading),
+                  .progress = {}} {}
 
     FrameTally make_tally() const {
         const Image<float> zero(stage.view.width, stage.view.height);
@@ -61,10 +67,12 @@ std::size_t count_sequentially(const Fill& fill) {
                 const PixelSurface s = make_pixel_surface(fill.stage.shading, fill.stage.view, fill.centers, x, y);
                 const float accuracy = fill.alpha(x, y);
                 if (!s.material.has_diffuse()) continue;
-                if (cache.covers({s.point.position, s.point.normal, accuracy})) continue;
-                const IrradianceSample value = gather_at(fill.context, task, s, scratch);
-                const RadiusBounds bounds = radius_bounds(fill.context, s, accuracy);
-                cache.insert(make_record(s.point.position, s.point.normal, value, bounds).value());
+                const CacheQuery query{s.point.position, s.point.normal, accuracy, &task};
+                if (cache.covers(query)) continue;
+                const int rays = choose_rays(fill.settings, accuracy, cache.expected_ray_variance(query));
+                const IrradianceSample value = gather_at(fill.context, task, s, scratch, rays);
+                const RadiusBounds bounds = radius_bounds(fill.context, s.footprint, accuracy);
+                cache.insert(make_record(query.position, query.normal, accuracy, value, bounds).value());
             }
         }
     };
@@ -117,6 +125,7 @@ TEST(CacheFill, EverySampleIsCoveredAfterwards) {
         IrradianceCache cache = make_cache(fill.stage.shading);
         FrameTally tally = fill.make_tally();
         fill_cache(cache, fill.context, fill.centers, tally);
+        RayTask task(fill.stage.rays);
         std::size_t uncovered = 0, asked = 0;
         for (int y = 0; y < 120; ++y) {
             for (int x = 0; x < 160; ++x) {
@@ -124,7 +133,7 @@ TEST(CacheFill, EverySampleIsCoveredAfterwards) {
                 const PixelSurface s = make_pixel_surface(fill.stage.shading, fill.stage.view, fill.centers, x, y);
                 if (!s.material.has_diffuse()) continue;
                 ++asked;
-                if (!cache.covers({s.point.position, s.point.normal, fill.alpha(x, y)})) ++uncovered;
+                if (!cache.covers({s.point.position, s.point.normal, fill.alpha(x, y), &task})) ++uncovered;
             }
         }
         EXPECT_GT(asked, 5000u);
@@ -167,9 +176,7 @@ TEST(CacheFill, ErrorFallsAsAccuracyTightens) {
     RenderSettings settings = plain_settings(0.0, 16384);
     settings.light_samples = 4;  // direct light is equal in all renders and cancels
     const Image<Rgb> dense = shade(stage, settings).color;
-    settings.gather = 1024;
-    settings.min_radius_pixels =
-        0.25;  // with 4 pixels, in so small a picture, accuracy would not limit how far a record reaches
+    settings.gather = 0;
     double before = 1e30;
     for (const double accuracy : {0.5, 0.3, 0.2, 0.1, 0.05}) {
         settings.accuracy = accuracy;

@@ -257,7 +257,7 @@ TEST(Gather, RecordsExtrapolateTowardsTheTruth) {
     for (std::uint32_t seed = 0; seed < 16; ++seed) {
         const IrradianceSample sample = gathering.at(glm::vec3(0.0f), up, 4096, seed);
         // At this radius, the limit on gradients (|gradient| R <= E) does not change this steep one.
-        const IrradianceRecord record = make_record(glm::vec3(0.0f), up, sample, {1e-3f, 0.5f}).value();
+        const IrradianceRecord record = make_record(glm::vec3(0.0f), up, 1.0f, sample, {1e-3f, 0.5f}).value();
         moved.add(std::abs(extrapolate(record, place, normal).x - truth));
         kept.add(std::abs(record.irradiance.x - truth));
     }

@@ -33,6 +33,12 @@ std::vector<Hit> trace(const RayScene& scene, const std::vector<Ray>& rays) {
     return hits;
 }
 
+/// Deforming meshes are traced in object space, those that stand still in the flat tree's.
+bool is_same_but_for_rounding(const Hit& a, const Hit& b) {
+    return a.instance == b.instance && a.primitive == b.primitive && std::abs(a.u - b.u) < 1e-3f &&
+           std::abs(a.v - b.v) < 1e-3f && std::abs(a.distance - b.distance) < 1e-5f;
+}
+
 /// The scene frozen at a time: rigid meshes of the posed points.
 Scene freeze(const Scene& scene, double seconds) {
     const ScenePose frame = pose(scene, seconds);
@@ -77,7 +83,7 @@ TEST(RayDeform, HitsAreThoseOfTheMovedTriangles) {
         std::size_t met = 0, different = 0;
         for (std::size_t i = 0; i < hits.size(); ++i) {
             met += hits[i].instance != no_index;
-            different += hits[i] != of_frozen[i];
+            different += !is_same_but_for_rounding(hits[i], of_frozen[i]);
         }
         EXPECT_GT(met, 300u);
         EXPECT_EQ(different, 0u);
