@@ -46,6 +46,10 @@ Shot render_shot(const Scene& scene, const RenderSettings& settings, const std::
         FrameOutput out = sequence.render(frame);
         shot.gather_rays += static_cast<double>(out.statistics.counts.rays.gather);
         shot.records += static_cast<double>(out.statistics.counts.records);
+        for (const MomentStatistics& moment : out.statistics.moments) {
+            shot.gather_rays += static_cast<double>(moment.counts.rays.gather);
+            shot.records += static_cast<double>(moment.counts.records);
+        }
         shot.indirect.push_back(std::move(out.shaded.indirect));
         progress.update(static_cast<double>(shot.indirect.size()));
     }
