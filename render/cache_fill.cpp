@@ -16,7 +16,9 @@ namespace {
 constexpr int first_stride = 64;            // pixels, size of the first tiles
 constexpr float least_reach_pixels = 0.7f;  // of a record at its own accuracy
 constexpr int max_reviews = 16;             // passes over all pixels after the last tile size
-constexpr std::size_t lookup_grain = 256;   // look-ups per parallel chunk
+/// A record reaches about so much farther or less far than expected: candidates beside it wait.
+constexpr float waiting_reach = 1.2f;
+constexpr std::size_t lookup_grain = 256;  // look-ups per parallel chunk
 
 /// A pixel whose sample is not covered yet.
 struct Candidate {
@@ -82,7 +84,9 @@ std::vector<Candidate> accept_candidates(const IrradianceCache& cache, const Ind
     IrradianceCache expected = make_cache(context.lighting.shading);
     std::vector<Candidate> accepted, later;
     for (Candidate& candidate : waiting) {
-        if (expected.covers(candidate.query)) {
+        CacheQuery nearly = candidate.query;
+        nearly.accuracy *= waiting_reach;
+        if (expected.covers(nearly)) {
             later.push_back(candidate);
             continue;
         }

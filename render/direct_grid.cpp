@@ -38,11 +38,13 @@ std::int64_t quantize(float x) {
 
 }  // namespace
 
-DirectGrid::DirectGrid() : cells_(first_capacity), mask_(first_capacity - 1) {}
+DirectGrid::DirectGrid(float unit)
+    : cells_(first_capacity), inverse_unit_(1.0f / unit), mask_(first_capacity - 1) {}
 
-std::uint64_t DirectGrid::key_of(int instance, const glm::vec3& position, const glm::vec3& geometric, float width) {
-    const int level = level_of(width);
-    const glm::vec3 at = position * power_of_two(-level);
+std::uint64_t DirectGrid::key_of(int instance, const glm::vec3& position, const glm::vec3& geometric,
+                                 float width) const {
+    const int level = level_of(width * inverse_unit_);
+    const glm::vec3 at = position * inverse_unit_ * power_of_two(-level);
     const unsigned facing = axis_of(geometric);
     const int across = facing / 2 == 0 ? 1 : 0, along = facing / 2 == 2 ? 1 : 2;
     const std::int64_t a = quantize(at[across]), b = quantize(at[along]),

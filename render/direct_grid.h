@@ -2,7 +2,7 @@
 // Direct light that gathers share. The direct irradiance of a Lambert surface is averaged over small cells of space,
 // so that gather rays which meet a cell that is already known cast no shadow ray.
 //
-// A cell is about as wide as the part of the surface that one gather ray represents, rounded to a power of two metres:
+// A cell is about as wide as the part of the surface that one gather ray represents, rounded to a power of two:
 // the average stays within what the ray would average over anyway, whatever the size of the scene. Cells
 // belong to one instance and to one of six directions that its true normal can face most.
 //
@@ -37,13 +37,15 @@ class DirectGrid {
         std::uint32_t count = 0;
     };
 
-    DirectGrid();
+    /// @param unit  m, such as the scene's size: cells are as wide as it times a power of two, so that a scene of another
+    ///              scale has the same cells
+    explicit DirectGrid(float unit = 1.0f);
 
     /// The cell of a surface point; never 0.
-    /// @param position   m, relative to the anchor
+    /// @param position   m, relative to the instance's origin, so that the cells move along with it
     /// @param geometric  the true normal
     /// @param width      m, of the part of the surface that the ray represents
-    static std::uint64_t key_of(int instance, const glm::vec3& position, const glm::vec3& geometric, float width);
+    std::uint64_t key_of(int instance, const glm::vec3& position, const glm::vec3& geometric, float width) const;
 
     /// A cell with a count of 0 if there is none.
     const Cell& find(std::uint64_t key) const {
@@ -67,6 +69,7 @@ class DirectGrid {
     /// Open addressing; a power of two of them, at most half used. Cells of one block are neighbours in memory too: the
     /// hits of a packet are found in few pages.
     std::vector<Cell> cells_;
+    float inverse_unit_ = 1.0f;
     std::uint64_t mask_ = 0;
     std::size_t used_ = 0;
     std::uint64_t samples_ = 0;

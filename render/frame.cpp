@@ -41,6 +41,7 @@ class FrameShading {
           indirect_(context.settings.bounces > 0 && context.settings.path_depth > 1),
           cached_(!by_paths_ && indirect_ && context.settings.accuracy > 0.0),
           cache_(make_cache(context.lighting.shading)),
+          direct_(context.max_radius),
           sums_(context.view.width, context.view.height) {
         if (cached_) context_.direct = &direct_;
         if (!by_paths_) out_.indirect = Image<Rgb>(context.view.width, context.view.height);
@@ -209,12 +210,12 @@ class FrameShading {
     }
 
     IndirectContext context_;
-    DirectGrid direct_;
     const SampleHits& centers_;
     const SampleOptions& options_;
     ShadedFrame& out_;
     bool by_paths_, indirect_, cached_;
     IrradianceCache cache_;
+    DirectGrid direct_;
     Image<PixelSum> sums_;
     std::mutex mutex_;
     std::size_t rows_done_ = 0;

@@ -107,7 +107,8 @@ void note_grid_hit(const Lighting& lighting, std::size_t i) {
     noted.ray = static_cast<int>(i);
     make_lambert_hit(lighting.context.shading, hit, direction, solid_angle, noted.met);
     const float width = hit.distance * std::sqrt(solid_angle);
-    noted.grid = DirectGrid::key_of(hit.instance, noted.met.position, noted.met.geometric, width);
+    const glm::vec3 from_origin = noted.met.position - lighting.context.shading.instances[hit.instance].translation;
+    noted.grid = lighting.options.grid->key_of(hit.instance, from_origin, noted.met.geometric, width);
     lighting.options.grid->prefetch(noted.grid);
 }
 

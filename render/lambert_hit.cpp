@@ -63,8 +63,7 @@ void make_lambert_hit(const ShadingScene& shading, const Hit& hit, const glm::ve
     met.geometric = cosine > 0.0f ? -normal : normal;
     Rgb albedo = shading.materials[instance.material].values.base_color;
     if (!mesh.colors.empty()) {
-        met.albedo *=
-            Rgb(mesh.colors[t.x] * (1.0f - hit.u - hit.v) + mesh.colors[t.y] * hit.u + mesh.colors[t.z] * hit.v);
+        albedo *= Rgb(mesh.colors[t.x] * (1.0f - hit.u - hit.v) + mesh.colors[t.y] * hit.u + mesh.colors[t.z] * hit.v);
     }
     const TextureUse& use = shading.textures->materials[instance.material].base_color;
     if (use.texture != no_index) {

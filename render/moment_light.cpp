@@ -22,7 +22,7 @@ std::vector<IrradianceRecord> compute_records(const MomentInput& input, FrameCou
     const LightingContext& lighting = input.lighting;
     const CameraView& first = input.views.front()->posed.view;
     IrradianceCache cache = make_cache(lighting.shading);
-    DirectGrid direct;
+    DirectGrid direct(scene_radius(lighting.shading));
     FrameTally tally;
     tally.records = tally.invalid_samples = Image<float>(first.width, first.height);
     for (const auto& view : input.views) {
@@ -32,6 +32,7 @@ std::vector<IrradianceRecord> compute_records(const MomentInput& input, FrameCou
                                       .accuracy = view->accuracy,
                                       .max_radius = scene_radius(lighting.shading),
                                       .progress = {},
+                                       .direct = &direct,
                                       .carried = input.carried,
                                       .seen = view->frame == input.frame ? nullptr : &view->shading};
         for (int i = 0; i < input.settings.spp; ++i) {

@@ -192,7 +192,7 @@ void add_light(std::vector<Setting>& table) {
     table.push_back(number_setting(
         "shade_reach", "how far shading uses a cache record, as a multiple of how far filling the cache uses it",
         &S::shade_reach, 1.0, 2.0));
-    table.push_back(with_unit(number_setting("min_radius_pixels", "least reach of a cache record at its own accuracy",
+    table.push_back(with_unit(number_setting("min_radius_pixels", "least radius of a cache record, which reaches accuracy times as far",
                                              &S::min_radius_pixels, 0.1, 1000.0),
                               "pixels"));
     table.push_back(with_unit(

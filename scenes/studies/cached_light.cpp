@@ -94,7 +94,7 @@ void gather_late(const IrradianceCache& cache, const IndirectContext& context, c
 
 CachedLight compute_cached_light(const StudyFrame& frame, const RenderSettings& settings, const Image<float>& alpha) {
     const LightingContext lighting = frame.lighting();
-    DirectGrid direct;
+    DirectGrid direct(scene_radius(frame.shading));
     const IndirectContext context{.lighting = lighting,
                                   .view = frame.posed.view,
                                   .settings = settings,

@@ -12,7 +12,7 @@ namespace {
 const glm::vec3 up(0.0f, 1.0f, 0.0f);
 
 TEST(DirectGrid, CellsAreAsWideAsTheRaysFootprint) {
-    const auto key = [](const glm::vec3& position, float width) { return DirectGrid::key_of(3, position, up, width); };
+    const auto key = [](const glm::vec3& position, float width) { return DirectGrid().key_of(3, position, up, width); };
     // From 1 / sqrt(2) to sqrt(2) times a width of 1/16, cells are 1/16 wide.
     for (const float width : {0.0443f, 0.0625f, 0.0883f}) {
         EXPECT_EQ(key({0.01f, 0.01f, 0.01f}, width), key({0.06f, 0.06f, 0.06f}, 0.0625f));
@@ -34,7 +34,7 @@ TEST(DirectGrid, CellsBelongToOneInstanceAndOneSide) {
             for (const float sign : {-1.0f, 1.0f}) {
                 glm::vec3 normal(0.3f);
                 normal[axis] = sign;
-                keys.push_back(DirectGrid::key_of(instance, place, glm::normalize(normal), 0.1f));
+                keys.push_back(DirectGrid().key_of(instance, place, glm::normalize(normal), 0.1f));
             }
         }
     }

@@ -22,7 +22,7 @@ bool is_anywhere(const glm::vec3&) {
 }
 
 /// Compares every pixel's mean over independent renders with one number: within 3 standard errors, except for the few
-/// pixels that 3 sigma allow. The picture's mean is within 2 %.
+/// pixels that 3 sigma allow. The picture's mean is within 1 %.
 /// @param counts  the surface points that are compared one by one. Next to an edge of a lamp that covers all walls, a
 ///                fifth of the light comes from a narrow strip across the edge, which samples rarely hit: their
 ///                statistics are not normal. Such pixels count in the picture's mean only.
@@ -46,7 +46,7 @@ void expect_everywhere(Scene scene, const RenderSettings& settings, double expec
         picture.add(sum / (width * height));
     }
     EXPECT_NEAR(picture.mean(), expected, 3.0 * picture.error() + 1e-4 * expected);
-    EXPECT_NEAR(picture.mean(), expected, 0.02 * expected);
+    EXPECT_NEAR(picture.mean(), expected, 0.01 * expected);
     const SampleHits hits = cast_centers(stage.rays, stage.view, nullptr);
     int beyond = 0, judged = 0;
     for (std::size_t i = 0; i < pixels.size(); ++i) {

@@ -71,7 +71,7 @@ TEST(Settings, DefaultsAreDocumentedOnes) {
     EXPECT_EQ(map.at("size"), SettingValue("640x480"));
     EXPECT_EQ(map.at("guide"), SettingValue("saliency"));
     EXPECT_EQ(map.at("accuracy"), SettingValue(0.15));
-    EXPECT_EQ(map.at("gather"), SettingValue(1024.0));
+    EXPECT_EQ(map.at("gather"), SettingValue(0.0));
     EXPECT_EQ(map.at("spp"), SettingValue(16.0));
     EXPECT_EQ(map.at("seed"), SettingValue(0.0));
 }
@@ -108,7 +108,7 @@ TEST(Settings, ChoicesNameWhatIsAllowed) {
     EXPECT_EQ(refusal("estimate", ""), "expected one of flat, direct");
     EXPECT_EQ(refusal("bands", "Printed"), "expected one of printed, measured");
     EXPECT_EQ(refusal("grid", true), "expected one of full, center");
-    EXPECT_EQ(refusal("adapter", "scale_add"), "expected one of compress, scale-add");
+    EXPECT_EQ(refusal("adapter", "scale_add"), "expected one of compress, scale-add, threshold");
     EXPECT_EQ(refusal("neutral_opponent", "yes"), "expected true or false");
     EXPECT_EQ(refusal("neutral_opponent", 1.0), "expected true or false");
 }
@@ -135,7 +135,7 @@ TEST(Settings, MC20_NumbersOutOfRangeOfAnyKind) {
     const double nan_value = std::nan(""), infinite = std::numeric_limits<double>::infinity();
     const std::map<std::string, std::vector<double>> bad{{"accuracy", {-0.01, 1.01, nan_value, infinite, -infinite}},
                                                          {"adapter_k", {0.0, -1.0, nan_value, infinite}},
-                                                         {"gather", {3.0, 16.5, 1e7, -4.0, nan_value, infinite}},
+                                                         {"gather", {-1.0, -4.0, 1048577.0, 10.5, nan_value}},
                                                          {"bounces", {-1.0, 0.5, nan_value}},
                                                          {"path_depth", {0.0, 2.5, nan_value}},
                                                          {"spp", {0.0, 1.5, 65537.0, nan_value, infinite}},
@@ -187,7 +187,7 @@ TEST(Settings, ValidateChecksStructsFilledByHand) {
     settings.width = 0;
     EXPECT_THROW(validate(settings), InputError);
     settings = {};
-    settings.gather = 0;
+    settings.gather = -1;
     EXPECT_THROW(validate(settings), InputError);
     settings = {};
     settings.adapter = static_cast<Adapter>(9);
