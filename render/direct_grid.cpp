@@ -12,11 +12,11 @@ namespace {
 
 constexpr std::size_t first_capacity = 1u << 14;
 
-/// The nearest power of two to half the width, as an exponent.
+/// The nearest power of two to the width, as an exponent.
 int level_of(float width) {
     const float bounded = std::clamp(width, 1e-18f, 1e18f);
     // Times root two: rounds the exponent instead of cutting it.
-    const std::uint32_t bits = std::bit_cast<std::uint32_t>(bounded * 0.70710678f);
+    const std::uint32_t bits = std::bit_cast<std::uint32_t>(bounded * 1.41421356f);
     return static_cast<int>(bits >> 23) - 127;
 }
 
@@ -31,9 +31,9 @@ unsigned axis_of(const glm::vec3& n) {
     return 2 * axis + (n[static_cast<int>(axis)] < 0.0f ? 1 : 0);
 }
 
-std::uint64_t quantize(float x) {
+std::int64_t quantize(float x) {
     constexpr float limit = 1e9f;
-    return static_cast<std::uint64_t>(static_cast<std::int64_t>(std::floor(std::clamp(x, -limit, limit))));
+    return static_cast<std::int64_t>(std::floor(std::clamp(x, -limit, limit)));
 }
 
 }  // namespace
@@ -43,17 +43,18 @@ DirectGrid::DirectGrid() : cells_(first_capacity), mask_(first_capacity - 1) {}
 std::uint64_t DirectGrid::key_of(int instance, const glm::vec3& position, const glm::vec3& geometric, float width) {
     const int level = level_of(width);
     const glm::vec3 at = position * power_of_two(-level);
-    const std::uint64_t side = static_cast<std::uint64_t>(instance) * 6 + axis_of(geometric);
-    const std::uint64_t place = quantize(at.x) * 0x9e3779b97f4a7c15ull + quantize(at.y) * 0xc2b2ae3d27d4eb4full +
-                                quantize(at.z) * 0x165667b19e3779f9ull + side * 0xd6e8feb86659fd93ull +
+    const unsigned facing = axis_of(geometric);
+    const int across = facing / 2 == 0 ? 1 : 0, along = facing / 2 == 2 ? 1 : 2;
+    const std::int64_t a = quantize(at[across]), b = quantize(at[along]),
+                       c = quantize(at[static_cast<int>(facing / 2)]);
+    // Blocks of 8 x 8 cells in the plane that the surface is next to.
+    const std::uint64_t side = static_cast<std::uint64_t>(instance) * 6 + facing;
+    const std::uint64_t block = static_cast<std::uint64_t>(a >> 3) * 0x9e3779b97f4a7c15ull +
+                                static_cast<std::uint64_t>(b >> 3) * 0xc2b2ae3d27d4eb4full +
+                                static_cast<std::uint64_t>(c) * 0x165667b19e3779f9ull + side * 0xd6e8feb86659fd93ull +
                                 static_cast<std::uint64_t>(level + 128) * 0xa0761d6478bd642full;
-    return mix_bits(place) | 1;
-}
-
-const DirectGrid::Cell& DirectGrid::find(std::uint64_t key) const {
-    std::uint64_t i = key & mask_;
-    while (cells_[i].key != 0 && cells_[i].key != key) i = (i + 1) & mask_;
-    return cells_[i];
+    constexpr std::uint64_t used = 1ull << 63;
+    return used | (mix_bits(block) & ~63ull) | static_cast<std::uint64_t>((a & 7) | (b & 7) << 3);
 }
 
 DirectGrid::Cell& DirectGrid::place_of(std::uint64_t key) {

@@ -2,8 +2,8 @@
 // Direct light that gathers share. The direct irradiance of a Lambert surface is averaged over small cells of space,
 // so that gather rays which meet a cell that is already known cast no shadow ray.
 //
-// A cell is about half as wide as the part of the surface that one gather ray represents, rounded to a power of two
-// metres: the average stays within what the ray would average over anyway, whatever the size of the scene. Cells
+// A cell is about as wide as the part of the surface that one gather ray represents, rounded to a power of two metres:
+// the average stays within what the ray would average over anyway, whatever the size of the scene. Cells
 // belong to one instance and to one of six directions that its true normal can face most.
 //
 // The grid does not change while gathers run. A gather that meets a cell with too few samples computes one of its own,
@@ -46,7 +46,11 @@ class DirectGrid {
     static std::uint64_t key_of(int instance, const glm::vec3& position, const glm::vec3& geometric, float width);
 
     /// A cell with a count of 0 if there is none.
-    const Cell& find(std::uint64_t key) const;
+    const Cell& find(std::uint64_t key) const {
+        std::uint64_t i = key & mask_;
+        while (cells_[i].key != 0 && cells_[i].key != key) i = (i + (key >> 40 | 1)) & mask_;
+        return cells_[i];
+    }
     /// Fetches the cell's place in memory, for a find soon afterwards.
     void prefetch(std::uint64_t key) const { __builtin_prefetch(&cells_[key & mask_]); }
 
@@ -60,7 +64,9 @@ class DirectGrid {
     Cell& place_of(std::uint64_t key);
     void grow();
 
-    std::vector<Cell> cells_;  ///< open addressing; a power of two of them, at most half used
+    /// Open addressing; a power of two of them, at most half used. Cells of one block are neighbours in memory too: the
+    /// hits of a packet are found in few pages.
+    std::vector<Cell> cells_;
     std::uint64_t mask_ = 0;
     std::size_t used_ = 0;
     std::uint64_t samples_ = 0;

@@ -6,7 +6,6 @@
 #include <numbers>
 
 #include "render/gather_summary.h"
-#include "render/lambert_hit.h"
 
 namespace aleph {
 
@@ -104,24 +103,26 @@ void note_grid_hit(const Lighting& lighting, std::size_t i) {
     const Hit& hit = scratch.hits[i];
     const glm::vec3& direction = scratch.rays[i].direction;
     const float solid_angle = lighting.solid_angle(direction);
-    const LambertHit met = make_lambert_hit(lighting.context.shading, hit, direction, solid_angle);
-    if (met.albedo == Rgb(0.0f)) return;
+    GridHit& noted = scratch.grid_hits.emplace_back();
+    noted.ray = static_cast<int>(i);
+    make_lambert_hit(lighting.context.shading, hit, direction, solid_angle, noted.met);
     const float width = hit.distance * std::sqrt(solid_angle);
-    const std::uint64_t cell = DirectGrid::key_of(hit.instance, met.position, met.geometric, width);
-    lighting.options.grid->prefetch(cell);
-    scratch.grid_hits.push_back({cell, met.albedo, static_cast<int>(i)});
+    noted.grid = DirectGrid::key_of(hit.instance, noted.met.position, noted.met.geometric, width);
+    lighting.options.grid->prefetch(noted.grid);
 }
 
 /// Direct light from the grid's cell. If the cell has too few samples, one more is taken, and counts with them.
 void light_grid_hit(const Lighting& lighting, const GridHit& noted) {
     GatherScratch& scratch = lighting.scratch;
+    const Rgb& albedo = noted.met.albedo;
+    if (albedo == Rgb(0.0f)) return;
     const int cell = scratch.cells[noted.ray];
     const DirectGrid::Cell& known = lighting.options.grid->find(noted.grid);
     if (known.count >= DirectGrid::enough) {
-        scratch.radiance[cell] = noted.albedo * known.sum / static_cast<float>(known.count);
+        scratch.radiance[cell] = albedo * known.sum / static_cast<float>(known.count);
         return;
     }
-    const Rgb scale = noted.albedo / static_cast<float>(known.count + 1);
+    const Rgb scale = albedo / static_cast<float>(known.count + 1);
     scratch.radiance[cell] = scale * known.sum;
     const glm::vec3& direction = scratch.rays[noted.ray].direction;
     ViewedSurface white;
@@ -147,7 +148,10 @@ void light_hits(const Lighting& lighting) {
     scratch.shadow_rays.clear();
     scratch.shadow_samples.clear();
     scratch.grid_hits.clear();
+    constexpr std::size_t ahead = 8;  // hits, of prefetching
     for (std::size_t i = 0; i < scratch.rays.size(); ++i) {
+        if (i + 2 * ahead < scratch.rays.size()) prefetch_triangle(shading, scratch.hits[i + 2 * ahead]);
+        if (i + ahead < scratch.rays.size()) prefetch_corners(shading, scratch.hits[i + ahead]);
         const Hit& hit = scratch.hits[i];
         if (hit.instance == no_index) continue;
         scratch.distances[scratch.cells[i]] = hit.distance;

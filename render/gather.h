@@ -12,6 +12,7 @@
 #include "render/direct_grid.h"
 #include "render/direct_light.h"
 #include "render/hemisphere_strata.h"
+#include "render/lambert_hit.h"
 
 namespace aleph {
 
@@ -66,8 +67,8 @@ struct ShadowSample {
 
 /// A hit whose direct light may be known.
 struct GridHit {
+    LambertHit met;
     std::uint64_t grid = 0;
-    Rgb albedo{0.0f};
     int ray = 0;
 };
 

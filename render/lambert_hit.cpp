@@ -31,20 +31,37 @@ bool is_plain_lambert(const ShadingScene& shading, int material) {
            !unlit && !shading.textures->materials[material].maps_normals;
 }
 
-LambertHit make_lambert_hit(const ShadingScene& shading, const Hit& hit, const glm::vec3& direction,
-                            float solid_angle) {
+void prefetch_triangle(const ShadingScene& shading, const Hit& hit) {
+    if (hit.instance == no_index) return;
+    __builtin_prefetch(&shading.instances[hit.instance].mesh->triangles[hit.primitive]);
+}
+
+void prefetch_corners(const ShadingScene& shading, const Hit& hit) {
+    if (hit.instance == no_index) return;
+    const PosedInstance& instance = shading.instances[hit.instance];
+    const glm::uvec3& t = instance.mesh->triangles[hit.primitive];
+    for (int k = 0; k < 3; ++k) {
+        if (instance.deformed == nullptr) {
+            __builtin_prefetch(&instance.mesh->positions[t[k]]);
+        } else {
+            __builtin_prefetch(&instance.deformed->positions[t[k]]);
+        }
+    }
+}
+
+void make_lambert_hit(const ShadingScene& shading, const Hit& hit, const glm::vec3& direction, float solid_angle,
+                      LambertHit& met) {
     const PosedInstance& instance = shading.instances[hit.instance];
     const Mesh& mesh = *instance.mesh;
     const glm::uvec3& t = mesh.triangles[hit.primitive];
     const glm::vec3 p0 = instance.corner(t.x), e1 = instance.corner(t.y) - p0, e2 = instance.corner(t.z) - p0;
-    LambertHit met;
     met.position = instance.linear * (p0 + e1 * hit.u + e2 * hit.v) + instance.translation;
     const glm::vec3 across = instance.normals * glm::cross(e1, e2);  // as long as twice the triangle's area
     const float area = glm::length(across);
-    met.geometric = area > 0.0f ? across / area : -direction;
-    const float cosine = glm::dot(met.geometric, direction);
-    if (cosine > 0.0f) met.geometric = -met.geometric;
-    met.albedo = shading.materials[instance.material].values.base_color;
+    const glm::vec3 normal = area > 0.0f ? across / area : -direction;
+    const float cosine = glm::dot(normal, direction);
+    met.geometric = cosine > 0.0f ? -normal : normal;
+    Rgb albedo = shading.materials[instance.material].values.base_color;
     if (!mesh.colors.empty()) {
         met.albedo *=
             Rgb(mesh.colors[t.x] * (1.0f - hit.u - hit.v) + mesh.colors[t.y] * hit.u + mesh.colors[t.z] * hit.v);
@@ -52,9 +69,9 @@ LambertHit make_lambert_hit(const ShadingScene& shading, const Hit& hit, const g
     const TextureUse& use = shading.textures->materials[instance.material].base_color;
     if (use.texture != no_index) {
         const float footprint_area = cone_footprint_area(std::abs(cosine), hit.distance, solid_angle);
-        met.albedo *= look_up_albedo(shading, use, mesh, hit, footprint_area, area);
+        albedo *= look_up_albedo(shading, use, mesh, hit, footprint_area, area);
     }
-    return met;
+    met.albedo = albedo;
 }
 
 }  // namespace aleph

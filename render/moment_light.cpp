@@ -18,21 +18,24 @@ bool differ(const Rgb& before, const Rgb& after, float weight, float accuracy) {
 
 }  // namespace
 
-std::vector<IrradianceRecord> compute_records(const std::vector<std::shared_ptr<const KeyView>>& views,
-                                              const LightingContext& lighting, const RenderSettings& settings,
-                                              const CastView& cast, FrameCounts& counts) {
-    const KeyView& own = *views.front();
+std::vector<IrradianceRecord> compute_records(const MomentInput& input, FrameCounts& counts) {
+    const LightingContext& lighting = input.lighting;
+    const CameraView& first = input.views.front()->posed.view;
     IrradianceCache cache = make_cache(lighting.shading);
     DirectGrid direct;
     FrameTally tally;
-    tally.records = tally.invalid_samples = Image<float>(own.posed.view.width, own.posed.view.height);
-    for (const auto& view : views) {
-        IndirectContext context{lighting, view->posed.view, settings, view->accuracy, 0, scene_radius(lighting.shading),
-                                {}};
-        context.direct = &direct;
-        if (view != views.front()) context.seen = &view->shading;
-        for (int i = 0; i < settings.spp; ++i) {
-            fill_cache(cache, context, cast(*view, i, tally.counts.rays), tally);
+    tally.records = tally.invalid_samples = Image<float>(first.width, first.height);
+    for (const auto& view : input.views) {
+        const IndirectContext context{.lighting = lighting,
+                                      .view = view->posed.view,
+                                      .settings = input.settings,
+                                      .accuracy = view->accuracy,
+                                      .max_radius = scene_radius(lighting.shading),
+                                      .progress = {},
+                                      .carried = input.carried,
+                                      .seen = view->frame == input.frame ? nullptr : &view->shading};
+        for (int i = 0; i < input.settings.spp; ++i) {
+            fill_cache(cache, context, input.cast(*view, i, tally.counts.rays), tally);
         }
     }
     tally.counts.rays += counts.rays;
@@ -63,7 +66,7 @@ std::optional<Rgb> BlendedLight::read(const MomentLight& moment, const PixelSurf
     return moment.cache.interpolate({point->position, point->normal, accuracy * reach_});
 }
 
-std::optional<Rgb> BlendedLight::find(const PixelSurface& surface, float accuracy) const {
+std::optional<Rgb> BlendedLight::interpolate(const PixelSurface& surface, float accuracy) const {
     const std::optional<Rgb> before = read(*before_, surface, accuracy);
     if (!after_) return before;
     const std::optional<Rgb> after = read(*after_, surface, accuracy);
@@ -73,6 +76,11 @@ std::optional<Rgb> BlendedLight::find(const PixelSurface& surface, float accurac
     }
     if (!still_ && differ(*before, *after, weight_, accuracy)) return std::nullopt;
     return *before * (1.0f - weight_) + *after * weight_;
+}
+
+std::optional<Rgb> BlendedLight::find(const PixelSurface& surface, float accuracy) const {
+    const std::optional<Rgb> found = interpolate(surface, accuracy);
+    return found || !finer_ ? found : finer_->find(surface, accuracy);
 }
 
 }  // namespace aleph

@@ -39,33 +39,44 @@ MomentLight make_moment_light(std::shared_ptr<const KeyPose> at, const std::vect
 /// One sample of every pixel of a view; adds its rays.
 using CastView = std::function<SampleHits(const KeyView& view, int sample, RayCounts& counts)>;
 
-/// Computes the light of a moment at the surfaces that the views show.
-/// @param views     the moment's own, then its neighbours'; their surfaces are taken to where they lie at the moment
-/// @param lighting  the scene at the moment
-/// @param counts    increased
-std::vector<IrradianceRecord> compute_records(const std::vector<std::shared_ptr<const KeyView>>& views,
-                                              const LightingContext& lighting, const RenderSettings& settings,
-                                              const CastView& cast, FrameCounts& counts);
+/// What the light of a moment is computed from.
+struct MomentInput {
+    std::int64_t frame = 0;
+    const LightingContext& lighting;  ///< the scene at the moment
+    /// Their surfaces, taken to where they lie at the moment, get records.
+    const std::vector<std::shared_ptr<const KeyView>>& views;
+    const RenderSettings& settings;
+    const CastView& cast;
+    const CarriedLight* carried = nullptr;  ///< where it knows the light no records are needed; may be null
+};
 
-/// Light of the key moments before and after a frame.
+/// @param counts  increased
+std::vector<IrradianceRecord> compute_records(const MomentInput& input, FrameCounts& counts);
+
+/// Light of the moments before and after a frame.
 class BlendedLight : public CarriedLight {
   public:
-    /// @param after   null at a key moment
+    /// @param after   null at a moment itself
     /// @param weight  of `after`
     /// @param still   nothing but the camera changes: light that only one of the moments has holds at the other
     /// @param reach   RenderSettings::shade_reach
     BlendedLight(std::shared_ptr<const MomentLight> before, std::shared_ptr<const MomentLight> after, double weight,
                  bool still, double reach);
 
+    /// Light of moments nearer to the frame, for what these moments do not know.
+    void set_finer(std::unique_ptr<const BlendedLight> finer) { finer_ = std::move(finer); }
+
     std::optional<Rgb> find(const PixelSurface& surface, float accuracy) const override;
 
   private:
     std::optional<Rgb> read(const MomentLight& moment, const PixelSurface& surface, float accuracy) const;
+    std::optional<Rgb> interpolate(const PixelSurface& surface, float accuracy) const;
 
     std::shared_ptr<const MomentLight> before_, after_;
     float weight_;
     bool still_;
     float reach_;
+    std::unique_ptr<const BlendedLight> finer_;
 };
 
 }  // namespace aleph

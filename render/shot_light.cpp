@@ -6,6 +6,17 @@
 
 namespace aleph {
 
+namespace {
+
+/// The half of a pair that holds a frame; the middle itself at the middle.
+MomentPair find_half(const MomentPair& pair, std::int64_t middle, std::int64_t frame) {
+    if (frame == middle) return {middle, middle, 0.0};
+    const std::int64_t before = frame < middle ? pair.before : middle, after = frame < middle ? middle : pair.after;
+    return {before, after, static_cast<double>(frame - before) / static_cast<double>(after - before)};
+}
+
+}  // namespace
+
 ShotLight::ShotLight(KeyMoments moments, const RenderSettings& settings, bool still, bool unmoving, MomentSource source)
     : moments_(std::move(moments)),
       settings_(settings),
@@ -19,12 +30,13 @@ std::vector<std::int64_t> ShotLight::list_views(std::int64_t moment) const {
     return find_moment_views(moments_, moment);
 }
 
-std::vector<IrradianceRecord> ShotLight::compute(std::int64_t moment, std::vector<MomentStatistics>& filled) {
+std::vector<IrradianceRecord> ShotLight::compute(std::int64_t moment, const std::vector<std::int64_t>& frames,
+                                                 const CarriedLight* carried, std::vector<MomentStatistics>& filled) {
     MomentStatistics statistics;
     statistics.frame = moment;
     StageClock clock;
     std::vector<std::shared_ptr<const KeyView>> views;
-    for (const std::int64_t frame : list_views(moment)) {
+    for (const std::int64_t frame : frames) {
         std::shared_ptr<const KeyView>& view = views_[frame];
         if (!view) {
             view = source_.look(frame);
@@ -32,36 +44,54 @@ std::vector<IrradianceRecord> ShotLight::compute(std::int64_t moment, std::vecto
         }
         views.push_back(view);
     }
-    std::vector<IrradianceRecord> records =
-        compute_records(views, source_.light(moment), settings_, source_.cast, statistics.counts);
+    const LightingContext lighting = source_.light(moment);
+    const MomentInput input{moment, lighting, views, settings_, source_.cast, carried};
+    std::vector<IrradianceRecord> records = compute_records(input, statistics.counts);
     clock.add_to(statistics.seconds);
     filled.push_back(statistics);
     return records;
 }
 
-std::shared_ptr<const MomentLight> ShotLight::find_or_fill(std::int64_t moment, std::vector<MomentStatistics>& filled) {
+void ShotLight::prepare(std::int64_t moment, const std::vector<std::int64_t>& views, const CarriedLight* carried,
+                        std::vector<MomentStatistics>& filled) {
     std::shared_ptr<const MomentLight>& light = lights_[moment];
-    if (light) return light;
-    if (records_ && records_->contains(moment)) {
-        light = std::make_shared<MomentLight>(make_moment_light(source_.pose(moment), records_->at(moment)));
-        return light;
-    }
-    const std::vector<IrradianceRecord> records = compute(moment, filled);
-    light = std::make_shared<MomentLight>(make_moment_light(views_.at(moment), records));
-    if (records_) records_->emplace(moment, records);
-    return light;
+    if (light) return;
+    const bool known = records_ && records_->contains(moment);
+    const std::vector<IrradianceRecord> records =
+        known ? records_->at(moment) : compute(moment, views, carried, filled);
+    light = std::make_shared<MomentLight>(make_moment_light(source_.pose(moment), records));
+    if (records_ && !known) records_->emplace(moment, records);
+}
+
+std::unique_ptr<BlendedLight> ShotLight::blend(const MomentPair& pair) const {
+    const auto after = pair.after == pair.before ? nullptr : lights_.at(pair.after);
+    return std::make_unique<BlendedLight>(lights_.at(pair.before), after, pair.weight, still_, settings_.shade_reach);
 }
 
 std::unique_ptr<CarriedLight> ShotLight::at(std::int64_t frame, std::vector<MomentStatistics>& filled) {
     const MomentPair pair = find_moments(moments_, unmoving_ ? moments_.range.first : frame);
-    const bool between = pair.after != pair.before;
-    const auto before = find_or_fill(pair.before, filled);
-    const auto after = between ? find_or_fill(pair.after, filled) : nullptr;
-    std::vector<std::int64_t> needed = list_views(pair.before);
-    for (const std::int64_t view : list_views(pair.after)) needed.push_back(view);
-    std::erase_if(views_, [&](const auto& entry) { return std::ranges::find(needed, entry.first) == needed.end(); });
-    std::erase_if(lights_, [&](const auto& entry) { return entry.first != pair.before && entry.first != pair.after; });
-    return std::make_unique<BlendedLight>(before, after, pair.weight, still_, settings_.shade_reach);
+    const std::vector<std::int64_t> ends{pair.before, pair.after};
+    std::vector<std::int64_t> views, lights = ends;
+    for (const std::int64_t moment : ends) {
+        const std::vector<std::int64_t> own = list_views(moment);
+        prepare(moment, own, nullptr, filled);
+        views.insert(views.end(), own.begin(), own.end());
+    }
+    std::unique_ptr<BlendedLight> light = blend(pair);
+    const std::int64_t middle = pair.before + (pair.after - pair.before) / 2;
+    if (!still_ && middle != pair.before) {
+        const std::unique_ptr<BlendedLight> at_middle =
+            blend({pair.before, pair.after, find_moments(moments_, middle).weight});
+        prepare(middle, ends, at_middle.get(), filled);
+        lights.push_back(middle);
+        light->set_finer(blend(find_half(pair, middle, frame)));
+    }
+    const auto unneeded = [](const auto& needed) {
+        return [&](const auto& entry) { return std::ranges::find(needed, entry.first) == needed.end(); };
+    };
+    std::erase_if(views_, unneeded(views));
+    std::erase_if(lights_, unneeded(lights));
+    return light;
 }
 
 }  // namespace aleph

@@ -40,8 +40,12 @@ class ShotLight {
 
   private:
     std::vector<std::int64_t> list_views(std::int64_t moment) const;
-    std::vector<IrradianceRecord> compute(std::int64_t moment, std::vector<MomentStatistics>& filled);
-    std::shared_ptr<const MomentLight> find_or_fill(std::int64_t moment, std::vector<MomentStatistics>& filled);
+    std::unique_ptr<BlendedLight> blend(const MomentPair& pair) const;
+    /// Finds the moment's light, or computes it at the surfaces of these views where `carried` does not know it.
+    void prepare(std::int64_t moment, const std::vector<std::int64_t>& views, const CarriedLight* carried,
+                 std::vector<MomentStatistics>& filled);
+    std::vector<IrradianceRecord> compute(std::int64_t moment, const std::vector<std::int64_t>& frames,
+                                          const CarriedLight* carried, std::vector<MomentStatistics>& filled);
 
     KeyMoments moments_;
     const RenderSettings& settings_;

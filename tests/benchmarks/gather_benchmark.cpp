@@ -46,7 +46,7 @@ struct Frame {
           textures(make_texture_set(scene)),
           rays(scene),
           shading((rays.update(posed.pose, compute_anchor(posed.view)),
-                   make_shading_scene(scene, posed.pose, compute_anchor(posed.view), textures))),
+                   make_shading_scene(scene, posed.pose, rays, textures))),
           lights(make_light_set(shading)) {
         const SampleHits centers = cast_centers(rays, posed.view, nullptr);
         for (int y = height / (2 * down); y < height; y += height / down) {
