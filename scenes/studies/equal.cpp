@@ -64,7 +64,8 @@ class FrameStudy {
         const Guide guide = with_choice(settings_, "guide", options.guide).perception.guide;
         for (const std::string& name : options.visions) {
             const Vision vision = with_choice(settings_, "vision", name).perception.vision;
-            judges_.push_back({name, compute_vision(scene, settings_, guide, vision, number_)});
+            Sequence viewer = make_vision_sequence(scene, settings_, guide, vision);
+            judges_.push_back({name, compute_vision(viewer, number_)});
             print_noise(judges_.back());
         }
     }

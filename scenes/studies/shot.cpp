@@ -62,12 +62,13 @@ std::vector<std::vector<double>> measure_shots(const Scene& scene, const RenderS
                                                const std::vector<int>& frames, const std::vector<Shot>& shots,
                                                int block) {
     const Sequence sequence(scene, settings);
+    Sequence viewer = make_vision_sequence(scene, settings, Guide::spatial, Vision::thesis);
     StudyFrame one(sequence, settings, frames[0]), other(sequence, settings, frames[0]);
     StudyFrame *now = &one, *next = &other;
     std::vector<std::vector<double>> flicker(shots.size());
     for (std::size_t i = 0; i + 1 < frames.size(); ++i) {
         next->move_to(frames[i + 1]);
-        const FrameVision vision = compute_vision(scene, settings, Guide::spatial, Vision::thesis, frames[i]);
+        const FrameVision vision = compute_vision(viewer, frames[i]);
         const std::vector<RestPoint> points = find_rest_points(*now, *next, settings, vision.threshold, block);
         for (std::size_t s = 0; s < shots.size(); ++s) {
             const std::vector<double> changes =

@@ -14,8 +14,8 @@ StudyFrame::StudyFrame(const Sequence& sequence, const RenderSettings& settings,
       posed(make_posed_view(scene, scene.frame_rate.seconds_of(number), camera, settings.width, settings.height)),
       textures(make_texture_set(scene)),
       rays(scene, plan),
-      shading((rays.update(posed.pose, compute_anchor(posed.view)),
-               make_shading_scene(scene, posed.pose, rays, textures))),
+      shading(
+          (rays.update(posed.pose, compute_anchor(posed.view)), make_shading_scene(scene, posed.pose, rays, textures))),
       lights(make_light_set(shading)),
       centers(cast_centers(rays, posed.view, nullptr)),
       exposure(sequence.exposure()) {}
@@ -34,11 +34,13 @@ Rgb reflect_unit_irradiance(const PixelSurface& surface) {
     return diffuse_radiance(surface.material, lit.cos_view, Rgb(1.0f)) * lit.below_sheen;
 }
 
-FrameVision compute_vision(const Scene& scene, RenderSettings settings, Guide guide, Vision vision,
-                           std::int64_t frame) {
+Sequence make_vision_sequence(const Scene& scene, RenderSettings settings, Guide guide, Vision vision) {
     settings.perception.guide = guide;
     settings.perception.vision = vision;
-    Sequence sequence(scene, settings);
+    return Sequence(scene, settings);
+}
+
+FrameVision compute_vision(Sequence& sequence, std::int64_t frame) {
     FrameRequest request;
     request.frame = false;
     request.maps = true;

@@ -44,7 +44,11 @@ struct FrameVision {
     double seconds = 0.0;    ///< of a processor, for the estimate, motion and maps
 };
 
-FrameVision compute_vision(const Scene& scene, RenderSettings settings, Guide guide, Vision vision, std::int64_t frame);
+/// Computes the maps of a guide and a model of vision.
+Sequence make_vision_sequence(const Scene& scene, RenderSettings settings, Guide guide, Vision vision);
+
+/// @param sequence  make_vision_sequence
+FrameVision compute_vision(Sequence& sequence, std::int64_t frame);
 
 /// The surface at a pixel's centre. Undefined if nothing is there.
 inline PixelSurface surface_at(const StudyFrame& frame, int x, int y) {
