@@ -171,7 +171,7 @@ RadiusBounds radius_bounds(const IndirectContext& context, float footprint, floa
 }
 
 void fill_cache(IrradianceCache& cache, const IndirectContext& context, const SampleHits& sample, FrameTally& tally) {
-    const Image<FillPoint> points = find_points(context, sample);
+    const Image<FillPoint> points = find_points(context, sample, tally.counts.rays);
     const bool first_pass = sample.place.index == 0;
     for (int stride = first_pass ? first_stride : 1; stride >= 1; stride /= 2) {
         fill_tiles(cache, context, sample, points, list_tiles(points, stride, first_pass), tally);

@@ -1,5 +1,7 @@
 #include "render/fill_points.h"
 
+#include <mutex>
+
 #include "engine/base/parallel.h"
 #include "render/carried_point.h"
 
@@ -15,18 +17,24 @@ std::optional<PixelSurface> find_surface(const IndirectContext& context, const S
     return surface;
 }
 
-Image<FillPoint> find_points(const IndirectContext& context, const SampleHits& sample) {
+Image<FillPoint> find_points(const IndirectContext& context, const SampleHits& sample, RayCounts& counts) {
+    std::mutex counts_mutex;
     Image<FillPoint> points(sample.hits.width, sample.hits.height);
     parallel_rows(points.height, 4, [&](int begin, int end) {
+        RayTask task(context.lighting.rays);
         for (int y = begin; y < end; ++y) {
             for (int x = 0; x < points.width; ++x) {
                 if (sample.hits(x, y).instance == no_index) continue;
                 const std::optional<PixelSurface> surface = find_surface(context, sample, x, y);
                 if (!surface || !surface->material.has_diffuse()) continue;
-                if (context.carried != nullptr && context.carried->find(*surface, context.accuracy(x, y))) continue;
+                if (context.carried != nullptr && context.carried->find(*surface, context.accuracy(x, y), task)) {
+                    continue;
+                }
                 points(x, y) = {surface->point.position, surface->footprint, surface->point.normal};
             }
         }
+        const std::lock_guard lock(counts_mutex);
+        counts += task.counts;
     });
     return points;
 }

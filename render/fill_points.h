@@ -16,6 +16,7 @@ struct FillPoint {
 std::optional<PixelSurface> find_surface(const IndirectContext& context, const SampleHits& sample, int x, int y);
 
 /// Those of all pixels.
-Image<FillPoint> find_points(const IndirectContext& context, const SampleHits& sample);
+/// @param counts  increased by the rays cast
+Image<FillPoint> find_points(const IndirectContext& context, const SampleHits& sample, RayCounts& counts);
 
 }  // namespace aleph

@@ -172,7 +172,7 @@ class FrameShading {
         const float accuracy = context_.accuracy(surface.x, surface.y);
         if (context_.carried != nullptr) {
             ++task.lookups;
-            if (const std::optional<Rgb> found = context_.carried->find(surface, accuracy)) {
+            if (const std::optional<Rgb> found = context_.carried->find(surface, accuracy, task)) {
                 ++task.hits;
                 return *found;
             }

@@ -7,6 +7,7 @@
 #include "render/direct_grid.h"
 #include "render/light_choice.h"
 #include "render/pixel_surfaces.h"
+#include "render/ray_task.h"
 #include "render/settings.h"
 #include "render/shaded_frame.h"
 
@@ -16,7 +17,8 @@ namespace aleph {
 struct CarriedLight {
     virtual ~CarriedLight() = default;
     /// Irradiance at a surface of the frame; nothing where it is not known to this accuracy. Called from any thread.
-    virtual std::optional<Rgb> find(const PixelSurface& surface, float accuracy) const = 0;
+    /// @param task  casts rays in the frame's scene to records where something may stand in between
+    virtual std::optional<Rgb> find(const PixelSurface& surface, float accuracy, RayTask& task) const = 0;
 };
 
 /// What a frame's indirect light is computed from.

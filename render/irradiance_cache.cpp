@@ -38,7 +38,7 @@ bool is_in_sight(RayTask& task, const IrradianceRecord& record, const CacheQuery
     const float length = glm::length(to - from);
     if (!(length > 0.0f)) return true;
     ++task.counts.shadow;
-    return !task.tracer.occluded({from, (to - from) / length, 0.0f, length});
+    return !task.tracer.occluded({from + query.ray_shift, (to - from) / length, 0.0f, length});
 }
 
 /// Whether a record may be used for the query, by its error and by what may stand between.

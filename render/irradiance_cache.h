@@ -29,6 +29,7 @@ struct CacheQuery {
     float accuracy = 0.0f;   ///< alpha of this pixel; values above 1 count as 1
     /// Casts a ray to a record where something may stand in between; null: such records are not used.
     RayTask* task = nullptr;
+    glm::vec3 ray_shift{0.0f};  ///< m, from the records' coordinates to those of `task`
 };
 
 /// Look-ups may run in parallel while nothing is inserted.

@@ -32,7 +32,7 @@ std::vector<IrradianceRecord> compute_records(const MomentInput& input, FrameCou
                                       .accuracy = view->accuracy,
                                       .max_radius = scene_radius(lighting.shading),
                                       .progress = {},
-                                       .direct = &direct,
+                                      .direct = &direct,
                                       .carried = input.carried,
                                       .seen = view->frame == input.frame ? nullptr : &view->shading};
         for (int i = 0; i < input.settings.spp; ++i) {
@@ -61,16 +61,23 @@ BlendedLight::BlendedLight(std::shared_ptr<const MomentLight> before, std::share
       still_(still),
       reach_(static_cast<float>(reach)) {}
 
-std::optional<Rgb> BlendedLight::read(const MomentLight& moment, const PixelSurface& surface, float accuracy) const {
+std::optional<Rgb> BlendedLight::read(const MomentLight& moment, const PixelSurface& surface, float accuracy,
+                                      RayTask& task) const {
     const std::optional<SurfacePoint> point = carry_point(moment.at->shading, surface.hit, surface.point);
     if (!point) return std::nullopt;
-    return moment.cache.interpolate({point->position, point->normal, accuracy * reach_});
+    CacheQuery query{point->position, point->normal, accuracy * reach_};
+    // A surface that turned would need rays in the moment's own scene.
+    if (point->edges[0] == surface.point.edges[0] && point->edges[1] == surface.point.edges[1]) {
+        query.task = &task;
+        query.ray_shift = surface.point.position - point->position;
+    }
+    return moment.cache.interpolate(query);
 }
 
-std::optional<Rgb> BlendedLight::interpolate(const PixelSurface& surface, float accuracy) const {
-    const std::optional<Rgb> before = read(*before_, surface, accuracy);
+std::optional<Rgb> BlendedLight::interpolate(const PixelSurface& surface, float accuracy, RayTask& task) const {
+    const std::optional<Rgb> before = read(*before_, surface, accuracy, task);
     if (!after_) return before;
-    const std::optional<Rgb> after = read(*after_, surface, accuracy);
+    const std::optional<Rgb> after = read(*after_, surface, accuracy, task);
     if (!before || !after) {
         if (still_) return before ? before : after;
         return std::nullopt;
@@ -79,9 +86,9 @@ std::optional<Rgb> BlendedLight::interpolate(const PixelSurface& surface, float 
     return *before * (1.0f - weight_) + *after * weight_;
 }
 
-std::optional<Rgb> BlendedLight::find(const PixelSurface& surface, float accuracy) const {
-    const std::optional<Rgb> found = interpolate(surface, accuracy);
-    return found || !finer_ ? found : finer_->find(surface, accuracy);
+std::optional<Rgb> BlendedLight::find(const PixelSurface& surface, float accuracy, RayTask& task) const {
+    const std::optional<Rgb> found = interpolate(surface, accuracy, task);
+    return found || !finer_ ? found : finer_->find(surface, accuracy, task);
 }
 
 }  // namespace aleph

@@ -51,7 +51,7 @@ struct RenderSettings {
     int spp = 16;                    ///< samples per pixel; 1 is the pixel's centre
     int light_samples = 16;          ///< direct-light samples per pixel and light, shared out among its spp
     double shade_reach = 1.4;        ///< how far shading uses a record, as a multiple of how far filling does
-    double min_radius_pixels = 20.0;  ///< least R of a record (irradiance_record.h), pixels
+    double min_radius_pixels = 12.0;  ///< least R of a record (irradiance_record.h), pixels
     int light_step = 10;             ///< frames between key moments of indirect light; 0: every frame computes its own
     int subdivision_level = -1;      ///< of every subdivision cage; -1: as fine as the pixels need (cage_level.h)
 

@@ -39,7 +39,7 @@ void expect_right_sides(Scene scene, const std::function<bool(const glm::vec3& n
     const std::vector<SidePixel> sides = gather_sides(stage, is_side);
     EXPECT_GT(sides.size(), 40u);
     EXPECT_LT(sides.size(), 250u);  // for the test's own time
-    for (const double accuracy : {0.15, 0.05}) {
+    for (const double accuracy : {0.1, 0.05}) {
         const IndirectPicture picture = shade_indirect(stage, plain_settings(accuracy, 1024));
         int wrong = 0;
         double worst = 0.0;
@@ -135,8 +135,8 @@ TEST(IrradianceCache, IC19_ChairLegsCostFewRecords) {
             }
         }
         add_camera(scene, {0.0, 0.3, 1.9}, {0.0, -0.6, 0.0}, 1.0);
-        const Stage stage(std::move(scene), 128, 96);
-        return shade(stage, plain_settings(0.15, 256)).counts.records;
+        const Stage stage(std::move(scene), 256, 192);
+        return shade(stage, plain_settings(0.15, 512)).counts.records;
     };
     const auto without = count_records(false), with = count_records(true);
     EXPECT_GT(without, 100u);
