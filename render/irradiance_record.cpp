@@ -26,7 +26,7 @@ constexpr float headroom_tolerance = 1e-3f;
 constexpr float allowed_error = 0.5f;
 
 /// Standard deviations of both records' noise that a difference may have before it counts.
-constexpr float ignored_noise = 1.5f;
+constexpr float ignored_noise = 2.0f;
 
 glm::vec3 limit_gradient(const glm::vec3& gradient, float irradiance, float radius) {
     const float length = glm::length(gradient);
