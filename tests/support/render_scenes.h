@@ -185,6 +185,7 @@ inline RenderSettings plain_settings(double accuracy, int gather) {
     settings.spp = 1;
     settings.accuracy = accuracy;
     settings.gather = gather;
+    settings.light_step = 0;
     return settings;
 }
 
