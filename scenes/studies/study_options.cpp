@@ -42,6 +42,7 @@ RenderSettings study_settings(const Scene& scene, const std::string& file, const
     apply_settings(settings, scene.settings, file);
     parse_size(options.size, "--size", settings.width, settings.height);
     settings.gather = options.gather;
+    settings.light_step = 0;  // every frame by itself, so that its counts have all of its work
     settings.spp = std::max(1, options.spp);
     return settings;
 }
