@@ -5,7 +5,6 @@
 #include <optional>
 
 #include "engine/base/parallel.h"
-#include "render/carried_point.h"
 #include "render/fill_points.h"
 #include "render/gather_at.h"
 
@@ -16,7 +15,7 @@ namespace {
 constexpr int first_stride = 64;            // pixels, size of the first tiles
 constexpr float least_reach_pixels = 0.7f;  // of a record at its own accuracy
 constexpr int max_reviews = 16;             // passes over all pixels after the last tile size
-/// A record reaches about so much farther or less far than expected: candidates beside it wait.
+/// A record may reach so much farther than expected: candidates within that wait.
 constexpr float waiting_reach = 1.2f;
 constexpr std::size_t lookup_grain = 256;  // look-ups per parallel chunk
 

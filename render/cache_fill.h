@@ -13,14 +13,12 @@
 // No step depends on the order in which threads work. The number of records is within a few percent of that of a
 // sequential fill, where each record is inserted before the next pixel is looked at.
 
-#include <optional>
-
 #include "render/indirect_context.h"
 #include "render/irradiance_cache.h"
 
 namespace aleph {
 
-/// Bounds for a pixel: at its own accuracy, R_i reaches at least min_radius_pixels, and S_i a pixel.
+/// Bounds for a pixel: R_i is at least min_radius_pixels, and at the pixel's own accuracy S_i reaches a pixel.
 /// @param footprint  m, of the pixel
 RadiusBounds radius_bounds(const IndirectContext& context, float footprint, float accuracy);
 

@@ -24,8 +24,10 @@ void compute_frame_vision(FrameOutput& out, const Scene& shot, const RenderSetti
     if (adaptation.empty()) adaptation = compute_adaptation_luminance(out.estimate, shot.viewing);
     out.threshold = compute_threshold(out.perception.aleph, adaptation, settings.perception.vision);
     out.threshold_flicker = compute_flicker_threshold(out.threshold, adaptation, shot.frame_rate);
-    if (out.indirect_luminance.empty()) out.indirect_luminance = luminance_image(out.estimate);
-    out.tolerance = compute_tolerance(out.threshold, out.indirect_luminance, shot.viewing);
+    if (maps || settings.adapter == Adapter::threshold) {
+        if (out.indirect_luminance.empty()) out.indirect_luminance = luminance_image(out.estimate);
+        out.tolerance = compute_tolerance(out.threshold, out.indirect_luminance, shot.viewing);
+    }
     out.alpha = compute_accuracy_map(out.perception.aleph, out.tolerance, settings);
     clock.add_to(seconds.perception);
 }

@@ -38,7 +38,7 @@ int choose_rays(const RenderSettings& settings, float accuracy, const std::optio
     if (!(settings.accuracy > 0.0 && accuracy > 0.0f)) return static_cast<int>(base);
     double rays = base * std::pow(settings.accuracy / accuracy, 2.0);
     if (settings.gather == 0 && ray_variance) rays = *ray_variance / std::pow(noise_per_accuracy * accuracy, 2.0);
-    return static_cast<int>(std::clamp(rays, std::min<double>(least_rays, most), most));
+    return static_cast<int>(std::lround(std::clamp(rays, std::min<double>(least_rays, most), most)));
 }
 
 IrradianceSample gather_at(const IndirectContext& context, RayTask& task, const PixelSurface& surface,

@@ -55,8 +55,7 @@ class IrradianceCache {
     std::optional<float> expected_ray_variance(const CacheQuery& query) const;
 
     /// Replaces each record's value and gradients by the mean of what it and the records around it extrapolate to its
-    /// place, of those that differ by no more than noise: less noise without more rays. Prepares for look-ups; nothing
-    /// has to be inserted afterwards, but may.
+    /// place, of those that differ by no more than noise: less noise without more rays. Nothing is inserted afterwards.
     void finish();
 
     /// Replaces all records by those of another cache after finish(), as they are.

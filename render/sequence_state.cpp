@@ -145,8 +145,9 @@ SampleHits SequenceState::look(std::int64_t frame, bool perceive, bool maps, Fra
     clock.add_to(stats.seconds.first_hits);
 
     if (perceive) {
+        const bool tolerance = maps || settings.adapter == Adapter::threshold;
         out.estimate = compute_estimate(lighting(), out.view, centers, settings.estimate, settings.bounces > 0,
-                                        exposure, stats.counts.rays, &out.indirect_luminance);
+                                        exposure, stats.counts.rays, tolerance ? &out.indirect_luminance : nullptr);
         note_estimate(out, sanitize_estimate(out.estimate), scene.viewing);
         clock.add_to(stats.seconds.estimate);
         compute_motion(centers, which, maps, clock, out);

@@ -142,7 +142,8 @@ int run(int argc, char** argv) {
                    "command line");
     Frame frame(scene, argc > 2 ? std::atoll(argv[2]) : 0, settings.width, settings.height);
     frame.depth = std::max(0, settings.path_depth - 2);
-    const RawEmbree raw(scene, frame.posed.pose, frame.posed.view);
+    const RawEmbree raw(scene, frame.posed.pose, frame.posed.view, true,
+                        origin_of_recorded(frame.rays, frame.posed.pose));
     const HemisphereStrata strata = choose_strata(settings.gather);
 
     fmt::print("{}: {} points, {} gather rays each\n", argv[1], frame.points.size(), strata.count());

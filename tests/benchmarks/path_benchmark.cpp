@@ -48,7 +48,9 @@ int run(int argc, char** argv) {
     const FrameStatistics paths = shade(1);
     const PosedView posed =
         make_posed_view(scene, scene.frame_rate.seconds_of(frame), 0, settings.width, settings.height);
-    RawEmbree raw(scene, posed.pose, posed.view);
+    RayScene rays_of_frame(scene);
+    rays_of_frame.update(posed.pose, compute_anchor(posed.view));
+    RawEmbree raw(scene, posed.pose, posed.view, true, origin_of_recorded(rays_of_frame, posed.pose));
     fmt::print("{}, frame {}, {}x{}, {} samples, {} threads: {} rays\n", argv[1], frame, settings.width,
                settings.height, settings.spp, thread_count(), paths.traced_rays);
     const double rays = static_cast<double>(paths.traced_rays), path_seconds = paths.seconds.shade;

@@ -117,12 +117,13 @@ std::size_t trace_packets(RTCScene scene, bool coherent, std::span<const RawRay>
 
 }  // namespace
 
-RawEmbree::RawEmbree(const Scene& scene, const ScenePose& frame, const CameraView& view, bool flat) {
+RawEmbree::RawEmbree(const Scene& scene, const ScenePose& frame, const CameraView& view, bool flat,
+                     const std::optional<glm::dvec3>& given) {
     const FlushDenormals flush;
     device_ = rtcNewDevice(nullptr);
     top_ = rtcNewScene(device_);
     rtcSetSceneFlags(top_, RTC_SCENE_FLAG_ROBUST);
-    const glm::dvec3 anchor = compute_anchor(view);
+    const glm::dvec3 anchor = given.value_or(compute_anchor(view));
     if (flat) {
         build_flat(scene, frame, anchor);
     } else {

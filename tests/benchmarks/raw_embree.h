@@ -3,6 +3,7 @@
 
 #include <embree3/rtcore.h>
 
+#include <optional>
 #include <vector>
 
 #include "engine/pose/camera_view.h"
@@ -10,7 +11,7 @@
 
 namespace aleph {
 
-/// A ray in world space, relative to the anchor of RawEmbree's view.
+/// A ray in world space, relative to RawEmbree's origin.
 struct RawRay {
     RTCRay ray;
     bool occlusion = false;  ///< whether anything is hit, not what
@@ -19,8 +20,10 @@ struct RawRay {
 class RawEmbree {
   public:
     /// Instances as RayScene makes them; rays through the pixel centres in blocks of 4 x 4.
-    /// @param flat  all triangles in one tree relative to the anchor, in place of one for every mesh
-    RawEmbree(const Scene& scene, const ScenePose& frame, const CameraView& view, bool flat = false);
+    /// @param flat    all triangles in one tree, in place of one for every mesh
+    /// @param origin  m, world, of rays and triangles; nothing: the view's anchor
+    RawEmbree(const Scene& scene, const ScenePose& frame, const CameraView& view, bool flat = false,
+              const std::optional<glm::dvec3>& origin = {});
     ~RawEmbree();
     RawEmbree(const RawEmbree&) = delete;
     RawEmbree& operator=(const RawEmbree&) = delete;

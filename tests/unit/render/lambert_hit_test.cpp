@@ -1,0 +1,55 @@
+// The short way to a Lambert surface that a gather ray meets finds what the full one does.
+
+#include "render/lambert_hit.h"
+
+#include <gtest/gtest.h>
+
+#include "render/surface_material.h"
+#include "tests/support/render_scenes.h"
+
+namespace aleph {
+namespace {
+
+/// A board of two colours at its corners, and a turned box of one colour, seen from both of their sides.
+Scene make_colored_scene() {
+    Scene scene;
+    const int white = add_lambert(scene, {0.9, 0.8, 0.5}, glm::dvec3(0.0), true);
+    Mesh board = make_quad(2.0, 2.0, white);
+    for (std::size_t i = 0; i < board.positions.size(); ++i) {
+        board.colors.push_back(i % 2 == 0 ? glm::vec4(1.0f, 0.2f, 0.1f, 1.0f) : glm::vec4(0.1f, 0.4f, 1.0f, 1.0f));
+    }
+    add_mesh(scene, board, {0.0, 0.0, -1.0});
+    add_mesh(scene, make_box({0.5, 0.4, 0.3}, white), {0.2, 0.1, 0.0}, glm::angleAxis(0.7, glm::dvec3(0.6, 0.8, 0.0)));
+    add_light(scene, Light::Kind::point, glm::dvec3(1.0), {0.0, 1.0, 2.0});
+    add_camera(scene, {0.0, 0.0, 2.0}, glm::dvec3(0.0), 0.9);
+    return scene;
+}
+
+TEST(LambertHit, IsTheSurfaceOfTheFullWay) {
+    const Stage stage(make_colored_scene(), 40, 30);
+    const SampleHits centers = cast_centers(stage.rays, stage.view, nullptr);
+    int met = 0;
+    bool varied = false;
+    for (int y = 0; y < 30; ++y) {
+        for (int x = 0; x < 40; ++x) {
+            const Hit& hit = centers.hits(x, y);
+            if (hit.instance == no_index) continue;
+            ++met;
+            ASSERT_TRUE(is_plain_lambert(stage.shading, stage.shading.instances[hit.instance].material));
+            const glm::vec3 direction(make_sample_ray(stage.view, centers, x, y).direction);
+            const SurfacePoint point = make_surface_point(stage.shading, hit, direction);
+            const SurfaceMaterial material = evaluate_material(stage.shading, point, {});
+            LambertHit found;
+            make_lambert_hit(stage.shading, hit, direction, 1e-3f, found);
+            EXPECT_LT(glm::length(found.position - point.position), 1e-6f);
+            EXPECT_LT(glm::length(found.geometric - point.geometric), 1e-6f);
+            EXPECT_LT(glm::length(found.albedo - material.diffuse), 1e-6f);
+            varied = varied || found.albedo.x < 0.5f;
+        }
+    }
+    EXPECT_GT(met, 200);
+    EXPECT_TRUE(varied);
+}
+
+}  // namespace
+}  // namespace aleph

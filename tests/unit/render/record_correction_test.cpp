@@ -1,0 +1,99 @@
+// Records that correct each other: reach by disagreement, less noise by averaging; and how many rays a record takes.
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "render/gather_at.h"
+#include "render/irradiance_cache.h"
+
+namespace aleph {
+namespace {
+
+const glm::vec3 up(0.0f, 1.0f, 0.0f);
+
+IrradianceRecord make_flat_record(const glm::vec3& position, float irradiance, float noise) {
+    IrradianceRecord record;
+    record.position = position;
+    record.normal = up;
+    record.irradiance = Rgb(irradiance);
+    record.radius = 1.0f;
+    record.relative_error = noise;
+    record.accuracy = 0.2f;
+    return record;
+}
+
+TEST(RecordCorrection, RecordsThatDisagreeReachLessFar) {
+    for (const float difference : {0.0f, 0.05f, 0.5f}) {
+        IrradianceCache cache(glm::vec3(-1.0f), glm::vec3(1.0f));
+        cache.insert(make_flat_record(glm::vec3(0.0f), 1.0f, 0.02f));
+        cache.insert(make_flat_record({0.1f, 0.0f, 0.0f}, 1.0f - difference, 0.02f));
+        for (const IrradianceRecord& record : cache.records()) {
+            if (difference < 0.5f) {
+                EXPECT_EQ(record.growth, 0.0f) << "a difference that noise explains";
+            } else {
+                // The error allowed at alpha is alpha / 2: reached nearer than at the other record.
+                EXPECT_GT(0.1f * 0.1f * record.growth, 0.2f);
+                EXPECT_NEAR(0.1f * 0.1f * record.growth, difference / 0.5f, 0.02f);
+            }
+        }
+    }
+}
+
+TEST(RecordCorrection, AveragesLowerNoiseAndKeepEdges) {
+    constexpr float noise = 0.03f, edge = 0.4f;
+    std::mt19937 engine(5);
+    std::normal_distribution<float> deviate(0.0f, noise);
+    IrradianceCache cache(glm::vec3(-1.0f), glm::vec3(1.0f));
+    for (int z = 0; z < 12; ++z) {
+        for (int x = 0; x < 24; ++x) {
+            const float light = x < 12 ? 1.0f : edge;
+            const glm::vec3 place(0.05f * static_cast<float>(x - 12) + 0.025f, 0.0f, 0.05f * static_cast<float>(z - 6));
+            cache.insert(make_flat_record(place, light * (1.0f + deviate(engine)), noise));
+        }
+    }
+    const auto squared_error = [&] {
+        double sum = 0.0;
+        for (const IrradianceRecord& record : cache.records()) {
+            const double light = record.position.x < 0.0f ? 1.0 : edge;
+            sum += std::pow(record.irradiance.x / light - 1.0, 2.0);
+        }
+        return sum / static_cast<double>(cache.records().size());
+    };
+    const double before = squared_error();
+    EXPECT_NEAR(before, noise * noise, 0.3 * noise * noise);
+    cache.finish();
+    EXPECT_EQ(cache.records().size(), 288u);
+    EXPECT_LT(squared_error(), 0.3 * before);
+}
+
+TEST(RecordCorrection, RaysFollowVarianceAndAccuracy) {
+    RenderSettings settings;
+    settings.accuracy = 0.1;
+    EXPECT_EQ(choose_rays(settings, 0.1f, 1.0f), 2500);  // a standard error of a fifth of the accuracy: 1 / .02^2
+    EXPECT_EQ(choose_rays(settings, 0.2f, 1.0f), 625);
+    EXPECT_EQ(choose_rays(settings, 1.0f, 1.0f), 64);
+    EXPECT_EQ(choose_rays(settings, 0.01f, 1.0f), 8192);
+    EXPECT_EQ(choose_rays(settings, 0.1f, std::nullopt), 512);
+    settings.gather = 1000;
+    EXPECT_EQ(choose_rays(settings, 0.1f, 9.0f), 1000);
+    EXPECT_EQ(choose_rays(settings, 0.2f, 9.0f), 250);
+    settings.accuracy = 0.0;
+    EXPECT_EQ(choose_rays(settings, 0.0f, std::nullopt), 1000);
+}
+
+TEST(RecordCorrection, VarianceIsExpectedFromRecordsAround) {
+    IrradianceCache cache(glm::vec3(-5.0f), glm::vec3(5.0f));
+    EXPECT_FALSE(cache.expected_ray_variance({glm::vec3(0.0f), up, 0.1f}).has_value());
+    for (const auto& [x, variance] : {std::pair(-4.0f, 8.0f), std::pair(4.0f, 2.0f)}) {
+        IrradianceRecord record = make_flat_record({x, 0.0f, 0.0f}, 1.0f, 0.1f);
+        record.ray_variance = variance;
+        cache.insert(record);
+    }
+    EXPECT_FLOAT_EQ(*cache.expected_ray_variance({{-3.9f, 0.0f, 0.0f}, up, 0.1f}), 8.0f);
+    EXPECT_FLOAT_EQ(*cache.expected_ray_variance({{3.9f, 0.0f, 0.0f}, up, 0.1f}), 2.0f);
+    EXPECT_FLOAT_EQ(*cache.expected_ray_variance({glm::vec3(0.0f), up, 0.1f}), 5.0f);  // none is near: all
+}
+
+}  // namespace
+}  // namespace aleph
