@@ -69,7 +69,7 @@ std::unique_ptr<BlendedLight> ShotLight::blend(const MomentPair& pair) const {
 }
 
 std::unique_ptr<CarriedLight> ShotLight::at(std::int64_t frame, std::vector<MomentStatistics>& filled) {
-    const MomentPair pair = find_moments(moments_, unmoving_ ? moments_.range.first : frame);
+    const MomentPair pair = moments_around(frame);
     const std::vector<std::int64_t> ends{pair.before, pair.after};
     std::vector<std::int64_t> views, lights = ends;
     for (const std::int64_t moment : ends) {

@@ -29,6 +29,11 @@ class ShotLight {
     /// @param unmoving  nothing changes at all: one moment serves every frame
     ShotLight(KeyMoments moments, const RenderSettings& settings, bool still, bool unmoving, MomentSource source);
 
+    /// The key moments whose light a frame reads.
+    MomentPair moments_around(std::int64_t frame) const {
+        return find_moments(moments_, unmoving_ ? moments_.range.first : frame);
+    }
+
     /// The light that a frame reads. Computes the key moments around the frame, unless they are kept from before.
     /// @param filled  the moments that were computed are added
     std::unique_ptr<CarriedLight> at(std::int64_t frame, std::vector<MomentStatistics>& filled);
