@@ -81,6 +81,41 @@ TEST(SeveralBounces, IC23_NoSurfaceBeyondThePathsDepthScatters) {
     EXPECT_NEAR(mean_of(shade(stage, settings)).mean(), expected, 0.004 * expected);
 }
 
+TEST(SeveralBounces, IC23_NorDoesOneThatReflects) {
+    Scene scene = make_lit_sphere();
+    scene.materials[0].base_color = glm::dvec3(0.95);
+    scene.materials[0].metallic = 0.5;
+    scene.materials[0].roughness = 0.7;
+    const Stage stage(std::move(scene), 12, 9);
+    RenderSettings settings = path_settings(2, 64);
+    settings.path_depth = 3;
+    const Mean paths = mean_of(shade(stage, settings));
+    settings.integrator = Integrator::cache;
+    settings.accuracy = 0.3;
+    settings.gather = 256;
+    EXPECT_NEAR(mean_of(shade(stage, settings)).mean(), paths.mean(), 0.015 * paths.mean());
+}
+
+/// It is direct light of the surface that is asked.
+TEST(SeveralBounces, IC23_ALampBehindGlassIsNotFoundAgain) {
+    Scene scene;
+    Material glass;
+    glass.metallic = glass.roughness = 0.0;
+    glass.transmission = 1.0;
+    scene.materials.push_back(glass);
+    add_mesh(scene, make_quad(20.0, 20.0, 0), {0.0, 1.0, 0.0}, z_to_down);
+    const int lamp = add_lambert(scene, glm::dvec3(0.0), glm::dvec3(9.0));
+    add_mesh(scene, make_quad(20.0, 20.0, lamp), {0.0, 2.0, 0.0}, z_to_down);
+    const Stage stage(std::move(scene));
+    RayTask task(stage.rays);
+    RandomStream random({1, 2, 3, 4});
+    const SurfacePoint floor = make_point(glm::vec3(0.0f), {0.0f, 1.0f, 0.0f});
+    for (int i = 0; i < 200; ++i) {
+        ASSERT_EQ(find_deeper_irradiance(stage.lighting(), task, floor, {.bounces = 2}, 8, random), Rgb(0.0f));
+    }
+    EXPECT_GT(task.counts.specular, 100u);
+}
+
 TEST(SeveralBounces, IC23_RandomPathsWhereThereIsNoCache) {
     const Stage stage(make_lit_sphere(), 24, 18);
     for (const int bounces : {2, 4}) {
@@ -103,8 +138,8 @@ TEST(SeveralBounces, IC23_AFurnaceGainsNoLight) {
 }
 
 TEST(SeveralBounces, IC23_FewerBouncesCostLessThanThePicture) {
-    const Stage stage(make_shot(), 64, 48);
-    const auto counts = [&](int bounces) { return shade(stage, cache_settings(bounces, 0.1, 256)).counts; };
+    const Stage stage(make_shot(), 48, 36);
+    const auto counts = [&](int bounces) { return shade(stage, cache_settings(bounces, 0.1, 128)).counts; };
     const FrameCounts one = counts(1), two = counts(2), three = counts(3);
     EXPECT_EQ(one.deeper_rays, 0u);
     EXPECT_GT(two.deeper_records, 0u);
