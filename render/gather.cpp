@@ -57,11 +57,11 @@ void place_rays(const HemisphereStrata& strata, const Basis& basis, const Surfac
 /// Light that comes back along a path which leaves a hit by another lobe than the Lambert layer's. Lamps that it sees
 /// straight through sheets of glass are direct light, which is computed elsewhere.
 Rgb follow_lobes(const LightingContext& context, RayTask& task, const LitSurface& lit, const LobeShares& shares,
-                 int depth, RandomStream& random) {
+                 int bounces, int depth, RandomStream& random) {
     const ScatterSample sample = sample_scatter(lit, shares, random.next(), random.next_2d(), random.next());
     if (sample.lobe == Lobe::diffuse) return Rgb(0.0f);
     PathState state;
-    state.left.depth = depth;
+    state.left = {bounces, depth};
     state.emission = EmissionWeight::none;
     return follow_sample(context, task, lit, sample, state, random);
 }
@@ -88,9 +88,13 @@ struct Lighting {
         return choose_light(context, lit, shares,
                             {random.next(), numbers.light(row, column), numbers.light_point(row, column)});
     }
+    /// Irradiance of further bounces at a surface that a ray hit.
+    Rgb find_deeper(const SurfacePoint& met) const {
+        return find_deeper_irradiance(context, task, met, options.deeper, options.depth, random);
+    }
 };
 
-/// Adds a sample of direct light, and the light of longer paths by other lobes than Lambert's.
+/// Adds a sample of direct light, light of further bounces, and that of longer paths by other lobes than Lambert's.
 void light_hit(const Lighting& lighting, std::size_t i) {
     GatherScratch& scratch = lighting.scratch;
     const ShadingScene& shading = lighting.context.shading;
@@ -104,13 +108,18 @@ void light_hit(const Lighting& lighting, std::size_t i) {
     const int depth = lighting.options.depth;
     if (depth > 0 && surface.material.has_specular()) {
         shares = share_lobes(lit, LobeSet::all);
-        scratch.light[i] = follow_lobes(lighting.context, lighting.task, lit, shares, depth, lighting.random);
+        scratch.light[i] = follow_lobes(lighting.context, lighting.task, lit, shares, lighting.options.deeper.bounces,
+                                        depth, lighting.random);
         shares[static_cast<int>(Lobe::diffuse)] = 0.0f;
+    }
+    if (lighting.options.deeper.bounces > 0 && surface.material.has_diffuse()) {
+        const Rgb deeper = diffuse_radiance(surface.material, lit.cos_view, lighting.find_deeper(surface.point));
+        scratch.light[i] += deeper * lit.below_sheen;
     }
     const ScatteredLight scattered = lighting.choose(lit, shares, i);
     if (scattered.radiance == Rgb(0.0f)) return;
     scratch.shadow_rays.push_back(scattered.shadow_ray);
-    scratch.shadow_samples.push_back({scattered.radiance, Rgb(1.0f), static_cast<int>(i)});
+    scratch.shadow_samples.push_back({scattered.radiance, Rgb(1.0f), Rgb(0.0f), static_cast<int>(i)});
 }
 
 /// Finds the hit's cell of the direct grid.
@@ -145,13 +154,15 @@ void light_grid_hit(const Lighting& lighting, const GridHit& noted) {
     white.point = make_surface_point(lighting.context.shading, scratch.hits[noted.ray], direction);
     white.material.diffuse = Rgb(1.0f);
     white.view = -direction;
+    const Rgb deeper = lighting.find_deeper(white.point) / pi;
     const ScatteredLight scattered = lighting.choose(LitSurface(white), {}, noted.ray);
     if (scattered.radiance == Rgb(0.0f)) {
-        if (lighting.options.found != nullptr) lighting.options.found->push_back({noted.grid, Rgb(0.0f)});
+        scratch.light[noted.ray] += scale * deeper;
+        if (lighting.options.found != nullptr) lighting.options.found->push_back({noted.grid, deeper});
         return;
     }
     scratch.shadow_rays.push_back(scattered.shadow_ray);
-    scratch.shadow_samples.push_back({scattered.radiance, scale, noted.ray, noted.grid});
+    scratch.shadow_samples.push_back({scattered.radiance, scale, deeper, noted.ray, noted.grid});
 }
 
 /// Fills in light that is known, and for all other hits unshadowed light with its shadow rays.
@@ -190,7 +201,7 @@ void add_unshadowed(const LightingContext& context, RayTask& task, const GatherO
         const ShadowSample& sample = scratch.shadow_samples[s];
         const Rgb passed = context.shading.has_sheets ? find_transmittance(context, task, scratch.shadow_rays[s])
                                                       : Rgb(scratch.blocked[s] ? 0.0f : 1.0f);
-        const Rgb arrives = passed == Rgb(0.0f) ? passed : sample.unshadowed * passed;
+        const Rgb arrives = sample.deeper + (passed == Rgb(0.0f) ? passed : sample.unshadowed * passed);
         scratch.light[sample.ray] += sample.scale * arrives;
         if (sample.grid != 0 && options.found != nullptr) options.found->push_back({sample.grid, arrives});
     }
