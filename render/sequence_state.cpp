@@ -91,7 +91,8 @@ Image<Rgb> SequenceState::estimate_view(const RayScene& view_rays, const PosedVi
 void SequenceState::prepare_estimate(std::int64_t frame, std::int64_t but, RayCounts& counts) {
     if (!shot_light || !estimates_indirect_light()) return;
     const MomentPair pair = shot_light->moments_around(frame);
-    for (const std::int64_t moment : {pair.before, pair.after}) {
+    const auto base = [&](std::int64_t moment) { return shot_light->find_base(moment); };
+    for (const std::int64_t moment : {base(pair.before), pair.before, base(pair.after), pair.after}) {
         if (moment == but || estimate_moments.find(moment)) continue;
         move_to_frame(now, moment);
         update_rays_and_shading();
