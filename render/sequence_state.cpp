@@ -115,8 +115,13 @@ EstimateNodes SequenceState::find_estimate_nodes(std::int64_t frame, const Sampl
     const bool is_moment = shot_light && shot_light->moments_around(frame).before == frame;
     if (!is_moment) return gather_estimate(lighting(), now->view, centers, carry_estimate(frame).get(), counts);
     if (const auto kept = estimate_moments.find(frame)) return kept->nodes;
-    const auto moment =
-        std::make_shared<EstimateMoment>(frame, gather_estimate(lighting(), now->view, centers, nullptr, counts));
+    std::optional<BlendedEstimate> carried;
+    if (const std::int64_t base = shot_light->find_base(frame); base != frame) {
+        const auto kept = estimate_moments.find(base);
+        carried.emplace(kept, kept, 0.0);
+    }
+    const auto moment = std::make_shared<EstimateMoment>(
+        frame, gather_estimate(lighting(), now->view, centers, carried ? &*carried : nullptr, counts));
     copy_now(*moment);
     estimate_moments.keep(moment);
     return moment->nodes;
