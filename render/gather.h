@@ -6,6 +6,7 @@
 #include <cmath>
 #include <glm/vec3.hpp>
 #include <limits>
+#include <span>
 #include <vector>
 
 #include "engine/base/color.h"
@@ -57,11 +58,31 @@ inline int sector_of(float x, float y) {
     return (x < 0.0f ? 1 : 0) | (y < 0.0f ? 2 : 0) | (across < along ? 4 : 0) | (diagonal ? 8 : 0);
 }
 
+/// What a ray met that is much brighter than the rest of what its gather saw.
+struct BrightHit {
+    glm::vec3 position{0.0f};  ///< m, as that of the gather's point
+    float luminance = 0.0f;    ///< of the radiance, over the mean of the gather's cells
+    float measure = 0.0f;      ///< that the ray stands for, as a share of the cosine-weighted hemisphere
+};
+
+/// A cell of the strata that takes side x side rays, one in each of its equal parts. Their mean is the cell's radiance.
+struct DividedCell {
+    int cell = 0;
+    int side = 1;  ///< at least 1
+};
+
+/// Where a ray of a gather belongs.
+struct RayPlace {
+    int cell = 0;             ///< of the strata
+    int row = 0, column = 0;  ///< in strata as fine as the parts of its cell
+    float share = 1.0f;       ///< of the cell
+};
+
 /// Light of a sampled light, until its shadow ray is cast.
 struct ShadowSample {
     Rgb unshadowed{0.0f};
     Rgb scale{1.0f};         ///< of what arrives, to radiance
-    int cell = 0;            ///< of the strata
+    int ray = 0;             ///< that hit the surface
     std::uint64_t grid = 0;  ///< cell of the direct grid that the light is a sample of; 0: none
 };
 
@@ -77,11 +98,13 @@ struct GatherScratch {
     // One for every ray that is cast, in the order of visit_blocks.
     std::vector<Ray> rays;
     std::vector<Hit> hits;
-    std::vector<int> cells;  ///< of the strata
+    std::vector<RayPlace> places;
+    std::vector<Rgb> light;  ///< radiance that the ray finds
     // One for every cell.
-    std::vector<Rgb> radiance;
-    std::vector<float> distances;     ///< m; infinite where nothing is met
-    std::vector<std::uint8_t> below;  ///< no ray is cast: the direction is below the true surface
+    std::vector<Rgb> radiance;        ///< mean over its rays; those below the true surface are black
+    std::vector<float> distances;     ///< m, the shortest of its rays; infinite where nothing is met
+    std::vector<std::uint8_t> sides;  ///< of DividedCell; 1: one ray
+    std::vector<std::uint8_t> below;  ///< no ray is cast: all directions are below the true surface
     // One for every shadow ray.
     std::vector<Ray> shadow_rays;
     std::vector<ShadowSample> shadow_samples;
@@ -96,6 +119,9 @@ struct GatherOptions {
     /// Null: every hit casts its own shadow ray, without bias.
     const DirectGrid* grid = nullptr;
     std::vector<DirectSample>* found = nullptr;  ///< if given, samples for the grid are added
+    /// Each cell at most once. Which cells are here must not depend on the gather's own random numbers.
+    std::span<const DividedCell> divided{};
+    std::vector<BrightHit>* bright = nullptr;  ///< if given, set to what stands out most (list_bright_hits)
 };
 
 /// Gathers the light that other surfaces scatter to a point after one bounce. The hemisphere lies about the shading

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <numbers>
 
 namespace aleph {
@@ -11,6 +12,10 @@ namespace {
 constexpr float pi = std::numbers::pi_v<float>;
 constexpr float min_distance = 1e-20f;  // m; keeps gradients finite if the median distance is 0
 constexpr float infinite = std::numeric_limits<float>::infinity();
+
+// Of list_bright_hits.
+constexpr float least_bright = 4.0f;
+constexpr std::size_t most_bright = 48;
 
 /// Angles of a row of strata, measured from the normal.
 struct Row {
@@ -102,8 +107,8 @@ void set_clearance(const HemisphereStrata& strata, const Basis& basis, const Gat
     const int rows = std::clamp((2 * sectors - 1 + strata.columns) / strata.columns, 1, strata.rows);
     const int first_low = (strata.rows - rows) * strata.columns;
     for (std::size_t i = 0; i < scratch.rays.size(); ++i) {
-        const int cell = scratch.cells[i];
-        const float distance = scratch.distances[cell];
+        const int cell = scratch.places[i].cell;
+        const float distance = scratch.hits[i].instance == no_index ? infinite : scratch.hits[i].distance;
         if (distance < shortest) continue;
         const glm::vec3 local = basis.to_local(scratch.rays[i].direction);
         if (cell < first_low) {
@@ -120,13 +125,49 @@ void set_clearance(const HemisphereStrata& strata, const Basis& basis, const Gat
 /// smoothly, and least where a few rays meet something very bright. In a bare room it is twice the spread.
 constexpr float share_of_independent = 0.8f;
 
+/// Variance of the brightness that one ray finds in a cell of the strata, from the cells that take one ray each: mixed
+/// differences a - b - c + d over squares of four cells, whose variance is that of four cells. Light that varies along
+/// rows and columns smoothly, and edges along either, cancel in them.
+double estimate_cell_variance(const HemisphereStrata& strata, const std::vector<std::uint8_t>& sides,
+                              const std::vector<float>& brightness) {
+    double squares = 0.0;
+    int count = 0;
+    for (int j = 1; j < strata.rows; ++j) {
+        for (int k = 0; k < strata.columns; ++k) {
+            const int before = k == 0 ? strata.columns - 1 : k - 1;
+            const int a = strata.cell(j, k), b = strata.cell(j - 1, k);
+            const int c = strata.cell(j, before), d = strata.cell(j - 1, before);
+            if ((sides[a] | sides[b] | sides[c] | sides[d]) != 1) continue;
+            const float mixed = brightness[a] - brightness[b] - brightness[c] + brightness[d];
+            squares += static_cast<double>(mixed) * mixed;
+            ++count;
+        }
+    }
+    return count > 0 ? squares / (4.0 * count) : 0.0;
+}
+
+/// Sum of the variances of the means of all divided cells, from the differences of their own rays.
+double sum_divided_variance(const GatherScratch& scratch) {
+    double sum = 0.0;
+    for (std::size_t i = 0, end = 0; i < scratch.places.size(); i = end) {
+        const int cell = scratch.places[i].cell, side = scratch.sides[cell];
+        double light = 0.0, squares = 0.0;
+        for (end = i; end < scratch.places.size() && scratch.places[end].cell == cell; ++end) {
+            const double found = luminance(scratch.light[end]);
+            light += found;
+            squares += found * found;
+        }
+        if (side == 1) continue;
+        const double rays = static_cast<double>(side) * side;
+        sum += std::max(0.0, squares - light * light / rays) / (rays * (rays - 1.0));
+    }
+    return sum;
+}
+
 /// The standard error of the irradiance's luminance over the luminance itself. With one sample in each cell, the
 /// variance is estimated from differences of neighbouring cells, as for systematic samples (Cochran 1977, "Sampling
-/// Techniques", ch. 8; Wolter 2007, "Introduction to Variance Estimation", ch. 8). The differences are mixed: a - b - c
-/// + d over squares of four cells, whose variance is that of four cells. Light that varies along rows and columns
-/// smoothly, and edges along either, cancel in them.
+/// Techniques", ch. 8; Wolter 2007, "Introduction to Variance Estimation", ch. 8).
 float estimate_relative_error(const HemisphereStrata& strata, GatherScratch& scratch) {
-    const int rows = strata.rows, columns = strata.columns;
     std::vector<float>& brightness = scratch.sorted;
     brightness.resize(scratch.radiance.size());
     double sum = 0.0;
@@ -135,18 +176,12 @@ float estimate_relative_error(const HemisphereStrata& strata, GatherScratch& scr
         sum += brightness[i];
     }
     if (!(sum > 0.0)) return 0.0f;
-    if (rows < 2 || columns < 2) return infinite;
-    double squares = 0.0;
-    for (int j = 1; j < rows; ++j) {
-        for (int k = 0; k < columns; ++k) {
-            const int before = k == 0 ? columns - 1 : k - 1;
-            const float mixed = brightness[strata.cell(j, k)] - brightness[strata.cell(j - 1, k)] -
-                                brightness[strata.cell(j, before)] + brightness[strata.cell(j - 1, before)];
-            squares += static_cast<double>(mixed) * mixed;
-        }
-    }
-    const double cell_variance = squares / (4.0 * (rows - 1) * columns);
-    return share_of_independent * static_cast<float>(std::sqrt(cell_variance * strata.count()) / sum);
+    if (strata.rows < 2 || strata.columns < 2) return infinite;
+    const auto divided = strata.count() - std::ranges::count(scratch.sides, 1);
+    double variance =
+        static_cast<double>(strata.count() - divided) * estimate_cell_variance(strata, scratch.sides, brightness);
+    if (divided > 0) variance += sum_divided_variance(scratch);
+    return share_of_independent * static_cast<float>(std::sqrt(variance) / sum);
 }
 
 }  // namespace
@@ -158,6 +193,25 @@ void summarize_hemisphere(const HemisphereStrata& strata, const Basis& basis, Ga
     set_clearance(strata, basis, scratch, shortest, out);
     add_gradients(strata, basis, scratch, std::max(shortest, min_distance), out);
     out.relative_error = estimate_relative_error(strata, scratch);
+}
+
+void list_bright_hits(const HemisphereStrata& strata, const GatherScratch& scratch, std::vector<BrightHit>& out) {
+    out.clear();
+    double sum = 0.0;
+    for (const Rgb& radiance : scratch.radiance) sum += luminance(radiance);
+    if (!(sum > 0.0)) return;
+    const float mean = static_cast<float>(sum / strata.count());
+    for (std::size_t i = 0; i < scratch.rays.size(); ++i) {
+        const float found = luminance(scratch.light[i]) / mean;
+        if (!(found >= least_bright) || scratch.hits[i].instance == no_index) continue;
+        const Ray& ray = scratch.rays[i];
+        out.push_back({ray.origin + ray.direction * scratch.hits[i].distance, found,
+                       scratch.places[i].share / static_cast<float>(strata.count())});
+    }
+    if (out.size() <= most_bright) return;
+    const auto weight = [](const BrightHit& hit) { return hit.luminance * hit.luminance * hit.measure; };
+    std::ranges::stable_sort(out, std::greater{}, weight);
+    out.resize(most_bright);
 }
 
 }  // namespace aleph
