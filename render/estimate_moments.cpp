@@ -8,8 +8,9 @@ namespace aleph {
 
 namespace {
 
-/// A sequence looks at the moments before and after the two around a frame, too.
-constexpr std::size_t most_kept = 4;
+/// Enough for the moments around a frame, their base moments, and those before and after them, at which a sequence
+/// looks too.
+constexpr std::size_t most_kept = 5;
 
 /// What the nodes of a moment know of a surface of another frame, where that surface lies at the moment.
 EstimateNodes::Interpolated read_moment(const EstimateMoment& moment, const PixelSurface& surface) {

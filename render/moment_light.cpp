@@ -18,12 +18,22 @@ bool differ(const Rgb& before, const Rgb& after, float weight, float accuracy) {
     return 4.0f * weight * (1.0f - weight) * std::abs(a - b) > 0.5f * accuracy * (a + b);
 }
 
+/// Records of things at rest, in the coordinates of another pose.
+std::vector<IrradianceRecord> shift_records(const MomentLight& from, const ShadingScene& to) {
+    std::vector<IrradianceRecord> records = from.cache.records();
+    const glm::vec3 shift(from.at->shading.anchor - to.anchor);
+    for (IrradianceRecord& record : records) record.position += shift;
+    return records;
+}
+
 }  // namespace
 
 std::vector<IrradianceRecord> compute_records(const MomentInput& input, FrameCounts& counts) {
     const LightingContext& lighting = input.lighting;
     const CameraView& first = input.views.front()->posed.view;
     IrradianceCache cache = make_cache(lighting.shading);
+    if (input.base != nullptr) cache.restore(shift_records(*input.base, lighting.shading));
+    const std::size_t kept = cache.records().size();
     DirectGrid direct(scene_radius(lighting.shading));
     FrameTally tally;
     tally.records = tally.invalid_samples = Image<float>(first.width, first.height);
@@ -55,7 +65,7 @@ std::vector<IrradianceRecord> compute_records(const MomentInput& input, FrameCou
     }
     tally.counts.rays += counts.rays;
     counts = tally.counts;
-    cache.finish();
+    cache.finish(kept);
     return cache.records();
 }
 

@@ -91,7 +91,8 @@ Image<Rgb> SequenceState::estimate_view(const RayScene& view_rays, const PosedVi
 void SequenceState::prepare_estimate(std::int64_t frame, std::int64_t but, RayCounts& counts) {
     if (!shot_light || !estimates_indirect_light()) return;
     const MomentPair pair = shot_light->moments_around(frame);
-    for (const std::int64_t moment : {pair.before, pair.after}) {
+    const auto base = [&](std::int64_t moment) { return shot_light->find_base(moment); };
+    for (const std::int64_t moment : {base(pair.before), pair.before, base(pair.after), pair.after}) {
         if (moment == but || estimate_moments.find(moment)) continue;
         move_to_frame(now, moment);
         update_rays_and_shading();
@@ -114,8 +115,13 @@ EstimateNodes SequenceState::find_estimate_nodes(std::int64_t frame, const Sampl
     const bool is_moment = shot_light && shot_light->moments_around(frame).before == frame;
     if (!is_moment) return gather_estimate(lighting(), now->view, centers, carry_estimate(frame).get(), counts);
     if (const auto kept = estimate_moments.find(frame)) return kept->nodes;
-    const auto moment =
-        std::make_shared<EstimateMoment>(frame, gather_estimate(lighting(), now->view, centers, nullptr, counts));
+    std::optional<BlendedEstimate> carried;
+    if (const std::int64_t base = shot_light->find_base(frame); base != frame) {
+        const auto kept = estimate_moments.find(base);
+        carried.emplace(kept, kept, 0.0);
+    }
+    const auto moment = std::make_shared<EstimateMoment>(
+        frame, gather_estimate(lighting(), now->view, centers, carried ? &*carried : nullptr, counts));
     copy_now(*moment);
     estimate_moments.keep(moment);
     return moment->nodes;

@@ -63,8 +63,7 @@ TEST(EstimateMoments, FramesBetweenThemGatherNearlyNothing) {
     const std::uint64_t by_itself = own.render(5, only_maps).statistics.counts.rays.gather;
     Sequence sequence(make_shot_with_moving_camera(), estimate_settings(10));
     const std::uint64_t moments = sequence.render(3, only_maps).statistics.counts.rays.gather;
-    EXPECT_GT(moments, by_itself);
-    EXPECT_LT(moments, 3 * by_itself) << "two moments";
+    EXPECT_LT(2 * moments, 3 * by_itself) << "the base moment, and what it does not know of the other";
     EXPECT_LT(20 * sequence.render(5, only_maps).statistics.counts.rays.gather, by_itself);
     EXPECT_EQ(sequence.render(10, only_maps).statistics.counts.rays.gather, 0u) << "kept";
 }
