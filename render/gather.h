@@ -121,10 +121,10 @@ struct GatherOptions {
     /// Null: every hit casts its own shadow ray, without bias.
     const DirectGrid* grid = nullptr;
     std::vector<DirectSample>* found = nullptr;  ///< if given, samples for the grid are added
+    DeeperLight deeper{};                        ///< light of further bounces; none: one bounce only
     /// Each cell at most once. Which cells are here must not depend on the gather's own random numbers.
     std::span<const DividedCell> divided{};
     std::vector<BrightHit>* bright = nullptr;  ///< if given, set to what stands out most (list_bright_hits)
-    DeeperLight deeper{};                      ///< light of further bounces; none: one bounce only
 };
 
 /// Gathers the light that other surfaces scatter to a point: their direct light, and that of further bounces. The
