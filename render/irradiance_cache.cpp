@@ -12,8 +12,6 @@ namespace aleph {
 
 namespace {
 
-constexpr float infinite = std::numeric_limits<float>::infinity();
-
 /// Of neighbour clamping, in R_i per distance.
 constexpr float clamp_slope = 1.0f;
 
@@ -50,13 +48,13 @@ bool is_usable(const IrradianceRecord& record, const CacheQuery& query, float er
 
 /// S_i, m.
 float spread_of(const IrradianceRecord& record) {
-    return record.growth > 0.0f ? 1.0f / std::sqrt(record.growth) : infinite;
+    return record.growth > 0.0f ? 1.0f / std::sqrt(record.growth) : std::numeric_limits<float>::infinity();
 }
 
 /// Whether a record's value can be compared with another's, moved to its place.
 bool is_comparable(const IrradianceRecord& from, const IrradianceRecord& to, float accuracy) {
     return glm::length(from.normal - to.normal) < accuracy * std::numbers::sqrt2_v<float> &&
-           interpolation_error(from, to.position, to.normal) < infinite;
+           std::isfinite(interpolation_error(from, to.position, to.normal));
 }
 
 }  // namespace

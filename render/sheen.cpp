@@ -51,7 +51,7 @@ float integrate_albedo(float roughness, float cos_view) {
     return static_cast<float>(sum * 2.0 * pi / (heights * azimuths));
 }
 
-Table make_table() {
+Table make_albedo_table() {
     Table table{};
     for (int i = 0; i < rows; ++i) {
         const float r =
@@ -76,7 +76,7 @@ float evaluate_sheen(float alpha, const glm::vec3& view, const glm::vec3& light)
 }
 
 float sheen_albedo(float alpha, float cos_view) {
-    static const Table table = make_table();
+    static const Table table = make_albedo_table();
     // Compared so that a number that is none becomes the least one.
     const float root = std::sqrt(alpha), r = root > least_roughness ? std::min(root, 1.0f) : least_roughness;
     const float cosine = cos_view > 0.0f ? std::min(cos_view, 1.0f) : 0.0f;

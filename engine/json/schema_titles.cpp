@@ -11,7 +11,7 @@ namespace {
 
 using nlohmann::json;
 
-std::string join(const std::vector<std::string>& parts) {
+std::string join_choices(const std::vector<std::string>& parts) {
     std::string out = parts.front();
     for (std::size_t i = 1; i < parts.size(); ++i) out += (i + 1 < parts.size() ? ", " : " or ") + parts[i];
     return out;
@@ -35,11 +35,11 @@ std::string describe(const json& schema, const json& root) {
     std::vector<std::string> parts;
     if (schema.contains("anyOf")) {
         for (const json& alternative : schema["anyOf"]) parts.push_back(describe(alternative, root));
-        return join(parts);
+        return join_choices(parts);
     }
     if (schema.contains("enum")) {
         for (const json& value : schema["enum"]) parts.push_back(value.dump());
-        return join(parts);
+        return join_choices(parts);
     }
     const std::string type = schema["type"];
     if (type == "number" || type == "integer") return describe_number(schema);

@@ -53,16 +53,16 @@ inline ChildCost run_in_child(const std::function<void()>& work, const std::func
         }
         const double seconds = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
         text = text.substr(0, 4000);
-        if (write(channel[1], &seconds, sizeof seconds) != sizeof seconds) code = 3;
-        if (!text.empty() && write(channel[1], text.data(), text.size()) < 0) code = 3;
+        if (::write(channel[1], &seconds, sizeof seconds) != sizeof seconds) code = 3;
+        if (!text.empty() && ::write(channel[1], text.data(), text.size()) < 0) code = 3;
         _exit(code);
     }
-    close(channel[1]);
+    ::close(channel[1]);
     // A child that a signal ended writes nothing.
-    if (read(channel[0], &cost.seconds, sizeof cost.seconds) < 0) cost.message = "no answer";
+    if (::read(channel[0], &cost.seconds, sizeof cost.seconds) < 0) cost.message = "no answer";
     char part[1024];
-    for (ssize_t got = 0; (got = read(channel[0], part, sizeof part)) > 0;) cost.message.append(part, part + got);
-    close(channel[0]);
+    for (ssize_t got = 0; (got = ::read(channel[0], part, sizeof part)) > 0;) cost.message.append(part, part + got);
+    ::close(channel[0]);
     int status = 0;
     rusage usage{};
     wait4(child, &status, 0, &usage);

@@ -4,16 +4,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "motion/image_motion.h"
 #include "tests/support/image_patterns.h"
+#include "tests/support/numbers.h"
 
 namespace aleph {
 namespace {
-
-constexpr float nan_value = std::numeric_limits<float>::quiet_NaN();
-constexpr float infinity = std::numeric_limits<float>::infinity();
 
 double longest_motion(const Image<Rgb>& now, const Image<Rgb>& other) {
     const MotionField field = compute_image_motion(now, other);
@@ -42,18 +39,20 @@ TEST(ImageMotionHard, RP22_AStillPairOfAnythingIsStill) {
     still("one bright pixel", make_pattern(w, h, [](int x, int y) { return x == 60 && y == 40 ? 1e9 : 0.0; }));
     still("white noise", make_pattern(w, h, [](int x, int y) { return white_noise(x, y); }));
     still("texture", make_pattern(w, h, [](int x, int y) { return smooth_texture(x, y); }));
-    still("all NaN", make_pattern(w, h, [](int, int) { return nan_value; }));
-    still("all infinite", make_pattern(w, h, [](int, int) { return infinity; }));
-    still(
-        "some of each", make_pattern(w, h, [](int x, int y) {
-            return x % 7 == 0 ? nan_value : y % 5 == 0 ? infinity : x % 3 == 0 ? -1.0f : 0.01f * static_cast<float>(x);
-        }));
+    still("all NaN", make_pattern(w, h, [](int, int) { return float_nan; }));
+    still("all infinite", make_pattern(w, h, [](int, int) { return float_infinity; }));
+    still("some of each", make_pattern(w, h, [](int x, int y) {
+              return x % 7 == 0   ? float_nan
+                     : y % 5 == 0 ? float_infinity
+                     : x % 3 == 0 ? -1.0f
+                                  : 0.01f * static_cast<float>(x);
+          }));
 }
 
 TEST(ImageMotionHard, RP22_FlatPairsOfDifferentBrightnessAreStill) {
     const auto flat = [](double value) { return make_pattern(64, 64, [&](int, int) { return value; }); };
     EXPECT_EQ(longest_motion(flat(0.2), flat(0.9)), 0.0);
-    EXPECT_EQ(longest_motion(flat(nan_value), flat(0.9)), 0.0);
+    EXPECT_EQ(longest_motion(flat(float_nan), flat(0.9)), 0.0);
 }
 
 TEST(ImageMotionHard, RP23_SmallFramesOfEverySize) {

@@ -5,20 +5,17 @@
 
 #include <cfloat>
 #include <cmath>
-#include <limits>
 #include <vector>
 
 #include "perception/castle.h"
 #include "perception/castle_row.h"
 #include "perception/display_hold.h"
 #include "perception/threshold.h"
+#include "tests/support/numbers.h"
 
 namespace aleph {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
-constexpr double denormal = std::numeric_limits<float>::denorm_min();
 constexpr double extremes[] = {0.0, -0.0, denormal, FLT_MIN, 1.0, FLT_MAX, infinity, -infinity, not_a_number, -3.0};
 constexpr FrameRate thirty{30, 1};
 

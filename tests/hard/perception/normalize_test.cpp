@@ -13,7 +13,7 @@
 namespace aleph {
 namespace {
 
-Image<float> checker(int width, int height) {
+Image<float> checkerboard(int width, int height) {
     Image<float> image(width, height);
     for (int y = 0; y < height; ++y) {
         for (int x = 0; x < width; ++x) image(x, y) = static_cast<float>((x + y) % 2);
@@ -53,8 +53,8 @@ TEST(NormalizeHard, PY09_PlateausCountOnce) {
     plateaus(45, 11) = 0.5f;
     EXPECT_NEAR(compute_normalization(plateaus, 0).weight, std::pow(1 - 0.5, 2), 1e-4);
 
-    // The bright pixels of a one-pixel checker touch at their corners: 8-connected, they are one plateau.
-    EXPECT_EQ(compute_normalization(checker(20, 20), 0).weight, 1.0);
+    // The bright pixels of a one-pixel checkerboard touch at their corners: 8-connected, they are one plateau.
+    EXPECT_EQ(compute_normalization(checkerboard(20, 20), 0).weight, 1.0);
 }
 
 TEST(NormalizeHard, PY09_RandomPlateausAgreeWithTheFullFloodFill) {

@@ -14,14 +14,12 @@
 #include "perception/perception.h"
 #include "perception/sanitize.h"
 #include "perception/sensitivity.h"
+#include "tests/support/numbers.h"
 #include "tests/support/perception_bands.h"
 
 namespace aleph {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
-constexpr double denormal = std::numeric_limits<float>::denorm_min();
 constexpr double largest = std::numeric_limits<float>::max();
 
 Image<float> constant_image(int width, int height, double value) {

@@ -9,7 +9,7 @@
 namespace aleph {
 namespace {
 
-constexpr int width = 64, height = 48;
+constexpr int picture_width = 64, picture_height = 48;
 
 /// A small bright disc before black, on the axis of a camera at the origin.
 Scene make_disc_scene(double distance, float radius, bool orthographic = false) {
@@ -36,9 +36,9 @@ struct Spot {
 
 Spot measure(const Image<float>& coverage) {
     double sum = 0.0, squares = 0.0;
-    for (int y = 0; y < height; ++y) {
-        for (int x = 0; x < width; ++x) {
-            const glm::dvec2 from_middle(x + 0.5 - 0.5 * width, y + 0.5 - 0.5 * height);
+    for (int y = 0; y < picture_height; ++y) {
+        for (int x = 0; x < picture_width; ++x) {
+            const glm::dvec2 from_middle(x + 0.5 - 0.5 * picture_width, y + 0.5 - 0.5 * picture_height);
             sum += coverage(x, y);
             squares += coverage(x, y) * glm::dot(from_middle, from_middle);
         }
@@ -47,10 +47,10 @@ Spot measure(const Image<float>& coverage) {
 }
 
 TEST(DepthOfField, MC28_TheCircleOfConfusionHasItsClosedForm) {
-    const double pixels_per_unit = 0.5 * height / std::tan(0.45);
+    const double pixels_per_unit = 0.5 * picture_height / std::tan(0.45);
     for (const auto& [distance, focus] : {std::pair(4.0, 2.0), std::pair(2.0, 3.5)}) {
         const double aperture = 0.8, radius = 3.0 * distance / pixels_per_unit;  // of the disc: 3 pixels
-        const Stage stage(make_disc_scene(distance, static_cast<float>(radius)), width, height);
+        const Stage stage(make_disc_scene(distance, static_cast<float>(radius)), picture_width, picture_height);
         const Spot spot = measure(shade_through(stage, aperture, focus, 256).coverage);
         // Similar triangles: the lens, seen from the disc, on the plane in focus.
         const double blur = pixels_per_unit * aperture * std::abs(distance - focus) / (distance * focus);
@@ -66,7 +66,7 @@ TEST(DepthOfField, MC28_TheCircleOfConfusionHasItsClosedForm) {
 
 TEST(DepthOfField, MC28_WhatIsInFocusIsSharp) {
     for (const bool orthographic : {false, true}) {
-        const Stage stage(make_disc_scene(3.0, 0.7f, orthographic), width, height);
+        const Stage stage(make_disc_scene(3.0, 0.7f, orthographic), picture_width, picture_height);
         const Image<float> sharp = shade_through(stage, 0.0, 1.0).coverage,
                            lens = shade_through(stage, 0.5, 3.0).coverage;
         double difference = 0.0;
@@ -77,15 +77,16 @@ TEST(DepthOfField, MC28_WhatIsInFocusIsSharp) {
 }
 
 TEST(DepthOfField, MC28_AParallelCameraBlursByTheDistanceFromFocus) {
-    const double pixels_per_metre = 0.5 * height / 1.2;
-    const Stage stage(make_disc_scene(4.0, static_cast<float>(3.0 / pixels_per_metre), true), width, height);
+    const double pixels_per_metre = 0.5 * picture_height / 1.2;
+    const Stage stage(make_disc_scene(4.0, static_cast<float>(3.0 / pixels_per_metre), true), picture_width,
+                      picture_height);
     const Spot spot = measure(shade_through(stage, 0.4, 2.5, 128).coverage);
     const double blur = pixels_per_metre * 0.4 * 1.5 / 2.5;
     EXPECT_NEAR(std::sqrt(spot.radius * spot.radius - 9.0 - 2.0 * 2.0 / 12.0), blur, 0.015 * blur);
 }
 
 TEST(DepthOfField, MC28_FocusAtInfinityKeepsFarThingsSharp) {
-    const Stage stage(make_disc_scene(1e4, 3e3f), width, height);
+    const Stage stage(make_disc_scene(1e4, 3e3f), picture_width, picture_height);
     const Image<float> sharp = shade_through(stage, 0.0, 1.0).coverage;
     for (const double focus : {1e30, 1e300}) {
         const Image<float> lens = shade_through(stage, 0.05, focus).coverage;
@@ -100,7 +101,7 @@ TEST(DepthOfField, FX12_MC28_ATinyApertureIsAPinhole) {
     const int floor = add_lambert(scene, glm::dvec3(0.5));
     add_mesh(scene, make_quad(20.0, 20.0, floor), {0.0, -1.0, 0.0}, z_to_up);
     add_light(scene, Light::Kind::point, glm::dvec3(4.0), {1.0, 1.0, -1.0});
-    const Stage stage(std::move(scene), width, height);
+    const Stage stage(std::move(scene), picture_width, picture_height);
     const ShadedFrame pinhole = shade_through(stage, 0.0, 1.0), lens = shade_through(stage, 1e-9, 2.0);
     int differing = 0;
     for (std::size_t i = 0; i < pinhole.color.size(); ++i) {
@@ -111,7 +112,7 @@ TEST(DepthOfField, FX12_MC28_ATinyApertureIsAPinhole) {
 }
 
 TEST(DepthOfField, MC28_ExtremeLensesAreFinite) {
-    const Stage stage(make_disc_scene(3.0, 0.7f), width, height);
+    const Stage stage(make_disc_scene(3.0, 0.7f), picture_width, picture_height);
     for (const auto& [aperture, focus] : {std::pair(0.5, 1e-4), std::pair(100.0, 3.0), std::pair(1e9, 1e-4),
                                           std::pair(1e-30, 1e-30), std::pair(0.3, 1e-300)}) {
         const ShadedFrame out = shade_through(stage, aperture, focus, 4);

@@ -4,15 +4,14 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <limits>
 #include <random>
 
+#include "tests/support/numbers.h"
 #include "tests/support/render_scenes.h"
 
 namespace aleph {
 namespace {
 
-constexpr float infinite = std::numeric_limits<float>::infinity();
 const RadiusBounds any_radius{1e-3f, 1e3f};
 
 class Randoms {
@@ -101,7 +100,7 @@ TEST(IrradianceCache, IC04_RadiiStayWithinTheirBounds) {
     corner.irradiance = Rgb(1.0f);
     corner.nearest_distance = 0.0f;
     EXPECT_EQ(make_record(glm::vec3(0.0f), up, 1.0f, corner, {0.01f, 5.0f})->radius, 0.01f);
-    corner.nearest_distance = infinite;
+    corner.nearest_distance = float_infinity;
     EXPECT_EQ(make_record(glm::vec3(0.0f), up, 1.0f, corner, {0.01f, 5.0f})->radius, 5.0f);
     corner.nearest_distance = 1.0f;
     EXPECT_EQ(make_record(glm::vec3(0.0f), up, 1.0f, corner, {0.01f, 5.0f})->radius, 3.5f);  // times the distance
@@ -162,11 +161,11 @@ TEST(IrradianceCache, IC07_GradientsNextToAWallStayBounded) {
             ASSERT_LE(value.x, 2.0f * record.irradiance.x);
         }
     }
-    // An infinite gradient, as from a distance of 0, counts as 0.
+    // An float_infinity gradient, as from a distance of 0, counts as 0.
     IrradianceSample broken;
     broken.irradiance = Rgb(1.0f);
     broken.nearest_distance = 1.0f;
-    broken.translation_gradient.fill(glm::vec3(infinite, 0.0f, 0.0f));
+    broken.translation_gradient.fill(glm::vec3(float_infinity, 0.0f, 0.0f));
     broken.rotation_gradient.fill(glm::vec3(std::nanf(""), 0.0f, 0.0f));
     const IrradianceRecord record = make_record(glm::vec3(0.0f), {0.0f, 1.0f, 0.0f}, 1.0f, broken, any_radius).value();
     EXPECT_EQ(extrapolate(record, glm::vec3(0.1f), {1.0f, 0.0f, 0.0f}), Rgb(1.0f));
@@ -176,7 +175,7 @@ TEST(IrradianceCache, IrradianceThatIsNotFiniteMakesNoRecord) {
     const glm::vec3 up(0.0f, 1.0f, 0.0f);
     IrradianceSample sample;
     sample.nearest_distance = 1.0f;
-    for (const float bad : {std::nanf(""), infinite, -infinite}) {
+    for (const float bad : {std::nanf(""), float_infinity, -float_infinity}) {
         for (int c = 0; c < 3; ++c) {
             sample.irradiance = Rgb(1.0f);
             sample.irradiance[c] = bad;
@@ -190,9 +189,10 @@ TEST(IrradianceCache, IrradianceThatIsNotFiniteMakesNoRecord) {
 TEST(IrradianceCache, IC08_RecordsInFrontOfThePointAreRefused) {
     const glm::vec3 up(0.0f, 1.0f, 0.0f);
     const IrradianceRecord above = make_plain_record({0.0f, 0.1f, 0.0f}, up, 1.0f);
-    EXPECT_EQ(interpolation_error(above, glm::vec3(0.0f), up), infinite);  // the record is on a step above the point
+    EXPECT_EQ(interpolation_error(above, glm::vec3(0.0f), up),
+              float_infinity);  // the record is on a step above the point
     EXPECT_NEAR(interpolation_error(above, {0.0f, 0.19f, 0.0f}, up), 0.09f, 1e-6f);
-    EXPECT_EQ(interpolation_error(above, {0.0f, 0.21f, 0.0f}, up), infinite);        // the point is on a step
+    EXPECT_EQ(interpolation_error(above, {0.0f, 0.21f, 0.0f}, up), float_infinity);  // the point is on a step
     EXPECT_NEAR(interpolation_error(above, {0.0f, 0.06f, 0.0f}, up), 0.04f, 1e-6f);  // within .05 R_i
 }
 
@@ -200,7 +200,7 @@ TEST(IrradianceCache, IC09_OppositeNormalsNeverMatch) {
     const glm::vec3 front(0.0f, 0.0f, 1.0f);
     IrradianceCache cache(glm::vec3(-1.0f), glm::vec3(1.0f));
     cache.insert(make_plain_record(glm::vec3(0.0f), front, 100.0f, 3.0f));
-    for (const float accuracy : {0.1f, 1.0f, 1.42f, 100.0f, infinite}) {
+    for (const float accuracy : {0.1f, 1.0f, 1.42f, 100.0f, float_infinity}) {
         EXPECT_FALSE(cache.covers({glm::vec3(0.0f), -front, accuracy}));
         EXPECT_FALSE(cache.covers({glm::vec3(0.0f), {1.0f, 0.0f, 0.0f}, accuracy}));  // at right angles
         EXPECT_FALSE(cache.interpolate({glm::vec3(0.0f), -front, accuracy}).has_value());

@@ -2,13 +2,12 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/support/directions.h"
+#include "tests/support/numbers.h"
 #include "tests/support/path_estimates.h"
 
 namespace aleph {
 namespace {
-
-constexpr double pi = std::numbers::pi;
-const glm::vec3 up(0.0f, 1.0f, 0.0f);
 
 ViewedSurface make_floor(const glm::vec3& position, float albedo = 1.0f) {
     return {make_point(position, up), make_lambert(albedo), up};

@@ -11,7 +11,7 @@
 namespace aleph {
 namespace {
 
-constexpr int width = 160, height = 120;
+constexpr int picture_width = 160, picture_height = 120;
 
 struct Moved {
     Image<Hit> hits;
@@ -21,8 +21,8 @@ struct Moved {
 
 Moved compute_motion(const Scene& scene, std::int64_t from, std::int64_t to) {
     Moved moved;
-    moved.now = make_posed_view(scene, scene.frame_rate.seconds_of(from), 0, width, height);
-    moved.other = make_posed_view(scene, scene.frame_rate.seconds_of(to), 0, width, height);
+    moved.now = make_posed_view(scene, scene.frame_rate.seconds_of(from), 0, picture_width, picture_height);
+    moved.other = make_posed_view(scene, scene.frame_rate.seconds_of(to), 0, picture_width, picture_height);
     RayScene rays(scene);
     rays.update(moved.now.pose, compute_anchor(moved.now.view));
     moved.hits = cast_first_hits(rays, moved.now.view);

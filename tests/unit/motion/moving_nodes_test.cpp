@@ -11,9 +11,9 @@
 namespace aleph {
 namespace {
 
-constexpr int width = 96, height = 72;
+constexpr int picture_width = 96, picture_height = 72;
 
-Node make_node(int parent, const glm::dvec3& translation) {
+Node make_child(int parent, const glm::dvec3& translation) {
     Node node;
     node.parent = parent;
     node.translation = translation;
@@ -25,7 +25,7 @@ Node spinning(Node node, double degrees_per_second) {
     return node;
 }
 
-int add_object(Scene& scene, Node node) {
+int add_soup(Scene& scene, Node node) {
     node.meshes = {add_triangle_soup(scene, 50, 1.0f)};
     return add_node(scene, std::move(node));
 }
@@ -33,18 +33,18 @@ int add_object(Scene& scene, Node node) {
 /// Objects in front of a camera: some still, some turning fast, some below a turning node, one of them not inheriting.
 Scene make_scene(double object_turn, double camera_turn) {
     Scene scene = make_skin_scene();  // its joints turn, its own node does not
-    for (int i = 0; i < 5; ++i) add_object(scene, make_node(no_index, {i - 2.0, 0.5, -9.0}));
-    const int arm = add_node(scene, spinning(make_node(no_index, {0.0, 1.0, -8.0}), object_turn));
-    add_object(scene, make_node(arm, {1.0, 0.0, 0.0}));
-    add_object(scene, spinning(make_node(arm, {-1.0, 0.0, 0.0}), -2.0 * object_turn));
-    Node let_go = make_node(arm, {0.0, 0.0, -12.0});
+    for (int i = 0; i < 5; ++i) add_soup(scene, make_child(no_index, {i - 2.0, 0.5, -9.0}));
+    const int arm = add_node(scene, spinning(make_child(no_index, {0.0, 1.0, -8.0}), object_turn));
+    add_soup(scene, make_child(arm, {1.0, 0.0, 0.0}));
+    add_soup(scene, spinning(make_child(arm, {-1.0, 0.0, 0.0}), -2.0 * object_turn));
+    Node let_go = make_child(arm, {0.0, 0.0, -12.0});
     let_go.inherits = 0.0;
-    add_object(scene, let_go);
-    const int still = add_object(scene, make_node(no_index, {0.3, -2.0, -7.0}));
-    add_object(scene, spinning(make_node(still, {0.0, -1.0, 0.0}), 40.0));
+    add_soup(scene, let_go);
+    const int still = add_soup(scene, make_child(no_index, {0.3, -2.0, -7.0}));
+    add_soup(scene, spinning(make_child(still, {0.0, -1.0, 0.0}), 40.0));
     // A turntable carries the camera and one object.
-    const int table = add_node(scene, spinning(make_node(no_index, {0.0, 0.0, 3.0}), camera_turn));
-    add_object(scene, make_node(table, {0.2, 0.1, -6.0}));
+    const int table = add_node(scene, spinning(make_child(no_index, {0.0, 0.0, 3.0}), camera_turn));
+    add_soup(scene, make_child(table, {0.2, 0.1, -6.0}));
     add_camera(scene, table);
     return scene;
 }
@@ -74,8 +74,8 @@ TEST(MovingNodes, MotionHasTheBitsOfAPlanOfAllNodes) {
             EXPECT_LT(plan.nodes.size(), everything.nodes.size());
             ModelMotion motion(scene, plan);
             for (const double seconds : {0.0, 0.5, 0.2}) {  // the result does not depend on earlier calls
-                const TwoViews views(scene, seconds, seconds + 0.3, width, height);
-                Image<Hit> hits = make_random_hits(scene, views.now.pose, width, height);
+                const TwoViews views(scene, seconds, seconds + 0.3, picture_width, picture_height);
+                Image<Hit> hits = make_random_hits(scene, views.now.pose, picture_width, picture_height);
                 hits(0, 0) = {};
                 const MotionField field = motion.compute(views.now, views.other, hits);
                 expect_same(field, ModelMotion(scene, everything).compute(views.now, views.other, hits));

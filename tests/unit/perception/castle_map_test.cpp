@@ -20,7 +20,7 @@ namespace {
 
 constexpr FrameRate thirty{30, 1};
 
-double mean(const Image<float>& image) {
+double mean_of(const Image<float>& image) {
     double sum = 0.0;
     for (const float v : image.pixels) sum += v;
     return sum / static_cast<double>(image.size());
@@ -108,7 +108,7 @@ TEST(CastleMap, SettingsReachTheMap) {
         const PerceptionMaps maps = compute_perception(frame.estimate, frame.velocity, viewing, {}, {.vision = vision});
         EXPECT_EQ(maps.clamped, 0u);
         EXPECT_EQ(maps.adaptation.empty(), vision != Vision::castle);
-        return mean(maps.aleph);
+        return mean_of(maps.aleph);
     };
     EXPECT_GT(aleph_with(Vision::castle, 1.0), aleph_with(Vision::castle, 0.1));
     EXPECT_EQ(aleph_with(Vision::thesis, 1.0), aleph_with(Vision::thesis, 0.1));

@@ -6,11 +6,10 @@
 #include <limits>
 
 #include "engine/base/sampling.h"
+#include "tests/support/numbers.h"
 
 namespace aleph {
 namespace {
-
-constexpr float infinity = std::numeric_limits<float>::infinity();
 
 TEST(Sanitize, LeavesAGoodFrameAlone) {
     Image<Rgb> image(64, 48);
@@ -41,14 +40,14 @@ TEST(Sanitize, NegativeComponentsBecomeZero) {
 TEST(Sanitize, PY05_HolesFillFromTheirRim) {
     Image<Rgb> image(30, 20, Rgb(0.25f, 0.5f, 0.75f));
     for (int y = 5; y < 15; ++y) {
-        for (int x = 8; x < 20; ++x) image(x, y) = Rgb(0.1f, std::nanf(""), infinity);
+        for (int x = 8; x < 20; ++x) image(x, y) = Rgb(0.1f, std::nanf(""), float_infinity);
     }
     EXPECT_EQ(sanitize_estimate(image).replaced, 120u);
     EXPECT_EQ(image, Image<Rgb>(30, 20, Rgb(0.25f, 0.5f, 0.75f)));
 }
 
 TEST(Sanitize, PY05_FrameWithoutAnyValidPixelBecomesBlack) {
-    Image<Rgb> image(5, 4, Rgb(infinity));
+    Image<Rgb> image(5, 4, Rgb(float_infinity));
     EXPECT_EQ(sanitize_estimate(image).replaced, 20u);
     EXPECT_EQ(image, Image<Rgb>(5, 4, Rgb(0.0f)));
 }

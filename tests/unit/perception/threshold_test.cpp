@@ -9,14 +9,12 @@
 
 #include "engine/base/errors.h"
 #include "engine/base/sampling.h"
+#include "tests/support/numbers.h"
 
 namespace aleph {
 namespace {
 
-constexpr float infinity = std::numeric_limits<float>::infinity();
-constexpr float not_a_number = std::numeric_limits<float>::quiet_NaN();
-
-Image<Rgb> random_image(int width, int height) {
+Image<Rgb> random_colors(int width, int height) {
     Image<Rgb> image(width, height);
     RandomStream random({7, 0, 0, 0});
     for (Rgb& c : image.pixels) c = {random.next(), random.next(), random.next()};
@@ -40,9 +38,9 @@ TEST(Tvi, CS10_AtZeroLuminance) {
 
 TEST(Tvi, CS11_NegativeNanAndInfiniteLuminance) {
     EXPECT_EQ(tvi(-5.0), tvi(1e-6));
-    EXPECT_EQ(tvi(-infinity), tvi(1e-6));
-    EXPECT_EQ(tvi(not_a_number), tvi(1e-6));
-    EXPECT_EQ(tvi(infinity), tvi(1e12));
+    EXPECT_EQ(tvi(-float_infinity), tvi(1e-6));
+    EXPECT_EQ(tvi(float_nan), tvi(1e-6));
+    EXPECT_EQ(tvi(float_infinity), tvi(1e12));
     EXPECT_EQ(tvi(std::numeric_limits<float>::max()), tvi(1e12));
     EXPECT_NEAR(tvi(1e12) / std::pow(10.0, 12 - 1.255), 1.0, 1e-12);
 }
@@ -88,7 +86,8 @@ TEST(Threshold, IsAlephTimesTviOverTheWholeRange) {
 
 TEST(Threshold, OddLuminancesGiveFiniteThresholds) {
     Image<float> luminance(6, 1), aleph(6, 1, 2.0f);
-    luminance.pixels = {0.0f, -1.0f, not_a_number, infinity, -infinity, std::numeric_limits<float>::denorm_min()};
+    luminance.pixels = {0.0f,           -1.0f,           float_nan,
+                        float_infinity, -float_infinity, std::numeric_limits<float>::denorm_min()};
     const Image<float> threshold = compute_threshold(aleph, luminance);
     for (const int i : {0, 1, 2, 4, 5}) EXPECT_NEAR(threshold(i, 0) / (2 * tvi(1e-6)), 1.0, 1e-5) << i;
     EXPECT_NEAR(threshold(3, 0) / (2 * tvi(1e12)), 1.0, 1e-5);
@@ -99,7 +98,7 @@ TEST(Threshold, SizesMustAgree) {
 }
 
 TEST(Adaptation, IsTheMeanOverTheDisc) {
-    const Image<Rgb> image = random_image(53, 41);
+    const Image<Rgb> image = random_colors(53, 41);
     for (const double ppd : {1.0, 5.0, 31.0, 60.0}) {
         const Image<float> adapted =
             compute_adaptation_luminance(image, {.pixels_per_degree = ppd, .display_white = 80.0});
@@ -130,7 +129,7 @@ TEST(Adaptation, CS13_ConstantImageAtCornersAndWhenSmallerThanTheDisc) {
 }
 
 TEST(Adaptation, CS14_ScalingTheSceneAndItsUnitTogetherChangesNothing) {
-    Image<Rgb> image = random_image(40, 30);
+    Image<Rgb> image = random_colors(40, 30);
     const Image<float> aleph(40, 30, 7.0f);
     const Image<float> plain = compute_threshold(aleph, compute_adaptation_luminance(image, {}));
     for (const double scale : {1e-6, 1e6}) {
@@ -144,7 +143,7 @@ TEST(Adaptation, CS14_ScalingTheSceneAndItsUnitTogetherChangesNothing) {
 
 TEST(Adaptation, RefusesBrokenViewingConditions) {
     const Image<Rgb> image(4, 4);
-    for (const double bad : {0.0, -31.0, static_cast<double>(infinity), static_cast<double>(not_a_number)}) {
+    for (const double bad : {0.0, -31.0, static_cast<double>(float_infinity), static_cast<double>(float_nan)}) {
         EXPECT_THROW(compute_adaptation_luminance(image, {.pixels_per_degree = bad}), InputError) << bad;
         EXPECT_THROW(compute_adaptation_luminance(image, {.display_white = bad}), InputError) << bad;
     }

@@ -2,6 +2,7 @@
 // changes.
 
 #include "render/accuracy_map.h"
+#include "tests/support/numbers.h"
 
 #include <gtest/gtest.h>
 
@@ -11,7 +12,6 @@
 namespace aleph {
 namespace {
 
-constexpr double infinite = std::numeric_limits<double>::infinity();
 const double nan_value = std::nan("");
 
 TEST(AccuracyMap, CompressIsTheAmbientAccuracyWhereNothingIsTolerated) {
@@ -25,10 +25,10 @@ TEST(AccuracyMap, CompressKnownAnswers) {
 }
 
 TEST(AccuracyMap, CompressAtItsEnds) {
-    EXPECT_EQ(compress_accuracy(0.1, infinite), 1.0);
+    EXPECT_EQ(compress_accuracy(0.1, infinity), 1.0);
     EXPECT_EQ(compress_accuracy(1.0, 77.0), 1.0);
-    for (const double n : {0.0, 1.0, 250.0, infinite, nan_value}) EXPECT_EQ(compress_accuracy(0.0, n), 0.0);
-    for (const double n : {0.0, -5.0, nan_value, -infinite}) EXPECT_DOUBLE_EQ(compress_accuracy(0.1, n), 0.1);
+    for (const double n : {0.0, 1.0, 250.0, infinity, nan_value}) EXPECT_EQ(compress_accuracy(0.0, n), 0.0);
+    for (const double n : {0.0, -5.0, nan_value, -infinity}) EXPECT_DOUBLE_EQ(compress_accuracy(0.1, n), 0.1);
     EXPECT_EQ(compress_accuracy(nan_value, 2.0), 0.0);
     EXPECT_LE(compress_accuracy(0.3, 1e300), 1.0);
 }
@@ -54,24 +54,24 @@ TEST(AccuracyMap, ScaleAddKnownAnswers) {
     EXPECT_DOUBLE_EQ(scale_add_accuracy(0.1, 50.0, 100.0), 0.6);
     EXPECT_DOUBLE_EQ(scale_add_accuracy(0.1, 50.0, 200.0), 0.35);
     EXPECT_EQ(scale_add_accuracy(0.1, 250.0, 100.0), 1.0);  // the equation gives 2.6
-    EXPECT_EQ(scale_add_accuracy(0.1, infinite, 100.0), 1.0);
+    EXPECT_EQ(scale_add_accuracy(0.1, infinity, 100.0), 1.0);
     EXPECT_EQ(scale_add_accuracy(1.0, 1.0, 100.0), 1.0);
     for (const double n : {0.0, -3.0, nan_value}) EXPECT_DOUBLE_EQ(scale_add_accuracy(0.1, n, 100.0), 0.11);
-    for (const double n : {1.0, infinite, nan_value}) EXPECT_EQ(scale_add_accuracy(0.0, n, 100.0), 0.0);
+    for (const double n : {1.0, infinity, nan_value}) EXPECT_EQ(scale_add_accuracy(0.0, n, 100.0), 0.0);
 }
 
 TEST(AccuracyMap, ThresholdOverLuminance) {
     EXPECT_DOUBLE_EQ(threshold_accuracy(0.15, 0.1), 0.15);
-    EXPECT_EQ(threshold_accuracy(0.15, infinite), 1.0);
+    EXPECT_EQ(threshold_accuracy(0.15, infinity), 1.0);
     for (const double t : {0.0, -1.0, nan_value, 1e-9}) EXPECT_EQ(threshold_accuracy(0.15, t), 0.02);
-    for (const double t : {1.0, infinite, nan_value}) EXPECT_EQ(threshold_accuracy(0.0, t), 0.0);
+    for (const double t : {1.0, infinity, nan_value}) EXPECT_EQ(threshold_accuracy(0.0, t), 0.0);
     Image<float> threshold(3, 1, 2.0f), indirect(3, 1);
     indirect.pixels = {0.5f, 0.0f, std::nanf("")};
     ViewingConditions viewing;
     viewing.display_white = 80.0;
     const Image<float> tolerance = compute_tolerance(threshold, indirect, viewing);
     EXPECT_FLOAT_EQ(tolerance.pixels[0], 2.0f / (0.5f * 80.0f));
-    for (int i = 1; i < 3; ++i) EXPECT_EQ(tolerance.pixels[static_cast<std::size_t>(i)], infinite);
+    for (int i = 1; i < 3; ++i) EXPECT_EQ(tolerance.pixels[static_cast<std::size_t>(i)], infinity);
 }
 
 TEST(AccuracyMap, MapPixelByPixel) {
@@ -99,7 +99,8 @@ TEST(AccuracyMap, WithoutAGuideNoAdapterCounts) {
     settings.perception.guide = Guide::none;
     for (const Adapter adapter : {Adapter::compress, Adapter::scale_add, Adapter::threshold}) {
         settings.adapter = adapter;
-        for (const float alpha : compute_accuracy_map(Image<float>(3, 2, 100.0f), Image<float>(3, 2, 0.5f), settings).pixels)
+        for (const float alpha :
+             compute_accuracy_map(Image<float>(3, 2, 100.0f), Image<float>(3, 2, 0.5f), settings).pixels)
             EXPECT_EQ(alpha, 0.1f);
     }
 }

@@ -6,12 +6,12 @@
 
 #include <random>
 
+#include "tests/support/numbers.h"
 #include "tests/support/render_scenes.h"
 
 namespace aleph {
 namespace {
 
-constexpr double pi = std::numbers::pi;
 const std::vector<float> widths{1e-3f, 0.02f, 0.1f, 0.3f, 0.7f, 1.0f};
 const std::vector<float> cosines{1.0f, 0.9f, 0.5f, 0.2f, 0.05f};
 

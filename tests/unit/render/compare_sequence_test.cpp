@@ -12,10 +12,10 @@
 namespace aleph {
 namespace {
 
-constexpr int width = 10, height = 8;
-constexpr std::size_t pixels = width * height;
+constexpr int picture_width = 10, picture_height = 8;
+constexpr std::size_t pixels = picture_width * picture_height;
 
-ChannelImage grey(float value, int w = width, int h = height) {
+ChannelImage grey(float value, int w = picture_width, int h = picture_height) {
     ChannelImage image;
     for (const char* name : {"R", "G", "B"}) image.channels.push_back({name, Image<float>(w, h, value)});
     return image;
@@ -24,7 +24,7 @@ ChannelImage grey(float value, int w = width, int h = height) {
 /// Maps of a surface at rest, with a threshold of 1 cd/m2.
 ChannelImage still_maps() {
     const auto channel = [](const char* name, float value) {
-        return Channel{name, Image<float>(width, height, value)};
+        return Channel{name, Image<float>(picture_width, picture_height, value)};
     };
     return {{channel("forward.u", 0.0f), channel("forward.v", 0.0f), channel("motion.valid", 1.0f),
              channel("threshold.Y", 1.0f)},
@@ -105,11 +105,11 @@ TEST(CompareSequence, OneFrameHasNoFlicker) {
 
 TEST(CompareSequence, MapsWithoutMotionGiveErrorsOnly) {
     SequenceComparison sequence({});
-    const ChannelImage maps{{{"threshold.Y", Image<float>(width, height, 1.0f)}}, {}};
+    const ChannelImage maps{{{"threshold.Y", Image<float>(picture_width, picture_height, 1.0f)}}, {}};
     for (int frame = 0; frame < 2; ++frame) sequence.add(frame, grey(0.5f), grey(0.5f), &maps);
     EXPECT_TRUE(sequence.summary().threshold.has_value());
     EXPECT_FALSE(sequence.summary().flicker.has_value());
-    const ChannelImage no_threshold{{{"Z", Image<float>(width, height, 1.0f)}}, {}};
+    const ChannelImage no_threshold{{{"Z", Image<float>(picture_width, picture_height, 1.0f)}}, {}};
     EXPECT_THROW(sequence.add(2, grey(0.5f), grey(0.5f), &no_threshold), InputError);
 }
 

@@ -8,12 +8,10 @@
 #include <limits>
 
 #include "engine/base/errors.h"
+#include "tests/support/numbers.h"
 
 namespace aleph {
 namespace {
-
-constexpr float nan_value = std::numeric_limits<float>::quiet_NaN();
-constexpr float infinity = std::numeric_limits<float>::infinity();
 
 ChannelImage grey_image(int width, int height, float value) {
     ChannelImage image;
@@ -78,7 +76,7 @@ TEST(Compare, ReferenceZeroEverywhereIsInfinitelyFar) {
 
 TEST(Compare, NanAndInfinityAreNeverTheSame) {
     const ChannelImage clean = grey_image(4, 4, 0.5f);
-    for (const float bad : {nan_value, infinity, -infinity}) {
+    for (const float bad : {float_nan, float_infinity, -float_infinity}) {
         ChannelImage damaged = clean;
         damaged.channels[1].values(2, 3) = bad;
         const CompareSettings lenient{1e30, 0.0, 100.0, {}};
@@ -205,8 +203,8 @@ TEST(Compare, ThresholdUsesTheFilesWhiteLuminance) {
 TEST(Compare, BrokenThresholdsCount) {
     const ChannelImage image = grey_image(3, 1, 0.5f);
     auto map = threshold_map(3, 1, 1.0f);
-    map.channels[0].values(1, 0) = nan_value;
-    map.channels[0].values(2, 0) = infinity;
+    map.channels[0].values(1, 0) = float_nan;
+    map.channels[0].values(2, 0) = float_infinity;
     EXPECT_EQ(compare_images(image, image, {}, &map).threshold->beyond, 2u);
     const auto other_size = threshold_map(2, 1, 1.0f);
     EXPECT_THROW(compare_images(image, image, {}, &other_size), InputError);
@@ -267,7 +265,7 @@ TEST(Compare, DifferencePictureShowsWhereAndMarksNan) {
     ChannelImage b = grey_image(3, 1, 0.5f), a = b;
     a.channels[0].values(0, 0) = 0.75f;
     a.channels[2].values(1, 0) = 0.375f;
-    a.channels[1].values(2, 0) = nan_value;
+    a.channels[1].values(2, 0) = float_nan;
     const Image<Rgb> picture = difference_picture(a, b);
     EXPECT_EQ(picture(0, 0), Rgb(1.0f, 0.0f, 0.0f));
     EXPECT_EQ(picture(1, 0), Rgb(0.0f, 0.0f, 0.5f));

@@ -13,12 +13,10 @@
 
 #include "engine/base/errors.h"
 #include "render/compare.h"
+#include "tests/support/numbers.h"
 
 namespace aleph {
 namespace {
-
-constexpr double nan_value = std::numeric_limits<double>::quiet_NaN();
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 ChannelImage grey(int width, int height, float value) {
     ChannelImage image;
@@ -76,7 +74,7 @@ TEST(RatioHistogram, NoDifferenceIsZeroWhateverTheThreshold) {
 TEST(RatioHistogram, WhatIsNotFiniteIsBeyond) {
     RatioHistogram histogram;
     for (const auto& [difference, threshold] :
-         {std::pair{nan_value, 1.0}, {1.0, nan_value}, {1.0, infinity}, {0.0, -1.0}, {infinity, 1.0}}) {
+         {std::pair{not_a_number, 1.0}, {1.0, not_a_number}, {1.0, infinity}, {0.0, -1.0}, {infinity, 1.0}}) {
         histogram.add(difference, threshold);
     }
     EXPECT_EQ(histogram.count(), 5u);

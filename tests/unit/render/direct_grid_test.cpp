@@ -5,11 +5,10 @@
 #include <gtest/gtest.h>
 
 #include "tests/support/cluttered_room.h"
+#include "tests/support/directions.h"
 
 namespace aleph {
 namespace {
-
-const glm::vec3 up(0.0f, 1.0f, 0.0f);
 
 TEST(DirectGrid, CellsAreAsWideAsTheRaysFootprint) {
     const auto key = [](const glm::vec3& position, float width) { return DirectGrid().key_of(3, position, up, width); };

@@ -6,6 +6,8 @@
 
 #include <random>
 
+#include "tests/support/directions.h"
+#include "tests/support/numbers.h"
 #include "tests/support/render_scenes.h"
 
 namespace aleph {
@@ -17,9 +19,6 @@ Rgb compute_direct_light(const LightingContext& context, RayTask& task, const Vi
     RandomStream path_random = random;
     return compute_sampled_light(context, task, surface, points, random, PathState{}, path_random);
 }
-
-constexpr double pi = std::numbers::pi;
-const glm::vec3 up(0.0f, 1.0f, 0.0f);
 
 struct Lighting {
     explicit Lighting(Scene scene) : stage(std::move(scene)), task(stage.rays) {}

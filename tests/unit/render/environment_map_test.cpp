@@ -7,12 +7,11 @@
 #include <limits>
 #include <random>
 
+#include "tests/support/numbers.h"
 #include "tests/support/path_estimates.h"
 
 namespace aleph {
 namespace {
-
-constexpr double pi = std::numbers::pi;
 
 EnvironmentMap make_map(const Image<Rgb>& picture) {
     Scene scene;

@@ -7,13 +7,12 @@
 
 #include <functional>
 
+#include "tests/support/directions.h"
+#include "tests/support/numbers.h"
 #include "tests/support/render_scenes.h"
 
 namespace aleph {
 namespace {
-
-constexpr double pi = std::numbers::pi;
-const glm::vec3 up(0.0f, 1.0f, 0.0f);
 
 /// A ceiling lit from below by directional light, so that all of it reflects the same known radiance without noise.
 /// There is no floor: irradiance is gathered at points where it would be.

@@ -3,11 +3,10 @@
 #include <gtest/gtest.h>
 
 #include "tests/support/lobes.h"
+#include "tests/support/numbers.h"
 
 namespace aleph {
 namespace {
-
-constexpr double pi = std::numbers::pi;
 
 struct Directions {
     glm::dvec3 view, light;

@@ -8,13 +8,12 @@
 #include <random>
 
 #include "engine/base/sampling.h"
+#include "tests/support/directions.h"
+#include "tests/support/numbers.h"
 #include "tests/support/render_scenes.h"
 
 namespace aleph {
 namespace {
-
-constexpr double pi = std::numbers::pi;
-const glm::vec3 up(0.0f, 1.0f, 0.0f);
 
 Scene make_lamp_scene(double size, double height) {
     Scene scene;

@@ -6,11 +6,10 @@
 
 #include "render/gather_at.h"
 #include "render/irradiance_cache.h"
+#include "tests/support/directions.h"
 
 namespace aleph {
 namespace {
-
-const glm::vec3 up(0.0f, 1.0f, 0.0f);
 
 IrradianceRecord make_flat_record(const glm::vec3& position, float irradiance, float noise) {
     IrradianceRecord record;

@@ -6,12 +6,12 @@
 
 #include "render/sheen.h"
 #include "tests/support/lobes.h"
+#include "tests/support/numbers.h"
 
 namespace aleph {
 namespace {
 
-constexpr double pi = std::numbers::pi;
-const std::vector<float> cosines{1.0f, 0.9f, 0.6f, 0.3f, 0.1f, 0.03f, 0.005f};
+const std::vector<float> view_cosines{1.0f, 0.9f, 0.6f, 0.3f, 0.1f, 0.03f, 0.005f};
 
 struct NamedMaterial {
     std::string name;
@@ -71,7 +71,7 @@ std::vector<NamedMaterial> list_white_materials() {
 
 TEST(Scatter, MC14_NothingScattersMoreThanArrives) {
     for (const NamedMaterial& entry : list_white_materials()) {
-        for (const float cosine : cosines) {
+        for (const float cosine : view_cosines) {
             const ViewedSurface surface = make_viewed(entry.material, direction_of(cosine));
             const LitSurface lit(surface);
             const auto weigh = [](const ScatterSample& sample) {
@@ -97,7 +97,7 @@ double coat_at(double cosine) {
 }
 
 TEST(Scatter, SmoothAndMatteAlbedosAreKnown) {
-    for (const float cosine : cosines) {
+    for (const float cosine : view_cosines) {
         const double f = coat_at(cosine);
         expect_albedo(make_lambert(0.7f), cosine, 0.7, "Lambert");
         expect_albedo(make_metal(0.0f), cosine, 1.0, "smooth metal");
@@ -210,7 +210,7 @@ TEST(Scatter, SamplesAndIntegralAgree) {
 
 TEST(Scatter, SharesAreProbabilitiesOfLobesThatExist) {
     for (const NamedMaterial& entry : list_white_materials()) {
-        for (const float cosine : cosines) {
+        for (const float cosine : view_cosines) {
             const ViewedSurface surface = make_viewed(entry.material, direction_of(cosine));
             const LobeShares shares = share_lobes(LitSurface(surface), LobeSet::all);
             float sum = 0.0f;

@@ -8,11 +8,10 @@
 #include <random>
 
 #include "tests/support/lobes.h"
+#include "tests/support/numbers.h"
 
 namespace aleph {
 namespace {
-
-constexpr double pi = std::numbers::pi;
 
 /// KHR_materials_sheen with its simpler visibility term, in double.
 double exact_sheen(double alpha, const glm::dvec3& view, const glm::dvec3& light) {

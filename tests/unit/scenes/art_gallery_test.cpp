@@ -5,18 +5,16 @@
 
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <numbers>
 #include <set>
 
 #include "render/sequence.h"
 #include "scenes/art-gallery/gallery.h"
+#include "tests/support/numbers.h"
 #include "tests/support/paths.h"
 #include "tests/unit/scenes/authored_scenes.h"
 
 namespace aleph {
 namespace {
-
-constexpr double pi = std::numbers::pi;
 
 std::string top_of(const Scene& scene, int node) {
     while (scene.nodes[node].parent != no_index) node = scene.nodes[node].parent;

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "engine/base/pyramid.h"
 #include "engine/base/sampling.h"
@@ -13,13 +12,12 @@
 #include "perception/orientation.h"
 #include "perception/perception.h"
 #include "perception/sanitize.h"
+#include "tests/support/numbers.h"
 #include "tests/support/perception_bands.h"
 #include "tests/support/perception_scene.h"
 
 namespace aleph {
 namespace {
-
-constexpr float infinity = std::numeric_limits<float>::infinity();
 
 PerceptionMaps with_everything(const Image<Rgb>& estimate, const Image<float>& velocity) {
     return compute_perception(estimate, velocity, {}, {}, {}, {true, true});
@@ -156,8 +154,8 @@ TEST(PyramidHard, PY05_OneNanPixel) {
 }
 
 TEST(PyramidHard, PY06_OneInfinitePixel) {
-    expect_like_replaced(Rgb(0.1f, infinity, 0.1f));
-    expect_like_replaced(Rgb(0.1f, 0.1f, -infinity));
+    expect_like_replaced(Rgb(0.1f, float_infinity, 0.1f));
+    expect_like_replaced(Rgb(0.1f, 0.1f, -float_infinity));
 }
 
 TEST(PyramidHard, PY07_FireflyDoesNotTakeTheWholeMap) {
@@ -239,7 +237,7 @@ TEST(PyramidHard, PY16_OrientationsOfFlatAndLines) {
 
 TEST(PyramidHard, PY17_OneAbsurdVelocityDoesNotTakeTheMotionMap) {
     const SyntheticFrame frame = make_synthetic_frame(512, 512);
-    for (const float absurd : {1e8f / 31 * 30, infinity}) {
+    for (const float absurd : {1e8f / 31 * 30, float_infinity}) {
         Image<float> velocity = frame.velocity;
         velocity(400, 120) = absurd;
         const PerceptionMaps expected = with_everything(frame.estimate, frame.velocity);

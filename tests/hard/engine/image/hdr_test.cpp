@@ -10,13 +10,11 @@
 #include "engine/base/sampling.h"
 #include "engine/image/image_file.h"
 #include "tests/hard/engine/image/output_files.h"
+#include "tests/support/numbers.h"
 #include "tests/support/scratch_folder.h"
 
 namespace aleph {
 namespace {
-
-constexpr float infinity = std::numeric_limits<float>::infinity();
-constexpr float nan_value = std::numeric_limits<float>::quiet_NaN();
 
 struct ReadBack {
     Image<Rgb> color;
@@ -85,12 +83,12 @@ TEST(Hdr, OU03_KnownValues) {
 
 TEST(Hdr, OU03_ValuesWithoutACodeAreCounted) {
     constexpr float largest = 0xffp119f;  // 1.7e38
-    const std::array<std::pair<float, float>, 9> cases{{{nan_value, 0.0f},
-                                                        {-nan_value, 0.0f},
+    const std::array<std::pair<float, float>, 9> cases{{{float_nan, 0.0f},
+                                                        {-float_nan, 0.0f},
                                                         {-1.0f, 0.0f},
                                                         {-1e-30f, 0.0f},
-                                                        {-infinity, 0.0f},
-                                                        {infinity, largest},
+                                                        {-float_infinity, 0.0f},
+                                                        {float_infinity, largest},
                                                         {std::numeric_limits<float>::max(), largest},
                                                         {0x1p127f, largest},
                                                         {-std::numeric_limits<float>::denorm_min(), 0.0f}}};
@@ -107,7 +105,7 @@ TEST(Hdr, OU03_ValuesWithoutACodeAreCounted) {
     }
     for (const float held : {0.0f, -0.0f, 1.6e38f, std::numeric_limits<float>::min()})
         EXPECT_EQ(write_and_read(Image<Rgb>(2, 2, Rgb(held))).changed, 0u) << held;
-    EXPECT_EQ(write_and_read(Image<Rgb>(4, 2, Rgb(nan_value))).changed, 24u);
+    EXPECT_EQ(write_and_read(Image<Rgb>(4, 2, Rgb(float_nan))).changed, 24u);
 }
 
 TEST(Hdr, OU03_FailuresNameTheFileAndLeaveNothing) {

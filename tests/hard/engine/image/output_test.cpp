@@ -19,13 +19,11 @@
 #include "engine/image/codec.h"
 #include "engine/image/image_file.h"
 #include "tests/hard/engine/image/output_files.h"
+#include "tests/support/numbers.h"
 #include "tests/support/scratch_folder.h"
 
 namespace aleph {
 namespace {
-
-constexpr float infinity = std::numeric_limits<float>::infinity();
-constexpr float nan_value = std::numeric_limits<float>::quiet_NaN();
 
 ChannelImage row_image(const std::string& name, std::vector<float> values) {
     Image<float> row(static_cast<int>(values.size()), 1);
@@ -47,7 +45,7 @@ void expect_bits_survive(const std::string& channel, const std::vector<float>& v
 TEST(Output, OU01_ValuesBeyondHalfSurvive) {
     expect_bits_survive("R", {0.0f, -0.0f, 65504.0f, 65519.0f, 65520.0f, 1e6f, -1e6f, 1e-8f, 1.1e-6f, 6.1e-5f,
                               std::numeric_limits<float>::denorm_min(), std::numeric_limits<float>::min(),
-                              std::numeric_limits<float>::max(), infinity, -infinity, nan_value});
+                              std::numeric_limits<float>::max(), float_infinity, -float_infinity, float_nan});
 }
 
 TEST(Output, OU02_EveryChannelIs32BitFloat) {
@@ -71,8 +69,8 @@ TEST(Output, OU02_SmallMotionLargeIdsAndBackgroundDepthAreBitEqual) {
 TEST(Output, OU04_EightBitGoldenBytes) {
     const ScratchFolder folder;
     // 0.0001517635 is half a code (0.5 / 255 / 12.92): below it 0, above it 1. sRGB by hand: 0.18 -> 117.6.
-    const std::vector<float> values{nan_value, infinity, -infinity, 300.0f, -0.01f,   -0.0f,    0.0f,
-                                    1.0f,      0.99999f, 0.5f,      0.18f,  0.00015f, 0.00016f, 1e-42f};
+    const std::vector<float> values{float_nan, float_infinity, -float_infinity, 300.0f,   -0.01f,   -0.0f, 0.0f, 1.0f,
+                                    0.99999f,  0.5f,           0.18f,           0.00015f, 0.00016f, 1e-42f};
     const std::vector<long> codes{0, 255, 0, 255, 0, 0, 0, 255, 255, 188, 118, 0, 1, 0};
     Image<Rgb> image(static_cast<int>(values.size()), 1);
     for (std::size_t i = 0; i < values.size(); ++i) image.pixels[i] = {values[i], values[values.size() - 1 - i], 0.0f};

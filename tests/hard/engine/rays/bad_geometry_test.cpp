@@ -9,11 +9,11 @@
 #include "engine/base/errors.h"
 #include "engine/rays/state.h"
 #include "tests/support/deforming_scenes.h"
+#include "tests/support/numbers.h"
 
 namespace aleph {
 namespace {
 
-constexpr float infinite = std::numeric_limits<float>::infinity();
 const float not_a_number = std::nanf("");
 
 /// A ray straight down at (x, y).
@@ -71,7 +71,7 @@ TEST(BadGeometry, RC08_MeshesThatEmbreeWouldDropAreRefusedByName) {
     };
     Scene good = make_sheet_scene(2);
     good.meshes[0].name = "sheet";
-    for (const float bad : {not_a_number, infinite, -infinite, 1.85e18f, -3e38f}) {
+    for (const float bad : {not_a_number, float_infinity, -float_infinity, 1.85e18f, -3e38f}) {
         for (int k = 0; k < 3; ++k) {
             Scene scene = good;
             scene.meshes[0].positions[8][k] = bad;
@@ -91,7 +91,7 @@ TEST(BadGeometry, RC08_MeshesThatEmbreeWouldDropAreRefusedByName) {
 }
 
 TEST(BadGeometry, RC08_ADeformingMeshIsLeftOutWhileItsPointsAreBad) {
-    for (const float bad : {not_a_number, infinite, 1.85e18f}) {
+    for (const float bad : {not_a_number, float_infinity, 1.85e18f}) {
         Scene scene = make_sheet_scene(2);
         add_cache(scene, 0, {0.0, 1.0, 2.0}, [&](const glm::vec3& p, std::size_t sample) {
             return sample == 1 && p.x > 0.5f ? glm::vec3(p.x, bad, p.z) : p;

@@ -6,7 +6,6 @@
 #include <cstring>
 #include <glm/gtc/matrix_transform.hpp>
 #include <limits>
-#include <numbers>
 #include <random>
 
 #include "engine/base/errors.h"
@@ -14,11 +13,11 @@
 #include "engine/scene/track.h"
 #include "engine/scene/transforms.h"
 #include "tests/support/keyed_track.h"
+#include "tests/support/numbers.h"
 
 namespace aleph {
 namespace {
 
-constexpr double pi = std::numbers::pi;
 constexpr double double_unit = 1.2e-16;  // rounding unit
 
 /// The turn about (.48, -.6, .64) in long double, rounded once.

@@ -11,9 +11,10 @@
 #include <random>
 #include <vector>
 
+#include "tests/support/numbers.h"
+
 namespace aleph {
 
-inline constexpr double pi = std::numbers::pi;
 inline constexpr double double_unit = 1.2e-16;  // rounding unit
 
 inline glm::dmat4 scaling(double x, double y, double z) {

@@ -18,7 +18,7 @@ namespace {
 constexpr int width = 96, height = 72;
 
 /// Where an object stands in an archive: the names above it. Authored nodes are called by that path.
-std::string path_of(const Scene& scene, int instance) {
+std::string path_of_instance(const Scene& scene, int instance) {
     int node = list_instances(scene)[instance].node;
     std::string path = scene.nodes[node].name;
     if (path.front() == '/') return path.substr(0, path.find('#'));
@@ -66,7 +66,8 @@ void expect_same(const std::string& name, const std::vector<View>& views, int fr
                 ASSERT_EQ(a.instance == no_index, b.instance == no_index) << name << " pixel " << p << " step " << step;
                 if (a.instance == no_index) continue;
                 ++surface;
-                ASSERT_EQ(path_of(archive, a.instance), path_of(authored, b.instance)) << name << " pixel " << p;
+                ASSERT_EQ(path_of_instance(archive, a.instance), path_of_instance(authored, b.instance))
+                    << name << " pixel " << p;
                 worst_distance = std::max(worst_distance, std::abs(double(a.distance) / b.distance - 1.0));
                 const glm::dvec2 move = ours.motion.displacement.pixels[p];
                 worst_motion = std::max(worst_motion, glm::distance(move, theirs.motion.displacement.pixels[p]));

@@ -3,15 +3,14 @@
 
 #include <cmath>
 #include <glm/gtc/constants.hpp>
-#include <numbers>
 
 #include "engine/scene/operations.h"
+#include "tests/support/numbers.h"
 
 namespace aleph {
 namespace {
 
 using Kind = OperationStack::Kind;
-constexpr double pi = std::numbers::pi;
 
 glm::dvec3 apply(const OperationStack& stack, double seconds, const glm::dvec3& point) {
     return glm::dvec3(evaluate(stack, seconds) * glm::dvec4(point, 1.0));

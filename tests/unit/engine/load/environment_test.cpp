@@ -18,7 +18,7 @@ void write_sky(const fs::path& path, const Image<float>& red) {
     write_exr(path, {{{"R", red}, {"G", Image<float>(red.width, red.height, 2.0f)}, {"B", red}}, {}});
 }
 
-Scene without_file(Scene scene) {
+Scene without_path(Scene scene) {
     scene.file.clear();
     return scene;
 }
@@ -46,7 +46,7 @@ TEST_F(LoadEnvironment, SaveKeepsThePictureAndItsRotation) {
     const Scene scene = load_scene(write_scene(R"("environment_image": "sky.exr", "environment": [3, 2, 1],
         "environment_rotation": {"axis": [0, 1, 0], "degrees": {"keys": [[0, 0], [30, 360]]}}, "viewing": {"persistence": 0.25})"));
     save_scene(scene, folder_ / "again.json");
-    EXPECT_TRUE(without_file(load_scene(folder_ / "again.json")) == without_file(scene));
+    EXPECT_TRUE(without_path(load_scene(folder_ / "again.json")) == without_path(scene));
     save_scene(scene, folder_ / "lib/moved.json");
     const Scene moved = load_scene(folder_ / "lib/moved.json");
     EXPECT_EQ(moved.images[moved.environment_image].path, "../sky.exr");
@@ -78,7 +78,7 @@ TEST_F(LoadEnvironment, APictureThatIsATextureTooIsThereTwice) {
     EXPECT_EQ(scene.materials[0].metallic_roughness_texture.image, 0);
     EXPECT_EQ(scene.images[0].bytes(0, 0), glm::u8vec4(188, 188, 188, 255));
     save_scene(scene, folder_ / "again.json");
-    EXPECT_TRUE(without_file(load_scene(folder_ / "again.json")) == without_file(scene));
+    EXPECT_TRUE(without_path(load_scene(folder_ / "again.json")) == without_path(scene));
 }
 
 TEST_F(LoadEnvironment, PicturesThatCannotBeReadAreRefused) {

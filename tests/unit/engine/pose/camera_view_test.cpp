@@ -6,15 +6,14 @@
 
 #include <cmath>
 #include <limits>
-#include <numbers>
 
 #include "engine/base/errors.h"
 #include "engine/scene/transforms.h"
+#include "tests/support/expect_near.h"
+#include "tests/support/numbers.h"
 
 namespace aleph {
 namespace {
-
-constexpr double pi = std::numbers::pi;
 
 CameraValues placed(const glm::dvec3& eye, const glm::dvec3& target) {
     const glm::dmat4 world = look_at(eye, target, {0.0, 1.0, 0.0});
@@ -24,12 +23,6 @@ CameraValues placed(const glm::dvec3& eye, const glm::dvec3& target) {
     camera.fov = pi / 3.0;
     camera.half_height = 2.5;
     return camera;
-}
-
-void expect_near(const glm::dvec3& a, const glm::dvec3& b, double tolerance) {
-    EXPECT_NEAR(a.x, b.x, tolerance);
-    EXPECT_NEAR(a.y, b.y, tolerance);
-    EXPECT_NEAR(a.z, b.z, tolerance);
 }
 
 TEST(CameraView, FocalLengthInPixels) {

@@ -7,20 +7,15 @@
 
 #include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
-#include <numbers>
 
 #include "engine/pose/plan.h"
 #include "engine/scene/points.h"
 #include "tests/support/deforming_scenes.h"
+#include "tests/support/expect_near.h"
+#include "tests/support/numbers.h"
 
 namespace aleph {
 namespace {
-
-constexpr double pi = std::numbers::pi;
-
-void expect_near(const glm::dvec3& a, const glm::dvec3& b, double tolerance = 1e-12) {
-    for (int i = 0; i < 3; ++i) EXPECT_NEAR(a[i], b[i], tolerance);
-}
 
 TEST(SamplePoints, AreLinearBetweenSamplesAndHoldOutside) {
     PointCache cache;

@@ -6,26 +6,21 @@
 
 #include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
-#include <numbers>
 
 #include "engine/base/errors.h"
 #include "engine/pose/plan.h"
+#include "tests/support/expect_near.h"
 #include "tests/support/keyed_track.h"
+#include "tests/support/numbers.h"
 
 namespace aleph {
 namespace {
-
-constexpr double pi = std::numbers::pi;
 
 Node child_of(int parent, const glm::dvec3& translation = glm::dvec3(0.0)) {
     Node node;
     node.parent = parent;
     node.translation = translation;
     return node;
-}
-
-void expect_near(const glm::dvec3& a, const glm::dvec3& b, double tolerance = 1e-14) {
-    for (int i = 0; i < 3; ++i) EXPECT_NEAR(a[i], b[i], tolerance);
 }
 
 TEST(Pose, LocalTransformIsTranslationRotationScale) {
@@ -35,9 +30,9 @@ TEST(Pose, LocalTransformIsTranslationRotationScale) {
     scene.nodes[0].scale = glm::dvec3(2.0, 3.0, 4.0);
     scene.nodes.push_back(child_of(0, {1.0, 1.0, 1.0}));
     const ScenePose frame = pose(scene, 0.0);
-    expect_near(frame.world[0] * glm::dvec4(1.0, 1.0, 1.0, 1.0), {-2.0, 4.0, 7.0});
-    expect_near(frame.world[1][3], {-2.0, 4.0, 7.0});
-    expect_near(frame.world[1] * glm::dvec4(1.0, 0.0, 0.0, 1.0), {-2.0, 6.0, 7.0});
+    expect_near(frame.world[0] * glm::dvec4(1.0, 1.0, 1.0, 1.0), {-2.0, 4.0, 7.0}, 1e-14);
+    expect_near(frame.world[1][3], {-2.0, 4.0, 7.0}, 1e-14);
+    expect_near(frame.world[1] * glm::dvec4(1.0, 0.0, 0.0, 1.0), {-2.0, 6.0, 7.0}, 1e-14);
 }
 
 TEST(Pose, MatrixStandsForTheWholeTransform) {
@@ -98,8 +93,8 @@ TEST(Pose, LightsShineAlongMinusZWithoutTheirScale) {
     scene.nodes[1].visible = 0.0;
     const ScenePose frame = pose(scene, 0.5);
     ASSERT_EQ(frame.lights.size(), 1u);
-    expect_near(frame.lights[0].direction, {0.0, -1.0, 0.0});
-    expect_near(frame.lights[0].position, {1.0, 2.0, 3.0});
+    expect_near(frame.lights[0].direction, {0.0, -1.0, 0.0}, 1e-14);
+    expect_near(frame.lights[0].position, {1.0, 2.0, 3.0}, 1e-14);
     EXPECT_EQ(frame.lights[0].intensity, Rgb(15.0f, 7.5f, 3.75f));
     scene.nodes[0].scale = glm::dvec3(0.0);
     EXPECT_EQ(pose(scene, 0.5).lights[0].direction, glm::dvec3(0.0, 0.0, -1.0));
@@ -119,14 +114,14 @@ TEST(Pose, CamerasAreOrthonormalWhateverTheScale) {
         scene.nodes[1].scale = scale;
         const CameraValues camera = pose(scene, 0.0).cameras.at(0);
         const glm::dmat3 expected = glm::mat3_cast(rotation);
-        for (int i = 0; i < 3; ++i) expect_near(camera.axes[i], expected[i]);
-        expect_near(camera.position, {0.0, 0.0, 10.0});
+        for (int i = 0; i < 3; ++i) expect_near(camera.axes[i], expected[i], 1e-14);
+        expect_near(camera.position, {0.0, 0.0, 10.0}, 1e-14);
         EXPECT_EQ(camera.shutter, glm::dvec2(-0.25, 0.25));
     }
     scene.nodes[0].scale = glm::dvec3(1.0, 3.0, 1.0);  // with the rotation below it: a shear
     const CameraValues sheared = pose(scene, 0.0).cameras.at(0);
     const glm::dmat3 product = glm::transpose(sheared.axes) * sheared.axes;
-    for (int i = 0; i < 3; ++i) expect_near(product[i], glm::dmat3(1.0)[i]);
+    for (int i = 0; i < 3; ++i) expect_near(product[i], glm::dmat3(1.0)[i], 1e-14);
     EXPECT_GT(glm::determinant(sheared.axes), 0.99);
     scene.nodes[1].scale = glm::dvec3(0.0);
     EXPECT_EQ(pose(scene, 0.0).cameras[0].axes, glm::dmat3(1.0));
@@ -176,7 +171,7 @@ TEST(Pose, TheEnvironmentTurnsByQuaternionsOrAboutAnAxis) {
         {0.0, 1.0}, {glm::dquat(1.0, 0.0, 0.0, 0.0), glm::angleAxis(pi / 2.0, glm::dvec3(0.0, 0.0, 1.0))});
     EXPECT_TRUE(is_world_animated(scene));
     EXPECT_EQ(frame_range(scene), (FrameRange{0, 30}));
-    expect_near(pose(scene, 0.5).environment_rotation[0], {std::sqrt(0.5), std::sqrt(0.5), 0.0});
+    expect_near(pose(scene, 0.5).environment_rotation[0], {std::sqrt(0.5), std::sqrt(0.5), 0.0}, 1e-14);
     scene.environment_axis_rotation = AxisRotation{{0.0, 2.0, 0.0}, keyed<double>({0.0, 2.0}, {0.0, 4.0 * pi})};
     EXPECT_EQ(frame_range(scene), (FrameRange{0, 60}));
     const PosePlan plan = make_pose_plan(scene);

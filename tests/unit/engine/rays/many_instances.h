@@ -6,11 +6,10 @@
 #include <random>
 
 #include "engine/rays/hit.h"
+#include "tests/support/numbers.h"
 #include "tests/support/render_scenes.h"
 
 namespace aleph {
-
-inline const float infinite = std::numeric_limits<float>::infinity();
 
 /// Several instances, two of one mesh, some turned and scaled.
 inline Scene make_many() {
@@ -31,7 +30,7 @@ class RandomRays {
     glm::vec3 in_cube(float half) { return {uniform(-half, half), uniform(-half, half), uniform(-half, half)}; }
     Ray next() {
         return {in_cube(8.0f) - glm::vec3(0.0f, 0.0f, 5.0f), in_cube(1.0f), 0.0f,
-                uniform(0.0f, 1.0f) < 0.5f ? infinite : 5.0f};
+                uniform(0.0f, 1.0f) < 0.5f ? float_infinity : 5.0f};
     }
     /// A number such as a broken computation gives.
     float special() {
@@ -46,8 +45,8 @@ class RandomRays {
                                 1.85e18f,
                                 -3.4e38f,
                                 3.4e38f,
-                                infinite,
-                                -infinite,
+                                float_infinity,
+                                -float_infinity,
                                 std::nanf(""),
                                 uniform(-9.0f, 9.0f),
                                 uniform(-9.0f, 9.0f)};

@@ -45,8 +45,8 @@ TEST(RayScene, PacketsAndSingleRaysAgree) {
 }
 
 TEST(RayScene, MixedShadowPacketsEnd) {
-    // Directions that differ in sign, finite and infinite, dead lanes among them: occlusion packets once looped for
-    // ever.
+    // Directions that differ in sign, finite and float_infinity, dead lanes among them: occlusion packets once looped
+    // for ever.
     const Stage stage(make_many());
     Tracer tracer(stage.rays);
     RandomRays random;

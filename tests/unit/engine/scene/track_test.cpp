@@ -6,15 +6,13 @@
 
 #include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
-#include <numbers>
 
 #include "engine/base/errors.h"
 #include "tests/support/keyed_track.h"
+#include "tests/support/numbers.h"
 
 namespace aleph {
 namespace {
-
-constexpr double pi = std::numbers::pi;
 
 glm::dquat turn(double degrees, const glm::dvec3& axis) {
     return glm::angleAxis(degrees * pi / 180.0, axis);
