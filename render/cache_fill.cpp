@@ -5,7 +5,6 @@
 #include <optional>
 
 #include "engine/base/parallel.h"
-#include "render/fill_points.h"
 #include "render/gather_at.h"
 
 namespace aleph {
@@ -106,7 +105,7 @@ std::vector<Candidate> accept_candidates(const IrradianceCache& cache, const Ind
 }
 
 /// The candidates' records, computed in parallel.
-std::vector<Gathered> gather_records(const IndirectContext& context, const SampleHits& sample,
+std::vector<Gathered> gather_records(const IndirectContext& context, const FillPlaces& places,
                                      const std::vector<Candidate>& candidates, RayCounts& counts) {
     std::vector<Gathered> records(candidates.size());
     std::mutex counts_mutex;
@@ -115,7 +114,7 @@ std::vector<Gathered> gather_records(const IndirectContext& context, const Sampl
         RayTask task(context.lighting.rays);
         for (std::size_t i = begin; i < end; ++i) {
             const Candidate& candidate = candidates[i];
-            const PixelSurface surface = *find_surface(context, sample, candidate.x, candidate.y);
+            const PixelSurface surface = places.surface_at(candidate.x, candidate.y);
             const IrradianceSample value =
                 gather_at(context, task, surface, scratch, candidate.rays, &records[i].direct);
             records[i].record = make_record(candidate.query.position, candidate.query.normal, candidate.query.accuracy,
@@ -128,14 +127,14 @@ std::vector<Gathered> gather_records(const IndirectContext& context, const Sampl
 }
 
 /// Rounds over the tiles until every one is covered or has been tried. Returns the number of records added.
-std::size_t fill_tiles(IrradianceCache& cache, const IndirectContext& context, const SampleHits& sample,
-                       const Image<FillPoint>& points, std::vector<glm::ivec2> tiles, FrameTally& tally) {
+std::size_t fill_tiles(IrradianceCache& cache, const IndirectContext& context, const FillPlaces& places,
+                       std::vector<glm::ivec2> tiles, FrameTally& tally) {
     const std::size_t records_before = cache.records().size();
     while (!tiles.empty()) {
-        std::vector<Candidate> waiting = find_uncovered(cache, context, points, tiles, tally.counts);
+        std::vector<Candidate> waiting = find_uncovered(cache, context, places.points, tiles, tally.counts);
         if (waiting.empty()) break;
         const std::vector<Candidate> accepted = accept_candidates(cache, context, waiting);
-        const auto records = gather_records(context, sample, accepted, tally.counts.rays);
+        const auto records = gather_records(context, places, accepted, tally.counts.rays);
         for (std::size_t i = 0; i < accepted.size(); ++i) {
             tally.records(accepted[i].x, accepted[i].y) += 1.0f;
             if (context.direct != nullptr) context.direct->insert(records[i].direct);
@@ -169,17 +168,22 @@ RadiusBounds radius_bounds(const IndirectContext& context, float footprint, floa
     return {min, context.max_radius, footprint / std::sqrt(alpha)};
 }
 
-void fill_cache(IrradianceCache& cache, const IndirectContext& context, const SampleHits& sample, FrameTally& tally) {
-    const Image<FillPoint> points = find_points(context, sample, tally.counts.rays);
-    const bool first_pass = sample.place.index == 0;
-    for (int stride = first_pass ? first_stride : 1; stride >= 1; stride /= 2) {
-        fill_tiles(cache, context, sample, points, list_tiles(points, stride, first_pass), tally);
+void fill_places(IrradianceCache& cache, const IndirectContext& context, const FillPlaces& places, FrameTally& tally) {
+    const bool coarse = places.coarse_first;
+    for (int stride = coarse ? first_stride : 1; stride >= 1; stride /= 2) {
+        fill_tiles(cache, context, places, list_tiles(places.points, stride, coarse), tally);
     }
     // A new record near a wall shrinks its neighbours' radii, and pixels that they covered before are uncovered again.
     // Without these reviews, shading would gather at each such pixel. Later samples look at every pixel anyway.
-    for (int review = 0; first_pass && review < max_reviews; ++review) {
-        if (fill_tiles(cache, context, sample, points, list_tiles(points, 1, false), tally) == 0) break;
+    for (int review = 0; coarse && review < max_reviews; ++review) {
+        if (fill_tiles(cache, context, places, list_tiles(places.points, 1, false), tally) == 0) break;
     }
+}
+
+void fill_cache(IrradianceCache& cache, const IndirectContext& context, const SampleHits& sample, FrameTally& tally) {
+    const auto surface_at = [&](int x, int y) { return *find_surface(context, sample, x, y); };
+    fill_places(cache, context, {find_points(context, sample, tally.counts.rays), surface_at, sample.place.index == 0},
+                tally);
 }
 
 IrradianceCache make_cache(const ShadingScene& shading) {

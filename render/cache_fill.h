@@ -13,18 +13,33 @@
 // No step depends on the order in which threads work. The number of records is within a few percent of that of a
 // sequential fill, where each record is inserted before the next pixel is looked at.
 
+#include <functional>
+
+#include "render/fill_points.h"
 #include "render/indirect_context.h"
 #include "render/irradiance_cache.h"
 
 namespace aleph {
 
+/// Surfaces that may need light, in rows and columns. `accuracy` of the context and the images of the tally have the
+/// same size.
+struct FillPlaces {
+    Image<FillPoint> points;
+    /// The surface of a point that needs light. Called from any thread.
+    std::function<PixelSurface(int x, int y)> surface_at;
+    /// Tiles start large; otherwise every point is looked at once.
+    bool coarse_first = true;
+};
+
+/// Adds records until every place is covered. A gather that is not finite makes no record: it is counted as invalid,
+/// and shading computes that sample's irradiance again if no other record covers it.
+void fill_places(IrradianceCache& cache, const IndirectContext& context, const FillPlaces& places, FrameTally& tally);
+
 /// Bounds for a pixel: R_i is at least min_radius_pixels, and at the pixel's own accuracy S_i reaches a pixel.
 /// @param footprint  m, of the pixel
 RadiusBounds radius_bounds(const IndirectContext& context, float footprint, float accuracy);
 
-/// Adds records until every surface that this sample of the pixels shows is covered. A gather that is not finite makes
-/// no record: it is counted as invalid, and shading computes that sample's irradiance again if no other record covers
-/// it.
+/// fill_places for the surfaces that this sample of the pixels shows.
 /// @param sample  if it is the pixels' first, tiles start large; later samples are looked at pixel by pixel
 /// @param tally  increased; its images have the frame's size
 void fill_cache(IrradianceCache& cache, const IndirectContext& context, const SampleHits& sample, FrameTally& tally);

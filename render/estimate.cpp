@@ -5,7 +5,6 @@
 #include <mutex>
 
 #include "engine/base/parallel.h"
-#include "render/indirect_estimate.h"
 
 namespace aleph {
 
@@ -19,13 +18,13 @@ int points_per_light(const LightSet& lights) {
 }  // namespace
 
 Image<Rgb> compute_estimate(const LightingContext& context, const CameraView& view, const SampleHits& centers,
-                            EstimateKind kind, bool indirect, double exposure, RayCounts& counts,
+                            EstimateKind kind, const EstimateNodes* indirect, double exposure, RayCounts& counts,
                             Image<float>* indirect_luminance) {
     Image<Rgb> estimate(view.width, view.height);
     const float scale = static_cast<float>(exposure);
     const int points = points_per_light(context.lights);
     Image<DiffuseSurface> surfaces;
-    if (indirect && kind == EstimateKind::direct) surfaces = Image<DiffuseSurface>(view.width, view.height);
+    if (indirect != nullptr && kind == EstimateKind::direct) surfaces = Image<DiffuseSurface>(view.width, view.height);
     std::mutex counts_mutex;
     parallel_rows(view.height, 4, [&](int begin, int end) {
         RayTask task(context.rays, Blend::cutout);  // without noise
@@ -57,7 +56,7 @@ Image<Rgb> compute_estimate(const LightingContext& context, const CameraView& vi
         if (indirect_luminance != nullptr) *indirect_luminance = luminance_image(estimate);
         return estimate;
     }
-    const Image<Rgb> light = estimate_indirect_light(context, view, centers, surfaces, counts);
+    const Image<Rgb> light = interpolate_estimate(*indirect, surfaces);
     for (std::size_t i = 0; i < estimate.size(); ++i) estimate.pixels[i] += light.pixels[i] * scale;
     if (indirect_luminance != nullptr) {
         *indirect_luminance = luminance_image(light);

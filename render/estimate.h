@@ -1,8 +1,7 @@
 #pragma once
 // The quick estimate of a frame: a cheap picture for the model of vision. It is not part of the rendered frame.
 
-#include "render/direct_light.h"
-#include "render/pixel_surfaces.h"
+#include "render/indirect_estimate.h"
 #include "render/settings.h"
 
 namespace aleph {
@@ -11,12 +10,13 @@ namespace aleph {
 /// kept (perception/sanitize.h replaces them).
 /// flat: albedo plus emission, as under constant white light; no rays.
 /// direct: emission plus direct light from a fixed pattern of points per light (estimate_direct_light).
-/// @param indirect  with `direct`, also the light of one bounce (indirect_estimate.h)
+/// @param indirect  with `direct`: nodes of this view (gather_estimate), whose light of one bounce is added; may be
+/// null
 /// @param counts    increased by the rays cast
 /// @param indirect_luminance  if not null: of the light of one bounce alone, or of the whole estimate where that is not
 ///                            computed
 Image<Rgb> compute_estimate(const LightingContext& context, const CameraView& view, const SampleHits& centers,
-                            EstimateKind kind, bool indirect, double exposure, RayCounts& counts,
+                            EstimateKind kind, const EstimateNodes* indirect, double exposure, RayCounts& counts,
                             Image<float>* indirect_luminance = nullptr);
 
 /// Luminance of every pixel.

@@ -5,6 +5,8 @@
 #include <mutex>
 
 #include "engine/base/parallel.h"
+#include "render/bounce_levels.h"
+#include "render/bounce_places.h"
 #include "render/gather_at.h"
 #include "render/pixel_sum.h"
 
@@ -44,6 +46,7 @@ class FrameShading {
           direct_(context.max_radius),
           sums_(context.view.width, context.view.height) {
         if (cached_) context_.direct = &direct_;
+        context_.deeper = make_deeper_light(context.settings, nullptr);
         if (!by_paths_) out_.indirect = Image<Rgb>(context.view.width, context.view.height);
     }
 
@@ -51,7 +54,9 @@ class FrameShading {
         const int spp = context_.settings.spp;
         for (int i = 0; cached_ && i < spp; ++i) {
             if (context_.progress) context_.progress(fill_share * i / spp, "fill");
-            fill_cache(cache_, context_, cast(still(), i), out_);
+            const SampleHits sample = cast(still(), i);
+            if (i == 0) fill_fewer_bounces(sample);
+            fill_cache(cache_, context_, sample, out_);
         }
         cache_.finish();
     }
@@ -80,6 +85,14 @@ class FrameShading {
     }
 
   private:
+    void fill_fewer_bounces(const SampleHits& sample) {
+        if (context_.deeper.bounces == 0) return;
+        std::vector<PixelSurface> seen;
+        add_seen_surfaces(context_, sample, seen, out_.counts.rays);
+        fewer_bounces_ = fill_levels(context_, seen, out_.counts);
+        if (fewer_bounces_) context_.deeper = make_deeper_light(context_.settings, &*fewer_bounces_);
+    }
+
     SampleMoment still() const { return {context_.lighting, context_.view}; }
 
     SampleHits cast(const SampleMoment& moment, int i) {
@@ -215,6 +228,7 @@ class FrameShading {
     ShadedFrame& out_;
     bool by_paths_, indirect_, cached_;
     IrradianceCache cache_;
+    std::optional<IrradianceCache> fewer_bounces_;
     DirectGrid direct_;
     Image<PixelSum> sums_;
     std::mutex mutex_;

@@ -19,11 +19,11 @@ constexpr float infinite = std::numeric_limits<float>::infinity();
 /// Light that comes back along a path which leaves a hit by another lobe than the Lambert layer's. Lamps that it sees
 /// straight through sheets of glass are direct light, which is computed elsewhere.
 Rgb follow_lobes(const LightingContext& context, RayTask& task, const LitSurface& lit, const LobeShares& shares,
-                 int depth, RandomStream& random) {
+                 int bounces, int depth, RandomStream& random) {
     const ScatterSample sample = sample_scatter(lit, shares, random.next(), random.next_2d(), random.next());
     if (sample.lobe == Lobe::diffuse) return Rgb(0.0f);
     PathState state;
-    state.left.depth = depth;
+    state.left = {bounces, depth};
     state.emission = EmissionWeight::none;
     return follow_sample(context, task, lit, sample, state, random);
 }
@@ -49,9 +49,13 @@ struct Lighting {
         const auto& [cell, row, column, share] = scratch.places[ray];
         return {random.next(), numbers.light(row, column), numbers.light_point(row, column)};
     }
+    /// Irradiance of further bounces at a surface that a ray hit.
+    Rgb find_deeper(const SurfacePlace& met) const {
+        return find_deeper_irradiance(context, task, met, options.deeper, options.depth, random);
+    }
 };
 
-/// Adds a sample of direct light, and the light of longer paths by other lobes than Lambert's.
+/// Adds a sample of direct light, light of further bounces, and that of longer paths by other lobes than Lambert's.
 void light_hit(const Lighting& lighting, std::size_t i) {
     GatherScratch& scratch = lighting.scratch;
     const ShadingScene& shading = lighting.context.shading;
@@ -65,13 +69,18 @@ void light_hit(const Lighting& lighting, std::size_t i) {
     const int depth = lighting.options.depth;
     if (depth > 0 && surface.material.has_specular()) {
         shares = share_lobes(lit, LobeSet::all);
-        scratch.light[i] = follow_lobes(lighting.context, lighting.task, lit, shares, depth, lighting.random);
+        scratch.light[i] = follow_lobes(lighting.context, lighting.task, lit, shares, lighting.options.deeper.bounces,
+                                        depth, lighting.random);
         shares[static_cast<int>(Lobe::diffuse)] = 0.0f;
+    }
+    if (lighting.options.deeper.bounces > 0 && surface.material.has_diffuse()) {
+        const Rgb deeper = diffuse_radiance(surface.material, lit.cos_view, lighting.find_deeper(surface.point));
+        scratch.light[i] += deeper * lit.below_sheen;
     }
     const ScatteredLight scattered = choose_light(lighting.context, lit, shares, lighting.light_numbers(i));
     if (scattered.radiance == Rgb(0.0f)) return;
     scratch.shadow_rays.push_back(scattered.shadow_ray);
-    scratch.shadow_samples.push_back({scattered.radiance, Rgb(1.0f), static_cast<int>(i)});
+    scratch.shadow_samples.push_back({scattered.radiance, Rgb(1.0f), Rgb(0.0f), static_cast<int>(i)});
 }
 
 /// Albedo and cell of the direct grid of a plain Lambert surface.
@@ -107,20 +116,23 @@ void find_known_light(const DirectGrid& grid, GatherScratch& scratch) {
     scratch.plain_hits.resize(left);
 }
 
-/// Adds a sample of direct light.
+/// Adds a sample of direct light, and light of further bounces.
 void light_plain_hit(const Lighting& lighting, const PlainHit& noted) {
     GatherScratch& scratch = lighting.scratch;
     const LightingContext& context = lighting.context;
     const SurfacePlace place =
         make_surface_place(context.shading, scratch.hits[noted.ray], scratch.rays[noted.ray].direction);
+    const Rgb deeper = lighting.find_deeper(place) / pi;
     const ScatteredLight scattered = choose_lambert_light(context, place, lighting.light_numbers(noted.ray));
     if (scattered.radiance == Rgb(0.0f)) {
-        if (noted.grid != 0 && lighting.options.found != nullptr)
-            lighting.options.found->push_back({noted.grid, Rgb(0.0f)});
+        scratch.light[noted.ray] += noted.scale * deeper;
+        if (noted.grid != 0 && lighting.options.found != nullptr) {
+            lighting.options.found->push_back({noted.grid, deeper});
+        }
         return;
     }
     scratch.shadow_rays.push_back(scattered.shadow_ray);
-    scratch.shadow_samples.push_back({scattered.radiance, noted.scale, noted.ray, noted.grid});
+    scratch.shadow_samples.push_back({scattered.radiance, noted.scale, deeper, noted.ray, noted.grid});
 }
 
 /// All plain hits. What is read of the meshes is fetched ahead.
@@ -171,7 +183,7 @@ void add_unshadowed(const LightingContext& context, RayTask& task, const GatherO
         const ShadowSample& sample = scratch.shadow_samples[s];
         const Rgb passed = context.shading.has_sheets ? find_transmittance(context, task, scratch.shadow_rays[s])
                                                       : Rgb(scratch.blocked[s] ? 0.0f : 1.0f);
-        const Rgb arrives = passed == Rgb(0.0f) ? passed : sample.unshadowed * passed;
+        const Rgb arrives = sample.deeper + (passed == Rgb(0.0f) ? passed : sample.unshadowed * passed);
         scratch.light[sample.ray] += sample.scale * arrives;
         if (sample.grid != 0 && options.found != nullptr) options.found->push_back({sample.grid, arrives});
     }

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "engine/base/color.h"
+#include "render/deeper_light.h"
 #include "render/direct_grid.h"
 #include "render/direct_light.h"
 #include "render/hemisphere_strata.h"
@@ -82,6 +83,7 @@ struct RayPlace {
 struct ShadowSample {
     Rgb unshadowed{0.0f};
     Rgb scale{1.0f};         ///< of what arrives, to radiance
+    Rgb deeper{0.0f};        ///< light of further bounces, which arrives in any case
     int ray = 0;             ///< that hit the surface
     std::uint64_t grid = 0;  ///< cell of the direct grid that the light is a sample of; 0: none
 };
@@ -130,16 +132,17 @@ struct GatherOptions {
     /// Null: every hit casts its own shadow ray, without bias.
     const DirectGrid* grid = nullptr;
     std::vector<DirectSample>* found = nullptr;  ///< if given, samples for the grid are added
+    DeeperLight deeper{};                        ///< light of further bounces; none: one bounce only
     /// Each cell at most once. Which cells are here must not depend on the gather's own random numbers.
     std::span<const DividedCell> divided{};
     std::vector<BrightHit>* bright = nullptr;  ///< if given, set to what stands out most (list_bright_hits)
 };
 
-/// Gathers the light that other surfaces scatter to a point after one bounce. The hemisphere lies about the shading
-/// normal. Directions below the true surface count as black and infinitely far, and no rays are cast there. At each hit
-/// one light is chosen in proportion to its unshadowed contribution, and one shadow ray is cast towards it. Where the
-/// surface that is hit reflects or passes light by more than its Lambert layer, a path goes on with that share as its
-/// probability.
+/// Gathers the light that other surfaces scatter to a point: their direct light, and that of further bounces. The
+/// hemisphere lies about the shading normal. Directions below the true surface count as black and infinitely far, and
+/// no rays are cast there. At each hit one light is chosen in proportion to its unshadowed contribution, and one shadow
+/// ray is cast towards it. Where the surface that is hit reflects or passes light by more than its Lambert layer, a
+/// path goes on with that share as its probability.
 /// @param key    all random numbers depend on it
 IrradianceSample gather_irradiance(const LightingContext& context, RayTask& task, const SurfacePoint& point,
                                    const HemisphereStrata& strata, const RandomKey& key, GatherScratch& scratch,

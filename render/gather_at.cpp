@@ -16,21 +16,27 @@ constexpr std::uint32_t gather_seed_mask = 0x67617468u;
 
 constexpr float place_cells = 256.0f;  // along each side of a triangle, for random numbers
 
-/// Records have random numbers of their place: a surface at rest that a camera at rest sees has the same noise at every
-/// time. Places are cells of a triangle, so that the last bits of a hit hardly ever matter. Without records, the noise
-/// of every sample is its own.
+/// Keeps those of caches of different numbers of bounces apart.
+constexpr std::uint32_t turn_seed_step = 0x9e3779b9u;
+
+/// Records have random numbers of their place (make_place_key): a surface at rest that a camera at rest sees has the
+/// same noise at every time. Without records, the noise of every sample is its own.
 RandomKey choose_key(const IndirectContext& context, const PixelSurface& surface) {
-    const std::uint32_t seed = context.settings.seed ^ gather_seed_mask;
+    const std::uint32_t turns = static_cast<std::uint32_t>(context.turns_before);
+    const std::uint32_t seed = (context.settings.seed ^ gather_seed_mask) + turns * turn_seed_step;
     if (!(context.settings.accuracy > 0.0)) {
         return {seed, context.frame, surface.pixel, static_cast<std::uint32_t>(surface.sample)};
     }
-    const Hit& hit = surface.hit;
+    return make_place_key(seed, surface.hit);
+}
+
+}  // namespace
+
+RandomKey make_place_key(std::uint32_t seed, const Hit& hit) {
     const auto cell = [](float at) { return static_cast<std::uint32_t>(std::max(at, 0.0f) * place_cells); };
     return {seed, static_cast<std::uint32_t>(hit.instance), static_cast<std::uint32_t>(hit.primitive),
             cell(hit.u) << 16 | cell(hit.v)};
 }
-
-}  // namespace
 
 int choose_rays(const RenderSettings& settings, float accuracy, const std::optional<float>& ray_variance) {
     const double most = settings.gather > 0 ? settings.gather : most_rays;
@@ -44,8 +50,9 @@ int choose_rays(const RenderSettings& settings, float accuracy, const std::optio
 IrradianceSample gather_at(const IndirectContext& context, RayTask& task, const PixelSurface& surface,
                            GatherScratch& scratch, int rays, std::vector<DirectSample>* found) {
     const RandomKey key = choose_key(context, surface);
-    return gather_irradiance(context.lighting, task, surface.point, choose_strata(rays), key, scratch,
-                             {std::max(0, context.settings.path_depth - 2), context.direct, found});
+    return gather_irradiance(
+        context.lighting, task, surface.point, choose_strata(rays), key, scratch,
+        {std::max(0, context.settings.path_depth - 2 - context.turns_before), context.direct, found, context.deeper});
 }
 
 }  // namespace aleph

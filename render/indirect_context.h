@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "engine/base/color.h"
+#include "render/deeper_light.h"
 #include "render/direct_grid.h"
 #include "render/light_choice.h"
 #include "render/pixel_surfaces.h"
@@ -26,16 +27,18 @@ struct IndirectContext {
     const LightingContext& lighting;
     const CameraView& view;
     const RenderSettings& settings;
-    const Image<float>& accuracy;           ///< alpha per pixel
-    std::uint32_t frame = 0;                ///< for random numbers
-    float max_radius = 1.0f;                ///< m, of records: scene_radius
-    FrameProgress progress;                 ///< may be empty
+    const Image<float>& accuracy;  ///< alpha per pixel
+    std::uint32_t frame = 0;       ///< for random numbers
+    float max_radius = 1.0f;       ///< m, of records: scene_radius
+    FrameProgress progress;        ///< may be empty
     /// Direct light that gathers share; filled along with the cache. Null: each computes its own, without bias.
     DirectGrid* direct = nullptr;
     const CarriedLight* carried = nullptr;  ///< surfaces that it knows get no records; may be null
     /// If set, the hits were cast in this pose of the scene, and the light is wanted where their surfaces are in
     /// `lighting` (carry_point).
     const ShadingScene* seen = nullptr;
+    DeeperLight deeper{};  ///< of fewer bounces than the light that is gathered
+    int turns_before = 0;  ///< at Lambert layers, between the picture and the surfaces whose light is gathered
 };
 
 }  // namespace aleph

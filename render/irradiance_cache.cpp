@@ -174,10 +174,10 @@ IrradianceRecord IrradianceCache::smoothed(const IrradianceRecord& record) const
     return smooth;
 }
 
-void IrradianceCache::finish() {
+void IrradianceCache::finish(std::size_t kept) {
     std::vector<IrradianceRecord> smooth(records_.size());
     parallel_for(records_.size(), 64, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t i = begin; i < end; ++i) smooth[i] = smoothed(records_[i]);
+        for (std::size_t i = begin; i < end; ++i) smooth[i] = i < kept ? records_[i] : smoothed(records_[i]);
     });
     std::vector<IrradianceRecord> ordered;
     ordered.reserve(smooth.size());

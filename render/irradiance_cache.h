@@ -56,7 +56,8 @@ class IrradianceCache {
 
     /// Replaces each record's value and gradients by the mean of what it and the records around it extrapolate to its
     /// place, of those that differ by no more than noise: less noise without more rays. Nothing is inserted afterwards.
-    void finish();
+    /// @param kept  so many of the first records stay as they are
+    void finish(std::size_t kept = 0);
 
     /// Replaces all records by those of another cache after finish(), as they are.
     void restore(std::vector<IrradianceRecord> records);

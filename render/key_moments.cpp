@@ -1,10 +1,13 @@
 #include "render/key_moments.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace aleph {
 
 namespace {
+
+constexpr std::int64_t base_span = 10;  // steps, that share a base moment
 
 /// a / b towards minus infinity, for b > 0.
 std::int64_t divide_down(std::int64_t a, std::int64_t b) {
@@ -53,6 +56,19 @@ std::vector<std::int64_t> find_moment_views(const KeyMoments& moments, std::int6
     if (!is_start(moments, moment)) views.push_back(find_moments(moments, moment - 1).before);
     if (!is_end(moments, moment)) views.push_back(find_moments(moments, moment + 1).after);
     return views;
+}
+
+std::int64_t find_base_moment(const KeyMoments& moments, std::int64_t moment) {
+    const std::int64_t frame = std::clamp(moment, moments.range.first, moments.range.last);
+    std::int64_t first = moments.range.first, end = moments.range.last + 1;
+    for (const std::int64_t cut : moments.cuts) {
+        if (cut <= frame) first = std::max(first, cut);
+        if (cut > frame) end = std::min(end, cut);
+    }
+    const std::int64_t span = base_span * moments.step, parts = (end - first + span - 1) / span;
+    const double part = static_cast<double>(end - first) / static_cast<double>(parts);
+    const double middle = part * (std::floor(static_cast<double>(frame - first) / part) + 0.5);
+    return find_moments(moments, first + static_cast<std::int64_t>(middle)).before;
 }
 
 }  // namespace aleph

@@ -33,4 +33,8 @@ MomentPair find_moments(const KeyMoments& moments, std::int64_t frame);
 /// the range lies between.
 std::vector<std::int64_t> find_moment_views(const KeyMoments& moments, std::int64_t moment);
 
+/// Where only the camera moves: the moment whose light others begin with. There is one in the middle of about every ten
+/// steps between cuts.
+std::int64_t find_base_moment(const KeyMoments& moments, std::int64_t moment);
+
 }  // namespace aleph

@@ -55,11 +55,8 @@ LightPick pick_of_all(const LightSet& lights, const Receiver& receiver, float be
     static_assert(max_candidates % LightBounds::step == 0);
     const std::size_t count = static_cast<std::size_t>(lights.count());
     std::array<float, max_candidates> weights;
-    for (std::size_t first = 0; first < count; first += LightBounds::step) {
-        for (std::size_t i = first; i < first + LightBounds::step; ++i) {
-            weights[i] = bound_illuminance(lights.bounds, i, receiver.position, receiver.normal, behind);
-        }
-    }
+    bound_illuminances(lights.bounds, receiver.position, receiver.normal, behind,
+                       {weights.data(), lights.bounds.strength.size()});
     LightPick pick;
     for (std::size_t i = 0; i < count; ++i) pick.total += weights[i];
     if (!std::isfinite(pick.total) || !(pick.total > 0.0f)) return pick;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <span>
 #include <vector>
 
 #include "render/lights.h"
@@ -41,6 +42,11 @@ inline float bound_illuminance(const LightBounds& lights, std::size_t i, const g
     const float outside = strength * share * (inverse * inverse);
     return distance2 <= 1.01f * (radius * radius) ? inside : outside;
 }
+
+/// That of the first lights.
+/// @param weights  set; a multiple of LightBounds::step of them, as far as the lights' arrays reach
+void bound_illuminances(const LightBounds& lights, const glm::vec3& position, const glm::vec3& normal, float behind,
+                        std::span<float> weights);
 
 /// A light chosen by LightSet::choice_ends.
 struct LightChoice {

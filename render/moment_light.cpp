@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "render/bounce_levels.h"
+#include "render/bounce_places.h"
 #include "render/carried_point.h"
 
 namespace aleph {
@@ -16,32 +18,54 @@ bool differ(const Rgb& before, const Rgb& after, float weight, float accuracy) {
     return 4.0f * weight * (1.0f - weight) * std::abs(a - b) > 0.5f * accuracy * (a + b);
 }
 
+/// Records of things at rest, in the coordinates of another pose.
+std::vector<IrradianceRecord> shift_records(const MomentLight& from, const ShadingScene& to) {
+    std::vector<IrradianceRecord> records = from.cache.records();
+    const glm::vec3 shift(from.at->shading.anchor - to.anchor);
+    for (IrradianceRecord& record : records) record.position += shift;
+    return records;
+}
+
 }  // namespace
 
 std::vector<IrradianceRecord> compute_records(const MomentInput& input, FrameCounts& counts) {
     const LightingContext& lighting = input.lighting;
     const CameraView& first = input.views.front()->posed.view;
     IrradianceCache cache = make_cache(lighting.shading);
+    if (input.base != nullptr) cache.restore(shift_records(*input.base, lighting.shading));
+    const std::size_t kept = cache.records().size();
     DirectGrid direct(scene_radius(lighting.shading));
     FrameTally tally;
     tally.records = tally.invalid_samples = Image<float>(first.width, first.height);
+    std::vector<IndirectContext> contexts;
+    std::vector<SampleHits> first_samples;
+    std::vector<PixelSurface> seen;
     for (const auto& view : input.views) {
-        const IndirectContext context{.lighting = lighting,
-                                      .view = view->posed.view,
-                                      .settings = input.settings,
-                                      .accuracy = view->accuracy,
-                                      .max_radius = scene_radius(lighting.shading),
-                                      .progress = {},
-                                      .direct = &direct,
-                                      .carried = input.carried,
-                                      .seen = view->frame == input.frame ? nullptr : &view->shading};
+        contexts.push_back({.lighting = lighting,
+                            .view = view->posed.view,
+                            .settings = input.settings,
+                            .accuracy = view->accuracy,
+                            .max_radius = scene_radius(lighting.shading),
+                            .progress = {},
+                            .direct = &direct,
+                            .carried = input.carried,
+                            .seen = view->frame == input.frame ? nullptr : &view->shading});
+        first_samples.push_back(input.cast(*view, 0, tally.counts.rays));
+        if (count_bounces(input.settings) == 1) continue;
+        add_seen_surfaces(contexts.back(), first_samples.back(), seen, tally.counts.rays);
+    }
+    const std::optional<IrradianceCache> fewer_bounces = fill_levels(contexts.front(), seen, tally.counts);
+    for (std::size_t v = 0; v < contexts.size(); ++v) {
+        contexts[v].deeper = make_deeper_light(input.settings, fewer_bounces ? &*fewer_bounces : nullptr);
         for (int i = 0; i < input.settings.spp; ++i) {
-            fill_cache(cache, context, input.cast(*view, i, tally.counts.rays), tally);
+            const SampleHits sample =
+                i == 0 ? std::move(first_samples[v]) : input.cast(*input.views[v], i, tally.counts.rays);
+            fill_cache(cache, contexts[v], sample, tally);
         }
     }
     tally.counts.rays += counts.rays;
     counts = tally.counts;
-    cache.finish();
+    cache.finish(kept);
     return cache.records();
 }
 

@@ -48,8 +48,10 @@ struct MomentInput {
     const RenderSettings& settings;
     const CastView& cast;
     const CarriedLight* carried = nullptr;  ///< where it knows the light no records are needed; may be null
+    const MomentLight* base = nullptr;      ///< its records hold at this moment too; may be null
 };
 
+/// The records of a base moment, if there is one, and those computed at surfaces that they do not cover.
 /// @param counts  increased
 std::vector<IrradianceRecord> compute_records(const MomentInput& input, FrameCounts& counts);
 

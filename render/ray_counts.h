@@ -12,8 +12,9 @@ struct RayCounts {
     std::uint64_t glossy = 0;    ///< sampled from glossy lobes, coats, sheen and rough glass
     std::uint64_t specular = 0;  ///< reflected by mirrors, refracted and passed by smooth glass
     std::uint64_t path = 0;      ///< sampled from Lambert layers along paths
+    std::uint64_t deeper = 0;    ///< from hits of gather rays, where no cache knows the light of further bounces
 
-    std::uint64_t total() const { return primary + shadow + gather + glossy + specular + path; }
+    std::uint64_t total() const { return primary + shadow + gather + glossy + specular + path + deeper; }
     RayCounts& operator+=(const RayCounts& o) {
         primary += o.primary;
         shadow += o.shadow;
@@ -21,6 +22,7 @@ struct RayCounts {
         glossy += o.glossy;
         specular += o.specular;
         path += o.path;
+        deeper += o.deeper;
         return *this;
     }
 };

@@ -75,7 +75,7 @@ Sequence::Sequence(Scene scene, const RenderSettings& settings, const std::strin
     const PosedView posed = make_posed_view(s.scene, seconds, s.camera, exposure_columns, height);
     s.rays.update(posed.pose, compute_anchor(posed.view));
     RayCounts counts;
-    s.exposure = compute_exposure(s.estimate_view(s.rays, posed, EstimateKind::direct, false, counts));
+    s.exposure = compute_exposure(s.estimate_view(s.rays, posed, EstimateKind::direct, std::nullopt, counts));
 }
 
 Sequence::~Sequence() = default;
@@ -109,7 +109,6 @@ FrameOutput Sequence::render(std::int64_t frame, const FrameRequest& request) {
     SequenceState& s = *state_;
     FrameOutput out;
     FrameStatistics& stats = out.statistics;
-    stats.frame = frame;
     SampleOptions options;
     std::optional<ShutterInterval> shutter;
     std::unique_ptr<CarriedLight> carried;

@@ -74,13 +74,67 @@ void SequenceState::move_to_frame(std::optional<PosedView>& posed, std::int64_t 
 }
 
 /// The quick estimate of a posed view to which `view_rays` have been updated, not sanitized.
+/// @param indirect  the view's frame, if its indirect light is wanted, after prepare_estimate of that frame
 Image<Rgb> SequenceState::estimate_view(const RayScene& view_rays, const PosedView& posed, EstimateKind kind,
-                                        bool indirect, RayCounts& counts) const {
+                                        std::optional<std::int64_t> indirect, RayCounts& counts) {
     const ShadingScene view_shading = make_shading_scene(scene, posed.pose, view_rays, textures);
     const LightSet view_lights = make_light_set(view_shading);
+    const LightingContext view_lighting{view_shading, view_lights, view_rays};
     const SampleHits centers = cast_centers(view_rays, posed.view, &counts.primary);
-    return compute_estimate({view_shading, view_lights, view_rays}, posed.view, centers, kind, indirect, exposure,
-                            counts);
+    std::optional<EstimateNodes> nodes;
+    if (indirect) nodes = gather_estimate(view_lighting, posed.view, centers, carry_estimate(*indirect).get(), counts);
+    return compute_estimate(view_lighting, posed.view, centers, kind, nodes ? &*nodes : nullptr, exposure, counts);
+}
+
+/// Gathers the estimates of the key moments around a frame, unless they are kept. `now` is another frame afterwards.
+/// @param but  a moment that is looked at next, so that it need not be gathered here
+void SequenceState::prepare_estimate(std::int64_t frame, std::int64_t but, RayCounts& counts) {
+    if (!shot_light || !estimates_indirect_light()) return;
+    const MomentPair pair = shot_light->moments_around(frame);
+    const auto base = [&](std::int64_t moment) { return shot_light->find_base(moment); };
+    for (const std::int64_t moment : {base(pair.before), pair.before, base(pair.after), pair.after}) {
+        if (moment == but || estimate_moments.find(moment)) continue;
+        move_to_frame(now, moment);
+        update_rays_and_shading();
+        lights = make_light_set(*shading);
+        find_estimate_nodes(moment, cast_centers(rays, now->view, &counts.primary), counts);
+    }
+}
+
+/// After prepare_estimate of the frame; null if there are no key moments.
+std::unique_ptr<CarriedEstimate> SequenceState::carry_estimate(std::int64_t frame) {
+    if (!shot_light) return nullptr;
+    const MomentPair pair = shot_light->moments_around(frame);
+    const auto before = estimate_moments.find(pair.before), after = estimate_moments.find(pair.after);
+    if (!before || !after) return nullptr;
+    return std::make_unique<BlendedEstimate>(before, after, pair.weight);
+}
+
+/// The estimate's nodes for `now`, which is this frame. Those of a key moment are kept.
+EstimateNodes SequenceState::find_estimate_nodes(std::int64_t frame, const SampleHits& centers, RayCounts& counts) {
+    const bool is_moment = shot_light && shot_light->moments_around(frame).before == frame;
+    if (!is_moment) return gather_estimate(lighting(), now->view, centers, carry_estimate(frame).get(), counts);
+    if (const auto kept = estimate_moments.find(frame)) return kept->nodes;
+    std::optional<BlendedEstimate> carried;
+    if (const std::int64_t base = shot_light->find_base(frame); base != frame) {
+        const auto kept = estimate_moments.find(base);
+        carried.emplace(kept, kept, 0.0);
+    }
+    const auto moment = std::make_shared<EstimateMoment>(
+        frame, gather_estimate(lighting(), now->view, centers, carried ? &*carried : nullptr, counts));
+    copy_now(*moment);
+    estimate_moments.keep(moment);
+    return moment->nodes;
+}
+
+void SequenceState::compute_frame_estimate(std::int64_t frame, const SampleHits& centers, bool maps, FrameOutput& out) {
+    RayCounts& counts = out.statistics.counts.rays;
+    std::optional<EstimateNodes> nodes;
+    if (estimates_indirect_light()) nodes = find_estimate_nodes(frame, centers, counts);
+    const bool tolerance = maps || settings.adapter == Adapter::threshold;
+    out.estimate = compute_estimate(lighting(), out.view, centers, settings.estimate, nodes ? &*nodes : nullptr,
+                                    exposure, counts, tolerance ? &out.indirect_luminance : nullptr);
+    note_estimate(out, sanitize_estimate(out.estimate), scene.viewing);
 }
 
 /// Brings rays and shading to `now`. @return instances that were updated
@@ -117,7 +171,9 @@ void SequenceState::compute_motion(const SampleHits& centers, OtherFrame which, 
     Image<Rgb> other_estimate;
     if (has_other) {
         update_other_rays();
-        other_estimate = estimate_view(*other_rays, *other, settings.estimate, settings.bounces > 0, stats.counts.rays);
+        std::optional<std::int64_t> indirect;
+        if (estimates_indirect_light()) indirect = other_frame_number(stats.frame, which);
+        other_estimate = estimate_view(*other_rays, *other, settings.estimate, indirect, stats.counts.rays);
         sanitize_estimate(other_estimate);
     }
     clock.add_to(stats.seconds.estimate);
@@ -131,7 +187,13 @@ void SequenceState::compute_motion(const SampleHits& centers, OtherFrame which, 
 SampleHits SequenceState::look(std::int64_t frame, bool perceive, bool maps, FrameOutput& out) {
     const OtherFrame which = perceive ? find_other_frame(scene, range, frame) : OtherFrame::none;
     FrameStatistics& stats = out.statistics;
+    stats.frame = frame;
     StageClock clock;
+    if (perceive) prepare_estimate(frame, frame, stats.counts.rays);
+    if (which != OtherFrame::none && settings.motion == MotionSource::image) {
+        prepare_estimate(other_frame_number(frame, which), frame, stats.counts.rays);
+    }
+    clock.add_to(stats.seconds.estimate);
     move_to_frame(now, frame);
     if (which != OtherFrame::none) move_to_frame(other, other_frame_number(frame, which));
     out.view = now->view;
@@ -145,10 +207,7 @@ SampleHits SequenceState::look(std::int64_t frame, bool perceive, bool maps, Fra
     clock.add_to(stats.seconds.first_hits);
 
     if (perceive) {
-        const bool tolerance = maps || settings.adapter == Adapter::threshold;
-        out.estimate = compute_estimate(lighting(), out.view, centers, settings.estimate, settings.bounces > 0,
-                                        exposure, stats.counts.rays, tolerance ? &out.indirect_luminance : nullptr);
-        note_estimate(out, sanitize_estimate(out.estimate), scene.viewing);
+        compute_frame_estimate(frame, centers, maps, out);
         clock.add_to(stats.seconds.estimate);
         compute_motion(centers, which, maps, clock, out);
         compute_frame_vision(out, scene, settings, maps, clock);

@@ -6,6 +6,7 @@
 
 #include "engine/pose/posed_view.h"
 #include "motion/model_motion.h"
+#include "render/estimate_moments.h"
 #include "render/frame_output.h"
 #include "render/light_breaks.h"
 #include "render/measure.h"
@@ -22,8 +23,12 @@ struct SequenceState {
     SequenceState(Scene given, const RenderSettings& chosen, int camera_index);
 
     void move_to_frame(std::optional<PosedView>& posed, std::int64_t frame) const;
-    Image<Rgb> estimate_view(const RayScene& view_rays, const PosedView& posed, EstimateKind kind, bool indirect,
-                             RayCounts& counts) const;
+    Image<Rgb> estimate_view(const RayScene& view_rays, const PosedView& posed, EstimateKind kind,
+                             std::optional<std::int64_t> indirect, RayCounts& counts);
+    void prepare_estimate(std::int64_t frame, std::int64_t but, RayCounts& counts);
+    std::unique_ptr<CarriedEstimate> carry_estimate(std::int64_t frame);
+    EstimateNodes find_estimate_nodes(std::int64_t frame, const SampleHits& centers, RayCounts& counts);
+    void compute_frame_estimate(std::int64_t frame, const SampleHits& centers, bool maps, FrameOutput& out);
     std::size_t update_rays_and_shading();
     void update_other_rays();
     void compute_motion(const SampleHits& centers, OtherFrame which, bool maps, StageClock& clock, FrameOutput& out);
@@ -37,6 +42,7 @@ struct SequenceState {
     bool is_guided() const {
         return settings.perception.guide != Guide::none && settings.integrator == Integrator::cache;
     }
+    bool estimates_indirect_light() const { return settings.bounces > 0 && settings.estimate == EstimateKind::direct; }
     bool can_change() const { return is_world_animated(scene) || !pose_plan.cameras.empty(); }
     std::uint64_t rays_traced() const {
         return rays.rays_traced() + (other_rays ? other_rays->rays_traced() : 0) + (open ? open->rays_traced() : 0);
@@ -60,6 +66,7 @@ struct SequenceState {
     std::unique_ptr<OpenShutter> open;  ///< the scene while the shutter is open
     LightBreaks light_breaks;
     std::optional<ShotLight> shot_light;  ///< if frames read key moments
+    EstimateMoments estimate_moments;
     std::optional<CacheFingerprint> cache_fingerprint;
     double exposure = 1.0;
 };

@@ -172,7 +172,7 @@ void add_light(std::vector<Setting>& table) {
                        &S::gather, 0, 1 << 20),
         "rays"));
     table.push_back(number_setting(
-        "bounces", "bounces of indirect diffuse light; more than 1 needs the integrator path", &S::bounces, 0, 1000));
+        "bounces", "bounces of indirect diffuse light; the quick estimate has at most 1", &S::bounces, 0, 1000));
     table.push_back(with_unit(
         number_setting("path_depth", "longest path of light that mirrors and glass may make", &S::path_depth, 1, 10000),
         "surfaces"));

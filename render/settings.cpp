@@ -53,10 +53,6 @@ void parse_setting(const std::string& text, SettingMap& into) {
 void validate(const RenderSettings& settings) {
     RenderSettings checked;
     apply_settings(checked, setting_map(settings), "settings");
-    if (settings.integrator == Integrator::cache && settings.bounces > 1) {
-        throw InputError("settings", "bounces",
-                         fmt::format("{} bounces need the integrator path; the cache has 1", settings.bounces));
-    }
 }
 
 }  // namespace aleph

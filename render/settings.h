@@ -46,7 +46,7 @@ struct RenderSettings {
     double accuracy = 0.15;    ///< ambient accuracy alpha_Acc; 0 gathers at every sample
     int gather = 0;            ///< hemisphere samples per irradiance value; 0: what the accuracy needs (choose_rays)
     Integrator integrator = Integrator::cache;
-    int bounces = 1;                 ///< of indirect diffuse light; at most 1 with the cache
+    int bounces = 1;                 ///< of indirect diffuse light
     int path_depth = 32;             ///< longest path: surfaces that scatter, of all kinds
     int spp = 16;                    ///< samples per pixel; 1 is the pixel's centre
     int light_samples = 16;          ///< direct-light samples per pixel and light, shared out among its spp

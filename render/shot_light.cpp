@@ -30,8 +30,13 @@ std::vector<std::int64_t> ShotLight::list_views(std::int64_t moment) const {
     return find_moment_views(moments_, moment);
 }
 
+std::int64_t ShotLight::find_base(std::int64_t moment) const {
+    return still_ && !unmoving_ ? find_base_moment(moments_, moment) : moment;
+}
+
 std::vector<IrradianceRecord> ShotLight::compute(std::int64_t moment, const std::vector<std::int64_t>& frames,
-                                                 const CarriedLight* carried, std::vector<MomentStatistics>& filled) {
+                                                 const CarriedLight* carried, const MomentLight* base,
+                                                 std::vector<MomentStatistics>& filled) {
     MomentStatistics statistics;
     statistics.frame = moment;
     StageClock clock;
@@ -45,7 +50,7 @@ std::vector<IrradianceRecord> ShotLight::compute(std::int64_t moment, const std:
         views.push_back(view);
     }
     const LightingContext lighting = source_.light(moment);
-    const MomentInput input{moment, lighting, views, settings_, source_.cast, carried};
+    const MomentInput input{moment, lighting, views, settings_, source_.cast, carried, base};
     std::vector<IrradianceRecord> records = compute_records(input, statistics.counts);
     clock.add_to(statistics.seconds);
     filled.push_back(statistics);
@@ -57,8 +62,11 @@ void ShotLight::prepare(std::int64_t moment, const std::vector<std::int64_t>& vi
     std::shared_ptr<const MomentLight>& light = lights_[moment];
     if (light) return;
     const bool known = records_ && records_->contains(moment);
+    const std::int64_t base = find_base(moment);
+    if (!known && base != moment) prepare(base, list_views(base), nullptr, filled);
     const std::vector<IrradianceRecord> records =
-        known ? records_->at(moment) : compute(moment, views, carried, filled);
+        known ? records_->at(moment)
+              : compute(moment, views, carried, base == moment ? nullptr : lights_.at(base).get(), filled);
     light = std::make_shared<MomentLight>(make_moment_light(source_.pose(moment), records));
     if (records_ && !known) records_->emplace(moment, records);
 }
@@ -69,13 +77,14 @@ std::unique_ptr<BlendedLight> ShotLight::blend(const MomentPair& pair) const {
 }
 
 std::unique_ptr<CarriedLight> ShotLight::at(std::int64_t frame, std::vector<MomentStatistics>& filled) {
-    const MomentPair pair = find_moments(moments_, unmoving_ ? moments_.range.first : frame);
+    const MomentPair pair = moments_around(frame);
     const std::vector<std::int64_t> ends{pair.before, pair.after};
     std::vector<std::int64_t> views, lights = ends;
     for (const std::int64_t moment : ends) {
         const std::vector<std::int64_t> own = list_views(moment);
         prepare(moment, own, nullptr, filled);
         views.insert(views.end(), own.begin(), own.end());
+        lights.push_back(find_base(moment));
     }
     std::unique_ptr<BlendedLight> light = blend(pair);
     const std::int64_t middle = pair.before + (pair.after - pair.before) / 2;

@@ -29,6 +29,14 @@ class ShotLight {
     /// @param unmoving  nothing changes at all: one moment serves every frame
     ShotLight(KeyMoments moments, const RenderSettings& settings, bool still, bool unmoving, MomentSource source);
 
+    /// The key moments whose light a frame reads.
+    MomentPair moments_around(std::int64_t frame) const {
+        return find_moments(moments_, unmoving_ ? moments_.range.first : frame);
+    }
+
+    /// The moment with whose light a key moment begins: itself, unless only the camera moves.
+    std::int64_t find_base(std::int64_t moment) const;
+
     /// The light that a frame reads. Computes the key moments around the frame, unless they are kept from before.
     /// @param filled  the moments that were computed are added
     std::unique_ptr<CarriedLight> at(std::int64_t frame, std::vector<MomentStatistics>& filled);
@@ -45,7 +53,8 @@ class ShotLight {
     void prepare(std::int64_t moment, const std::vector<std::int64_t>& views, const CarriedLight* carried,
                  std::vector<MomentStatistics>& filled);
     std::vector<IrradianceRecord> compute(std::int64_t moment, const std::vector<std::int64_t>& frames,
-                                          const CarriedLight* carried, std::vector<MomentStatistics>& filled);
+                                          const CarriedLight* carried, const MomentLight* base,
+                                          std::vector<MomentStatistics>& filled);
 
     KeyMoments moments_;
     const RenderSettings& settings_;

@@ -112,14 +112,11 @@ void fill(const Ray* rays, int present, Rays& packet, Origins<Width>& origins, i
         good_count += good ? 1 : 0;
         valid[lane] = good ? -1 : 0;
     }
-    if (good_count < Width) {  // what is switched off is no number that Embree could refuse
-        for (int lane = 0; lane < Width; ++lane) {
-            if (valid[lane] != 0) continue;
-            origins.x[lane] = origins.y[lane] = origins.z[lane] = 0.0f;
-            packet.dir_x[lane] = packet.dir_y[lane] = packet.dir_z[lane] = 0.0f;
-            packet.tnear[lane] = 0.0f;
-            packet.tfar[lane] = std::numeric_limits<float>::infinity();
-        }
+    for (int lane = 0; good_count < Width && lane < Width; ++lane) {
+        if (valid[lane] != 0) continue;
+        origins.x[lane] = origins.y[lane] = origins.z[lane] = packet.tnear[lane] = 0.0f;
+        packet.dir_x[lane] = packet.dir_y[lane] = packet.dir_z[lane] = 0.0f;
+        packet.tfar[lane] = std::numeric_limits<float>::infinity();
     }
     counts.traced += static_cast<std::uint64_t>(good_count);
     counts.invalid += static_cast<std::uint64_t>(present - good_count);
@@ -128,10 +125,7 @@ void fill(const Ray* rays, int present, Rays& packet, Origins<Width>& origins, i
 /// The same for a last packet that is not full.
 template <int Width, class Rays>
 void fill(std::span<const Ray> rays, Rays& packet, Origins<Width>& origins, int* valid, PacketCounts& counts) {
-    if (rays.size() == Width) {
-        fill<Width>(rays.data(), Width, packet, origins, valid, counts);
-        return;
-    }
+    if (rays.size() == Width) return fill<Width>(rays.data(), Width, packet, origins, valid, counts);
     std::array<Ray, Width> padded;
     std::copy(rays.begin(), rays.end(), padded.begin());
     fill<Width>(padded.data(), static_cast<int>(rays.size()), packet, origins, valid, counts);

@@ -39,8 +39,7 @@ std::uint64_t count_shot_records(const Scene& scene, int light_step) {
     return count;
 }
 
-TEST(KeyMoments, IC14_AFrameAloneInASequenceInAnyOrderOnAnyThreads) {
-    const Scene scene = make_shot_with_mover();
+void expect_any_order(const Scene& scene) {
     RenderSettings settings = shot_settings(4);
     settings.perception.guide = Guide::full;
     settings.spp = 2;
@@ -59,6 +58,11 @@ TEST(KeyMoments, IC14_AFrameAloneInASequenceInAnyOrderOnAnyThreads) {
             EXPECT_TRUE(frame_bytes(alone, scene, settings, 6) == expected[6]) << threads << " threads";
         });
     }
+}
+
+TEST(KeyMoments, IC14_AFrameAloneInASequenceInAnyOrderOnAnyThreads) {
+    expect_any_order(make_shot_with_mover());
+    expect_any_order(make_shot_with_moving_camera());
 }
 
 /// What moves fast or near is computed in the frame: key moments err hardly more than a fill of the frame's own.
@@ -114,7 +118,7 @@ TEST(KeyMoments, FX10_WhereOnlyTheCameraMovesLightIsCarriedOver) {
     const std::uint64_t own = count_shot_records(scene, 0), moments = count_shot_records(scene, 10);
     std::printf("records of %d frames: %llu on their own, %llu with key moments\n", shot_frames,
                 static_cast<unsigned long long>(own), static_cast<unsigned long long>(moments));
-    EXPECT_LT(5 * moments, own);
+    EXPECT_LT(10 * moments, own);
     EXPECT_LT(relative_rms(render_alone(scene, shot_settings(10), 5), render_alone(scene, shot_settings(0), 5)), 0.05);
 }
 

@@ -19,7 +19,10 @@ namespace {
 
 Image<Rgb> estimate(const Stage& stage, bool indirect, RayCounts& counts) {
     const SampleHits centers = cast_centers(stage.rays, stage.view, nullptr);
-    return compute_estimate(stage.lighting(), stage.view, centers, EstimateKind::direct, indirect, 1.0, counts);
+    std::optional<EstimateNodes> nodes;
+    if (indirect) nodes = gather_estimate(stage.lighting(), stage.view, centers, nullptr, counts);
+    return compute_estimate(stage.lighting(), stage.view, centers, EstimateKind::direct, nodes ? &*nodes : nullptr, 1.0,
+                            counts);
 }
 
 /// What indirect light adds to the estimate's luminance.

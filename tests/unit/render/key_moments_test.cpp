@@ -65,5 +65,24 @@ TEST(MomentFrames, EveryFrameForAStepOfOne) {
     }
 }
 
+TEST(MomentFrames, BaseMomentsAreInTheMiddleOfAboutTenSteps) {
+    const KeyMoments moments{{0, 249}, {170}, 10, {}};
+    for (const int moment : {0, 40, 80}) EXPECT_EQ(find_base_moment(moments, moment), 40) << moment;
+    for (const int moment : {90, 130, 160, 169}) EXPECT_EQ(find_base_moment(moments, moment), 120) << moment;
+    for (const int moment : {170, 210, 249, 300}) EXPECT_EQ(find_base_moment(moments, moment), 210) << moment;
+    EXPECT_EQ(find_base_moment({{0, 3}, {}, 10, {}}, 3), 0);
+    EXPECT_EQ(find_base_moment({{7, 7}, {}, 10, {}}, 7), 7);
+}
+
+TEST(MomentFrames, ABaseMomentIsItsOwn) {
+    const KeyMoments moments{{-1000000000, 1000000000}, {-7, 3, 55, 77, 900}, 7, {}};
+    for (std::int64_t frame = -3000; frame < 3000; frame += 13) {
+        const std::int64_t moment = find_moments(moments, frame).before, base = find_base_moment(moments, moment);
+        EXPECT_EQ(find_moments(moments, base).before, base);
+        EXPECT_EQ(find_moments(moments, base).after, base);
+        EXPECT_EQ(find_base_moment(moments, base), base);
+    }
+}
+
 }  // namespace
 }  // namespace aleph

@@ -1,4 +1,4 @@
-// Paths of one indirect bounce against a dense gather at every sample: the same picture.
+// Paths against a dense gather at every sample, and against the cache: the same picture.
 
 #include <gtest/gtest.h>
 
@@ -81,6 +81,34 @@ TEST_P(PathGather, OneBounceIsThePictureOfTheGather) {
     }
     // Under mirrors, rare paths bring much of the light of some pixels, whose spread over few renders says too little.
     EXPECT_LE(beyond, GetParam() == Walls::mirrors ? width * height / 50 : width * height / 100);
+}
+
+/// Means of independent pictures with the cache and of paths.
+TEST_P(PathGather, IC23_ThreeBouncesWithTheCacheToo) {
+    constexpr int width = 20, height = 15;
+    const Stage stage(make_box_scene(GetParam()), width, height);
+    const auto mean = [&](RenderSettings settings, std::uint32_t runs) {
+        Mean pictures;
+        for (std::uint32_t run = 0; run < runs; ++run, ++settings.seed) {
+            Mean picture;
+            for (const Rgb& pixel : shade(stage, settings).color.pixels) picture.add(luminance(pixel));
+            pictures.add(picture.mean());
+        }
+        return pictures;
+    };
+    RenderSettings settings = path_settings(3, 8);
+    const Mean paths = mean(settings, 16);
+    settings.integrator = Integrator::cache;
+    settings.light_samples = 64;
+    settings.seed = 1000;
+    for (const double accuracy : {0.0, 0.3}) {
+        settings.accuracy = accuracy;
+        settings.gather = accuracy > 0.0 ? 64 : 4;
+        const Mean gathers = mean(settings, 2);
+        const double noise = std::hypot(paths.error(), gathers.error());
+        EXPECT_NEAR(gathers.mean(), paths.mean(), 3.0 * noise + 0.005 * paths.mean()) << accuracy;
+        EXPECT_LT(noise, (GetParam() == Walls::mirrors ? 0.03 : 0.006) * paths.mean());
+    }
 }
 
 INSTANTIATE_TEST_SUITE_P(Boxes, PathGather,

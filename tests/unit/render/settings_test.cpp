@@ -123,12 +123,13 @@ TEST(Settings, LaterVersionsAreRefusedByName) {
     EXPECT_EQ(refusal("bounces", 1001.0), "expected a whole number from 0 to 1000");
 }
 
-TEST(Settings, SeveralBouncesNeedPaths) {
+TEST(Settings, SeveralBouncesForEveryIntegrator) {
     RenderSettings settings;
-    settings.bounces = 2;
-    EXPECT_THROW(validate(settings), InputError);
-    settings.integrator = Integrator::path;
-    EXPECT_NO_THROW(validate(settings));
+    settings.bounces = 1000;
+    for (const Integrator integrator : {Integrator::cache, Integrator::path}) {
+        settings.integrator = integrator;
+        EXPECT_NO_THROW(validate(settings));
+    }
 }
 
 TEST(Settings, MC20_NumbersOutOfRangeOfAnyKind) {

@@ -1,0 +1,192 @@
+// Light of several bounces from irradiance caches: every bounce counts once.
+
+#include <gtest/gtest.h>
+
+#include "render/bounce_levels.h"
+#include "tests/support/frame_bytes.h"
+#include "tests/support/shot_scenes.h"
+#include "tests/support/with_threads.h"
+
+namespace aleph {
+namespace {
+
+constexpr double albedo = 0.7;
+
+/// 1 + a + a^2 + ... up to a^last.
+double sum_of_powers(int last) {
+    double sum = 0.0;
+    for (int i = last; i >= 0; --i) sum = 1.0 + albedo * sum;
+    return sum;
+}
+
+Scene make_sphere(const glm::dvec3& emission) {
+    Scene scene;
+    const int wall = add_lambert(scene, glm::dvec3(albedo), emission);
+    add_mesh(scene, flip_winding(make_faceted_sphere(2.0, 48, wall)));
+    add_camera(scene, {0.3, 0.2, 0.4}, {1.0, -0.3, -1.0}, 1.2);
+    return scene;
+}
+
+/// A lamp at the centre of a sphere: direct light is the same everywhere and has no noise.
+Scene make_lit_sphere() {
+    Scene scene = make_sphere(glm::dvec3(0.0));
+    add_light(scene, Light::Kind::point, glm::dvec3(4.0 * std::numbers::pi / albedo), glm::dvec3(0.0));
+    return scene;
+}
+
+RenderSettings cache_settings(int bounces, double accuracy, int gather) {
+    RenderSettings settings = plain_settings(accuracy, gather);
+    settings.bounces = bounces;
+    return settings;
+}
+
+Mean mean_of(const ShadedFrame& frame) {
+    EXPECT_EQ(frame.counts.invalid_samples, 0u);
+    Mean mean;
+    for (const Rgb& pixel : frame.color.pixels) mean.add(pixel.x);
+    return mean;
+}
+
+/// Facets are nearer to the lamp than the sphere: what direct light alone shows is 1.
+double direct_of(const Stage& stage) {
+    return mean_of(shade(stage, cache_settings(0, 0.3, 64))).mean();
+}
+
+TEST(SeveralBounces, IC23_EachAddsItsTermOnce) {
+    const Stage stage(make_lit_sphere(), 24, 18);
+    const double direct = direct_of(stage);
+    EXPECT_NEAR(direct, 1.0, 0.01);
+    for (const int bounces : {2, 3, 4}) {
+        const ShadedFrame frame = shade(stage, cache_settings(bounces, 0.3, 64));
+        const double expected = direct * sum_of_powers(bounces);
+        EXPECT_NEAR(mean_of(frame).mean(), expected, 0.004 * expected) << bounces;
+        // Hardly a look-up finds no record.
+        EXPECT_LT(frame.counts.rays.deeper, frame.counts.rays.gather / 50) << bounces;
+    }
+}
+
+TEST(SeveralBounces, IC23_MoreThanHaveCaches) {
+    const Stage stage(make_lit_sphere(), 12, 9);
+    const RenderSettings settings = cache_settings(30, 0.5, 64);
+    const double expected = direct_of(stage) / (1.0 - albedo);
+    EXPECT_NEAR(mean_of(shade(stage, settings)).mean(), expected, 0.006 * expected);
+}
+
+TEST(SeveralBounces, IC23_NoSurfaceBeyondThePathsDepthScatters) {
+    const Stage stage(make_lit_sphere(), 24, 18);
+    RenderSettings settings = cache_settings(100, 0.3, 64);
+    settings.path_depth = 3;
+    EXPECT_EQ(count_bounces(settings), 2);
+    const double expected = direct_of(stage) * sum_of_powers(2);
+    EXPECT_NEAR(mean_of(shade(stage, settings)).mean(), expected, 0.004 * expected);
+}
+
+TEST(SeveralBounces, IC23_NorDoesOneThatReflects) {
+    Scene scene = make_lit_sphere();
+    scene.materials[0].base_color = glm::dvec3(0.95);
+    scene.materials[0].metallic = 0.5;
+    scene.materials[0].roughness = 0.7;
+    const Stage stage(std::move(scene), 12, 9);
+    RenderSettings settings = path_settings(2, 64);
+    settings.path_depth = 3;
+    const Mean paths = mean_of(shade(stage, settings));
+    settings.integrator = Integrator::cache;
+    settings.accuracy = 0.3;
+    settings.gather = 256;
+    EXPECT_NEAR(mean_of(shade(stage, settings)).mean(), paths.mean(), 0.015 * paths.mean());
+}
+
+/// It is direct light of the surface that is asked.
+TEST(SeveralBounces, IC23_ALampBehindGlassIsNotFoundAgain) {
+    Scene scene;
+    Material glass;
+    glass.metallic = glass.roughness = 0.0;
+    glass.transmission = 1.0;
+    scene.materials.push_back(glass);
+    add_mesh(scene, make_quad(20.0, 20.0, 0), {0.0, 1.0, 0.0}, z_to_down);
+    const int lamp = add_lambert(scene, glm::dvec3(0.0), glm::dvec3(9.0));
+    add_mesh(scene, make_quad(20.0, 20.0, lamp), {0.0, 2.0, 0.0}, z_to_down);
+    const Stage stage(std::move(scene));
+    RayTask task(stage.rays);
+    RandomStream random({1, 2, 3, 4});
+    const SurfacePoint floor = make_point(glm::vec3(0.0f), {0.0f, 1.0f, 0.0f});
+    for (int i = 0; i < 200; ++i) {
+        ASSERT_EQ(find_deeper_irradiance(stage.lighting(), task, floor, {.bounces = 2}, 8, random), Rgb(0.0f));
+    }
+    EXPECT_GT(task.counts.specular, 100u);
+}
+
+TEST(SeveralBounces, IC23_RandomPathsWhereThereIsNoCache) {
+    const Stage stage(make_lit_sphere(), 24, 18);
+    for (const int bounces : {2, 4}) {
+        const ShadedFrame frame = shade(stage, cache_settings(bounces, 0.0, 32));
+        const Mean mean = mean_of(frame);
+        const double expected = direct_of(stage) * sum_of_powers(bounces);
+        EXPECT_NEAR(mean.mean(), expected, 3.0 * mean.error() + 1e-3 * expected) << bounces;
+        EXPECT_LT(mean.error(), 0.004 * expected);
+        EXPECT_GT(frame.counts.rays.deeper, frame.counts.rays.gather / 2);
+    }
+}
+
+TEST(SeveralBounces, IC23_AFurnaceGainsNoLight) {
+    const Stage stage(make_sphere(glm::dvec3(1.0)), 16, 12);
+    for (const int bounces : {2, 4}) {
+        const double expected = sum_of_powers(bounces + 1);
+        const Mean mean = mean_of(shade(stage, cache_settings(bounces, 0.3, 64)));
+        EXPECT_NEAR(mean.mean(), expected, 0.01 * expected) << bounces;
+    }
+}
+
+TEST(SeveralBounces, IC23_FewerBouncesCostLessThanThePicture) {
+    const Stage stage(make_shot(), 48, 36);
+    const auto counts = [&](int bounces) { return shade(stage, cache_settings(bounces, 0.1, 128)).counts; };
+    const FrameCounts one = counts(1), two = counts(2), three = counts(3);
+    EXPECT_EQ(one.deeper_rays, 0u);
+    EXPECT_GT(two.deeper_records, 0u);
+    EXPECT_LT(two.deeper_rays, one.rays.total());
+    EXPECT_LT(three.deeper_rays, 2 * two.deeper_rays);
+}
+
+TEST(SeveralBounces, IC23_FilesAreEqualForAnyThreadsAloneAndInASequence) {
+    const Scene scene = make_shot_with_mover();
+    for (const int light_step : {0, 4}) {
+        RenderSettings settings = shot_settings(light_step);
+        settings.bounces = 3;
+        settings.spp = 2;
+        settings.gather = 16;
+        settings.accuracy = 0.5;
+        settings.width = 32;
+        settings.height = 24;
+        Sequence sequence(scene, settings);
+        for (const int frame : {1, 2}) frame_bytes(sequence, scene, settings, frame);
+        const std::string expected = frame_bytes(sequence, scene, settings, 3);
+        for (const int threads : {1, 3}) {
+            with_threads(threads, [&] {
+                Sequence alone(scene, settings);
+                EXPECT_TRUE(frame_bytes(alone, scene, settings, 3) == expected) << light_step << " " << threads;
+            });
+        }
+        settings.bounces = 1;
+        Sequence one(scene, settings);
+        EXPECT_FALSE(frame_bytes(one, scene, settings, 3) == expected);
+    }
+}
+
+/// What key moments know and what a frame computes itself have the same bounces.
+TEST(SeveralBounces, IC23_KeyMomentsHaveThemToo) {
+    const Scene scene = make_shot_with_mover();
+    const auto mean = [&](int bounces, int light_step) {
+        RenderSettings settings = shot_settings(light_step);
+        settings.bounces = bounces;
+        settings.gather = 64;
+        Mean sum;
+        for (const Rgb& pixel : Sequence(scene, settings).render(5).shaded.indirect.pixels) sum.add(luminance(pixel));
+        return sum.mean();
+    };
+    const double one = mean(1, 0), three = mean(3, 0), from_moments = mean(3, 10);
+    EXPECT_GT(three, 1.1 * one);
+    EXPECT_NEAR(from_moments, three, 0.02 * three);
+}
+
+}  // namespace
+}  // namespace aleph

@@ -1,0 +1,127 @@
+// Indirect light of the quick estimate, carried from key moments to the frames between them.
+
+#include "render/estimate_moments.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/support/shot_scenes.h"
+#include "tests/support/with_threads.h"
+
+namespace aleph {
+namespace {
+
+const FrameRequest only_maps{.frame = false, .maps = true, .progress = {}};
+
+RenderSettings estimate_settings(int light_step) {
+    RenderSettings settings = shot_settings(light_step);
+    settings.width = 96;
+    settings.height = 72;
+    return settings;
+}
+
+/// Walls, floor and lamp move together, so the light rides with the surfaces.
+Scene make_riding_shot() {
+    Scene scene = make_shot();
+    Node wagon;
+    wagon.translation = move_between({1.5, 0.0, 0.0}, {-4.5, 0.0, 0.0});
+    scene.nodes.insert(scene.nodes.begin(), wagon);
+    for (std::size_t n = 1; n + 1 < scene.nodes.size(); ++n) scene.nodes[n].parent = 0;
+    return scene;
+}
+
+/// Luminance of the estimate's indirect light.
+Image<float> indirect_at(const Scene& scene, const RenderSettings& settings, int frame) {
+    return Sequence(scene, settings).render(frame, only_maps).indirect_luminance;
+}
+
+/// The mean of abs(a - b), over the mean of b.
+double mean_difference(const Image<float>& a, const Image<float>& b) {
+    double difference = 0.0, sum = 0.0;
+    for (std::size_t i = 0; i < a.size(); ++i) {
+        difference += std::abs(a.pixels[i] - b.pixels[i]);
+        sum += b.pixels[i];
+    }
+    return difference / sum;
+}
+
+/// The largest second difference along a row, relative, of those within one surface: blocks and noise make it large.
+double largest_bend(const Image<float>& light, const Image<Hit>& hits) {
+    double largest = 0.0;
+    for (int y = 0; y < light.height; ++y) {
+        for (int x = 1; x + 1 < light.width; ++x) {
+            const int here = hits(x, y).instance;
+            if (here == no_index || hits(x - 1, y).instance != here || hits(x + 1, y).instance != here) continue;
+            const double bend = light(x - 1, y) - 2.0 * light(x, y) + light(x + 1, y);
+            largest = std::max(largest, std::abs(bend) / light(x, y));
+        }
+    }
+    return largest;
+}
+
+TEST(EstimateMoments, FramesBetweenThemGatherNearlyNothing) {
+    Sequence own(make_shot_with_moving_camera(), estimate_settings(0));
+    const std::uint64_t by_itself = own.render(5, only_maps).statistics.counts.rays.gather;
+    Sequence sequence(make_shot_with_moving_camera(), estimate_settings(10));
+    const std::uint64_t moments = sequence.render(3, only_maps).statistics.counts.rays.gather;
+    EXPECT_LT(2 * moments, 3 * by_itself) << "the base moment, and what it does not know of the other";
+    EXPECT_LT(20 * sequence.render(5, only_maps).statistics.counts.rays.gather, by_itself);
+    EXPECT_EQ(sequence.render(10, only_maps).statistics.counts.rays.gather, 0u) << "kept";
+}
+
+TEST(EstimateMoments, TheirLightIsThatOfTheFrame) {
+    for (const Scene& scene : {make_shot_with_moving_camera(), make_riding_shot(), make_shot_with_mover()}) {
+        const double off =
+            mean_difference(indirect_at(scene, estimate_settings(10), 4), indirect_at(scene, estimate_settings(0), 4));
+        std::printf("mean difference %.4f\n", off);
+        EXPECT_LT(off, 0.04) << "the noise of 48 rays";
+    }
+}
+
+/// Half way between a dark and a bright moment, but not a jump.
+TEST(EstimateMoments, TheirLightIsLinearInTime) {
+    Scene scene = make_shot();
+    scene.lights[0].color.values = {glm::dvec3(4.0), glm::dvec3(12.0)};
+    const Image<float> own = indirect_at(scene, estimate_settings(0), 3);
+    EXPECT_LT(mean_difference(indirect_at(scene, estimate_settings(10), 3), own), 0.02);
+}
+
+TEST(EstimateMoments, TheyAddNoDetail) {
+    const Scene scene = make_riding_shot();
+    const FrameOutput own = Sequence(scene, estimate_settings(0)).render(4, only_maps);
+    const FrameOutput carried = Sequence(scene, estimate_settings(10)).render(4, only_maps);
+    EXPECT_LT(largest_bend(carried.indirect_luminance, carried.hits),
+              1.2 * largest_bend(own.indirect_luminance, own.hits));
+}
+
+TEST(EstimateMoments, MapsAreThoseOfThePicture) {
+    const Scene scene = make_riding_shot();
+    RenderSettings settings = shot_settings(4);
+    settings.perception.guide = Guide::full;
+    settings.gather = 16;
+    settings.motion = MotionSource::image;
+    for (const int step : {1, 4}) {
+        settings.light_step = step;
+        Sequence pictures(scene, settings);
+        for (const int frame : {5, 6, 8}) {
+            const FrameOutput maps = Sequence(scene, settings).render(frame, only_maps);
+            const FrameOutput both = pictures.render(frame, {.frame = true, .maps = true, .progress = {}});
+            EXPECT_TRUE(maps.estimate.pixels == both.estimate.pixels) << step << " " << frame;
+            EXPECT_TRUE(maps.alpha.pixels == both.alpha.pixels) << step << " " << frame;
+        }
+    }
+}
+
+TEST(EstimateMoments, MapsAreTheSameAloneAndOnAnyThreads) {
+    const Scene scene = make_riding_shot();
+    Sequence sequence(scene, estimate_settings(4));
+    for (const int frame : {2, 3, 4, 7, 13, 1}) {
+        const Image<Rgb> together = sequence.render(frame, only_maps).estimate;
+        with_threads(3, [&] {
+            const Image<Rgb> alone = Sequence(scene, estimate_settings(4)).render(frame, only_maps).estimate;
+            EXPECT_TRUE(alone.pixels == together.pixels) << frame;
+        });
+    }
+}
+
+}  // namespace
+}  // namespace aleph
