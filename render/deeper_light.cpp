@@ -10,7 +10,7 @@ namespace aleph {
 namespace {
 
 /// Lamps that the ray meets, or sees straight through sheets of glass, are direct light of the point.
-Rgb sample_irradiance(const LightingContext& context, RayTask& task, const SurfacePoint& point, const PathLimits& left,
+Rgb sample_irradiance(const LightingContext& context, RayTask& task, const SurfacePlace& point, const PathLimits& left,
                       RandomStream& random) {
     const glm::vec3 direction = make_basis(point.normal).to_world(sample_cosine_hemisphere(random.next_2d()));
     if (!(glm::dot(direction, point.geometric) > 0.0f)) return Rgb(0.0f);
@@ -27,7 +27,7 @@ Rgb sample_irradiance(const LightingContext& context, RayTask& task, const Surfa
 
 }  // namespace
 
-Rgb find_deeper_irradiance(const LightingContext& context, RayTask& task, const SurfacePoint& point,
+Rgb find_deeper_irradiance(const LightingContext& context, RayTask& task, const SurfacePlace& point,
                            const DeeperLight& deeper, int depth, RandomStream& random) {
     if (deeper.bounces <= 0) return Rgb(0.0f);
     if (deeper.cache != nullptr) {

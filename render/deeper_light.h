@@ -19,7 +19,7 @@ struct DeeperLight {
 /// Indirect irradiance at a surface point: from the cache, or without bias from one random path where it has no record.
 /// The path's first ray is counted as RayCounts::deeper.
 /// @param depth  surfaces that may scatter on the path
-Rgb find_deeper_irradiance(const LightingContext& context, RayTask& task, const SurfacePoint& point,
+Rgb find_deeper_irradiance(const LightingContext& context, RayTask& task, const SurfacePlace& point,
                            const DeeperLight& deeper, int depth, RandomStream& random);
 
 }  // namespace aleph

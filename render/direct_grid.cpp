@@ -12,6 +12,9 @@ namespace {
 
 constexpr std::size_t first_capacity = 1u << 14;
 
+/// Widths of a cell, along the normal: planes at round coordinates would lie between two cells, and rounding decide.
+constexpr float plane_shift = 0.37f;
+
 /// The nearest power of two to the width, as an exponent.
 int level_of(float width) {
     const float bounded = std::clamp(width, 1e-18f, 1e18f);
@@ -38,8 +41,7 @@ std::int64_t quantize(float x) {
 
 }  // namespace
 
-DirectGrid::DirectGrid(float unit)
-    : cells_(first_capacity), inverse_unit_(1.0f / unit), mask_(first_capacity - 1) {}
+DirectGrid::DirectGrid(float unit) : cells_(first_capacity), inverse_unit_(1.0f / unit), mask_(first_capacity - 1) {}
 
 std::uint64_t DirectGrid::key_of(int instance, const glm::vec3& position, const glm::vec3& geometric,
                                  float width) const {
@@ -48,7 +50,7 @@ std::uint64_t DirectGrid::key_of(int instance, const glm::vec3& position, const 
     const unsigned facing = axis_of(geometric);
     const int across = facing / 2 == 0 ? 1 : 0, along = facing / 2 == 2 ? 1 : 2;
     const std::int64_t a = quantize(at[across]), b = quantize(at[along]),
-                       c = quantize(at[static_cast<int>(facing / 2)]);
+                       c = quantize(at[static_cast<int>(facing / 2)] + plane_shift);
     // Blocks of 8 x 8 cells in the plane that the surface is next to.
     const std::uint64_t side = static_cast<std::uint64_t>(instance) * 6 + facing;
     const std::uint64_t block = static_cast<std::uint64_t>(a >> 3) * 0x9e3779b97f4a7c15ull +

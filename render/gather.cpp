@@ -5,6 +5,7 @@
 #include <limits>
 #include <numbers>
 
+#include "render/gather_rays.h"
 #include "render/gather_summary.h"
 
 namespace aleph {
@@ -13,46 +14,7 @@ namespace {
 
 constexpr float pi = std::numbers::pi_v<float>;
 constexpr float min_ray_cosine = 0.05f;  // limits the solid angle of cells at the horizon
-constexpr float least_rise = 1e-6f;      // of a unit direction above the true surface: below it, rounding decides
 constexpr float infinite = std::numeric_limits<float>::infinity();
-
-/// Sets how many rays each cell takes. Returns their number.
-int divide_cells(const HemisphereStrata& strata, std::span<const DividedCell> divided, GatherScratch& scratch) {
-    scratch.sides.assign(static_cast<std::size_t>(strata.count()), 1);
-    int rays = strata.count();
-    for (const DividedCell& cell : divided) {
-        scratch.sides[cell.cell] = static_cast<std::uint8_t>(cell.side);
-        rays += cell.side * cell.side - 1;
-    }
-    return rays;
-}
-
-/// The rays of all cells that are above the true surface.
-void place_rays(const HemisphereStrata& strata, const Basis& basis, const SurfacePoint& point,
-                const CellNumbers& numbers, GatherScratch& scratch) {
-    scratch.rays.clear();
-    scratch.places.clear();
-    scratch.below.assign(static_cast<std::size_t>(strata.count()), 0);
-    const glm::vec3 origin = point.ray_origin();
-    const auto place_ray = [&](const RayPlace& place, int side) {
-        const glm::vec2 parts = glm::vec2(strata.rows, strata.columns) * static_cast<float>(side);
-        const glm::vec2 u = (glm::vec2(place.row, place.column) + numbers.place(place.row, place.column)) / parts;
-        const glm::vec3 direction = basis.to_world(sample_cosine_hemisphere(u));
-        if (glm::dot(direction, point.geometric) <= least_rise) return;
-        scratch.rays.push_back({origin, direction});
-        scratch.places.push_back(place);
-    };
-    visit_blocks(strata, [&](int cell, int row, int column) {
-        const std::size_t before = scratch.rays.size();
-        const int side = scratch.sides[cell];
-        const float share = 1.0f / static_cast<float>(side * side);
-        for (int part = 0; part < side * side; ++part) {
-            place_ray({cell, row * side + part / side, column * side + part % side, share}, side);
-        }
-        scratch.below[cell] = scratch.rays.size() == before;
-    });
-    scratch.hits.resize(scratch.rays.size());
-}
 
 /// Light that comes back along a path which leaves a hit by another lobe than the Lambert layer's. Lamps that it sees
 /// straight through sheets of glass are direct light, which is computed elsewhere.
@@ -82,14 +44,13 @@ struct Lighting {
         const float cosine = std::max(glm::dot(normal, scratch.rays[ray].direction), min_ray_cosine);
         return pi * scratch.places[ray].share / (static_cast<float>(strata.count()) * cosine);
     }
-    /// One light, chosen for a surface that this ray hit.
-    ScatteredLight choose(const LitSurface& lit, const LobeShares& shares, std::size_t ray) const {
+    /// Numbers for a light at what this ray hit.
+    LightNumbers light_numbers(std::size_t ray) const {
         const auto& [cell, row, column, share] = scratch.places[ray];
-        return choose_light(context, lit, shares,
-                            {random.next(), numbers.light(row, column), numbers.light_point(row, column)});
+        return {random.next(), numbers.light(row, column), numbers.light_point(row, column)};
     }
     /// Irradiance of further bounces at a surface that a ray hit.
-    Rgb find_deeper(const SurfacePoint& met) const {
+    Rgb find_deeper(const SurfacePlace& met) const {
         return find_deeper_irradiance(context, task, met, options.deeper, options.depth, random);
     }
 };
@@ -116,53 +77,76 @@ void light_hit(const Lighting& lighting, std::size_t i) {
         const Rgb deeper = diffuse_radiance(surface.material, lit.cos_view, lighting.find_deeper(surface.point));
         scratch.light[i] += deeper * lit.below_sheen;
     }
-    const ScatteredLight scattered = lighting.choose(lit, shares, i);
+    const ScatteredLight scattered = choose_light(lighting.context, lit, shares, lighting.light_numbers(i));
     if (scattered.radiance == Rgb(0.0f)) return;
     scratch.shadow_rays.push_back(scattered.shadow_ray);
     scratch.shadow_samples.push_back({scattered.radiance, Rgb(1.0f), Rgb(0.0f), static_cast<int>(i)});
 }
 
-/// Finds the hit's cell of the direct grid.
-void note_grid_hit(const Lighting& lighting, std::size_t i) {
+/// Albedo and cell of the direct grid of a plain Lambert surface.
+void note_plain_hit(const Lighting& lighting, std::size_t i) {
     GatherScratch& scratch = lighting.scratch;
+    const ShadingScene& shading = lighting.context.shading;
     const Hit& hit = scratch.hits[i];
-    const glm::vec3& direction = scratch.rays[i].direction;
     const float solid_angle = lighting.solid_angle(i);
-    GridHit& noted = scratch.grid_hits.emplace_back();
-    noted.ray = static_cast<int>(i);
-    make_lambert_hit(lighting.context.shading, hit, direction, solid_angle, noted.met);
-    const float width = hit.distance * std::sqrt(solid_angle);
-    const glm::vec3 from_origin = noted.met.position - lighting.context.shading.instances[hit.instance].translation;
-    noted.grid = lighting.options.grid->key_of(hit.instance, from_origin, noted.met.geometric, width);
-    lighting.options.grid->prefetch(noted.grid);
+    const LambertHit met = make_lambert_hit(shading, scratch.rays[i], hit, scratch.normals[i], solid_angle);
+    if (met.albedo == Rgb(0.0f)) return;
+    std::uint64_t grid = 0;
+    if (lighting.options.grid != nullptr) {
+        const glm::vec3 from_origin = met.position - shading.instances[hit.instance].translation;
+        grid = lighting.options.grid->key_of(hit.instance, from_origin, met.geometric,
+                                             hit.distance * std::sqrt(solid_angle));
+        lighting.options.grid->prefetch(grid);
+    }
+    scratch.plain_hits.push_back({met.albedo, static_cast<int>(i), grid});
 }
 
-/// Direct light from the grid's cell. If the cell has too few samples, one more is taken, and counts with them.
-void light_grid_hit(const Lighting& lighting, const GridHit& noted) {
-    GatherScratch& scratch = lighting.scratch;
-    const Rgb& albedo = noted.met.albedo;
-    if (albedo == Rgb(0.0f)) return;
-    const DirectGrid::Cell& known = lighting.options.grid->find(noted.grid);
-    if (known.count >= DirectGrid::enough) {
-        scratch.light[noted.ray] = albedo * known.sum / static_cast<float>(known.count);
-        return;
+/// Direct light from the grid. Hits in cells of too few samples are left: each will take one more, which counts with
+/// them.
+void find_known_light(const DirectGrid& grid, GatherScratch& scratch) {
+    std::size_t left = 0;
+    for (const PlainHit& hit : scratch.plain_hits) {
+        const DirectGrid::Cell& known = grid.find(hit.grid);
+        const bool enough = known.count >= DirectGrid::enough;
+        const Rgb scale = hit.scale / static_cast<float>(enough ? known.count : known.count + 1);
+        scratch.light[hit.ray] = scale * known.sum;
+        scratch.plain_hits[left] = {scale, hit.ray, hit.grid};
+        left += enough ? 0 : 1;
     }
-    const Rgb scale = albedo / static_cast<float>(known.count + 1);
-    scratch.light[noted.ray] = scale * known.sum;
-    const glm::vec3& direction = scratch.rays[noted.ray].direction;
-    ViewedSurface white;
-    white.point = make_surface_point(lighting.context.shading, scratch.hits[noted.ray], direction);
-    white.material.diffuse = Rgb(1.0f);
-    white.view = -direction;
-    const Rgb deeper = lighting.find_deeper(white.point) / pi;
-    const ScatteredLight scattered = lighting.choose(LitSurface(white), {}, noted.ray);
+    scratch.plain_hits.resize(left);
+}
+
+/// Adds a sample of direct light, and light of further bounces.
+void light_plain_hit(const Lighting& lighting, const PlainHit& noted) {
+    GatherScratch& scratch = lighting.scratch;
+    const LightingContext& context = lighting.context;
+    const SurfacePlace place =
+        make_surface_place(context.shading, scratch.hits[noted.ray], scratch.rays[noted.ray].direction);
+    const Rgb deeper = lighting.find_deeper(place) / pi;
+    const ScatteredLight scattered = choose_lambert_light(context, place, lighting.light_numbers(noted.ray));
     if (scattered.radiance == Rgb(0.0f)) {
-        scratch.light[noted.ray] += scale * deeper;
-        if (lighting.options.found != nullptr) lighting.options.found->push_back({noted.grid, deeper});
+        scratch.light[noted.ray] += noted.scale * deeper;
+        if (noted.grid != 0 && lighting.options.found != nullptr) {
+            lighting.options.found->push_back({noted.grid, deeper});
+        }
         return;
     }
     scratch.shadow_rays.push_back(scattered.shadow_ray);
-    scratch.shadow_samples.push_back({scattered.radiance, scale, deeper, noted.ray, noted.grid});
+    scratch.shadow_samples.push_back({scattered.radiance, noted.scale, deeper, noted.ray, noted.grid});
+}
+
+/// All plain hits. What is read of the meshes is fetched ahead.
+void light_plain_hits(const Lighting& lighting) {
+    GatherScratch& scratch = lighting.scratch;
+    const ShadingScene& shading = lighting.context.shading;
+    constexpr std::size_t ahead = 4;  // hits
+    const auto hit_of = [&](std::size_t k) -> const Hit& { return scratch.hits[scratch.plain_hits[k].ray]; };
+    const std::size_t count = scratch.plain_hits.size();
+    for (std::size_t k = 0; k < count; ++k) {
+        if (k + 2 * ahead < count) prefetch_triangle(shading, hit_of(k + 2 * ahead));
+        if (k + ahead < count) prefetch_corners(shading, hit_of(k + ahead));
+        light_plain_hit(lighting, scratch.plain_hits[k]);
+    }
 }
 
 /// Fills in light that is known, and for all other hits unshadowed light with its shadow rays.
@@ -172,20 +156,18 @@ void light_hits(const Lighting& lighting) {
     scratch.light.assign(scratch.rays.size(), Rgb(0.0f));
     scratch.shadow_rays.clear();
     scratch.shadow_samples.clear();
-    scratch.grid_hits.clear();
-    constexpr std::size_t ahead = 8;  // hits, of prefetching
+    scratch.plain_hits.clear();
     for (std::size_t i = 0; i < scratch.rays.size(); ++i) {
-        if (i + 2 * ahead < scratch.rays.size()) prefetch_triangle(shading, scratch.hits[i + 2 * ahead]);
-        if (i + ahead < scratch.rays.size()) prefetch_corners(shading, scratch.hits[i + ahead]);
         const Hit& hit = scratch.hits[i];
         if (hit.instance == no_index) continue;
-        if (lighting.options.grid != nullptr && is_plain_lambert(shading, shading.instances[hit.instance].material)) {
-            note_grid_hit(lighting, i);
+        if (shading.materials[shading.instances[hit.instance].material].plain_lambert) {
+            note_plain_hit(lighting, i);
         } else {
             light_hit(lighting, i);
         }
     }
-    for (const GridHit& noted : scratch.grid_hits) light_grid_hit(lighting, noted);
+    if (lighting.options.grid != nullptr) find_known_light(*lighting.options.grid, scratch);
+    light_plain_hits(lighting);
 }
 
 /// Casts the shadow rays and adds the light that is not in shadow.
@@ -228,8 +210,8 @@ IrradianceSample gather_irradiance(const LightingContext& context, RayTask& task
     const Basis basis = make_basis(point.normal);
     const CellNumbers numbers(random);
     const int ray_count = divide_cells(strata, options.divided, scratch);
-    place_rays(strata, basis, point, numbers, scratch);
-    task.tracer.intersect(scratch.rays, scratch.hits, true);
+    place_rays(strata, basis, point, numbers, ray_count, scratch);
+    task.tracer.intersect(scratch.rays, scratch.hits, true, scratch.normals);
     task.counts.gather += scratch.rays.size();
     light_hits({context, task, options, strata, numbers, point.normal, random, scratch});
     add_unshadowed(context, task, options, scratch);

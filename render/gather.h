@@ -88,11 +88,18 @@ struct ShadowSample {
     std::uint64_t grid = 0;  ///< cell of the direct grid that the light is a sample of; 0: none
 };
 
-/// A hit whose direct light may be known.
-struct GridHit {
-    LambertHit met;
-    std::uint64_t grid = 0;
+/// A hit of a plain Lambert surface, until its direct light is known.
+struct PlainHit {
+    Rgb scale{0.0f};  ///< of the light that a white surface would scatter
     int ray = 0;
+    std::uint64_t grid = 0;  ///< its cell of the direct grid; 0: none
+};
+
+/// Angles of a row of strata, measured from the normal.
+struct StrataRow {
+    float sin_low, sin_high;  ///< of its bounds
+    float cos2_low;           ///< squared cosine of the lower bound
+    float tangent;            ///< of its middle
 };
 
 /// Buffers that a thread reuses, so that only its first gathers allocate.
@@ -100,6 +107,7 @@ struct GatherScratch {
     // One for every ray that is cast, in the order of visit_blocks.
     std::vector<Ray> rays;
     std::vector<Hit> hits;
+    std::vector<glm::vec3> normals;  ///< of the hits (Tracer::intersect)
     std::vector<RayPlace> places;
     std::vector<Rgb> light;  ///< radiance that the ray finds
     // One for every cell.
@@ -111,8 +119,11 @@ struct GatherScratch {
     std::vector<Ray> shadow_rays;
     std::vector<ShadowSample> shadow_samples;
     std::vector<std::uint8_t> blocked;
-    std::vector<GridHit> grid_hits;
+    std::vector<PlainHit> plain_hits;
+    // Of the summary.
     std::vector<float> sorted;
+    std::vector<float> inverse_distances;
+    std::vector<StrataRow> rows;
 };
 
 struct GatherOptions {

@@ -17,37 +17,43 @@ constexpr float infinite = std::numeric_limits<float>::infinity();
 constexpr float least_bright = 4.0f;
 constexpr std::size_t most_bright = 48;
 
-/// Angles of a row of strata, measured from the normal.
-struct Row {
-    float sin_low, sin_high;  ///< of its bounds
-    float cos2_low;           ///< squared cosine of the lower bound
-    float tangent;            ///< of its middle
-};
-
-Row make_row(int j, int rows) {
+StrataRow make_row(int j, int rows) {
     const float low = static_cast<float>(j) / static_cast<float>(rows);
     const float high = static_cast<float>(j + 1) / static_cast<float>(rows);
     const float middle = 0.5f * (low + high);
     return {std::sqrt(low), std::sqrt(high), 1.0f - low, std::sqrt(middle / (1.0f - middle))};
 }
 
+/// 1/m; negative where a cell is below the true surface.
+void invert_distances(float shortest, GatherScratch& scratch) {
+    scratch.inverse_distances.resize(scratch.distances.size());
+    for (std::size_t i = 0; i < scratch.distances.size(); ++i) {
+        const float d = scratch.distances[i], inverse = 1.0f / (d > shortest ? d : shortest);
+        scratch.inverse_distances[i] = scratch.below[i] != 0 ? -1.0f : inverse;
+    }
+}
+
 /// Ward and Heckbert 1992, eqs. 1 (rotation) and 2 (translation): sums over all cells. The boundary between two cells
 /// moves by the parallax of the nearer surface. The point's own horizon moves with the point: where a cell is below it,
 /// the boundary has no parallax.
 /// @param shortest  m; distances count as at least this
-void add_gradients(const HemisphereStrata& strata, const Basis& basis, const GatherScratch& scratch, float shortest,
+void add_gradients(const HemisphereStrata& strata, const Basis& basis, GatherScratch& scratch, float shortest,
                    IrradianceSample& out) {
     const int rows = strata.rows, columns = strata.columns;
     const float column_width = 2.0f * pi / static_cast<float>(columns);
+    scratch.rows.clear();
+    for (int j = 0; j < rows; ++j) scratch.rows.push_back(make_row(j, rows));
+    invert_distances(shortest, scratch);
+    const std::vector<float>& inverse = scratch.inverse_distances;
     const auto parallax = [&](int a, int b) {
-        if (scratch.below[a] || scratch.below[b]) return 0.0f;
-        return 1.0f / std::max(shortest, std::min(scratch.distances[a], scratch.distances[b]));
+        const bool below = std::min(inverse[a], inverse[b]) < 0.0f;
+        return below ? 0.0f : std::max(inverse[a], inverse[b]);
     };
     for (int k = 0; k < columns; ++k) {
         const int before = k == 0 ? columns - 1 : k - 1;
         Rgb rotation(0.0f), along(0.0f), across(0.0f);
         for (int j = 0; j < rows; ++j) {
-            const Row row = make_row(j, rows);
+            const StrataRow& row = scratch.rows[j];
             const int cell = strata.cell(j, k), beside = strata.cell(j, before);
             const Rgb& here = scratch.radiance[cell];
             rotation += here * row.tangent;
@@ -69,17 +75,24 @@ void add_gradients(const HemisphereStrata& strata, const Basis& basis, const Gat
     }
 }
 
-/// m. Shorter distances are hits of the point's own surface, by rounding: 1e-4 of the median distance.
+/// m. Shorter distances are hits of the point's own surface, by rounding: 1e-4 of the median distance, or of the
+/// longest where that makes no difference.
 float shortest_true_distance(GatherScratch& scratch) {
+    constexpr float share = 1e-4f;
+    float least = infinite, most = 0.0f;
+    for (const float d : scratch.distances) {
+        least = std::min(least, d);
+        most = std::max(most, d < infinite ? d : 0.0f);
+    }
+    if (least >= share * most) return share * most;
     std::vector<float>& met = scratch.sorted;
     met.clear();
     for (const float d : scratch.distances) {
         if (std::isfinite(d)) met.push_back(d);
     }
-    if (met.empty()) return 0.0f;
     const auto middle = met.begin() + std::ssize(met) / 2;
     std::nth_element(met.begin(), middle, met.end());
-    return 1e-4f * *middle;
+    return share * *middle;
 }
 
 /// The harmonic mean (Yee 2000, eq. 6.5) in double, where the inverse of an infinite distance is 0, and the nearest.

@@ -23,14 +23,6 @@ Rgb look_up_albedo(const ShadingScene& shading, const TextureUse& use, const Mes
 
 }  // namespace
 
-bool is_plain_lambert(const ShadingScene& shading, int material) {
-    const ShadingMaterial& entry = shading.materials[material];
-    const MaterialValues& values = entry.values;
-    const bool unlit = entry.material != nullptr && entry.material->unlit;
-    return values.specular == 0.0f && values.metallic == 0.0f && values.transmission == 0.0f && !entry.layered &&
-           !unlit && !shading.textures->materials[material].maps_normals;
-}
-
 void prefetch_triangle(const ShadingScene& shading, const Hit& hit) {
     if (hit.instance == no_index) return;
     __builtin_prefetch(&shading.instances[hit.instance].mesh->triangles[hit.primitive]);
@@ -49,28 +41,27 @@ void prefetch_corners(const ShadingScene& shading, const Hit& hit) {
     }
 }
 
-void make_lambert_hit(const ShadingScene& shading, const Hit& hit, const glm::vec3& direction, float solid_angle,
-                      LambertHit& met) {
+LambertHit make_lambert_hit(const ShadingScene& shading, const Ray& ray, const Hit& hit, const glm::vec3& normal,
+                            float solid_angle) {
     const PosedInstance& instance = shading.instances[hit.instance];
+    const glm::vec3 across = instance.flat ? normal : instance.normals * normal;
+    const float area = glm::length(across);  // twice the triangle's
+    const glm::vec3 unit = area > 0.0f ? across / area : -ray.direction;
+    const float cosine = glm::dot(unit, ray.direction);
+    LambertHit met{ray.origin + ray.direction * hit.distance, cosine > 0.0f ? -unit : unit,
+                   shading.materials[instance.material].values.base_color};
     const Mesh& mesh = *instance.mesh;
-    const glm::uvec3& t = mesh.triangles[hit.primitive];
-    const glm::vec3 p0 = instance.corner(t.x), e1 = instance.corner(t.y) - p0, e2 = instance.corner(t.z) - p0;
-    met.position = instance.linear * (p0 + e1 * hit.u + e2 * hit.v) + instance.translation;
-    const glm::vec3 across = instance.normals * glm::cross(e1, e2);  // as long as twice the triangle's area
-    const float area = glm::length(across);
-    const glm::vec3 normal = area > 0.0f ? across / area : -direction;
-    const float cosine = glm::dot(normal, direction);
-    met.geometric = cosine > 0.0f ? -normal : normal;
-    Rgb albedo = shading.materials[instance.material].values.base_color;
     if (!mesh.colors.empty()) {
-        albedo *= Rgb(mesh.colors[t.x] * (1.0f - hit.u - hit.v) + mesh.colors[t.y] * hit.u + mesh.colors[t.z] * hit.v);
+        const glm::uvec3& t = mesh.triangles[hit.primitive];
+        met.albedo *=
+            Rgb(mesh.colors[t.x] * (1.0f - hit.u - hit.v) + mesh.colors[t.y] * hit.u + mesh.colors[t.z] * hit.v);
     }
     const TextureUse& use = shading.textures->materials[instance.material].base_color;
     if (use.texture != no_index) {
         const float footprint_area = cone_footprint_area(std::abs(cosine), hit.distance, solid_angle);
-        albedo *= look_up_albedo(shading, use, mesh, hit, footprint_area, area);
+        met.albedo *= look_up_albedo(shading, use, mesh, hit, footprint_area, area);
     }
-    met.albedo = albedo;
+    return met;
 }
 
 }  // namespace aleph

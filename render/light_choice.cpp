@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
+#include <span>
 
 #include "render/light_power.h"
 
@@ -26,6 +28,77 @@ Ray move_origin(const Ray& ray, const glm::vec3& origin) {
     return moved;
 }
 
+/// A light for a point, not sampled yet.
+struct LightPick {
+    int light = no_index;
+    float probability = 0.0f;
+    float total = 0.0f;  ///< illuminance of all that were compared
+};
+
+/// The position in a list of weights that a number in [0,1) falls on; its weight is above 0.
+/// @param total  sum of the weights, above 0
+int pick_weight(std::span<const float> weights, float total, float number) {
+    const float place = number * total;
+    float sum = 0.0f;
+    std::size_t chosen = 0;
+    for (const float weight : weights) {
+        sum += weight;
+        chosen += sum <= place ? 1 : 0;
+    }
+    chosen = std::min(chosen, weights.size() - 1);
+    while (chosen > 0 && !(weights[chosen] > 0.0f)) --chosen;  // rounding at the end
+    return static_cast<int>(chosen);
+}
+
+/// Among all lights.
+LightPick pick_of_all(const LightSet& lights, const Receiver& receiver, float behind, float number) {
+    static_assert(max_candidates % LightBounds::step == 0);
+    const std::size_t count = static_cast<std::size_t>(lights.count());
+    std::array<float, max_candidates> weights;
+    bound_illuminances(lights.bounds, receiver.position, receiver.normal, behind,
+                       {weights.data(), lights.bounds.strength.size()});
+    LightPick pick;
+    for (std::size_t i = 0; i < count; ++i) pick.total += weights[i];
+    if (!std::isfinite(pick.total) || !(pick.total > 0.0f)) return pick;
+    pick.light = pick_weight({weights.data(), count}, pick.total, number);
+    pick.probability = weights[pick.light] / pick.total;
+    return pick;
+}
+
+/// Among candidates that are drawn by their power.
+LightPick pick_of_candidates(const LightSet& lights, const Receiver& receiver, float behind,
+                             const LightNumbers& numbers) {
+    std::array<LightChoice, max_candidates> choices;
+    std::array<float, max_candidates> weights;
+    LightPick pick;
+    for (int c = 0; c < max_candidates; ++c) {
+        choices[c] =
+            choose_at_random(lights, (static_cast<float>(c) + numbers.candidates) / static_cast<float>(max_candidates));
+        choices[c].probability *= static_cast<float>(max_candidates);
+        weights[c] = bound_illuminance(lights.bounds, static_cast<std::size_t>(choices[c].light), receiver.position,
+                                       receiver.normal, behind) /
+                     choices[c].probability;
+        pick.total += weights[c];
+    }
+    if (!std::isfinite(pick.total) || !(pick.total > 0.0f)) return pick;
+    const int chosen = pick_weight(weights, pick.total, numbers.choice);
+    pick.light = choices[chosen].light;
+    pick.probability = choices[chosen].probability * weights[chosen] / pick.total;
+    return pick;
+}
+
+/// @param behind  1 where light from behind the surface counts as well, else 0
+LightPick pick_light(const LightSet& lights, const Receiver& receiver, float behind, const LightNumbers& numbers) {
+    return lights.count() > max_candidates ? pick_of_candidates(lights, receiver, behind, numbers)
+                                           : pick_of_all(lights, receiver, behind, numbers.choice);
+}
+
+/// Where no light is picked: nothing, or a value that is not finite, which is not hidden: the sample is dropped and
+/// counted.
+ScatteredLight without_light(const LightPick& pick) {
+    return {{}, Rgb(std::isfinite(pick.total) ? 0.0f : pick.total)};
+}
+
 }  // namespace
 
 Ray make_shadow_ray(const LitSurface& lit, const LightSample& sample) {
@@ -36,37 +109,25 @@ Ray make_shadow_ray(const LitSurface& lit, const LightSample& sample) {
 
 ScatteredLight choose_light(const LightingContext& context, const LitSurface& lit, const LobeShares& shares,
                             const LightNumbers& numbers) {
-    const int lights = context.lights.count();
-    if (lights == 0) return {};
-    const int candidates = std::min(lights, max_candidates);
     const Receiver receiver{lit.point.ray_origin(), lit.point.normal};
-    const bool behind = lit.material.has_glass();
-    std::array<LightChoice, max_candidates> choices;
-    std::array<float, max_candidates> weights;
-    float total = 0.0f;
-    for (int c = 0; c < candidates; ++c) {
-        choices[c].light = c;
-        if (candidates < lights) {
-            choices[c] = choose_at_random(
-                context.lights, (static_cast<float>(c) + numbers.candidates) / static_cast<float>(candidates));
-            choices[c].probability *= static_cast<float>(candidates);
-        }
-        weights[c] =
-            bound_illuminance(context.lights.bounds[choices[c].light], receiver.position, receiver.normal, behind) /
-            choices[c].probability;
-        total += weights[c];
-    }
-    if (!std::isfinite(total)) return {{}, Rgb(total)};  // not hidden: the sample is dropped and counted
-    if (!(total > 0.0f)) return {};
-    float left = numbers.choice * total;
-    int c = 0;
-    while (c + 1 < candidates && left >= weights[c]) left -= weights[c++];
-    while (c > 0 && !(weights[c] > 0.0f)) --c;  // rounding at the end
-    const LightSample sample = sample_light(context.shading, context.lights, choices[c].light, receiver, numbers.point);
+    const LightPick pick = pick_light(context.lights, receiver, lit.material.has_glass() ? 1.0f : 0.0f, numbers);
+    if (pick.light == no_index) return without_light(pick);
+    const LightSample sample = sample_light(context.shading, context.lights, pick.light, receiver, numbers.point);
     if (sample.incoming == Rgb(0.0f) || !lit.is_reached(sample.direction)) return {};
-    const float probability = choices[c].probability * weights[c] / total;
     return {make_shadow_ray(lit, sample),
-            scatter_towards(lit, sample.direction, sample.pdf, shares) * sample.incoming / probability};
+            scatter_towards(lit, sample.direction, sample.pdf, shares) * sample.incoming / pick.probability};
+}
+
+ScatteredLight choose_lambert_light(const LightingContext& context, const SurfacePlace& place,
+                                    const LightNumbers& numbers) {
+    const Receiver receiver{place.ray_origin(), place.normal};
+    const LightPick pick = pick_light(context.lights, receiver, 0.0f, numbers);
+    if (pick.light == no_index) return without_light(pick);
+    const LightSample sample = sample_light(context.shading, context.lights, pick.light, receiver, numbers.point);
+    const float cosine = glm::dot(place.normal, sample.direction);
+    if (!(cosine > 0.0f && glm::dot(place.geometric, sample.direction) > 0.0f)) return {};
+    return {{receiver.position, sample.direction, 0.0f, sample.distance},
+            sample.incoming * (cosine / (std::numbers::pi_v<float> * pick.probability))};
 }
 
 ScatteredLight choose_light(const LightingContext& context, const LitSurface& lit, const LobeShares& shares,

@@ -36,6 +36,10 @@ ScatteredLight choose_light(const LightingContext& context, const LitSurface& li
 ScatteredLight choose_light(const LightingContext& context, const LitSurface& lit, const LobeShares& shares,
                             RandomStream& random);
 
+/// The same for a white Lambert surface whose other lobes, if any, are not sampled.
+ScatteredLight choose_lambert_light(const LightingContext& context, const SurfacePlace& place,
+                                    const LightNumbers& numbers);
+
 /// The ray from a surface to a light that was sampled from its viewer's side (Receiver). Behind the surface it starts
 /// elsewhere, and still ends at the sampled point: it must not reach the light.
 Ray make_shadow_ray(const LitSurface& lit, const LightSample& sample);

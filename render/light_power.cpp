@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
 
 #include "render/environment_map.h"
 
@@ -32,16 +33,30 @@ std::vector<double> estimate_powers(const ShadingScene& shading, const LightSet&
     return powers;
 }
 
-LightBound bound_emitter(const Emitter& emitter) {
-    LightBound bound;
-    bound.position = emitter.center;
-    bound.radius = emitter.radius;
-    bound.strength = luminance(emitter.radiance) * emitter.area;
-    if (emitter.double_sided) return bound;
-    bound.axis = emitter.triangles.front().normal;
-    bound.one_sided = std::ranges::all_of(
-        emitter.triangles, [&](const Emitter::Triangle& t) { return glm::dot(t.normal, bound.axis) > 0.9999f; });
-    return bound;
+void add_light(LightBounds& bounds, const glm::vec3& place, bool nearby, float radius, float strength,
+               const std::optional<glm::vec3>& axis = {}) {
+    bounds.x.push_back(place.x);
+    bounds.y.push_back(place.y);
+    bounds.z.push_back(place.z);
+    bounds.nearby.push_back(nearby ? 1.0f : 0.0f);
+    bounds.radius.push_back(radius);
+    const glm::vec3 normal = axis.value_or(glm::vec3(0.0f));
+    bounds.axis_x.push_back(normal.x);
+    bounds.axis_y.push_back(normal.y);
+    bounds.axis_z.push_back(normal.z);
+    bounds.one_sided.push_back(axis ? 1.0f : 0.0f);
+    // A light that is not a number is chosen as any other: what it lights is dropped and counted, not hidden.
+    bounds.strength.push_back(std::isfinite(strength) ? strength : 1.0f);
+    bounds.inside.push_back(radius > 0.0f ? bounds.strength.back() / (radius * radius) : 0.0f);
+}
+
+/// The normal of a flat light that shines on one side; else nothing.
+std::optional<glm::vec3> find_axis(const Emitter& emitter) {
+    const glm::vec3 axis = emitter.triangles.front().normal;
+    const bool flat = std::ranges::all_of(
+        emitter.triangles, [&](const Emitter::Triangle& t) { return glm::dot(t.normal, axis) > 0.9999f; });
+    if (emitter.double_sided || !flat) return {};
+    return axis;
 }
 
 }  // namespace
@@ -61,30 +76,22 @@ std::vector<float> make_choice_ends(const ShadingScene& shading, const LightSet&
     return ends;
 }
 
-std::vector<LightBound> make_light_bounds(const ShadingScene& shading, const LightSet& lights) {
-    std::vector<LightBound> bounds;
-    for (const Emitter& emitter : lights.emitters) bounds.push_back(bound_emitter(emitter));
+LightBounds make_light_bounds(const ShadingScene& shading, const LightSet& lights) {
+    LightBounds bounds;
+    for (const Emitter& emitter : lights.emitters) {
+        add_light(bounds, emitter.center, true, emitter.radius, luminance(emitter.radiance) * emitter.area,
+                  find_axis(emitter));
+    }
     for (const PunctualLight& light : lights.punctual) {
-        LightBound bound;
-        bound.strength = luminance(light.intensity);
-        bound.position = light.position;
-        if (light.kind == Light::Kind::directional) {
-            bound.reach = LightBound::Reach::directional;
-            bound.axis = -light.direction;
-        }
-        bounds.push_back(bound);
+        const bool nearby = light.kind != Light::Kind::directional;
+        add_light(bounds, nearby ? light.position : -light.direction, nearby, 0.0f, luminance(light.intensity));
     }
     if (lights.has_environment) {
         const double mean = shading.environment_map != nullptr ? shading.environment_map->mean_luminance : 1.0;
-        LightBound bound;
-        bound.reach = LightBound::Reach::everywhere;
-        bound.strength = static_cast<float>(std::numbers::pi * mean * luminance(shading.environment));
-        bounds.push_back(bound);
+        add_light(bounds, glm::vec3(0.0f), false, 1.0f,
+                  static_cast<float>(std::numbers::pi * mean * luminance(shading.environment)));
     }
-    // A light that is not a number is chosen as any other: what it lights is dropped and counted, not hidden.
-    for (LightBound& bound : bounds) {
-        if (!std::isfinite(bound.strength)) bound.strength = 1.0f;
-    }
+    while (bounds.strength.size() % LightBounds::step != 0) add_light(bounds, glm::vec3(0.0f), false, 0.0f, 0.0f);
     return bounds;
 }
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <span>
 #include <vector>
 
 #include "render/lights.h"
@@ -14,28 +15,38 @@ namespace aleph {
 std::vector<float> make_choice_ends(const ShadingScene& shading, const LightSet& lights);
 
 /// LightSet::bounds.
-std::vector<LightBound> make_light_bounds(const ShadingScene& shading, const LightSet& lights);
+LightBounds make_light_bounds(const ShadingScene& shading, const LightSet& lights);
 
-/// About the illuminance that a light brings to a point without obstacles. Above 0 wherever the light can bring any.
+/// About the illuminance that light i brings to a point without obstacles. Above 0 wherever the light can bring any.
+/// Without branches, so that a loop over lights becomes vector instructions.
 /// @param normal  unit, of the surface
-/// @param behind  light from behind the surface counts as well
-inline float bound_illuminance(const LightBound& light, const glm::vec3& position, const glm::vec3& normal,
-                               bool behind) {
+/// @param behind  1 where light from behind the surface counts as well, else 0
+inline float bound_illuminance(const LightBounds& lights, std::size_t i, const glm::vec3& position,
+                               const glm::vec3& normal, float behind) {
     constexpr float least = 1e-3f;  // rounding must not exclude a light that brings a little
-    if (light.reach == LightBound::Reach::everywhere) return light.strength;
-    if (light.reach == LightBound::Reach::directional) {
-        return light.strength * (behind ? 1.0f : std::max(least, glm::dot(light.axis, normal)));
-    }
-    const glm::vec3 to_light = light.position - position;
-    const float distance2 = glm::dot(to_light, to_light), radius2 = light.radius * light.radius;
-    if (distance2 <= 1.01f * radius2) return radius2 > 0.0f ? light.strength / radius2 : 0.0f;
+    const float nearby = lights.nearby[i], radius = lights.radius[i], strength = lights.strength[i];
+    const float inside = lights.inside[i], one_sided = lights.one_sided[i];
+    const float x = lights.x[i] - nearby * position.x, y = lights.y[i] - nearby * position.y,
+                z = lights.z[i] - nearby * position.z;
+    const float distance2 = x * x + y * y + z * z;
     const float inverse = 1.0f / std::sqrt(distance2);
     // The cosine at the light's centre, and more by what its size may add.
-    const auto widen = [&](float along) { return std::clamp((along + light.radius) * inverse, least, 1.0f); };
-    float share = behind ? 1.0f : widen(glm::dot(to_light, normal));
-    if (light.one_sided) share *= widen(-glm::dot(to_light, light.axis));
-    return light.strength * share * (inverse * inverse);
+    const auto widen = [radius, inverse](float along) {
+        const float wide = (along + radius) * inverse;
+        const float enough = wide < least ? least : wide;
+        return enough > 1.0f ? 1.0f : enough;
+    };
+    const float facing = widen(x * normal.x + y * normal.y + z * normal.z);
+    const float shining = widen(-(x * lights.axis_x[i] + y * lights.axis_y[i] + z * lights.axis_z[i]));
+    const float share = (behind > 0.0f ? 1.0f : facing) * (one_sided > 0.0f ? shining : 1.0f);
+    const float outside = strength * share * (inverse * inverse);
+    return distance2 <= 1.01f * (radius * radius) ? inside : outside;
 }
+
+/// That of the first lights.
+/// @param weights  set; a multiple of LightBounds::step of them, as far as the lights' arrays reach
+void bound_illuminances(const LightBounds& lights, const glm::vec3& position, const glm::vec3& normal, float behind,
+                        std::span<float> weights);
 
 /// A light chosen by LightSet::choice_ends.
 struct LightChoice {

@@ -38,15 +38,20 @@ struct PunctualLight {
     float inner_versine = 0.0f, outer_versine = 0.0f;
 };
 
-/// What a light brings to a point, roughly and quickly: for choosing among lights.
-struct LightBound {
-    enum class Reach : std::uint8_t { near, directional, everywhere };
-    Reach reach = Reach::near;
-    bool one_sided = false;    ///< shines on the side of `axis` only, and is flat
-    glm::vec3 position{0.0f};  ///< near: centre of a sphere around the light, m
-    glm::vec3 axis{0.0f};      ///< one_sided: unit normal; directional: unit, towards the light
-    float radius = 0.0f;       ///< near: of that sphere, m
-    float strength = 0.0f;     ///< near: luminous intensity along the axis; else illuminance of a facing surface
+/// What each light brings to a point, roughly and quickly: for choosing among lights (bound_illuminance). One array for
+/// each value, so that several lights are looked at together.
+struct LightBounds {
+    static constexpr std::size_t step = 8;  ///< lights without strength fill the arrays up to a multiple of it
+
+    /// m, the centre of a sphere around a near light; unit vector towards a directional one; 0 for light from all
+    /// around.
+    std::vector<float> x, y, z;
+    std::vector<float> nearby;                  ///< 1 for near lights, 0 for others
+    std::vector<float> radius;                  ///< near: of that sphere, m; 0: directional; 1: from all around
+    std::vector<float> axis_x, axis_y, axis_z;  ///< unit normal of flat lights that shine on one side
+    std::vector<float> one_sided;               ///< 1 for those lights, 0 for others
+    std::vector<float> strength;  ///< near: luminous intensity along the axis; else illuminance of a facing surface
+    std::vector<float> inside;    ///< illuminance within the sphere
 };
 
 struct LightSet {
@@ -57,7 +62,7 @@ struct LightSet {
     /// Per light, cumulative: the probability to be chosen at random. Nine tenths follow the light's power, one tenth
     /// is the same for all.
     std::vector<float> choice_ends;
-    std::vector<LightBound> bounds;  ///< per light
+    LightBounds bounds;  ///< per light
 
     /// Lights are numbered: emitters, then punctual lights, then the environment.
     int count() const { return static_cast<int>(emitters.size() + punctual.size()) + (has_environment ? 1 : 0); }

@@ -55,11 +55,20 @@ bool can_emit(const Material& material) {
     return !material.unlit && is_on(material.emission, glm::dvec3(0.0)) && is_on(material.emission_strength, 0.0);
 }
 
-ShadingMaterial make_material(const Scene& scene, const ScenePose& pose, int i) {
-    const MaterialValues& values = pose.materials[i];
-    return {values, &scene.materials[i], scene.materials[i].double_sided,
-            values.emission != Rgb(0.0f) && !scene.materials[i].unlit,
-            values.clearcoat > 0.0f || values.sheen_color != Rgb(0.0f) || values.anisotropy > 0.0f};
+/// @param i  of the default material: one more than the scene's last
+ShadingMaterial make_material(const ShadingScene& shading, int i) {
+    ShadingMaterial made;
+    if (i < std::ssize(shading.scene->materials)) {
+        const MaterialValues& values = shading.pose->materials[i];
+        const Material& material = shading.scene->materials[i];
+        made = {values, &material, material.double_sided, values.emission != Rgb(0.0f) && !material.unlit,
+                values.clearcoat > 0.0f || values.sheen_color != Rgb(0.0f) || values.anisotropy > 0.0f};
+    }
+    const bool unlit = made.material != nullptr && made.material->unlit;
+    made.plain_lambert = made.values.specular == 0.0f && made.values.metallic == 0.0f &&
+                         made.values.transmission == 0.0f && !made.layered && !unlit &&
+                         !shading.textures->materials[i].maps_normals;
+    return made;
 }
 
 /// What the pose says of the whole scene's light.
@@ -94,19 +103,6 @@ PosedInstance make_instance(const ShadingScene& shading, const RayScene& rays, i
     return posed;
 }
 
-void add_texture_coordinates(const PosedInstance& instance, const glm::uvec3& t, const glm::vec3& e1,
-                             const glm::vec3& e2, float u, float v, SurfacePoint& point) {
-    point.edges[0] = instance.linear * e1;
-    point.edges[1] = instance.linear * e2;
-    for (int k = 0; k < 2; ++k) {
-        const std::vector<glm::vec2>& uv = instance.mesh->uv[k];
-        if (uv.empty()) continue;
-        point.uv[k] = interpolate(uv, t, u, v);
-        point.uv_edges[k][0] = uv[t.y] - uv[t.x];
-        point.uv_edges[k][1] = uv[t.z] - uv[t.x];
-    }
-}
-
 }  // namespace
 
 ShadingScene make_shading_scene(const Scene& scene, const ScenePose& pose, const RayScene& rays,
@@ -120,10 +116,10 @@ ShadingScene make_shading_scene(const Scene& scene, const ScenePose& pose, const
     set_surroundings(shading);
     std::vector<bool> can_shine;
     for (int i = 0; i < std::ssize(scene.materials); ++i) {
-        shading.materials.push_back(make_material(scene, pose, i));
+        shading.materials.push_back(make_material(shading, i));
         can_shine.push_back(can_emit(scene.materials[i]));
     }
-    shading.materials.push_back({});
+    shading.materials.push_back(make_material(shading, static_cast<int>(scene.materials.size())));
     can_shine.push_back(false);
     shading.instances.reserve(pose.instances.size());
     for (int i = 0; i < std::ssize(pose.instances); ++i) {
@@ -151,7 +147,7 @@ void update_shading_scene(ShadingScene& shading, const PosePlan& plan, const Ray
         shading.still_bounds = still;
     }
     set_surroundings(shading);
-    for (const int i : plan.materials) shading.materials[i] = make_material(*shading.scene, pose, i);
+    for (const int i : plan.materials) shading.materials[i] = make_material(shading, i);
     shading.bounds = *shading.still_bounds;
     for (const int i : plan.instances) {
         PosedInstance& instance = shading.instances[i];
@@ -168,57 +164,105 @@ Rgb environment_radiance(const ShadingScene& shading, const glm::vec3& direction
 
 namespace {
 
-/// @param sees_front  whether the front is seen, from its unit normal
-/// @param fallback    unit normal of a triangle without area
-template <class SeesFront>
-SurfacePoint make_point(const ShadingScene& shading, const Hit& hit, const SeesFront& sees_front,
-                        const glm::vec3& fallback) {
+/// The triangle that a hit is on.
+struct HitTriangle {
+    const PosedInstance& instance;
+    glm::uvec3 t;  ///< its vertices
+    /// Barycentrics, within the triangle: rounding can place a hit slightly outside.
+    float u, v;
+    glm::vec3 p0, e1, e2;  ///< object space, m: a corner and the edges from it
+};
+
+HitTriangle find_triangle(const ShadingScene& shading, const Hit& hit) {
     const PosedInstance& instance = shading.instances[hit.instance];
-    const Mesh& mesh = *instance.mesh;
-    const glm::uvec3 t = mesh.triangles[hit.primitive];
-    // Rounding can place a hit slightly outside its triangle.
+    const glm::uvec3 t = instance.mesh->triangles[hit.primitive];
     float u = std::max(hit.u, 0.0f), v = std::max(hit.v, 0.0f);
     if (const float sum = u + v; sum > 1.0f) {
         u /= sum;
         v /= sum;
     }
-    SurfacePoint point;
-    point.material = instance.material;
-    const glm::vec3 p0 = instance.corner(t.x), e1 = instance.corner(t.y) - p0, e2 = instance.corner(t.z) - p0;
-    const glm::vec3 local = p0 + e1 * u + e2 * v;
-    point.position = instance.linear * local + instance.translation;
+    const glm::vec3 p0 = instance.corner(t.x);
+    return {instance, t, u, v, p0, instance.corner(t.y) - p0, instance.corner(t.z) - p0};
+}
+
+/// The side of a surface that a ray meets.
+struct SeenAlong {
+    const glm::vec3& direction;
+    bool sees_front(const glm::vec3& normal) const { return glm::dot(normal, direction) < 0.0f; }
+    /// Unit normal of a triangle without area.
+    glm::vec3 fallback() const { return -direction / glm::length(direction); }
+};
+
+/// A side by itself.
+struct SeenFrom {
+    bool front;
+    bool sees_front(const glm::vec3&) const { return front; }
+    glm::vec3 fallback() const { return {0.0f, 1.0f, 0.0f}; }
+};
+
+template <class Side>
+void set_place(const HitTriangle& triangle, const Side& side, SurfacePlace& place) {
+    const auto& [instance, t, u, v, p0, e1, e2] = triangle;
+    place.position = instance.linear * (p0 + e1 * u + e2 * v) + instance.translation;
     // normal_matrix keeps outward normals outward, under reflections too.
     glm::vec3 geometric = instance.normals * glm::cross(e1, e2);
     const float length = glm::length(geometric);
-    geometric = length > 0.0f ? geometric / length : fallback;
-    point.front = sees_front(geometric);
-    point.geometric = point.front ? geometric : -geometric;
-    point.offset = offset_scale * rounding_bound(instance, p0, e1, e2, point.position, geometric);
-    point.normal = point.geometric;
-    if (const std::vector<glm::vec3>& normals = instance.vertex_normals(); !normals.empty()) {
-        const glm::vec3 n = instance.normals * interpolate(normals, t, u, v);
-        const float n_length = glm::length(n);
-        if (n_length > 0.0f && std::isfinite(n_length)) {
-            glm::vec3 shading_normal = n / n_length;
-            if (!point.front) shading_normal = -shading_normal;
-            // With an interpolated normal on the other side of the surface, light would leak through it.
-            if (glm::dot(shading_normal, point.geometric) > 0.0f) point.normal = shading_normal;
-        }
+    geometric = length > 0.0f ? geometric / length : side.fallback();
+    place.front = side.sees_front(geometric);
+    place.geometric = place.front ? geometric : -geometric;
+    place.offset = offset_scale * rounding_bound(instance, p0, e1, e2, place.position, geometric);
+    place.normal = place.geometric;
+    const std::vector<glm::vec3>& normals = instance.vertex_normals();
+    if (normals.empty()) return;
+    const glm::vec3 n = instance.normals * interpolate(normals, t, u, v);
+    const float n_length = glm::length(n);
+    if (!(n_length > 0.0f && std::isfinite(n_length))) return;
+    const glm::vec3 shading_normal = (place.front ? n : -n) / n_length;
+    // With an interpolated normal on the other side of the surface, light would leak through it.
+    if (glm::dot(shading_normal, place.geometric) > 0.0f) place.normal = shading_normal;
+}
+
+void add_texture_coordinates(const HitTriangle& triangle, SurfacePoint& point) {
+    const auto& [instance, t, u, v, p0, e1, e2] = triangle;
+    point.edges[0] = instance.linear * e1;
+    point.edges[1] = instance.linear * e2;
+    for (int k = 0; k < 2; ++k) {
+        const std::vector<glm::vec2>& uv = instance.mesh->uv[k];
+        if (uv.empty()) continue;
+        point.uv[k] = interpolate(uv, t, u, v);
+        point.uv_edges[k][0] = uv[t.y] - uv[t.x];
+        point.uv_edges[k][1] = uv[t.z] - uv[t.x];
     }
-    add_texture_coordinates(instance, t, e1, e2, u, v, point);
-    if (!mesh.colors.empty()) point.color = interpolate(mesh.colors, t, u, v);
+}
+
+template <class Side>
+SurfacePoint make_point(const ShadingScene& shading, const Hit& hit, const Side& side) {
+    const HitTriangle triangle = find_triangle(shading, hit);
+    const PosedInstance& instance = triangle.instance;
+    SurfacePoint point;
+    point.material = instance.material;
+    set_place(triangle, side, point);
+    add_texture_coordinates(triangle, point);
+    if (!instance.mesh->colors.empty()) {
+        point.color = interpolate(instance.mesh->colors, triangle.t, triangle.u, triangle.v);
+    }
     return point;
 }
 
 }  // namespace
 
 SurfacePoint make_surface_point(const ShadingScene& shading, const Hit& hit, const glm::vec3& direction) {
-    const auto sees_front = [&](const glm::vec3& normal) { return glm::dot(normal, direction) < 0.0f; };
-    return make_point(shading, hit, sees_front, -direction / glm::length(direction));
+    return make_point(shading, hit, SeenAlong{direction});
 }
 
 SurfacePoint make_surface_point(const ShadingScene& shading, const Hit& hit, bool front) {
-    return make_point(shading, hit, [front](const glm::vec3&) { return front; }, {0.0f, 1.0f, 0.0f});
+    return make_point(shading, hit, SeenFrom{front});
+}
+
+SurfacePlace make_surface_place(const ShadingScene& shading, const Hit& hit, const glm::vec3& direction) {
+    SurfacePlace place;
+    set_place(find_triangle(shading, hit), SeenAlong{direction}, place);
+    return place;
 }
 
 }  // namespace aleph

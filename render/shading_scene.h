@@ -44,7 +44,8 @@ struct ShadingMaterial {
     const Material* material = nullptr;  ///< null: glTF's default
     bool double_sided = false;
     bool emits = false;
-    bool layered = false;  ///< has a coat, sheen or anisotropy
+    bool layered = false;        ///< has a coat, sheen or anisotropy
+    bool plain_lambert = false;  ///< scatters by its Lambert layer alone, and no map changes its normals
 };
 
 /// m, relative to the anchor. If empty, `low` is infinite.
@@ -83,27 +84,34 @@ void update_shading_scene(ShadingScene& shading, const PosePlan& plan, const Ray
 /// @param direction  unit, world
 Rgb environment_radiance(const ShadingScene& shading, const glm::vec3& direction);
 
-/// A point of a surface, seen from a direction.
-struct SurfacePoint {
+/// Where a surface is and how it faces, seen from a direction.
+struct SurfacePlace {
     /// m, relative to the anchor. Computed from barycentrics: at grazing incidence, origin + t direction can be metres
     /// off.
     glm::vec3 position{0.0f};
     glm::vec3 geometric{0.0f};  ///< unit, towards the viewer
     glm::vec3 normal{0.0f};     ///< shading normal, unit, never facing away from the viewer's side of `geometric`
-    glm::vec2 uv[2]{};
-    glm::vec3 edges[2]{};        ///< m, of the triangle, from its first corner
-    glm::vec2 uv_edges[2][2]{};  ///< per set of texture coordinates: its difference along each edge
-    glm::vec4 color{1.0f};       ///< vertex colour
-    int material = no_index;
-    float offset = 0.0f;  ///< m along `geometric`, larger than the rounding error of `position`
-    bool front = true;    ///< seen from the front side of its winding
+    float offset = 0.0f;        ///< m along `geometric`, larger than the rounding error of `position`
+    bool front = true;          ///< seen from the front side of its winding
 
     /// Origin of rays that leave on the viewer's side.
     glm::vec3 ray_origin() const { return position + geometric * offset; }
 };
 
+/// A point of a surface, with what textures need.
+struct SurfacePoint : SurfacePlace {
+    glm::vec2 uv[2]{};
+    glm::vec3 edges[2]{};        ///< m, of the triangle, from its first corner
+    glm::vec2 uv_edges[2][2]{};  ///< per set of texture coordinates: its difference along each edge
+    glm::vec4 color{1.0f};       ///< vertex colour
+    int material = no_index;
+};
+
 /// @param direction  of the ray that hit it; need not be unit
 SurfacePoint make_surface_point(const ShadingScene& shading, const Hit& hit, const glm::vec3& direction);
+
+/// The place alone.
+SurfacePlace make_surface_place(const ShadingScene& shading, const Hit& hit, const glm::vec3& direction);
 
 /// The same from one side of the surface.
 /// @param front  the front side of its winding

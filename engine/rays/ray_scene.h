@@ -88,11 +88,15 @@ class Tracer {
     Tracer(const Tracer&) = delete;
     Tracer& operator=(const Tracer&) = delete;
 
-    Hit intersect(const Ray& ray);
+    /// @param normal  if given, set as by the function for packets
+    Hit intersect(const Ray& ray, glm::vec3* normal = nullptr);
     bool occluded(const Ray& ray);
 
-    /// In packets, one hit per ray. `coherent`: neighbouring rays have similar origins and directions.
-    void intersect(std::span<const Ray> rays, std::span<Hit> hits, bool coherent);
+    /// In packets, one hit per ray.
+    /// @param coherent  neighbouring rays have similar origins and directions
+    /// @param normals   if given, set to the true normals of what is hit: across the triangle, as long as twice its
+    ///                  area, on either side; in the object's space, or the world's where RayScene::is_flat
+    void intersect(std::span<const Ray> rays, std::span<Hit> hits, bool coherent, std::span<glm::vec3> normals = {});
     void occluded(std::span<const Ray> rays, std::span<std::uint8_t> blocked);
 
   private:

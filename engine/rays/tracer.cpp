@@ -1,6 +1,8 @@
 // The only calls that trace rays. Embree ends the process on a ray with a NaN (Debian's build), so every ray is checked
 // first: an invalid one is counted and is a miss.
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -15,9 +17,9 @@ namespace {
 
 /// The direction with components that are next to nothing made 0: a denormal one of a wrong sign makes Embree's
 /// coherent packets lose hits of the other rays.
-glm::vec3 embree_direction(const Ray& ray) {
+glm::vec3 embree_direction(const glm::vec3& direction) {
     const auto clean = [](float v) { return std::abs(v) < 1e-30f ? 0.0f : v; };
-    return {clean(ray.direction.x), clean(ray.direction.y), clean(ray.direction.z)};
+    return {clean(direction.x), clean(direction.y), clean(direction.z)};
 }
 
 /// Without branches: it is asked for every ray. NaN fails every comparison.
@@ -26,7 +28,7 @@ bool is_valid(const Ray& ray) {
         return (std::abs(v.x) < max_ray_component) & (std::abs(v.y) < max_ray_component) &
                (std::abs(v.z) < max_ray_component);
     };
-    const glm::vec3 d = embree_direction(ray);
+    const glm::vec3 d = embree_direction(ray.direction);
     return fits(ray.origin) & fits(ray.direction) & (ray.near >= 0.0f) & (ray.near < max_ray_component) &
            (ray.far >= ray.near) & ((d.x != 0.0f) | (d.y != 0.0f) | (d.z != 0.0f));
 }
@@ -75,8 +77,8 @@ struct PacketCounts {
 
 /// Origins of a packet's rays, relative to the anchor.
 template <int Width>
-struct Origins {
-    alignas(64) float x[Width], y[Width], z[Width];
+struct alignas(64) Origins {
+    float x[Width], y[Width], z[Width];
 
     template <class Rays>
     void place(const glm::vec3& shift, Rays& packet) const {
@@ -88,18 +90,13 @@ struct Origins {
     }
 };
 
-/// Fills a packet but for the origins; invalid rays and lanes beyond the end are switched off.
+/// Fills a packet but for the origins; invalid rays are switched off.
+/// @param rays  as many as there are lanes; those from `present` on are switched off too
 template <int Width, class Rays>
-void fill(std::span<const Ray> rays, Rays& packet, Origins<Width>& origins, int* valid, PacketCounts& counts) {
-    std::uint64_t good_count = 0;
+void fill(const Ray* rays, int present, Rays& packet, Origins<Width>& origins, int* valid, PacketCounts& counts) {
     for (int lane = 0; lane < Width; ++lane) {
-        const bool present = static_cast<std::size_t>(lane) < rays.size();
-        const Ray& given = rays[present ? static_cast<std::size_t>(lane) : 0];
-        const bool good = is_valid(given) & present;
-        good_count += good ? 1 : 0;
-        valid[lane] = good ? -1 : 0;
-        const Ray ray = good ? given : Ray{};
-        const glm::vec3 direction = embree_direction(ray);
+        const Ray& ray = rays[lane];
+        const glm::vec3 direction = embree_direction(ray.direction);
         origins.x[lane] = ray.origin.x;
         origins.y[lane] = ray.origin.y;
         origins.z[lane] = ray.origin.z;
@@ -109,8 +106,29 @@ void fill(std::span<const Ray> rays, Rays& packet, Origins<Width>& origins, int*
         packet.tnear[lane] = ray.near;
         packet.tfar[lane] = ray.far;
     }
-    counts.traced += good_count;
-    counts.invalid += rays.size() - good_count;
+    int good_count = 0;
+    for (int lane = 0; lane < Width; ++lane) {
+        const bool good = is_valid(rays[lane]) & (lane < present);
+        good_count += good ? 1 : 0;
+        valid[lane] = good ? -1 : 0;
+    }
+    for (int lane = 0; good_count < Width && lane < Width; ++lane) {
+        if (valid[lane] != 0) continue;
+        origins.x[lane] = origins.y[lane] = origins.z[lane] = packet.tnear[lane] = 0.0f;
+        packet.dir_x[lane] = packet.dir_y[lane] = packet.dir_z[lane] = 0.0f;
+        packet.tfar[lane] = std::numeric_limits<float>::infinity();
+    }
+    counts.traced += static_cast<std::uint64_t>(good_count);
+    counts.invalid += static_cast<std::uint64_t>(present - good_count);
+}
+
+/// The same for a last packet that is not full.
+template <int Width, class Rays>
+void fill(std::span<const Ray> rays, Rays& packet, Origins<Width>& origins, int* valid, PacketCounts& counts) {
+    if (rays.size() == Width) return fill<Width>(rays.data(), Width, packet, origins, valid, counts);
+    std::array<Ray, Width> padded;
+    std::copy(rays.begin(), rays.end(), padded.begin());
+    fill<Width>(padded.data(), static_cast<int>(rays.size()), packet, origins, valid, counts);
 }
 
 /// What no ray of ours changes.
@@ -126,7 +144,7 @@ void fill_constants(Rays& packet) {
 
 template <int Width>
 PacketCounts intersect_packets(const RayScene::State& state, Blend blend, std::span<const Ray> all, std::span<Hit> hits,
-                               bool coherent) {
+                               std::span<glm::vec3> normals, bool coherent) {
     PacketCounts counts;
     alignas(64) int valid[Width];
     alignas(64) typename Packet<Width>::RayHits packet;
@@ -151,6 +169,8 @@ PacketCounts intersect_packets(const RayScene::State& state, Blend blend, std::s
                 make_hit(*state.meshes, packet.hit.instID[0][lane], packet.hit.geomID[lane], packet.hit.primID[lane],
                          packet.hit.u[lane], packet.hit.v[lane], context.distance[lane]);
         }
+        for (std::size_t lane = 0; begin + lane < normals.size() && lane < Width; ++lane)
+            normals[begin + lane] = {packet.hit.Ng_x[lane], packet.hit.Ng_y[lane], packet.hit.Ng_z[lane]};
     }
     return counts;
 }
@@ -186,7 +206,7 @@ PacketCounts occluded_packets(const RayScene::State& state, Blend blend, std::sp
 }
 
 RTCRay make_ray(const Ray& ray) {
-    const glm::vec3 direction = embree_direction(ray);
+    const glm::vec3 direction = embree_direction(ray.direction);
     return {ray.origin.x, ray.origin.y, ray.origin.z, ray.near, direction.x, direction.y,
             direction.z,  0.0f,         ray.far,      ~0u,      0,           0};
 }
@@ -206,7 +226,7 @@ Tracer::~Tracer() {
     if (invalid_ > 0) state_.invalid_rays.fetch_add(invalid_, std::memory_order_relaxed);
 }
 
-Hit Tracer::intersect(const Ray& ray) {
+Hit Tracer::intersect(const Ray& ray, glm::vec3* normal) {
     if (!is_valid(ray)) {
         ++invalid_;
         return {};
@@ -224,6 +244,7 @@ Hit Tracer::intersect(const Ray& ray) {
             rtcIntersect1(tree, &context.common.embree, &query);
             return true;
         });
+    if (normal != nullptr) *normal = {query.hit.Ng_x, query.hit.Ng_y, query.hit.Ng_z};
     return make_hit(*state_.meshes, query.hit.instID[0], query.hit.geomID, query.hit.primID, query.hit.u, query.hit.v,
                     context.distance[0]);
 }
@@ -246,15 +267,17 @@ bool Tracer::occluded(const Ray& ray) {
     return query.tfar < 0.0f;
 }
 
-void Tracer::intersect(std::span<const Ray> rays, std::span<Hit> hits, bool coherent) {
-    ALEPH_CHECK(rays.size() == hits.size(), std::to_string(rays.size()) + " rays, " + std::to_string(hits.size()));
+void Tracer::intersect(std::span<const Ray> rays, std::span<Hit> hits, bool coherent, std::span<glm::vec3> normals) {
+    ALEPH_CHECK(rays.size() == hits.size() && (normals.empty() || normals.size() == hits.size()),
+                fmt::format("{} rays, {} hits, {} normals", rays.size(), hits.size(), normals.size()));
     if (state_.meshes->packet_width == 1) {  // Embree would split packets, and the filters would see one lane
-        for (std::size_t i = 0; i < rays.size(); ++i) hits[i] = intersect(rays[i]);
+        for (std::size_t i = 0; i < rays.size(); ++i)
+            hits[i] = intersect(rays[i], normals.empty() ? nullptr : &normals[i]);
         return;
     }
     const PacketCounts counts = state_.meshes->packet_width == 16
-                                    ? intersect_packets<16>(state_, blend_, rays, hits, coherent)
-                                    : intersect_packets<8>(state_, blend_, rays, hits, coherent);
+                                    ? intersect_packets<16>(state_, blend_, rays, hits, normals, coherent)
+                                    : intersect_packets<8>(state_, blend_, rays, hits, normals, coherent);
     traced_ += counts.traced;
     invalid_ += counts.invalid;
 }

@@ -28,19 +28,21 @@ Scene make_colored_scene() {
 TEST(LambertHit, IsTheSurfaceOfTheFullWay) {
     const Stage stage(make_colored_scene(), 40, 30);
     const SampleHits centers = cast_centers(stage.rays, stage.view, nullptr);
+    Tracer tracer(stage.rays);
     int met = 0;
     bool varied = false;
     for (int y = 0; y < 30; ++y) {
         for (int x = 0; x < 40; ++x) {
-            const Hit& hit = centers.hits(x, y);
+            const CameraRay camera_ray = make_sample_ray(stage.view, centers, x, y);
+            const Ray ray{glm::vec3(camera_ray.origin - stage.rays.anchor()), glm::vec3(camera_ray.direction)};
+            glm::vec3 normal(0.0f);
+            const Hit hit = tracer.intersect(ray, &normal);
             if (hit.instance == no_index) continue;
             ++met;
-            ASSERT_TRUE(is_plain_lambert(stage.shading, stage.shading.instances[hit.instance].material));
-            const glm::vec3 direction(make_sample_ray(stage.view, centers, x, y).direction);
-            const SurfacePoint point = make_surface_point(stage.shading, hit, direction);
+            ASSERT_TRUE(stage.shading.materials[stage.shading.instances[hit.instance].material].plain_lambert);
+            const SurfacePoint point = make_surface_point(stage.shading, hit, ray.direction);
             const SurfaceMaterial material = evaluate_material(stage.shading, point, {});
-            LambertHit found;
-            make_lambert_hit(stage.shading, hit, direction, 1e-3f, found);
+            const LambertHit found = make_lambert_hit(stage.shading, ray, hit, normal, 1e-3f);
             EXPECT_LT(glm::length(found.position - point.position), 1e-6f);
             EXPECT_LT(glm::length(found.geometric - point.geometric), 1e-6f);
             EXPECT_LT(glm::length(found.albedo - material.diffuse), 1e-6f);
