@@ -27,6 +27,7 @@ struct Rendered {
         settings.spp = 1;
         settings.gather = 16;
         settings.light_samples = 2;
+        settings.light_step = 0;  // the quick estimate is gathered in the frame
         Sequence sequence(scene, settings);
         output = sequence.render(frame, {.frame = true, .maps = true, .progress = {}});
         exposure = sequence.exposure();
