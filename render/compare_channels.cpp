@@ -14,7 +14,8 @@ namespace aleph {
 namespace {
 
 constexpr std::string_view variance_name = "variance.Y";
-constexpr std::array<std::string_view, 3> count_names = {"samples.Y", "records.Y", "invalid.Y"};
+constexpr std::array<std::string_view, 5> count_names = {"samples.Y", "records.Y", "invalid.Y", "cache.count",
+                                                         "cache.radius"};
 
 bool belongs_to(const std::string& channel, const std::string& wanted) {
     return channel == wanted || channel.starts_with(wanted + ".");

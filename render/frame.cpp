@@ -47,6 +47,7 @@ class FrameShading {
           sums_(context.view.width, context.view.height) {
         if (cached_) context_.direct = &direct_;
         context_.deeper = make_deeper_light(context.settings, nullptr);
+        if (options.record_maps && !by_paths_) uses_ = Image<RecordUse>(context_.view.width, context_.view.height);
         if (!by_paths_) out_.indirect = Image<Rgb>(context.view.width, context.view.height);
     }
 
@@ -82,6 +83,7 @@ class FrameShading {
                 out_.variance.pixels[p] = static_cast<float>(sum.variance() * exposure * exposure);
             }
         }
+        resolve_uses();
     }
 
   private:
@@ -179,13 +181,25 @@ class FrameShading {
         return radiance;
     }
 
+    void resolve_uses() {
+        if (uses_.empty()) return;
+        out_.cache_count = out_.cache_radius = Image<float>(uses_.width, uses_.height);
+        for (std::size_t p = 0; p < uses_.size(); ++p) {
+            const RecordUse& used = uses_.pixels[p];
+            if (!(used.weights > 0.0f)) continue;
+            out_.cache_count.pixels[p] = used.count / static_cast<float>(context_.settings.spp);
+            out_.cache_radius.pixels[p] = used.reaches / used.weights;
+        }
+    }
+
     /// Indirect irradiance: from the cache, or gathered if it has no record here. The latter happens where neighbour
     /// clamping shrank a record after it covered this place.
     Rgb find_irradiance(ShadingTask& task, const PixelSurface& surface) {
         const float accuracy = context_.accuracy(surface.x, surface.y);
+        RecordUse* const used = uses_.empty() ? nullptr : &uses_(surface.x, surface.y);
         if (context_.carried != nullptr) {
             ++task.lookups;
-            if (const std::optional<Rgb> found = context_.carried->find(surface, accuracy, task)) {
+            if (const std::optional<Rgb> found = context_.carried->find(surface, accuracy, task, used)) {
                 ++task.hits;
                 return *found;
             }
@@ -194,6 +208,7 @@ class FrameShading {
         if (cached_ && accuracy > 0.0f) {
             CacheQuery query = place;
             query.accuracy *= static_cast<float>(context_.settings.shade_reach);
+            query.used = used;
             ++task.lookups;
             if (const std::optional<Rgb> found = cache_.interpolate(query)) {
                 ++task.hits;
@@ -231,6 +246,7 @@ class FrameShading {
     std::optional<IrradianceCache> fewer_bounces_;
     DirectGrid direct_;
     Image<PixelSum> sums_;
+    Image<RecordUse> uses_;  ///< empty: not asked for
     std::mutex mutex_;
     std::size_t rows_done_ = 0;
 };

@@ -15,7 +15,8 @@ struct SampleMoment {
 /// How a frame's samples differ from its pixel centres.
 struct SampleOptions {
     Lens lens;
-    bool blended = false;  ///< blended surfaces are in the scene
+    bool blended = false;      ///< blended surfaces are in the scene
+    bool record_maps = false;  ///< fill ShadedFrame::cache_count and cache_radius
     /// The scene at a sample's time, valid until the next call; empty: the shutter opens for no time.
     std::function<SampleMoment(int sample)> at_sample;
 };

@@ -51,6 +51,8 @@ void add_maps(ChannelImage& file, const FrameOutput& output) {
     add(file, "objectId.X", pick(output.hits, [](const Hit& hit) { return hit.instance; }));
     add(file, "samples.Y", output.shaded.samples);
     add(file, "records.Y", output.shaded.records);
+    add(file, "cache.count", output.shaded.cache_count);
+    add(file, "cache.radius", output.shaded.cache_radius);
     add(file, "invalid.Y", output.shaded.invalid_samples);
 }
 

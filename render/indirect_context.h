@@ -6,6 +6,7 @@
 #include "engine/base/color.h"
 #include "render/deeper_light.h"
 #include "render/direct_grid.h"
+#include "render/irradiance_cache.h"
 #include "render/light_choice.h"
 #include "render/pixel_surfaces.h"
 #include "render/ray_task.h"
@@ -19,7 +20,9 @@ struct CarriedLight {
     virtual ~CarriedLight() = default;
     /// Irradiance at a surface of the frame; nothing where it is not known to this accuracy. Called from any thread.
     /// @param task  casts rays in the frame's scene to records where something may stand in between
-    virtual std::optional<Rgb> find(const PixelSurface& surface, float accuracy, RayTask& task) const = 0;
+    /// @param used  increased by the records that are used; may be null
+    virtual std::optional<Rgb> find(const PixelSurface& surface, float accuracy, RayTask& task,
+                                    RecordUse* used = nullptr) const = 0;
 };
 
 /// What a frame's indirect light is computed from.

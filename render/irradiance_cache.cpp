@@ -218,6 +218,9 @@ std::optional<Rgb> IrradianceCache::interpolate(const CacheQuery& query) const {
             const float weight = (1.0f - error / accuracy) / (looser * looser);
             sum += extrapolate(record, query.position, query.normal) * weight;
             total += weight;
+            if (query.used != nullptr) {
+                query.used->add(weight, RecordReach{record.radius, spread_of(record)}.at(accuracy));
+            }
         }
         return true;
     });

@@ -22,6 +22,24 @@ namespace aleph {
 
 struct RayTask;
 
+/// The records that look-ups used, added up.
+struct RecordUse {
+    float count = 0.0f;
+    float weights = 0.0f;
+    float reaches = 0.0f;  ///< m, by weight: how far they may be used at the query's accuracy (RecordReach)
+
+    void add(float weight, float reach) {
+        ++count;
+        weights += weight;
+        reaches += weight * reach;
+    }
+    void add(const RecordUse& other) {
+        count += other.count;
+        weights += other.weights;
+        reaches += other.reaches;
+    }
+};
+
 /// A place where irradiance is needed.
 struct CacheQuery {
     glm::vec3 position{0.0f};
@@ -30,6 +48,7 @@ struct CacheQuery {
     /// Casts a ray to a record where something may stand in between; null: such records are not used.
     RayTask* task = nullptr;
     glm::vec3 ray_shift{0.0f};  ///< m, from the records' coordinates to those of `task`
+    RecordUse* used = nullptr;  ///< `interpolate` adds the records that it uses; may be null
 };
 
 /// Look-ups may run in parallel while nothing is inserted.

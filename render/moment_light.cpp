@@ -86,10 +86,11 @@ BlendedLight::BlendedLight(std::shared_ptr<const MomentLight> before, std::share
       reach_(static_cast<float>(reach)) {}
 
 std::optional<Rgb> BlendedLight::read(const MomentLight& moment, const PixelSurface& surface, float accuracy,
-                                      RayTask& task) const {
+                                      RayTask& task, RecordUse& used) const {
     const std::optional<SurfacePoint> point = carry_point(moment.at->shading, surface.hit, surface.point);
     if (!point) return std::nullopt;
     CacheQuery query{point->position, point->normal, accuracy * reach_};
+    query.used = &used;
     // A surface that turned would need rays in the moment's own scene.
     if (point->edges[0] == surface.point.edges[0] && point->edges[1] == surface.point.edges[1]) {
         query.task = &task;
@@ -98,10 +99,11 @@ std::optional<Rgb> BlendedLight::read(const MomentLight& moment, const PixelSurf
     return moment.cache.interpolate(query);
 }
 
-std::optional<Rgb> BlendedLight::interpolate(const PixelSurface& surface, float accuracy, RayTask& task) const {
-    const std::optional<Rgb> before = read(*before_, surface, accuracy, task);
+std::optional<Rgb> BlendedLight::interpolate(const PixelSurface& surface, float accuracy, RayTask& task,
+                                             RecordUse& used) const {
+    const std::optional<Rgb> before = read(*before_, surface, accuracy, task, used);
     if (!after_) return before;
-    const std::optional<Rgb> after = read(*after_, surface, accuracy, task);
+    const std::optional<Rgb> after = read(*after_, surface, accuracy, task, used);
     if (!before || !after) {
         if (still_) return before ? before : after;
         return std::nullopt;
@@ -110,9 +112,13 @@ std::optional<Rgb> BlendedLight::interpolate(const PixelSurface& surface, float 
     return *before * (1.0f - weight_) + *after * weight_;
 }
 
-std::optional<Rgb> BlendedLight::find(const PixelSurface& surface, float accuracy, RayTask& task) const {
-    const std::optional<Rgb> found = interpolate(surface, accuracy, task);
-    return found || !finer_ ? found : finer_->find(surface, accuracy, task);
+std::optional<Rgb> BlendedLight::find(const PixelSurface& surface, float accuracy, RayTask& task,
+                                      RecordUse* used) const {
+    RecordUse of_these;
+    const std::optional<Rgb> found = interpolate(surface, accuracy, task, of_these);
+    if (!found && finer_) return finer_->find(surface, accuracy, task, used);
+    if (found && used != nullptr) used->add(of_these);
+    return found;
 }
 
 }  // namespace aleph

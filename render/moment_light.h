@@ -68,12 +68,13 @@ class BlendedLight : public CarriedLight {
     /// Light of moments nearer to the frame, for what these moments do not know.
     void set_finer(std::unique_ptr<const BlendedLight> finer) { finer_ = std::move(finer); }
 
-    std::optional<Rgb> find(const PixelSurface& surface, float accuracy, RayTask& task) const override;
+    std::optional<Rgb> find(const PixelSurface& surface, float accuracy, RayTask& task,
+                            RecordUse* used = nullptr) const override;
 
   private:
-    std::optional<Rgb> read(const MomentLight& moment, const PixelSurface& surface, float accuracy,
-                            RayTask& task) const;
-    std::optional<Rgb> interpolate(const PixelSurface& surface, float accuracy, RayTask& task) const;
+    std::optional<Rgb> read(const MomentLight& moment, const PixelSurface& surface, float accuracy, RayTask& task,
+                            RecordUse& used) const;
+    std::optional<Rgb> interpolate(const PixelSurface& surface, float accuracy, RayTask& task, RecordUse& used) const;
 
     std::shared_ptr<const MomentLight> before_, after_;
     float weight_;

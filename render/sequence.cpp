@@ -126,6 +126,7 @@ FrameOutput Sequence::render(std::int64_t frame, const FrameRequest& request) {
     if (request.frame) {
         const auto random_frame = static_cast<std::uint32_t>(frame);
         options.blended = s.blended;
+        options.record_maps = request.maps;
         if (shutter) options.at_sample = open_shutter(s, *shutter, random_frame, out.view);
         const LightingContext lighting = s.lighting();
         const IndirectContext context{.lighting = lighting,

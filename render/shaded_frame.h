@@ -45,6 +45,9 @@ struct ShadedFrame : FrameTally {
     /// Variance of the pixel's mean luminance, exposure applied, from its samples. With Integrator::path and 2 samples
     /// or more; otherwise empty, since samples that share a cache do not tell its error.
     Image<float> variance;
+    /// Records that the pixel's irradiance was interpolated from: their mean number per sample, and the weighted mean of
+    /// how far they may be used, m. Empty unless SampleOptions::record_maps.
+    Image<float> cache_count, cache_radius;
     double fill_seconds = 0.0, shade_seconds = 0.0;
 };
 

@@ -48,6 +48,8 @@ constexpr const char* maps_footer =
     "  R G B A                  the picture and its coverage (render)\n"
     "  samples.Y records.Y invalid.Y\n"
     "                           samples, irradiance values, samples thrown away (render)\n"
+    "  cache.count cache.radius\n"
+    "                           records that indirect light is from, how far they may be used, m (render)\n"
     "\n"
     "With --images, framesPerSecond, whiteLuminance, pixelsPerDegree and displayPersistence come from the first EXR\n"
     "file if it has them. --fps and --set viewing.KEY=N override them; KEY is display_white, pixels_per_degree or\n"

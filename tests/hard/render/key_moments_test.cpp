@@ -122,6 +122,17 @@ TEST(KeyMoments, FX10_WhereOnlyTheCameraMovesLightIsCarriedOver) {
     EXPECT_LT(relative_rms(render_alone(scene, shot_settings(10), 5), render_alone(scene, shot_settings(0), 5)), 0.05);
 }
 
+/// The camera crosses x = 8 m, where the origin of single-precision coordinates jumps by 16 m.
+TEST(KeyMoments, FX10_LightIsCarriedOverWhereTheAnchorChanges) {
+    Scene scene = make_shot_with_moving_camera();
+    for (Node& node : scene.nodes) {
+        for (glm::dvec3& place : node.translation.values) place.x += 7.0;
+    }
+    EXPECT_LT(10 * count_shot_records(scene, 10), count_shot_records(scene, 0));
+    EXPECT_LT(relative_rms(render_alone(scene, shot_settings(10), 20), render_alone(scene, shot_settings(0), 20)),
+              0.05);
+}
+
 TEST(KeyMoments, FX10_ALampThatBlinksLightsNoFrameBeforeOrAfter) {
     Scene scene = make_shot();
     Track<glm::dvec3>& color = scene.lights[0].color;

@@ -110,7 +110,7 @@ TEST(Compare, OtherShapesAreErrors) {
 TEST(Compare, ChannelsOfHowAPictureWasMadeMayBeMissing) {
     const ChannelImage plain = grey_image(4, 4, 0.5f);
     ChannelImage counted = plain;
-    for (const char* name : {"variance.Y", "samples.Y", "records.Y", "invalid.Y"}) {
+    for (const char* name : {"variance.Y", "samples.Y", "records.Y", "invalid.Y", "cache.count", "cache.radius"}) {
         counted.channels.push_back({name, Image<float>(4, 4, 3.0f)});
     }
     EXPECT_TRUE(compare_images(plain, counted).same);

@@ -27,6 +27,7 @@ struct Rendered {
         settings.spp = 1;
         settings.gather = 16;
         settings.light_samples = 2;
+        settings.light_step = 0;  // the quick estimate is gathered in the frame
         Sequence sequence(scene, settings);
         output = sequence.render(frame, {.frame = true, .maps = true, .progress = {}});
         exposure = sequence.exposure();
@@ -64,10 +65,12 @@ TEST(FrameFiles, HaveEveryChannel) {
                              "objectId.X",
                              "samples.Y",
                              "records.Y",
+                             "cache.count",
+                             "cache.radius",
                              "invalid.Y"}) {
         EXPECT_NE(file.find(name), nullptr) << name;
     }
-    EXPECT_EQ(file.channels.size(), 29u);
+    EXPECT_EQ(file.channels.size(), 31u);
     EXPECT_EQ(std::get<double>(file.metadata.at("whiteLuminance")), 100.0);
     EXPECT_EQ((std::get<std::array<int, 2>>(file.metadata.at("framesPerSecond"))), (std::array<int, 2>{30, 1}));
 }

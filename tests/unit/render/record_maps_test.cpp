@@ -1,0 +1,67 @@
+// Channels about the records that a picture's indirect light comes from.
+
+#include <gtest/gtest.h>
+
+#include "render/irradiance_cache.h"
+#include "tests/support/shot_scenes.h"
+
+namespace aleph {
+namespace {
+
+const FrameRequest everything{.frame = true, .maps = true, .progress = {}};
+
+IrradianceRecord make_flat_record(float x, float radius) {
+    IrradianceRecord record;
+    record.position = {x, 0.0f, 0.0f};
+    record.normal = {0.0f, 1.0f, 0.0f};
+    record.radius = radius;
+    record.irradiance = Rgb(1.0f);
+    record.accuracy = 0.5f;
+    return record;
+}
+
+TEST(RecordMaps, LookUpsCountTheRecordsTheyUse) {
+    IrradianceCache cache(glm::vec3(-10.0f), glm::vec3(10.0f));
+    cache.restore({make_flat_record(0.0f, 2.0f), make_flat_record(0.5f, 4.0f), make_flat_record(5.0f, 2.0f)});
+    RecordUse used;
+    CacheQuery query{{0.0f, 0.0f, 0.0f}, {0.0f, 1.0f, 0.0f}, 0.5f};
+    query.used = &used;
+    ASSERT_TRUE(cache.interpolate(query));
+    EXPECT_EQ(used.count, 2.0f) << "the third is too far away";
+    // Errors 0 and .5 / 4: weights 1 and .75. Reaches: .5 times the radii.
+    EXPECT_FLOAT_EQ(used.weights, 1.75f);
+    EXPECT_FLOAT_EQ(used.reaches, 1.0f * 1.0f + 0.75f * 2.0f);
+}
+
+double mean(const Image<float>& image) {
+    double sum = 0.0;
+    for (const float v : image.pixels) sum += v;
+    return sum / static_cast<double>(image.size());
+}
+
+TEST(RecordMaps, RecordsOfKeyMomentsCountToo) {
+    RenderSettings settings = shot_settings(10);
+    settings.spp = 2;
+    Sequence sequence(make_shot_with_mover(), settings);
+    const ShadedFrame moment = sequence.render(0, everything).shaded, between = sequence.render(3, everything).shaded;
+    EXPECT_GT(mean(moment.cache_count), 1.0);
+    EXPECT_NEAR(mean(between.cache_count) / mean(moment.cache_count), 2.0, 0.3) << "of two moments";
+    EXPECT_NEAR(mean(between.cache_radius) / mean(moment.cache_radius), 1.0, 0.05);
+    for (std::size_t i = 0; i < moment.cache_count.size(); ++i) {
+        const bool is_used = moment.cache_count.pixels[i] > 0.0f;
+        EXPECT_EQ(moment.cache_radius.pixels[i] > 0.0f, is_used);
+        EXPECT_LT(moment.cache_radius.pixels[i], 6.0f) << "m, of a room of 6";
+    }
+}
+
+TEST(RecordMaps, OnlyOnRequestAndOnlyOfTheCache) {
+    RenderSettings settings = shot_settings(0);
+    settings.gather = 16;
+    EXPECT_TRUE(Sequence(make_shot(), settings).render(0).shaded.cache_count.empty());
+    EXPECT_FALSE(Sequence(make_shot(), settings).render(0, everything).shaded.cache_radius.empty());
+    settings.integrator = Integrator::path;
+    EXPECT_TRUE(Sequence(make_shot(), settings).render(0, everything).shaded.cache_count.empty());
+}
+
+}  // namespace
+}  // namespace aleph
