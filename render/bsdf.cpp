@@ -2,15 +2,13 @@
 
 #include <algorithm>
 #include <glm/geometric.hpp>
-#include <numbers>
 
 #include "render/fresnel.h"
+#include "render/numbers.h"
 
 namespace aleph {
 
 namespace {
-
-constexpr float pi = std::numbers::pi_v<float>;
 
 float grazing_loss(const SurfaceMaterial& material) {
     return std::max(material.f90, material.f90_max);

@@ -5,13 +5,13 @@
 #include <numbers>
 #include <span>
 
+#include "render/numbers.h"
 #include "render/texture_texels.h"
 
 namespace aleph {
 
 namespace {
 
-constexpr float pi = std::numbers::pi_v<float>;
 constexpr float below_one = 0x1.fffffep-1f;
 
 /// In [0,1)^2, v downwards.

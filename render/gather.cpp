@@ -2,19 +2,17 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 
 #include "render/gather_rays.h"
 #include "render/gather_summary.h"
+#include "render/numbers.h"
 
 namespace aleph {
 
 namespace {
 
-constexpr float pi = std::numbers::pi_v<float>;
 constexpr float min_ray_cosine = 0.05f;  // limits the solid angle of cells at the horizon
-constexpr float infinite = std::numeric_limits<float>::infinity();
 
 /// Light that comes back along a path which leaves a hit by another lobe than the Lambert layer's. Lamps that it sees
 /// straight through sheets of glass are direct light, which is computed elsewhere.

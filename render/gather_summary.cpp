@@ -3,15 +3,14 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <numbers>
+
+#include "render/numbers.h"
 
 namespace aleph {
 
 namespace {
 
-constexpr float pi = std::numbers::pi_v<float>;
 constexpr float min_distance = 1e-20f;  // m; keeps gradients finite if the median distance is 0
-constexpr float infinite = std::numeric_limits<float>::infinity();
 
 // Of list_bright_hits.
 constexpr float least_bright = 4.0f;

@@ -5,12 +5,11 @@
 #include <glm/geometric.hpp>
 
 #include "engine/base/color.h"
+#include "render/numbers.h"
 
 namespace aleph {
 
 namespace {
-
-constexpr float infinite = std::numeric_limits<float>::infinity();
 
 /// R_i over the distance to the nearest surface.
 constexpr float radius_over_distance = 3.5f;

@@ -11,7 +11,6 @@ namespace aleph {
 namespace {
 
 constexpr int rows = 32, columns = 80;
-constexpr double pi = std::numbers::pi;
 const float least_roughness = std::sqrt(min_sheen_alpha);
 
 /// The albedo times the roughness, which varies little. Rows by roughness (the square root of alpha), dense where it is
@@ -43,12 +42,12 @@ float integrate_albedo(float roughness, float cos_view) {
         const double s = std::sqrt(1.0 - z * z);
         double ring = 0.0;
         for (int k = 0; k < azimuths; ++k) {
-            const double phi = pi * (k + 0.5) / azimuths;
+            const double phi = std::numbers::pi * (k + 0.5) / azimuths;
             ring += evaluate_sheen(roughness * roughness, view, glm::vec3(s * std::cos(phi), s * std::sin(phi), z));
         }
         sum += ring * z * slope;
     }
-    return static_cast<float>(sum * 2.0 * pi / (heights * azimuths));
+    return static_cast<float>(sum * 2.0 * std::numbers::pi / (heights * azimuths));
 }
 
 Table make_albedo_table() {
