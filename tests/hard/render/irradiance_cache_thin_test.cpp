@@ -135,7 +135,7 @@ TEST(IrradianceCache, IC19_ChairLegsCostFewRecords) {
             }
         }
         add_camera(scene, {0.0, 0.3, 1.9}, {0.0, -0.6, 0.0}, 1.0);
-        const Stage stage(std::move(scene), 256, 192);
+        const Stage stage(std::move(scene), 640, 480);  // the default size; in small pictures legs cost more
         return shade(stage, plain_settings(0.15, 512)).counts.records;
     };
     const auto without = count_records(false), with = count_records(true);

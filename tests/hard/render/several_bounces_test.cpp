@@ -138,7 +138,7 @@ TEST(SeveralBounces, IC23_AFurnaceGainsNoLight) {
 }
 
 TEST(SeveralBounces, IC23_FewerBouncesCostLessThanThePicture) {
-    const Stage stage(make_shot(), 48, 36);
+    const Stage stage(make_shot(), 96, 72);
     const auto counts = [&](int bounces) { return shade(stage, cache_settings(bounces, 0.1, 128)).counts; };
     const FrameCounts one = counts(1), two = counts(2), three = counts(3);
     EXPECT_EQ(one.deeper_rays, 0u);
