@@ -27,8 +27,9 @@ struct DirectSample {
 
 class DirectGrid {
   public:
-    /// Samples after which a cell's mean is used alone.
-    static constexpr std::uint32_t enough = 13;
+    /// Samples after which a cell's mean is used alone. Its noise is common to all gathers that meet the cell, so that it
+    /// shows as a change of brightness of the whole picture.
+    static constexpr std::uint32_t enough = 26;
 
     /// What a cell holds.
     struct Cell {

@@ -105,11 +105,11 @@ Rgb extrapolate(const IrradianceRecord& record, const glm::vec3& position, const
 float measure_growth(const IrradianceRecord& a, const IrradianceRecord& b) {
     const glm::vec3 offset = b.position - a.position;
     const float distance2 = glm::dot(offset, offset);
-    const float at_a = luminance(a.irradiance), at_b = luminance(b.irradiance), larger = std::max(at_a, at_b);
-    if (!(larger > 0.0f && distance2 > 0.0f)) return 0.0f;
+    const float at_a = luminance(a.irradiance), at_b = luminance(b.irradiance), mean = 0.5f * (at_a + at_b);
+    if (!(mean > 0.0f && distance2 > 0.0f)) return 0.0f;
     const float difference = std::max(std::abs(luminance(extrapolate(a, b.position, b.normal)) - at_b),
                                       std::abs(luminance(extrapolate(b, a.position, a.normal)) - at_a));
-    const float found = difference / larger, noise = ignored_noise * combined_noise(a, b);
+    const float found = difference / mean, noise = ignored_noise * combined_noise(a, b);
     return std::sqrt(std::max(0.0f, found * found - noise * noise)) / (allowed_error * distance2);
 }
 

@@ -185,6 +185,28 @@ HitTriangle find_triangle(const ShadingScene& shading, const Hit& hit) {
     return {instance, t, u, v, p0, instance.corner(t.y) - p0, instance.corner(t.z) - p0};
 }
 
+constexpr float near_edge = 1e-3f;  // barycentric: only points this close to an edge are looked at
+
+/// Moves a point off the edges of its triangle, by more than rounding. Where two walls meet in an edge, a point exactly
+/// on it would lie in both, and see nothing but the other wall at distance 0.
+void move_off_edges(const HitTriangle& triangle, SurfacePlace& place) {
+    if (std::min({triangle.u, triangle.v, 1.0f - triangle.u - triangle.v}) >= near_edge) return;
+    constexpr float most = 0.125f;  // of a triangle too thin to have points so far from its edges
+    const PosedInstance& instance = triangle.instance;
+    const glm::vec3 e1 = instance.linear * triangle.e1, e2 = instance.linear * triangle.e2;
+    const float area2 = glm::length(glm::cross(e1, e2));
+    if (!(area2 > 0.0f)) return;
+    const glm::vec3 coordinates = glm::abs(place.position);
+    const float distance = place.offset + offset_scale * std::max({coordinates.x, coordinates.y, coordinates.z});
+    const glm::vec3 sides(glm::length(e2 - e1), glm::length(e2), glm::length(e1));
+    const glm::vec3 weights(1.0f - triangle.u - triangle.v, triangle.u, triangle.v);
+    glm::vec3 moved = glm::max(weights, glm::min(sides * (distance / area2), most));
+    if (moved == weights) return;
+    moved /= moved.x + moved.y + moved.z;
+    place.position =
+        instance.linear * (triangle.p0 + triangle.e1 * moved.y + triangle.e2 * moved.z) + instance.translation;
+}
+
 /// The side of a surface that a ray meets.
 struct SeenAlong {
     const glm::vec3& direction;
@@ -242,6 +264,7 @@ SurfacePoint make_point(const ShadingScene& shading, const Hit& hit, const Side&
     SurfacePoint point;
     point.material = instance.material;
     set_place(triangle, side, point);
+    move_off_edges(triangle, point);
     add_texture_coordinates(triangle, point);
     if (!instance.mesh->colors.empty()) {
         point.color = interpolate(instance.mesh->colors, triangle.t, triangle.u, triangle.v);

@@ -96,5 +96,44 @@ TEST(GatherHemisphere, IC17_NoRaysBelowTheTrueSurface) {
     EXPECT_EQ(sample.ignored_distances, 0);
 }
 
+/// A box of single walls, open in front.
+Stage make_open_box() {
+    Scene scene;
+    const int white = add_lambert(scene, glm::dvec3(0.7), glm::dvec3(0.0), true);
+    const auto turned = [](double x, double y) {
+        return glm::angleAxis(x, glm::dvec3(1.0, 0.0, 0.0)) * glm::angleAxis(y, glm::dvec3(0.0, 1.0, 0.0));
+    };
+    constexpr double quarter = std::numbers::pi / 2;
+    const Mesh wall = make_quad(5.5, 5.5, white);
+    add_mesh(scene, wall, {0.0, 0.0, -2.75});
+    add_mesh(scene, wall, {0.0, 2.75, 0.0}, turned(quarter, 0.0));
+    add_mesh(scene, wall, {0.0, -2.75, 0.0}, turned(-quarter, 0.0));
+    add_mesh(scene, wall, {-2.75, 0.0, 0.0}, turned(0.0, quarter));
+    add_mesh(scene, wall, {2.75, 0.0, 0.0}, turned(0.0, -quarter));
+    add_light(scene, Light::Kind::point, glm::dvec3(10.0), {0.0, 0.0, 0.0});
+    return Stage(std::move(scene));
+}
+
+TEST(Gather, MC29_PointsOnTheEdgeWhereTwoWallsMeet) {
+    const Stage stage = make_open_box();
+    RayTask task(stage.rays);
+    GatherScratch scratch;
+    const auto gather = [&](int wall, int triangle, float u, float v) {
+        const SurfacePoint point = make_surface_point(stage.shading, Hit{wall, triangle, u, v, 1.0f}, true);
+        return luminance(
+            gather_irradiance(stage.lighting(), task, point, choose_strata(256), {1, 2, 3, 4}, scratch).irradiance);
+    };
+    for (int wall = 0; wall < 5; ++wall) {
+        for (int triangle = 0; triangle < 2; ++triangle) {
+            for (const float along : {0.2f, 0.335f, 0.6f}) {
+                const float rest = 1.0f - along, inside = 0.003f;
+                EXPECT_GT(gather(wall, triangle, 0.0f, along), 0.8f * gather(wall, triangle, inside, along));
+                EXPECT_GT(gather(wall, triangle, along, 0.0f), 0.8f * gather(wall, triangle, along, inside));
+                EXPECT_GT(gather(wall, triangle, along, rest), 0.8f * gather(wall, triangle, along, rest - inside));
+            }
+        }
+    }
+}
+
 }  // namespace
 }  // namespace aleph

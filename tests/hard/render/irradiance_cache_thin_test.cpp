@@ -39,7 +39,7 @@ void expect_right_sides(Scene scene, const std::function<bool(const glm::vec3& n
     const std::vector<SidePixel> sides = gather_sides(stage, is_side);
     EXPECT_GT(sides.size(), 40u);
     EXPECT_LT(sides.size(), 250u);  // for the test's own time
-    for (const double accuracy : {0.1, 0.05}) {
+    for (const double accuracy : {0.15, 0.1, 0.05}) {
         const IndirectPicture picture = shade_indirect(stage, plain_settings(accuracy, 1024));
         int wrong = 0;
         double worst = 0.0;
