@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "render/surface_material.h"
+#include "tests/support/keyed_track.h"
 #include "tests/support/render_scenes.h"
 
 namespace aleph {
@@ -52,6 +53,41 @@ TEST(LambertHit, IsTheSurfaceOfTheFullWay) {
     }
     EXPECT_GT(met, 200);
     EXPECT_TRUE(varied);
+}
+
+/// Both kinds of objects, those of the flat tree and those that move.
+TEST(LambertHit, PacketsFindTheNormalsOfSingleRays) {
+    Scene scene = make_colored_scene();
+    const int white = add_lambert(scene, glm::dvec3(0.5), glm::dvec3(0.0), true);
+    add_mesh(scene, make_box({0.3, 0.3, 0.3}, white), {-0.6, -0.4, 0.2});
+    scene.nodes.back().axis_rotation = AxisRotation{{0.0, 0.6, 0.8}, keyed<double>({0.0, 1.0}, {0.1, 0.9})};
+    const Stage stage(std::move(scene), 40, 30);
+    const SampleHits centers = cast_centers(stage.rays, stage.view, nullptr);
+    std::vector<Ray> rays;
+    for (int y = 0; y < 30; ++y) {
+        for (int x = 0; x < 40; ++x) {
+            const CameraRay ray = make_sample_ray(stage.view, centers, x, y);
+            rays.push_back({glm::vec3(ray.origin - stage.rays.anchor()), glm::vec3(ray.direction)});
+        }
+    }
+    Tracer tracer(stage.rays);
+    std::vector<Hit> hits(rays.size());
+    std::vector<glm::vec3> normals(rays.size());
+    tracer.intersect(rays, hits, true, normals);
+    int met[2] = {};
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+        glm::vec3 normal(0.0f);
+        const Hit hit = tracer.intersect(rays[i], &normal);
+        ASSERT_EQ(hit.instance, hits[i].instance);
+        if (hit.instance == no_index) continue;
+        ++met[stage.rays.is_flat(hit.instance) ? 1 : 0];
+        EXPECT_LT(glm::length(normals[i] - normal), 1e-6f * glm::length(normal));
+        const LambertHit found = make_lambert_hit(stage.shading, rays[i], hits[i], normals[i], 1e-3f);
+        const SurfacePoint point = make_surface_point(stage.shading, hit, rays[i].direction);
+        EXPECT_LT(glm::length(found.geometric - point.geometric), 2e-6f);
+    }
+    EXPECT_GT(met[0], 20);
+    EXPECT_GT(met[1], 100);
 }
 
 }  // namespace
