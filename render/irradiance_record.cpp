@@ -14,6 +14,9 @@ namespace {
 /// R_i over the distance to the nearest surface.
 constexpr float radius_over_distance = 3.5f;
 
+/// A record's gradient counts in full if its least radius is at most so many times the radius by distance.
+constexpr float contact_radii = 4.0f;
+
 /// How far a point may lie off the mean of both tangent planes, as a share of R_i: on the record's side of it, where
 /// light from over an edge arrives (Ward 1988 rejects it all; rounding and facets need a little), and on the other.
 constexpr float max_in_front = 0.05f, max_behind = 0.1f;
@@ -64,9 +67,11 @@ std::optional<IrradianceRecord> make_record(const glm::vec3& position, const glm
     const float value = luminance(sample.irradiance), slope = steepness(sample.translation_gradient);
     if (slope * radius * accuracy > value) radius = value / (slope * accuracy);
     record.radius = std::clamp(radius, bounds.min, std::max(bounds.min, bounds.max));
+    // A surface much nearer than the least radius makes a gradient that says nothing of the light so far away.
+    const float kept = std::min(1.0f, contact_radii * radius_over_distance * sample.nearest_distance / record.radius);
     for (int c = 0; c < 3; ++c) {
         record.translation_gradient[c] =
-            limit_gradient(sample.translation_gradient[c], record.irradiance[c], record.radius * accuracy);
+            kept * limit_gradient(sample.translation_gradient[c], record.irradiance[c], record.radius * accuracy);
         record.rotation_gradient[c] = limit_gradient(sample.rotation_gradient[c], record.irradiance[c], 1.0f);
     }
     return record;
