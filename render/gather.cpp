@@ -221,7 +221,6 @@ IrradianceSample gather_irradiance(const LightingContext& context, RayTask& task
     for (const Rgb& radiance : scratch.radiance) sum += glm::dvec3(radiance);
     out.irradiance = Rgb(sum * (std::numbers::pi / strata.count()));
     summarize_hemisphere(strata, basis, scratch, out);
-    if (options.bright != nullptr) list_bright_hits(strata, scratch, *options.bright);
     return out;
 }
 

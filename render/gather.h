@@ -59,13 +59,6 @@ inline int sector_of(float x, float y) {
     return (x < 0.0f ? 1 : 0) | (y < 0.0f ? 2 : 0) | (across < along ? 4 : 0) | (diagonal ? 8 : 0);
 }
 
-/// What a ray met that is much brighter than the rest of what its gather saw.
-struct BrightHit {
-    glm::vec3 position{0.0f};  ///< m, as that of the gather's point
-    float luminance = 0.0f;    ///< of the radiance, over the mean of the gather's cells
-    float measure = 0.0f;      ///< that the ray stands for, as a share of the cosine-weighted hemisphere
-};
-
 /// A cell of the strata that takes side x side rays, one in each of its equal parts. Their mean is the cell's radiance.
 struct DividedCell {
     int cell = 0;
@@ -135,7 +128,6 @@ struct GatherOptions {
     DeeperLight deeper{};                        ///< light of further bounces; none: one bounce only
     /// Each cell at most once. Which cells are here must not depend on the gather's own random numbers.
     std::span<const DividedCell> divided{};
-    std::vector<BrightHit>* bright = nullptr;  ///< if given, set to what stands out most (list_bright_hits)
 };
 
 /// Gathers the light that other surfaces scatter to a point: their direct light, and that of further bounces. The

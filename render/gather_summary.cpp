@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 
 #include "render/numbers.h"
 
@@ -11,10 +10,6 @@ namespace aleph {
 namespace {
 
 constexpr float min_distance = 1e-20f;  // m; keeps gradients finite if the median distance is 0
-
-// Of list_bright_hits.
-constexpr float least_bright = 4.0f;
-constexpr std::size_t most_bright = 48;
 
 StrataRow make_row(int j, int rows) {
     const float low = static_cast<float>(j) / static_cast<float>(rows);
@@ -205,25 +200,6 @@ void summarize_hemisphere(const HemisphereStrata& strata, const Basis& basis, Ga
     set_clearance(strata, basis, scratch, shortest, out);
     add_gradients(strata, basis, scratch, std::max(shortest, min_distance), out);
     out.relative_error = estimate_relative_error(strata, scratch);
-}
-
-void list_bright_hits(const HemisphereStrata& strata, const GatherScratch& scratch, std::vector<BrightHit>& out) {
-    out.clear();
-    double sum = 0.0;
-    for (const Rgb& radiance : scratch.radiance) sum += luminance(radiance);
-    if (!(sum > 0.0)) return;
-    const float mean = static_cast<float>(sum / strata.count());
-    for (std::size_t i = 0; i < scratch.rays.size(); ++i) {
-        const float found = luminance(scratch.light[i]) / mean;
-        if (!(found >= least_bright) || scratch.hits[i].instance == no_index) continue;
-        const Ray& ray = scratch.rays[i];
-        out.push_back({ray.origin + ray.direction * scratch.hits[i].distance, found,
-                       scratch.places[i].share / static_cast<float>(strata.count())});
-    }
-    if (out.size() <= most_bright) return;
-    const auto weight = [](const BrightHit& hit) { return hit.luminance * hit.luminance * hit.measure; };
-    std::ranges::stable_sort(out, std::greater{}, weight);
-    out.resize(most_bright);
 }
 
 }  // namespace aleph

@@ -10,8 +10,4 @@ namespace aleph {
 void summarize_hemisphere(const HemisphereStrata& strata, const Basis& basis, GatherScratch& scratch,
                           IrradianceSample& out);
 
-/// The rays that found at least 4 times the mean radiance of all cells; of more than 48, those that weigh most in the
-/// second moment.
-void list_bright_hits(const HemisphereStrata& strata, const GatherScratch& scratch, std::vector<BrightHit>& out);
-
 }  // namespace aleph
