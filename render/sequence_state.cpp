@@ -91,13 +91,16 @@ Image<Rgb> SequenceState::estimate_view(const RayScene& view_rays, const PosedVi
 void SequenceState::prepare_estimate(std::int64_t frame, std::int64_t but, RayCounts& counts) {
     if (!shot_light || !estimates_indirect_light()) return;
     const MomentPair pair = shot_light->moments_around(frame);
-    const auto base = [&](std::int64_t moment) { return shot_light->find_base(moment); };
-    for (const std::int64_t moment : {base(pair.before), pair.before, base(pair.after), pair.after}) {
-        if (moment == but || estimate_moments.find(moment)) continue;
-        move_to_frame(now, moment);
-        update_rays_and_shading();
-        lights = make_light_set(*shading);
-        find_estimate_nodes(moment, cast_centers(rays, now->view, &counts.primary), counts);
+    for (const std::int64_t moment : {pair.before, pair.after}) {
+        if (estimate_moments.find(moment)) continue;
+        for (const std::int64_t needed : {shot_light->find_base(moment), moment}) {
+            if (needed == moment && moment == but) continue;
+            if (estimate_moments.find(needed)) continue;
+            move_to_frame(now, needed);
+            update_rays_and_shading();
+            lights = make_light_set(*shading);
+            find_estimate_nodes(needed, cast_centers(rays, now->view, &counts.primary), counts);
+        }
     }
 }
 

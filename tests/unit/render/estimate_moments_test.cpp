@@ -72,7 +72,6 @@ TEST(EstimateMoments, TheirLightIsThatOfTheFrame) {
     for (const Scene& scene : {make_shot_with_moving_camera(), make_riding_shot(), make_shot_with_mover()}) {
         const double off =
             mean_difference(indirect_at(scene, estimate_settings(10), 4), indirect_at(scene, estimate_settings(0), 4));
-        std::printf("mean difference %.4f\n", off);
         EXPECT_LT(off, 0.04) << "the noise of 48 rays";
     }
 }
@@ -120,6 +119,22 @@ TEST(EstimateMoments, MapsAreTheSameAloneAndOnAnyThreads) {
             const Image<Rgb> alone = Sequence(scene, estimate_settings(4)).render(frame, only_maps).estimate;
             EXPECT_TRUE(alone.pixels == together.pixels) << frame;
         });
+    }
+}
+
+/// Of a frame and the next, either may be the base moment of the other.
+TEST(EstimateMoments, ImageMotionFindsTheBaseMomentOfEveryFrame) {
+    const Scene scene = make_shot_with_moving_camera();
+    RenderSettings settings = shot_settings(1);
+    settings.perception.guide = Guide::full;
+    settings.motion = MotionSource::image;
+    for (const int step : {1, 4}) {
+        settings.light_step = step;
+        Sequence sequence(scene, settings);
+        for (std::int64_t frame = sequence.range().first; frame <= sequence.range().last; ++frame) {
+            const FrameOutput alone = Sequence(scene, settings).render(frame, only_maps);
+            EXPECT_TRUE(alone.estimate.pixels == sequence.render(frame, only_maps).estimate.pixels) << frame;
+        }
     }
 }
 
