@@ -5,6 +5,7 @@
 #include "render/bounce_levels.h"
 #include "render/bounce_places.h"
 #include "render/carried_point.h"
+#include "render/sample_place.h"
 
 namespace aleph {
 
@@ -57,7 +58,9 @@ std::vector<IrradianceRecord> compute_records(const MomentInput& input, FrameCou
     const std::optional<IrradianceCache> fewer_bounces = fill_levels(contexts.front(), seen, tally.counts);
     for (std::size_t v = 0; v < contexts.size(); ++v) {
         contexts[v].deeper = make_deeper_light(input.settings, fewer_bounces ? &*fewer_bounces : nullptr);
-        for (int i = 0; i < input.settings.spp; ++i) {
+        // What other views need beside their pixels' first samples, their frames compute.
+        const int samples = contexts[v].seen == nullptr ? fill_samples(input.settings) : 1;
+        for (int i = 0; i < samples; ++i) {
             const SampleHits sample =
                 i == 0 ? std::move(first_samples[v]) : input.cast(*input.views[v], i, tally.counts.rays);
             fill_cache(cache, contexts[v], sample, tally);
