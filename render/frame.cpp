@@ -1,16 +1,16 @@
 #include "render/frame.h"
 
 #include <algorithm>
-#include <array>
-#include <atomic>
 #include <chrono>
-#include <deque>
 #include <mutex>
 
 #include "engine/base/parallel.h"
 #include "render/bounce_levels.h"
 #include "render/bounce_places.h"
+#include "render/pending_samples.h"
 #include "render/progressive.h"
+#include "render/resolve.h"
+#include "render/sample_packet.h"
 #include "render/sample_place.h"
 
 namespace aleph {
@@ -18,61 +18,13 @@ namespace aleph {
 namespace {
 
 constexpr double fill_share = 0.3;      // of a frame's time, for progress only
-constexpr std::size_t packet = 16;      // rays
 constexpr std::size_t task_ranges = 64;  // pixels of a task
+constexpr int slice_samples = 1 << 17;  // that may wait for light at a time: more only for the sake of threads
+constexpr std::size_t slice_ranges = 64 * task_ranges;
 
 double seconds_since(std::chrono::steady_clock::time_point start) {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
-
-/// Samples of neighbouring pixels whose rays are cast together.
-class SamplePacket {
-  public:
-    SamplePacket(const SampleMoment& moment, ShadingTask& task) : moment_(moment), task_(task) {}
-
-    bool is_full() const { return size_ == packet; }
-    /// @param known  the hit of its ray; null: not cast yet
-    void add(const SamplePlace& place, int x, int y, const Hit* known) {
-        const CameraRay ray = make_sample_ray(moment_.view, place, x, y);
-        const RayScene& rays = moment_.lighting.rays;
-        entries_[size_] = {place, x, y, known == nullptr ? Hit{} : *known};
-        directions_[size_] = glm::vec3(ray.direction);
-        if (known == nullptr) {
-            uncast_[uncast_count_] = size_;
-            rays_[uncast_count_].origin = glm::vec3(ray.origin - rays.anchor());
-            rays_[uncast_count_++].direction = directions_[size_];
-        }
-        ++size_;
-    }
-
-    /// Casts the rays, gives every sample to `shade(place, x, y, direction, hit)`, and empties the packet.
-    template <class Shade>
-    void finish(const Shade& shade) {
-        std::array<Hit, packet> hits;
-        task_.tracer.intersect(std::span(rays_.data(), uncast_count_), std::span(hits.data(), uncast_count_), true);
-        task_.counts.primary += uncast_count_;
-        for (std::size_t i = 0; i < uncast_count_; ++i) entries_[uncast_[i]].hit = hits[i];
-        for (std::size_t i = 0; i < size_; ++i) {
-            const Entry& e = entries_[i];
-            shade(e.place, e.x, e.y, directions_[i], e.hit);
-        }
-        size_ = uncast_count_ = 0;
-    }
-
-  private:
-    struct Entry {
-        SamplePlace place;
-        int x = 0, y = 0;
-        Hit hit;
-    };
-    const SampleMoment& moment_;
-    ShadingTask& task_;
-    std::size_t size_ = 0, uncast_count_ = 0;
-    std::array<Entry, packet> entries_;
-    std::array<glm::vec3, packet> directions_;
-    std::array<Ray, packet> rays_;
-    std::array<std::size_t, packet> uncast_;
-};
 
 class FrameShading {
   public:
@@ -92,20 +44,19 @@ class FrameShading {
         context_.deeper = make_deeper_light(context.settings, nullptr);
         if (options.record_maps && !by_paths_) uses_ = Image<RecordUse>(context_.view.width, context_.view.height);
         const bool as_centers = !options.at_sample && !options.blended && !(options.lens.radius > 0.0);
-        if (place_.centered && as_centers) kept_.push_back(&centers);
+        if (place_.centered && as_centers) first_ = &centers;
     }
 
+    /// Of pixel samples, the first alone: where others need light beside them, they get it before they are added.
     void fill() {
-        const int samples = cached_ ? fill_samples(context_.settings) : 0;
-        for (int i = 0; i < samples; ++i) {
-            if (context_.progress) context_.progress(fill_share * i / samples, "fill");
-            if (i >= std::ssize(kept_)) {
-                cast_.push_back(cast_sample(context_.lighting.rays, context_.view, place(i), &out_.counts.rays.primary));
-                kept_.push_back(&cast_.back());
-            }
-            if (i == 0) fill_fewer_bounces(*kept_[0]);
-            fill_cache(cache_, context_, *kept_[i], out_);
+        if (!cached_) return;
+        if (context_.progress) context_.progress(0.0, "fill");
+        if (first_ == nullptr) {
+            cast_first_ = cast_sample(context_.lighting.rays, context_.view, place_, &out_.counts.rays.primary);
+            first_ = &cast_first_;
         }
+        fill_fewer_bounces(*first_);
+        fill_cache(cache_, context_, *first_, out_);
         cache_.finish();
     }
 
@@ -123,23 +74,9 @@ class FrameShading {
     }
 
     void resolve(double exposure) {
-        const float scale = static_cast<float>(exposure);
         const bool with_variance = context_.settings.integrator == Integrator::path && context_.settings.spp > 1;
-        const int width = pixels_.width, height = pixels_.height;
-        out_.color = Image<Rgb>(width, height);
-        out_.coverage = out_.samples = Image<float>(width, height);
-        if (!by_paths_) out_.indirect = Image<Rgb>(width, height);
-        if (with_variance) out_.variance = Image<float>(width, height);
-        for (std::size_t p = 0; p < pixels_.size(); ++p) {
-            const PixelSamples& pixel = pixels_.pixels[p];
-            out_.color.pixels[p] = pixel.mean() * scale;
-            out_.coverage.pixels[p] = pixel.coverage();
-            out_.samples.pixels[p] = static_cast<float>(pixel.taken());
-            out_.counts.samples += static_cast<std::uint64_t>(pixel.taken());
-            if (!by_paths_) out_.indirect.pixels[p] = pixel.mean_indirect() * scale;
-            if (with_variance) out_.variance.pixels[p] = static_cast<float>(pixel.variance() * exposure * exposure);
-        }
-        resolve_uses();
+        resolve_pixels(pixels_, exposure, !by_paths_, with_variance, out_);
+        if (!uses_.empty()) resolve_uses(uses_, pixels_, out_);
         if (options_.limits != nullptr && context_.settings.spp > 1) report_errors(exposure);
     }
 
@@ -182,8 +119,6 @@ class FrameShading {
         } else {
             take_by_time(ranges);
         }
-        kept_.clear();
-        cast_.clear();
         ++stage_;
     }
 
@@ -206,39 +141,82 @@ class FrameShading {
     }
 
     void take_at(const SampleMoment& moment, std::span<const PixelRange> ranges) {
+        std::size_t begin = 0, end = 0;
+        while (begin < ranges.size()) {
+            int samples = 0;
+            while (end < ranges.size() && (samples < slice_samples || end - begin < slice_ranges)) {
+                samples += ranges[end].last - ranges[end].first;
+                ++end;
+            }
+            take_slice(moment, ranges.subspan(begin, end - begin));
+            report_progress(static_cast<double>(end) / static_cast<double>(ranges.size()));
+            begin = end;
+        }
+    }
+
+    /// Takes samples, and then finds the light of those that the cache did not cover.
+    void take_slice(const SampleMoment& moment, std::span<const PixelRange> ranges) {
         const SampleShading shading = make_shading();
-        std::atomic<std::size_t> done = 0;
+        std::vector<std::vector<PendingSample>> waiting((ranges.size() + task_ranges - 1) / task_ranges);
         parallel_for(ranges.size(), task_ranges, [&](std::size_t begin, std::size_t end) {
             thread_local GatherScratch scratch;
             ShadingTask task(moment.lighting.rays, scratch);
-            SamplePacket samples(moment, task);
-            const auto shade = [&](const SamplePlace& at, int x, int y, const glm::vec3& direction, const Hit& hit) {
-                add_sample(shading, moment, task, at, x, y, direction, hit);
-            };
-            for (const PixelRange& range : ranges.subspan(begin, end - begin)) {
-                for (int i = range.first; i < range.last; ++i) {
-                    if (samples.is_full()) samples.finish(shade);
-                    const bool is_kept = i < std::ssize(kept_);
-                    samples.add(place(i), range.x, range.y, is_kept ? &kept_[i]->hits(range.x, range.y) : nullptr);
-                }
-            }
-            samples.finish(shade);
+            take_ranges(shading, moment, task, ranges.subspan(begin, end - begin), waiting[begin / task_ranges]);
             finish(task);
-            done += end - begin;
-            report_progress(static_cast<double>(done) / static_cast<double>(ranges.size()));
         });
+        std::vector<PendingSample> pending;
+        for (const auto& chunk : waiting) pending.insert(pending.end(), chunk.begin(), chunk.end());
+        waiting.clear();
+        fill_pending(cache_, context_, pending, out_);
+        add_pending(shading, moment, pending);
     }
 
-    void add_sample(const SampleShading& shading, const SampleMoment& moment, ShadingTask& task, const SamplePlace& at,
-                    int x, int y, const glm::vec3& direction, const Hit& hit) {
-        const ShadingScene& scene = moment.lighting.shading;
-        SampleLight light;
-        if (hit.instance == no_index) {
-            light[LightPart::surface] = environment_radiance(scene, direction);
-        } else {
-            light = shade_sample(shading, moment, task,
-                                 make_pixel_surface(scene, moment.view, at, hit, direction, x, y));
+    void take_ranges(const SampleShading& shading, const SampleMoment& moment, ShadingTask& task,
+                     std::span<const PixelRange> ranges, std::vector<PendingSample>& waiting) {
+        SamplePacket samples(moment, task);
+        const auto shade = [&](const SamplePlace& at, int x, int y, const glm::vec3& direction, const Hit& hit) {
+            SampleLight light;
+            if (hit.instance == no_index) {
+                light[LightPart::surface] = environment_radiance(moment.lighting.shading, direction);
+                add_sample(task, x, y, light);
+                return;
+            }
+            const PixelSurface surface =
+                make_pixel_surface(moment.lighting.shading, moment.view, at, hit, direction, x, y);
+            if (shade_sample(shading, moment, task, surface, light)) {
+                add_sample(task, x, y, light);
+            } else {
+                waiting.push_back({surface, light});
+            }
+        };
+        for (const PixelRange& range : ranges) {
+            for (int i = range.first; i < range.last; ++i) {
+                if (samples.is_full()) samples.finish(shade);
+                const bool is_known = i == 0 && first_ != nullptr;
+                samples.add(place(i), range.x, range.y, is_known ? &first_->hits(range.x, range.y) : nullptr);
+            }
         }
+        samples.finish(shade);
+    }
+
+    void add_pending(const SampleShading& shading, const SampleMoment& moment, std::vector<PendingSample>& pending) {
+        if (pending.empty()) return;
+        parallel_for(pending.size(), task_ranges, [&](std::size_t begin, std::size_t end) {
+            thread_local GatherScratch scratch;
+            ShadingTask task(moment.lighting.rays, scratch);
+            for (std::size_t i = begin; i < end; ++i) {
+                add_indirect(shading, task, pending[i].surface, pending[i].light);
+            }
+            finish(task);
+        });
+        ShadingTask task(moment.lighting.rays, pending_scratch_);
+        for (const PendingSample& sample : pending) {
+            add_sample(task, sample.surface.x, sample.surface.y, sample.light);
+        }
+        finish(task);
+    }
+
+    void add_sample(ShadingTask& task, int x, int y, const SampleLight& light) {
         if (is_finite(light.total())) {
             pixels_(x, y).add(light);
             return;
@@ -246,17 +224,6 @@ class FrameShading {
         pixels_(x, y).add_invalid();
         out_.invalid_samples(x, y) += 1.0f;
         ++task.invalid;
-    }
-
-    void resolve_uses() {
-        if (uses_.empty()) return;
-        out_.cache_count = out_.cache_radius = Image<float>(uses_.width, uses_.height);
-        for (std::size_t p = 0; p < uses_.size(); ++p) {
-            const RecordUse& used = uses_.pixels[p];
-            if (!(used.weights > 0.0f)) continue;
-            out_.cache_count.pixels[p] = used.count / static_cast<float>(pixels_.pixels[p].taken());
-            out_.cache_radius.pixels[p] = used.reaches / used.weights;
-        }
     }
 
     void report_errors(double exposure) {
@@ -297,8 +264,9 @@ class FrameShading {
     DirectGrid direct_;
     Image<PixelSamples> pixels_;
     SamplePlace place_;  ///< of the first sample
-    std::vector<const SampleHits*> kept_;  ///< hits of the pixels' first samples, as far as they are cast already
-    std::deque<SampleHits> cast_;          ///< those that were cast for the cache
+    const SampleHits* first_ = nullptr;  ///< hits of the pixels' first samples, if they are cast already
+    SampleHits cast_first_;
+    GatherScratch pending_scratch_;
     int stage_ = 0;
     Image<RecordUse> uses_;         ///< empty: not asked for
     std::mutex mutex_;

@@ -7,18 +7,14 @@ namespace aleph {
 
 namespace {
 
-constexpr int most_fill_samples = 4;  // of a pixel: where light is needed beside them, they mostly found it
+constexpr int counted_samples = 4;  // of a pixel, where their number is not known beforehand
 
 }  // namespace
 
-int fill_samples(const RenderSettings& settings) {
-    return std::min(settings.spp, most_fill_samples);
-}
-
 SamplePlace make_sample_place(const RenderSettings& settings, const CameraView& view, const Lens& lens, bool blended,
                               int index) {
-    // Samples are not counted beforehand, except where they are uniform.
-    const int count = settings.sampling == Sampling::uniform ? settings.spp : std::min(settings.spp, 4);
+    const int count =
+        settings.sampling == Sampling::uniform ? settings.spp : std::min(settings.spp, counted_samples);
     SamplePlace place;
     place.index = index;
     place.centered = settings.spp == 1;

@@ -10,7 +10,4 @@ namespace aleph {
 SamplePlace make_sample_place(const RenderSettings& settings, const CameraView& view, const Lens& lens, bool blended,
                               int index);
 
-/// Samples of each pixel at whose surfaces a cache is filled before the picture is shaded.
-int fill_samples(const RenderSettings& settings);
-
 }  // namespace aleph

@@ -21,36 +21,53 @@ PathState start_path(const RenderSettings& settings) {
     return state;
 }
 
-/// Indirect irradiance: from key moments, from the cache, or gathered if neither has a record here. The latter happens
-/// where neighbour clamping shrank a record after it covered this place, and at samples that filling did not visit.
-Rgb find_irradiance(const SampleShading& shading, ShadingTask& task, const PixelSurface& surface) {
+/// Indirect irradiance from key moments or from the cache; nothing where neither has a record.
+std::optional<Rgb> read_irradiance(const SampleShading& shading, ShadingTask& task, const PixelSurface& surface) {
     const IndirectContext& context = shading.context;
     const float accuracy = context.accuracy(surface.x, surface.y);
     RecordUse* const used = shading.uses == nullptr ? nullptr : &(*shading.uses)(surface.x, surface.y);
+    std::optional<Rgb> found;
     if (context.carried != nullptr) {
         ++task.lookups;
-        if (const std::optional<Rgb> found = context.carried->find(surface, accuracy, task, used)) {
-            ++task.hits;
-            return *found;
-        }
+        found = context.carried->find(surface, accuracy, task, used);
     }
-    const CacheQuery place{surface.point.position, surface.point.normal, accuracy, &task};
-    std::optional<float> ray_variance;
-    if (shading.cache != nullptr && accuracy > 0.0f) {
-        CacheQuery query = place;
-        query.accuracy *= static_cast<float>(context.settings.shade_reach);
+    if (!found && shading.cache != nullptr && accuracy > 0.0f) {
+        const float reach = accuracy * static_cast<float>(context.settings.shade_reach);
+        CacheQuery query{surface.point.position, surface.point.normal, reach, &task};
         query.used = used;
         ++task.lookups;
-        if (const std::optional<Rgb> found = shading.cache->interpolate(query)) {
-            ++task.hits;
-            return *found;
-        }
-        ray_variance = shading.cache->expected_ray_variance(place);
+        found = shading.cache->interpolate(query);
+    }
+    if (found) ++task.hits;
+    return found;
+}
+
+/// Indirect irradiance from rays of its own.
+Rgb gather_irradiance(const SampleShading& shading, ShadingTask& task, const PixelSurface& surface) {
+    const IndirectContext& context = shading.context;
+    const float accuracy = context.accuracy(surface.x, surface.y);
+    std::optional<float> ray_variance;
+    if (shading.cache != nullptr) {
+        ray_variance = shading.cache->expected_ray_variance({surface.point.position, surface.point.normal, accuracy});
     }
     ++task.computed;
     (*shading.records)(surface.x, surface.y) += 1.0f;
-    const int rays = choose_rays(context.settings, accuracy, ray_variance);
-    return gather_at(context, task, surface, task.scratch, rays).irradiance;
+    return gather_at(context, task, surface, task.scratch, choose_rays(context.settings, accuracy, ray_variance))
+        .irradiance;
+}
+
+/// Share of light that reaches the camera: it may stand in what it sees from inside.
+Rgb share_left(const PixelSurface& surface) {
+    const Rgb loss = Media().attenuation(surface);
+    return loss == Rgb(0.0f) ? Rgb(1.0f) : glm::exp(-loss * surface.distance);
+}
+
+/// Adds what the surface reflects of its irradiance.
+void add_irradiance(const PixelSurface& surface, const Rgb& irradiance, SampleLight& light) {
+    const LitSurface lit(surface);
+    light.indirect =
+        diffuse_radiance(surface.material, lit.cos_view, irradiance) * lit.below_sheen * share_left(surface);
+    light[LightPart::surface] += light.indirect;
 }
 
 void add_by_paths(const SampleShading& shading, const SampleMoment& moment, ShadingTask& task,
@@ -75,18 +92,13 @@ void add_with_cache(const SampleShading& shading, ShadingTask& task, const Pixel
     light[LightPart::direct] = sampled.direct;
     light[LightPart::gloss] = sampled.lobes;
     light[LightPart::surface] = surface.material.emission;
-    if (!shading.indirect || !surface.material.has_diffuse()) return;
-    const LitSurface lit(surface);
-    light.indirect = diffuse_radiance(surface.material, lit.cos_view, find_irradiance(shading, task, surface)) *
-                     lit.below_sheen;
-    light[LightPart::surface] += light.indirect;
 }
 
 }  // namespace
 
-SampleLight shade_sample(const SampleShading& shading, const SampleMoment& moment, ShadingTask& task,
-                         const PixelSurface& surface) {
-    SampleLight light;
+bool shade_sample(const SampleShading& shading, const SampleMoment& moment, ShadingTask& task,
+                  const PixelSurface& surface, SampleLight& light) {
+    light = {};
     light.instance = surface.hit.instance;
     light.normal = surface.point.geometric;
     if (shading.by_paths) {
@@ -94,12 +106,18 @@ SampleLight shade_sample(const SampleShading& shading, const SampleMoment& momen
     } else {
         add_with_cache(shading, task, surface, light);
     }
-    // The camera may stand in what it sees from inside.
-    if (const Rgb loss = Media().attenuation(surface); loss != Rgb(0.0f)) {
-        const Rgb left = glm::exp(-loss * surface.distance);
-        for (Rgb& part : light.parts) part *= left;
-    }
-    return light;
+    const Rgb left = share_left(surface);
+    for (Rgb& part : light.parts) part *= left;
+    if (shading.by_paths || !shading.indirect || !surface.material.has_diffuse()) return true;
+    std::optional<Rgb> irradiance = read_irradiance(shading, task, surface);
+    if (!irradiance && shading.cache == nullptr) irradiance = gather_irradiance(shading, task, surface);
+    if (irradiance) add_irradiance(surface, *irradiance, light);
+    return irradiance.has_value();
+}
+
+void add_indirect(const SampleShading& shading, ShadingTask& task, const PixelSurface& surface, SampleLight& light) {
+    const std::optional<Rgb> irradiance = read_irradiance(shading, task, surface);
+    add_irradiance(surface, irradiance ? *irradiance : gather_irradiance(shading, task, surface), light);
 }
 
 }  // namespace aleph

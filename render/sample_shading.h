@@ -38,7 +38,12 @@ struct SampleShading {
 };
 
 /// Light that a pixel's surface sends to the camera.
-SampleLight shade_sample(const SampleShading& shading, const SampleMoment& moment, ShadingTask& task,
-                         const PixelSurface& surface);
+/// @param light  set
+/// @return false: the cache has no record here, and `light` lacks indirect light (add_indirect)
+bool shade_sample(const SampleShading& shading, const SampleMoment& moment, ShadingTask& task,
+                  const PixelSurface& surface, SampleLight& light);
+
+/// Adds the indirect light that shade_sample did not find. Where there is still no record, it is gathered.
+void add_indirect(const SampleShading& shading, ShadingTask& task, const PixelSurface& surface, SampleLight& light);
 
 }  // namespace aleph

@@ -252,11 +252,11 @@ MomentSource SequenceState::key_moments() {
         view->rays = out.statistics.counts.rays;
         return view;
     };
-    const auto cast = [this](const KeyView& view, int sample, RayCounts& counts) {
+    const auto cast = [this](const KeyView& view, RayCounts& counts) {
         if (!other_rays) other_rays = std::make_unique<RayScene>(rays.share_meshes());
         other_rays->update_moving(view.posed.pose, view.shading.anchor);
         const Lens lens = find_lens(scene, view.posed.pose.cameras[camera]);
-        const SamplePlace place = make_sample_place(settings, view.posed.view, lens, blended, sample);
+        const SamplePlace place = make_sample_place(settings, view.posed.view, lens, blended, 0);
         return cast_sample(*other_rays, view.posed.view, place, &counts.primary);
     };
     return {pose, look_at, cast, light};
