@@ -39,7 +39,7 @@ class FrameShading {
           cache_(make_cache(context.lighting.shading)),
           direct_(context.max_radius),
           pixels_(context.view.width, context.view.height),
-          place_(make_sample_place(context.settings, context.view, options.lens, options.blended, 0)) {
+          place_(make_sample_place(context.settings, context.view, options.lens, options.blended, context.frame, 0)) {
         if (cached_) context_.direct = &direct_;
         context_.deeper = make_deeper_light(context.settings, nullptr);
         if (options.record_maps && !by_paths_) uses_ = Image<RecordUse>(context_.view.width, context_.view.height);

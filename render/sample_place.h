@@ -8,6 +8,6 @@ namespace aleph {
 
 /// Placing of sample `index` of the pixels. A single sample is the pixel's centre.
 SamplePlace make_sample_place(const RenderSettings& settings, const CameraView& view, const Lens& lens, bool blended,
-                              int index);
+                              std::uint32_t moment, int index);
 
 }  // namespace aleph

@@ -69,19 +69,18 @@ void expect_coverage(const Scene& scene, const glm::dvec2& shutter, const Shape2
     double truth_sum = 0.0;
     for (int y = 0; y < height; ++y) {
         for (int x = 0; x < width; ++x) {
-            double truth = 0.0, variance = 0.0;  // of independent times
-            for (int s = 0; s < spp; ++s) {
-                const glm::vec2 offset = lattice_point(s, spp, {0.0f, 0.5f});
+            double truth = 0.0;
+            for (int s = 0; s < places; ++s) {
+                const glm::vec2 offset = lattice_point(s, places, {0.0f, 0.5f});
                 const glm::dvec2 point((x + offset.x - 0.5 * width) / pixels_per_metre,
                                        (0.5 * height - y - offset.y) / pixels_per_metre);
                 int inside = 0;
-                for (int t = s; t < times; t += spp) {
+                for (int t = s; t < times; t += places) {
                     if (covers(point, shutter.x + (shutter.y - shutter.x) * (t + 0.5) / times)) ++inside;
                 }
-                const double share = static_cast<double>(inside) * spp / times;
-                truth += share / spp;
-                variance += share * (1.0 - share) / (spp * spp);
+                truth += static_cast<double>(inside) / times;
             }
+            const double variance = truth * (1.0 - truth) / spp;  // of independent places and times
             truth_sum += truth;
             const Mean& found = coverage[static_cast<std::size_t>(y) * width + x];
             // Where few seeds met the square, their spread says little.
