@@ -7,14 +7,17 @@
 #include "engine/base/parallel.h"
 #include "render/bounce_levels.h"
 #include "render/bounce_places.h"
+#include "render/frame_irradiance.h"
 #include "render/gather_at.h"
+#include "render/mirror_places.h"
 #include "render/pixel_sum.h"
 
 namespace aleph {
 
 namespace {
 
-constexpr double fill_share = 0.6;  // of a frame's time, for progress only
+constexpr double fill_share = 0.6;    // of a frame's time, for progress only
+constexpr int lights_in_mirrors = 4;  // PathState::light_samples
 
 /// Keeps the random numbers of paths apart from those of direct light and of gathers (cache_fill.cpp).
 constexpr std::uint32_t path_seed_mask = 0x70617468u;
@@ -58,8 +61,10 @@ class FrameShading {
             const SampleHits sample = cast(still(), i);
             if (i == 0) fill_fewer_bounces(sample);
             fill_cache(cache_, context_, sample, out_);
+            if (i == 0) fill_mirror_places(cache_, context_, sample, out_);
         }
         cache_.finish();
+        if (cached_ || context_.carried != nullptr) known_.emplace(context_, cached_ ? &cache_ : nullptr);
     }
 
     void shade() {
@@ -167,6 +172,10 @@ class FrameShading {
         PathState beyond = start_path();
         --beyond.left.depth;
         beyond.roulette_after = 0;  // most lobes reflect little, and there are many samples
+        beyond.survival = 4.0f;     // but one that is ended early leaves noise behind the rays already cast
+        beyond.known = known_ ? &*known_ : nullptr;
+        beyond.accuracy = context_.accuracy(surface.x, surface.y);
+        beyond.light_samples = lights_in_mirrors;
         const int light_samples = (settings.light_samples + settings.spp - 1) / settings.spp;
         const LightPoints points{light_samples, surface.sample, settings.spp};
         Rgb radiance = surface.material.emission;
@@ -244,6 +253,7 @@ class FrameShading {
     bool by_paths_, indirect_, cached_;
     IrradianceCache cache_;
     std::optional<IrradianceCache> fewer_bounces_;
+    std::optional<FrameIrradiance> known_;  ///< to paths
     DirectGrid direct_;
     Image<PixelSum> sums_;
     Image<RecordUse> uses_;  ///< empty: not asked for

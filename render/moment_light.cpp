@@ -5,6 +5,7 @@
 #include "render/bounce_levels.h"
 #include "render/bounce_places.h"
 #include "render/carried_point.h"
+#include "render/mirror_places.h"
 
 namespace aleph {
 
@@ -61,6 +62,8 @@ std::vector<IrradianceRecord> compute_records(const MomentInput& input, FrameCou
             const SampleHits sample =
                 i == 0 ? std::move(first_samples[v]) : input.cast(*input.views[v], i, tally.counts.rays);
             fill_cache(cache, contexts[v], sample, tally);
+            // Other views were cast in another pose, where mirrors may show other things.
+            if (i == 0 && contexts[v].seen == nullptr) fill_mirror_places(cache, contexts[v], sample, tally);
         }
     }
     tally.counts.rays += counts.rays;
