@@ -150,12 +150,11 @@ class Path {
             add_light(choose_light(context_, lit, shares, random_), 1.0f);
             return;
         }
-        const float candidates = random_.next(), choice = random_.next();
+        const float choice = random_.next();
         const glm::vec2 shift = random_.next_2d();
         for (int i = 0; i < count; ++i) {
             const float step = static_cast<float>(i) / static_cast<float>(count);
-            const LightNumbers numbers{fraction(candidates + step), fraction(choice + step),
-                                       lattice_point(i, count, shift)};
+            const LightNumbers numbers{fraction(choice + step), lattice_point(i, count, shift)};
             add_light(choose_light(context_, lit, shares, numbers), 1.0f / static_cast<float>(count));
         }
     }
