@@ -125,8 +125,9 @@ Rgb glossy_albedo(const SurfaceMaterial& material, float cos_view) {
 SampledLobes choose_sampled_lobes(const LitSurface& lit, const Rgb& irradiance, float tolerance) {
     SampledLobes out;
     out.shares = share_lobes(lit, LobeSet::specular);
+    if (!(tolerance > 0.0f)) return out;
     const Rgb uniform = irradiance / pi;
-    while (tolerance > 0.0f) {
+    while (true) {
         int least = no_index;
         float least_error = tolerance - out.error;
         Rgb radiance(0.0f);
