@@ -203,11 +203,13 @@ Rgb sample_direct_light(const LightingContext& context, RayTask& task, const Lit
 
 SampledLight compute_sampled_light(const LightingContext& context, RayTask& task, const ViewedSurface& surface,
                                    const LightPoints& points, RandomStream& random, const PathState& beyond,
-                                   RandomStream& path_random) {
+                                   RandomStream& path_random, const LobeShares* lobes) {
     const LitSurface lit(surface);
     const bool lights_can_be_met = !context.lights.emitters.empty() || context.lights.has_environment;
     LobeShares shares{};
-    if (lights_can_be_met || beyond.left.depth > 0) shares = share_lobes(lit, LobeSet::specular);
+    if (lights_can_be_met || beyond.left.depth > 0) {
+        shares = lobes != nullptr ? *lobes : share_lobes(lit, LobeSet::specular);
+    }
     SampledLight light{sample_lights(context, task, lit, RandomPattern{random, points, shares})};
     const glm::vec2 shift = random.next_2d();
     const float pick_shift = random.next();

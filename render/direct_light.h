@@ -53,9 +53,10 @@ Rgb sample_direct_light(const LightingContext& context, RayTask& task, const Lit
 /// @param points       per light that has an area, and as many samples of the lobes
 /// @param random       moved on by a fixed number of dimensions per call
 /// @param path_random  for those paths
+/// @param lobes        that are sampled (choose_sampled_lobes); null: all but the Lambert layer
 SampledLight compute_sampled_light(const LightingContext& context, RayTask& task, const ViewedSurface& surface,
                                    const LightPoints& points, RandomStream& random, const PathState& beyond,
-                                   RandomStream& path_random);
+                                   RandomStream& path_random, const LobeShares* lobes = nullptr);
 
 /// Direct light from a fixed pattern of points on each light. The pattern is the same for every pixel, so the result
 /// has no noise that the model of vision would take for detail. Biased: penumbrae come in steps, and narrow highlights

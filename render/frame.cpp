@@ -7,6 +7,8 @@
 #include "engine/base/parallel.h"
 #include "render/bounce_levels.h"
 #include "render/bounce_places.h"
+#include "render/frame_irradiance.h"
+#include "render/mirror_places.h"
 #include "render/pending_samples.h"
 #include "render/progressive.h"
 #include "render/resolve.h"
@@ -37,6 +39,7 @@ class FrameShading {
           indirect_(context.settings.bounces > 0 && context.settings.path_depth > 1),
           cached_(!by_paths_ && indirect_ && context.settings.accuracy > 0.0),
           cache_(make_cache(context.lighting.shading)),
+          known_(context, cached_ ? &cache_ : nullptr),
           direct_(context.max_radius),
           pixels_(context.view.width, context.view.height),
           place_(make_sample_place(context.settings, context.view, options.lens, options.blended, context.frame, 0)) {
@@ -57,6 +60,7 @@ class FrameShading {
         }
         fill_fewer_bounces(*first_);
         fill_cache(cache_, context_, *first_, out_);
+        fill_mirror_places(cache_, context_, *first_, out_);
         cache_.finish();
     }
 
@@ -106,6 +110,7 @@ class FrameShading {
                 .by_paths = by_paths_,
                 .indirect = indirect_,
                 .cache = cached_ ? &cache_ : nullptr,
+                .known = &known_,
                 .points = points,
                 .records = &out_.records,
                 .uses = uses_.empty() ? nullptr : &uses_};
@@ -260,6 +265,7 @@ class FrameShading {
     ShadedFrame& out_;
     bool by_paths_, indirect_, cached_;
     IrradianceCache cache_;
+    FrameIrradiance known_;
     std::optional<IrradianceCache> fewer_bounces_;
     DirectGrid direct_;
     Image<PixelSamples> pixels_;

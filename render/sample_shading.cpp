@@ -2,6 +2,7 @@
 
 #include "render/bounce_levels.h"
 #include "render/gather_at.h"
+#include "render/glossy_light.h"
 
 namespace aleph {
 
@@ -9,6 +10,8 @@ namespace {
 
 /// Keeps the random numbers of paths apart from those of direct light and of gathers (gather_at.cpp).
 constexpr std::uint32_t path_seed_mask = 0x70617468u;
+
+constexpr int lights_in_mirrors = 4;  // PathState::light_samples
 
 RandomStream path_stream(const SampleShading& shading, const PixelSurface& surface) {
     return RandomStream({shading.context.settings.seed ^ path_seed_mask, shading.moment, surface.pixel,
@@ -78,19 +81,35 @@ void add_by_paths(const SampleShading& shading, const SampleMoment& moment, Shad
         scatter_light(moment.lighting, task, surface, start_path(shading.context.settings), random);
 }
 
-void add_with_cache(const SampleShading& shading, ShadingTask& task, const PixelSurface& surface, SampleLight& light) {
+/// Lobes to sample, and what stands in for the others where the irradiance is known.
+SampledLobes choose_lobes(const SampleShading& shading, const PixelSurface& surface,
+                          const std::optional<Rgb>& irradiance) {
+    const LitSurface lit(surface);
+    const bool tolerant = shading.gloss_tolerance != nullptr && irradiance && surface.material.has_specular();
+    const float tolerance = tolerant ? (*shading.gloss_tolerance)(surface.x, surface.y) : 0.0f;
+    return choose_sampled_lobes(lit, irradiance.value_or(Rgb(0.0f)), tolerance);
+}
+
+/// @param irradiance  indirect; nothing where it is not known
+void add_with_cache(const SampleShading& shading, ShadingTask& task, const PixelSurface& surface,
+                    const std::optional<Rgb>& irradiance, SampleLight& light) {
     const RenderSettings& settings = shading.context.settings;
     RandomStream random({settings.seed, shading.moment, surface.pixel, 0});  // one lattice for all samples
     RandomStream path_random = path_stream(shading, surface);
     PathState beyond = start_path(settings);
     --beyond.left.depth;
     beyond.roulette_after = 0;  // most lobes reflect little, and there are many samples
+    beyond.survival = 4.0f;     // but a path that ends early leaves noise behind the rays already cast
+    beyond.known = shading.known;
+    beyond.accuracy = shading.context.accuracy(surface.x, surface.y);
+    beyond.light_samples = lights_in_mirrors;
     LightPoints points = shading.points;
     points.part = surface.sample;
-    const SampledLight sampled =
-        compute_sampled_light(shading.context.lighting, task, surface, points, random, beyond, path_random);
+    const SampledLobes lobes = choose_lobes(shading, surface, irradiance);
+    const SampledLight sampled = compute_sampled_light(shading.context.lighting, task, surface, points, random, beyond,
+                                                       path_random, &lobes.shares);
     light[LightPart::direct] = sampled.direct;
-    light[LightPart::gloss] = sampled.lobes;
+    light[LightPart::gloss] = sampled.lobes + lobes.radiance;
     light[LightPart::surface] = surface.material.emission;
 }
 
@@ -101,15 +120,17 @@ bool shade_sample(const SampleShading& shading, const SampleMoment& moment, Shad
     light = {};
     light.instance = surface.hit.instance;
     light.normal = surface.point.geometric;
+    const bool needs_irradiance = !shading.by_paths && shading.indirect && surface.material.has_diffuse();
+    std::optional<Rgb> irradiance;
+    if (needs_irradiance) irradiance = read_irradiance(shading, task, surface);
     if (shading.by_paths) {
         add_by_paths(shading, moment, task, surface, light);
     } else {
-        add_with_cache(shading, task, surface, light);
+        add_with_cache(shading, task, surface, irradiance, light);
     }
     const Rgb left = share_left(surface);
     for (Rgb& part : light.parts) part *= left;
-    if (shading.by_paths || !shading.indirect || !surface.material.has_diffuse()) return true;
-    std::optional<Rgb> irradiance = read_irradiance(shading, task, surface);
+    if (!needs_irradiance) return true;
     if (!irradiance && shading.cache == nullptr) irradiance = gather_irradiance(shading, task, surface);
     if (irradiance) add_irradiance(surface, *irradiance, light);
     return irradiance.has_value();

@@ -32,9 +32,12 @@ struct SampleShading {
     bool indirect = false;     ///< there is indirect light
     /// Finished; null: irradiance that no key moment knows is gathered at every sample.
     const IrradianceCache* cache = nullptr;
-    LightPoints points{};                ///< on each light, of a pixel's first sample
-    Image<float>* records = nullptr;     ///< counts irradiance values computed here; of the frame's size
-    Image<RecordUse>* uses = nullptr;    ///< records that were read; null: not asked for
+    const KnownIrradiance* known = nullptr;  ///< to paths from lobes; null: they find all light by themselves
+    /// Radiance per pixel: how far irradiance that stands in for a lobe may be off (glossy_light.h); null: 0.
+    const Image<float>* gloss_tolerance = nullptr;
+    LightPoints points{};              ///< on each light, of a pixel's first sample
+    Image<float>* records = nullptr;   ///< counts irradiance values computed here; of the frame's size
+    Image<RecordUse>* uses = nullptr;  ///< records that were read; null: not asked for
 };
 
 /// Light that a pixel's surface sends to the camera.
