@@ -20,8 +20,7 @@ struct LightBreaks::Sources {
     void add(const Rgb& value) { values.insert(values.end(), {value.x, value.y, value.z}); }
 };
 
-LightBreaks::Sources LightBreaks::look(std::int64_t frame) {
-    const double seconds = scene_.frame_rate.seconds_of(frame);
+LightBreaks::Sources LightBreaks::look(double seconds) {
     if (!posed_) posed_ = pose(scene_, seconds);
     ScenePose& posed = *posed_;
     posed.seconds = seconds;
@@ -43,27 +42,54 @@ LightBreaks::Sources LightBreaks::look(std::int64_t frame) {
     return sources;
 }
 
+namespace {
+
+/// With other lamps the lists differ in length: that is a jump by itself.
+bool differ_by(const std::vector<float>& a, const std::vector<float>& b, const std::vector<float>& largest) {
+    if (a.size() != b.size()) return true;
+    for (std::size_t k = 0; k < std::min(largest.size(), a.size()); ++k) {
+        if (std::abs(a[k] - b[k]) > max_change * largest[k]) return true;
+    }
+    return false;
+}
+
+void raise_to(std::vector<float>& largest, const std::vector<float>& values) {
+    for (std::size_t k = 0; k < std::min(largest.size(), values.size()); ++k) {
+        largest[k] = std::max(largest[k], values[k]);
+    }
+}
+
+}  // namespace
+
 const std::vector<std::int64_t>& LightBreaks::find(std::int64_t first, std::int64_t last) {
     const auto [entry, is_new] = found_.try_emplace({first, last});
     if (!is_new) return entry->second;
     std::vector<Sources> frames;
-    for (std::int64_t frame = first; frame <= last; ++frame) frames.push_back(look(frame));
+    for (std::int64_t frame = first; frame <= last; ++frame)
+        frames.push_back(look(scene_.frame_rate.seconds_of(frame)));
     std::vector<float> largest(frames.front().values.size(), 0.0f);
-    for (const Sources& sources : frames) {
-        // With other lamps the lists differ in length: that is a jump by itself.
-        for (std::size_t k = 0; k < std::min(largest.size(), sources.values.size()); ++k) {
-            largest[k] = std::max(largest[k], sources.values[k]);
-        }
-    }
+    for (const Sources& sources : frames) raise_to(largest, sources.values);
     for (std::size_t i = 1; i < frames.size(); ++i) {
         const Sources &before = frames[i - 1], &now = frames[i];
-        bool jumps = before.there != now.there || before.values.size() != now.values.size();
-        for (std::size_t k = 0; !jumps && k < std::min(largest.size(), now.values.size()); ++k) {
-            jumps = std::abs(now.values[k] - before.values[k]) > max_change * largest[k];
+        if (before.there != now.there || differ_by(before.values, now.values, largest)) {
+            entry->second.push_back(first + static_cast<std::int64_t>(i));
         }
-        if (jumps) entry->second.push_back(first + static_cast<std::int64_t>(i));
     }
     return entry->second;
+}
+
+bool LightBreaks::changes(double open, double close) {
+    constexpr int looks = 9;
+    const Sources first = look(open / scene_.frame_rate.per_second());
+    std::vector<float> largest = first.values, smallest = first.values;
+    for (int i = 1; i < looks; ++i) {
+        const double at = open + (close - open) * i / (looks - 1);
+        const Sources now = look(at / scene_.frame_rate.per_second());
+        if (now.there != first.there || now.values.size() != first.values.size()) return true;
+        raise_to(largest, now.values);
+        for (std::size_t k = 0; k < smallest.size(); ++k) smallest[k] = std::min(smallest[k], now.values[k]);
+    }
+    return differ_by(smallest, largest, largest);
 }
 
 }  // namespace aleph

@@ -22,9 +22,13 @@ class LightBreaks {
     /// the largest value that it has in the span.
     const std::vector<std::int64_t>& find(std::int64_t first, std::int64_t last);
 
+    /// Whether such a change lies within an interval of time, which may be slow there: it is looked at nine times.
+    /// @param open, close  frames
+    bool changes(double open, double close);
+
   private:
     struct Sources;
-    Sources look(std::int64_t frame);
+    Sources look(double seconds);
 
     const Scene& scene_;
     const PosePlan& plan_;
