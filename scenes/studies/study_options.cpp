@@ -1,13 +1,19 @@
 #include "scenes/studies/study_options.h"
 
+#include <OpenImageIO/strutil.h>
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <charconv>
 #include <filesystem>
+#include <fstream>
 #include <iostream>
+#include <sstream>
 
 #include "engine/base/errors.h"
 #include "engine/base/parallel.h"
 #include "render/cli/options.h"
+#include "render/setting_table.h"
 
 namespace aleph {
 
@@ -31,6 +37,27 @@ void add_quiet_option(CLI::App& app, StudyOptions& options) {
 std::string scene_name(const std::string& file) {
     const std::filesystem::path path = std::filesystem::absolute(file);
     return path.stem() == "scene" ? path.parent_path().filename().string() : path.stem().string();
+}
+
+std::vector<double> parse_values(const std::vector<std::string>& texts, const char* option) {
+    std::vector<double> values;
+    for (const std::string& text : texts) values.push_back(parse_value<double>(text, option));
+    return values;
+}
+
+bool has_setting(const std::string& key) {
+    return std::ranges::any_of(setting_table(), [&](const Setting& setting) { return setting.key == key; });
+}
+
+std::string hash_text(const std::string& text) {
+    return fmt::format("{:016x}", OIIO::Strutil::strhash(text));
+}
+
+std::string hash_file(const std::string& file) {
+    std::ifstream stream(file, std::ios::binary);
+    std::ostringstream bytes;
+    bytes << stream.rdbuf();
+    return hash_text(bytes.str());
 }
 
 void add_accuracy_option(CLI::App& app, double& accuracy) {

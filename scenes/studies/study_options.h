@@ -29,6 +29,17 @@ void add_quiet_option(CLI::App& app, StudyOptions& options);
 /// The name of the folder for a file called scene.json, else the name of the file.
 std::string scene_name(const std::string& file);
 
+/// The numbers of a list.
+/// @throws CLI::ConversionError naming the option
+std::vector<double> parse_values(const std::vector<std::string>& texts, const char* option);
+
+/// Whether there is a setting of this name in this version.
+bool has_setting(const std::string& key);
+
+/// Hexadecimal digits that tell texts apart; a number for the bytes of a file.
+std::string hash_text(const std::string& text);
+std::string hash_file(const std::string& file);
+
 /// --accuracy.
 void add_accuracy_option(CLI::App& app, double& accuracy);
 
