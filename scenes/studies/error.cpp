@@ -28,22 +28,10 @@ struct ErrorOptions {
     bool no_ladder = false, no_defaults = false, markdown = false;
 };
 
-RenderSettings with_setting(RenderSettings settings, const std::string& text) {
-    SettingMap map;
-    parse_setting(text, map);
-    apply_settings(settings, map, "--set");
-    return settings;
-}
-
 /// Settings that every rendering shares: those of the scene and of --set, with the reference's filter.
 RenderSettings common_settings(const Scene& scene, const ErrorOptions& options) {
-    RenderSettings settings;
-    apply_settings(settings, scene.settings, options.study.scene);
-    parse_size(options.study.size, "--size", settings.width, settings.height);
-    if (has_setting("filter")) settings = with_choice(settings, "filter", "box");
-    for (const std::string& text : options.sets) settings = with_setting(settings, text);
-    validate(settings);
-    return settings;
+    const RenderSettings settings = scene_settings(scene, options.study.scene, options.study.size, options.sets);
+    return has_setting("filter") ? with_choice(settings, "filter", "box") : settings;
 }
 
 JudgedFrame prepare(const Scene& scene, const RenderSettings& settings, int number, const ErrorOptions& options) {
@@ -151,7 +139,7 @@ void add_error_options(CLI::App& app, ErrorOptions& options) {
     add_list("--accuracies", options.accuracies, "accuracies of fixed settings");
     add_value(app, "--most-seconds", options.most_seconds, "processor seconds after which nothing dearer is tried");
     add_value(app, "--repeats", options.repeats, "renderings of each picture, of which the median of seconds counts");
-    app.add_option("--set", options.sets, "KEY=VALUE: a setting of every rendering");
+    add_set_option(app, options.sets);
     app.add_option("--json", options.report, "file for all figures");
     app.add_flag("--no-ladder", options.no_ladder, "no fixed settings");
     app.add_flag("--no-defaults", options.no_defaults, "do not render with the settings as they are");

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <limits>
 
@@ -44,7 +45,7 @@ RenderSettings reference_settings(const RenderSettings& settings, const Referenc
     } else {
         out.accuracy = 0.0;
         out.light_step = 0;
-        out.gather = 32;
+        out.gather = 16;
         out.light_samples = 2 * options.pass_spp;
     }
     if (has_setting("filter")) out = with_choice(out, "filter", "box");
@@ -72,10 +73,15 @@ ChannelImage read_reference(const std::filesystem::path& path, const RenderSetti
     return image;
 }
 
+/// Where samples lie in a pixel may depend on their number alone. So each pass has a number of its own: passes with
+/// equal samples would all make the same error at an edge, which their differences do not tell.
 /// @param pass  number of this rendering, which chooses its random numbers
 ChannelImage render_pass(const Scene& scene, RenderSettings settings, std::int64_t frame, double pass,
                          const FrameProgress& progress) {
     settings.seed = reference_seed + static_cast<std::uint32_t>(pass);
+    const int light_samples_each = std::max(1, settings.light_samples / settings.spp);
+    settings.spp += static_cast<int>(pass);
+    settings.light_samples = light_samples_each * settings.spp;
     Sequence sequence(scene, settings);
     const double start = processor_seconds();
     FrameRequest request;

@@ -11,8 +11,10 @@ namespace aleph {
 
 /// Where reference pictures are kept, since they take minutes, and what they are.
 struct ReferencePictureOptions {
-    int passes = 16, pass_spp = 16;  ///< renderings that it is the mean of, at least 2, and their samples per pixel
-    /// "path": traced paths. "gather": no cache, 32 gather rays and 2 samples of every light at every pixel sample: a
+    int passes = 16;  ///< renderings that it is the mean of, at least 2
+    int pass_spp =
+        32;  ///< samples per pixel of the first; each has one more than the one before (reference_picture.cpp)
+    /// "path": traced paths. "gather": no cache, 16 gather rays and 2 samples of every light at every pixel sample: a
     /// fifth of the time for the same noise.
     std::string kind = "path";
     std::string folder = "build/references";

@@ -64,10 +64,29 @@ void add_accuracy_option(CLI::App& app, double& accuracy) {
     add_value(app, "--accuracy", accuracy, "ambient accuracy, 0 to 1; smaller is more accurate");
 }
 
-RenderSettings study_settings(const Scene& scene, const std::string& file, const StudyOptions& options) {
+void add_set_option(CLI::App& app, std::vector<std::string>& sets) {
+    app.add_option("--set", sets, "KEY=VALUE: a setting of every rendering");
+}
+
+RenderSettings scene_settings(const Scene& scene, const std::string& file, const std::string& size,
+                              const std::vector<std::string>& sets) {
     RenderSettings settings;
     apply_settings(settings, scene.settings, file);
-    parse_size(options.size, "--size", settings.width, settings.height);
+    parse_size(size, "--size", settings.width, settings.height);
+    for (const std::string& text : sets) settings = with_setting(settings, text);
+    validate(settings);
+    return settings;
+}
+
+RenderSettings with_setting(RenderSettings settings, const std::string& text) {
+    SettingMap map;
+    parse_setting(text, map);
+    apply_settings(settings, map, "--set");
+    return settings;
+}
+
+RenderSettings study_settings(const Scene& scene, const std::string& file, const StudyOptions& options) {
+    RenderSettings settings = scene_settings(scene, file, options.size, {});
     settings.gather = options.gather;
     settings.light_step = 0;  // every frame by itself, so that its counts have all of its work
     settings.spp = std::max(1, options.spp);

@@ -40,6 +40,9 @@ bool has_setting(const std::string& key);
 std::string hash_text(const std::string& text);
 std::string hash_file(const std::string& file);
 
+/// --set.
+void add_set_option(CLI::App& app, std::vector<std::string>& sets);
+
 /// --accuracy.
 void add_accuracy_option(CLI::App& app, double& accuracy);
 
@@ -47,6 +50,16 @@ void add_accuracy_option(CLI::App& app, double& accuracy);
 /// @param file  of the scene, for errors
 /// @throws InputError for a setting that is out of range
 RenderSettings study_settings(const Scene& scene, const std::string& file, const StudyOptions& options);
+
+/// The settings of a scene for a size, WIDTHxHEIGHT, with those of "KEY=VALUE" texts in their places.
+/// @param file  of the scene, for errors
+/// @throws InputError for a setting that is out of range
+RenderSettings scene_settings(const Scene& scene, const std::string& file, const std::string& size,
+                              const std::vector<std::string>& sets);
+
+/// With the setting of a text "KEY=VALUE".
+/// @throws InputError for an unknown key, or a value that is out of range
+RenderSettings with_setting(RenderSettings settings, const std::string& text);
 
 /// With a setting that is a choice, by the names of the scene file.
 /// @throws InputError for an unknown name
