@@ -23,7 +23,7 @@ struct ErrorOptions {
     std::vector<std::string> errors = {"1", "2"}, percents = {".5"}, rules, sets;
     std::vector<std::string> spps = {"1", "2", "4", "8", "16", "32", "64", "128"}, light_samples = {"4", "16", "64"},
                              accuracies = {".5", ".15"};
-    int rule_spp = 512, repeats = 1;
+    int rule_spp = 512, repeats = 1, check_passes = 0;
     double most_seconds = 300.0;
     bool no_ladder = false, no_defaults = false, markdown = false;
 };
@@ -50,6 +50,17 @@ JudgedFrame prepare(const Scene& scene, const RenderSettings& settings, int numb
     return frame;
 }
 
+/// The reference against traced paths of its own; nothing if that is not asked for.
+std::optional<LuminanceDifference> check_reference(const JudgedFrame& frame, const ErrorOptions& options) {
+    if (options.check_passes == 0) return std::nullopt;
+    ReferencePictureOptions paths = options.reference;
+    paths.kind = "path";
+    paths.passes = options.check_passes;
+    const ChannelImage traced = load_or_render_reference_picture(frame.scene, frame.settings, frame.number,
+                                                                 options.study.scene, paths, options.study.quiet);
+    return compare_luminance(frame.reference, traced, {});
+}
+
 /// The settings as they are, `--error` and the stopping rules.
 void run_variants(ErrorStudy& study, const ErrorOptions& options, const StudyTable& table) {
     const JudgedFrame& frame = study.frame;
@@ -60,7 +71,9 @@ void run_variants(ErrorStudy& study, const ErrorOptions& options, const StudyTab
     if (!options.no_defaults) run("defaults", frame.settings);
     if (has_setting("error")) {
         for (const std::string& error : options.errors) {
-            run("--error " + error, with_setting(frame.settings, "error=" + error));
+            std::vector<std::string> sets = options.sets;
+            sets.push_back("error=" + error);
+            run("--error " + error, with_settings(frame.settings, sets));
             const double thresholds = frame.multiples[&error - options.errors.data()];
             study.shares.push_back({frame.name,
                                     {thresholds, study.runs.back().percent_beyond(thresholds)},
@@ -70,8 +83,8 @@ void run_variants(ErrorStudy& study, const ErrorOptions& options, const StudyTab
         }
     }
     for (const std::string& rule : options.rules) {
-        const RenderSettings settings = with_choice(frame.settings, "sampling", rule);
-        run("--sampling " + rule, with_setting(settings, fmt::format("spp={}", options.rule_spp)));
+        run("--sampling " + rule,
+            with_settings(frame.settings, {"sampling=" + rule, fmt::format("spp={}", options.rule_spp)}));
     }
 }
 
@@ -100,7 +113,8 @@ void run_errors(const ErrorOptions& options) {
     for (const int number : parse_frame_list(options.frames)) {
         JudgedFrame frame = prepare(scene, settings, number, options);
         const PictureError noise = measure_picture(frame.reference, frame.reference, frame.threshold, frame.multiples);
-        studies.push_back({std::move(frame), noise, {}, {}});
+        const auto check = check_reference(frame, options);
+        studies.push_back({std::move(frame), noise, check, {}, {}});
     }
     fmt::print("{}, {}, thresholds of {}, {} bounces\n\nReferences; noise in thresholds:\n\n", options.study.scene,
                options.study.size, std::get<std::string>(setting_map(settings).at("vision")), settings.bounces);
@@ -129,6 +143,8 @@ void add_error_options(CLI::App& app, ErrorOptions& options) {
     add_value(app, "-t,--threads", options.study.threads, "number of threads; 0: all");
     add_quiet_option(app, options.study);
     add_reference_options(app, options.reference);
+    add_value(app, "--check-passes", options.check_passes,
+              "path-traced renderings with which the mean of a gathered reference is compared; 0: none");
     add_list("--errors", options.errors, "errors to ask for, and multiples of the threshold to measure");
     add_list("--rules", options.rules, "other values of the setting sampling to run");
     add_value(app, "--rule-spp", options.rule_spp, "most samples per pixel of these");

@@ -93,14 +93,18 @@ std::optional<double> claimed_percent(const ErrorRun& run) {
 }
 
 void print_references(const std::vector<ErrorStudy>& studies, bool markdown) {
-    const StudyTable table({"frame", "passes", "seconds", "noise: median", "99 %", "above .1 (%)", "maps (s)"}, 1,
-                           markdown);
+    const StudyTable table(
+        {"frame", "passes", "seconds", "noise: median", "99 %", "above .1 (%)", "maps (s)", "bias against paths (%)"},
+        1, markdown);
     for (const ErrorStudy& study : studies) {
         const PictureError& noise = study.noise;
         table.add({study.frame.name, fmt::format("{:.0f}", reference_passes(study.frame.reference)),
                    fmt::format("{:.0f}", reference_seconds(study.frame.reference)),
                    fmt::format("{:.3f}", noise.noise_median), fmt::format("{:.3f}", noise.noise_percentile_99),
-                   fmt::format("{:.1f}", noise.noisy_percent), fmt::format("{:.2f}", study.frame.map_seconds)});
+                   fmt::format("{:.1f}", noise.noisy_percent), fmt::format("{:.2f}", study.frame.map_seconds),
+                   study.against_paths ? fmt::format("{:+.3f} +- {:.3f}", 100.0 * study.against_paths->bias,
+                                                     100.0 * study.against_paths->bias_error)
+                                       : std::string("-")});
     }
 }
 

@@ -18,8 +18,9 @@ struct EqualShare {
 /// All of one frame.
 struct ErrorStudy {
     JudgedFrame frame;
-    PictureError noise;          ///< of the reference (multiples against itself)
-    std::vector<ErrorRun> runs;  ///< in the order in which they ran
+    PictureError noise;                                ///< of the reference (multiples against itself)
+    std::optional<LuminanceDifference> against_paths;  ///< of the reference, if it was compared
+    std::vector<ErrorRun> runs;                        ///< in the order in which they ran
     std::vector<EqualShare> shares;
 };
 

@@ -139,7 +139,9 @@ void run_rules(const RuleOptions& options) {
         add_rule(table, rule, study.render(rule, chosen, options.seeds, 1), reference);
     }
     for (const std::string& error : has_setting("error") ? options.errors : std::vector<std::string>{}) {
-        const RenderSettings chosen = with_setting(settings, "error=" + error);
+        std::vector<std::string> sets = options.sets;
+        sets.push_back("error=" + error);
+        const RenderSettings chosen = with_settings(settings, sets);
         add_rule(table, "--error " + error, study.render("--error " + error, chosen, options.seeds, 1), reference);
     }
 }

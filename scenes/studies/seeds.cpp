@@ -109,10 +109,11 @@ void run_seeds(const SeedsOptions& options) {
     if (static_cast<std::int64_t>(list.size()) != range.last - range.first + 1)
         throw InputError("", "--frames", "expected consecutive frames");
     const Scene scene = load_scene(options.study.scene);
-    RenderSettings settings = scene_settings(scene, options.study.scene, options.study.size, options.sets);
     const double error = parse_value<double>(options.error, "--error");
     const bool asked = has_setting("error") && error > 0.0;
-    if (asked) settings = with_setting(settings, "error=" + options.error);
+    std::vector<std::string> sets = options.sets;
+    if (asked) sets.push_back("error=" + options.error);
+    const RenderSettings settings = scene_settings(scene, options.study.scene, options.study.size, sets);
     const double thresholds = error > 0.0 ? error : 1.0;
     const std::vector<FramePair> frames = render_pairs(scene, settings, range, options.study.quiet);
 

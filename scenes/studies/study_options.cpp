@@ -73,14 +73,14 @@ RenderSettings scene_settings(const Scene& scene, const std::string& file, const
     RenderSettings settings;
     apply_settings(settings, scene.settings, file);
     parse_size(size, "--size", settings.width, settings.height);
-    for (const std::string& text : sets) settings = with_setting(settings, text);
+    settings = with_settings(settings, sets);
     validate(settings);
     return settings;
 }
 
-RenderSettings with_setting(RenderSettings settings, const std::string& text) {
+RenderSettings with_settings(RenderSettings settings, const std::vector<std::string>& texts) {
     SettingMap map;
-    parse_setting(text, map);
+    for (const std::string& text : texts) parse_setting(text, map);
     apply_settings(settings, map, "--set");
     return settings;
 }

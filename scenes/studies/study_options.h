@@ -57,9 +57,9 @@ RenderSettings study_settings(const Scene& scene, const std::string& file, const
 RenderSettings scene_settings(const Scene& scene, const std::string& file, const std::string& size,
                               const std::vector<std::string>& sets);
 
-/// With the setting of a text "KEY=VALUE".
+/// With the settings of texts "KEY=VALUE", all at once: what `error` sets, the others override.
 /// @throws InputError for an unknown key, or a value that is out of range
-RenderSettings with_setting(RenderSettings settings, const std::string& text);
+RenderSettings with_settings(RenderSettings settings, const std::vector<std::string>& texts);
 
 /// With a setting that is a choice, by the names of the scene file.
 /// @throws InputError for an unknown name
