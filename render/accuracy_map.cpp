@@ -20,9 +20,9 @@ double scale_add_accuracy(double accuracy, double aleph, double k) {
 }
 
 double threshold_accuracy(double accuracy, double tolerance) {
-    constexpr double accuracy_per_error = 10.0, least = 0.02;
+    constexpr double least = 0.02;
     if (!(accuracy > 0.0)) return 0.0;
-    return std::min(1.0, std::max(least, accuracy_per_error * accuracy * tolerance));  // in this order, `least` for NaN
+    return std::min(1.0, std::max(least, accuracy * tolerance / error_per_accuracy));  // in this order, `least` for NaN
 }
 
 Image<float> compute_tolerance(const Image<float>& threshold, const Image<float>& indirect,

@@ -14,6 +14,9 @@ double compress_accuracy(double accuracy, double aleph);
 /// Yee 2000, eq. 6.8: accuracy + aleph / k, at most 1; 0 if the accuracy is 0.
 double scale_add_accuracy(double accuracy, double aleph, double k);
 
+/// Standard deviation of irradiance that is interpolated at accuracy 1, relative.
+inline constexpr double error_per_accuracy = 0.1;
+
 /// 10 * accuracy * tolerance, from 0.02 to 1; 0 if the accuracy is 0. Irradiance interpolated at accuracy alpha errs by
 /// about a tenth of alpha (standard deviation), so that errors stay at that share of the threshold: a seventh at the
 /// default accuracy. The rest is left to the other parts of a picture's light.

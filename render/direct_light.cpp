@@ -101,24 +101,24 @@ Rgb sample_lights(const LightingContext& context, RayTask& task, const LitSurfac
 
 }  // namespace
 
-Rgb compute_sampled_light(const LightingContext& context, RayTask& task, const ViewedSurface& surface,
-                          const LightPoints& points, RandomStream& random, const PathState& beyond,
-                          RandomStream& path_random) {
+SampledLight compute_sampled_light(const LightingContext& context, RayTask& task, const ViewedSurface& surface,
+                                   const LightPoints& points, RandomStream& random, const PathState& beyond,
+                                   RandomStream& path_random) {
     const LitSurface lit(surface);
     const bool lights_can_be_met = !context.lights.emitters.empty() || context.lights.has_environment;
     LobeShares shares{};
     if (lights_can_be_met || beyond.left.depth > 0) shares = share_lobes(lit, LobeSet::specular);
-    Rgb sum = sample_lights(context, task, lit, RandomPattern{random, points, shares});
+    SampledLight light{sample_lights(context, task, lit, RandomPattern{random, points, shares})};
     const glm::vec2 shift = random.next_2d();
     const float pick_shift = random.next();
-    if (shares == LobeShares{}) return sum;
-    Rgb met(0.0f);
+    if (shares == LobeShares{}) return light;
     for (int i = 0; i < points.count; ++i) {
         const float pick = fraction(pick_shift + static_cast<float>(i * points.parts + points.part) * 0.75487767f);
         const ScatterSample sample = sample_scatter(lit, shares, pick, points.at(i, shift), path_random.next());
-        met += follow_sample(context, task, lit, sample, beyond, path_random);
+        light.lobes += follow_sample(context, task, lit, sample, beyond, path_random);
     }
-    return sum + met / static_cast<float>(points.count);
+    light.lobes /= static_cast<float>(points.count);
+    return light;
 }
 
 Rgb estimate_direct_light(const LightingContext& context, RayTask& task, const ViewedSurface& surface, int samples) {

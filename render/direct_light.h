@@ -11,9 +11,18 @@ namespace aleph {
 struct LightPoints {
     int count = 1;  ///< per part
     int part = 0;
-    int parts = 1;
+    int parts = 1;  ///< 0: not known beforehand; any number of them is even
 
-    glm::vec2 at(int i, const glm::vec2& shift) const { return lattice_point(i * parts + part, count * parts, shift); }
+    glm::vec2 at(int i, const glm::vec2& shift) const {
+        return parts > 0 ? lattice_point(i * parts + part, count * parts, shift)
+                         : sequence_point(part * count + i, shift);
+    }
+};
+
+/// Light that a surface scatters, without its own emission.
+struct SampledLight {
+    Rgb direct{0.0f};  ///< found by sampling the lights
+    Rgb lobes{0.0f};   ///< found by sampling the lobes
 };
 
 /// Radiance that a surface scatters from the lights, without its own emission. The Lambert layer samples lights only;
@@ -23,9 +32,9 @@ struct LightPoints {
 /// @param points       per light that has an area, and as many samples of the lobes
 /// @param random       moved on by a fixed number of dimensions per call
 /// @param path_random  for those paths
-Rgb compute_sampled_light(const LightingContext& context, RayTask& task, const ViewedSurface& surface,
-                          const LightPoints& points, RandomStream& random, const PathState& beyond,
-                          RandomStream& path_random);
+SampledLight compute_sampled_light(const LightingContext& context, RayTask& task, const ViewedSurface& surface,
+                                   const LightPoints& points, RandomStream& random, const PathState& beyond,
+                                   RandomStream& path_random);
 
 /// Direct light from a fixed pattern of points on each light. The pattern is the same for every pixel, so the result
 /// has no noise that the model of vision would take for detail. Biased: penumbrae come in steps, and narrow highlights

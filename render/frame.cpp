@@ -7,36 +7,30 @@
 #include "engine/base/parallel.h"
 #include "render/bounce_levels.h"
 #include "render/bounce_places.h"
-#include "render/gather_at.h"
-#include "render/pixel_sum.h"
+#include "render/pending_samples.h"
+#include "render/progressive.h"
+#include "render/resolve.h"
+#include "render/sample_packet.h"
+#include "render/sample_place.h"
 
 namespace aleph {
 
 namespace {
 
-constexpr double fill_share = 0.6;  // of a frame's time, for progress only
-
-/// Keeps the random numbers of paths apart from those of direct light and of gathers (cache_fill.cpp).
-constexpr std::uint32_t path_seed_mask = 0x70617468u;
+constexpr double fill_share = 0.3;      // of a frame's time, for progress only
+constexpr std::size_t task_ranges = 64;  // pixels of a task
+constexpr int slice_samples = 1 << 17;  // that may wait for light at a time: more only for the sake of threads
+constexpr std::size_t slice_ranges = 64 * task_ranges;
 
 double seconds_since(std::chrono::steady_clock::time_point start) {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
-
-/// The work of one task: its rays, and what it counts.
-struct ShadingTask : RayTask {
-    ShadingTask(const RayScene& rays, GatherScratch& buffers) : RayTask(rays), scratch(buffers) {}
-
-    GatherScratch& scratch;
-    std::uint64_t lookups = 0, hits = 0, computed = 0, invalid = 0;
-};
 
 class FrameShading {
   public:
     FrameShading(const IndirectContext& context, const SampleHits& centers, const SampleOptions& options,
                  ShadedFrame& out)
         : context_(context),
-          centers_(centers),
           options_(options),
           out_(out),
           by_paths_(context.settings.integrator == Integrator::path || options.at_sample),
@@ -44,46 +38,46 @@ class FrameShading {
           cached_(!by_paths_ && indirect_ && context.settings.accuracy > 0.0),
           cache_(make_cache(context.lighting.shading)),
           direct_(context.max_radius),
-          sums_(context.view.width, context.view.height) {
+          pixels_(context.view.width, context.view.height),
+          place_(make_sample_place(context.settings, context.view, options.lens, options.blended, 0)) {
         if (cached_) context_.direct = &direct_;
         context_.deeper = make_deeper_light(context.settings, nullptr);
         if (options.record_maps && !by_paths_) uses_ = Image<RecordUse>(context_.view.width, context_.view.height);
-        if (!by_paths_) out_.indirect = Image<Rgb>(context.view.width, context.view.height);
+        const bool as_centers = !options.at_sample && !options.blended && !(options.lens.radius > 0.0);
+        if (place_.centered && as_centers) first_ = &centers;
     }
 
+    /// Of pixel samples, the first alone: where others need light beside them, they get it before they are added.
     void fill() {
-        const int spp = context_.settings.spp;
-        for (int i = 0; cached_ && i < spp; ++i) {
-            if (context_.progress) context_.progress(fill_share * i / spp, "fill");
-            const SampleHits sample = cast(still(), i);
-            if (i == 0) fill_fewer_bounces(sample);
-            fill_cache(cache_, context_, sample, out_);
+        if (!cached_) return;
+        if (context_.progress) context_.progress(0.0, "fill");
+        if (first_ == nullptr) {
+            cast_first_ = cast_sample(context_.lighting.rays, context_.view, place_, &out_.counts.rays.primary);
+            first_ = &cast_first_;
         }
+        fill_fewer_bounces(*first_);
+        fill_cache(cache_, context_, *first_, out_);
         cache_.finish();
     }
 
-    void shade() {
-        for (int i = 0; i < context_.settings.spp; ++i) {
-            const SampleMoment moment = options_.at_sample ? options_.at_sample(i) : still();
-            add_sample(moment, cast(moment, i));
+    void shade(double exposure) {
+        const RenderSettings& settings = context_.settings;
+        SamplingPlan plan;
+        plan.rule = settings.sampling;
+        plan.test = settings.variance_test;
+        plan.most = settings.spp;
+        if (options_.limits != nullptr) {
+            plan.tolerance = compute_sampling_tolerance(*options_.limits, settings, exposure);
+            plan.aleph = options_.limits->aleph;
         }
+        sample_by_stages(plan, pixels_, [&](std::span<const PixelRange> ranges) { take(ranges); });
     }
 
-    /// Divides the sums by the numbers of valid samples.
     void resolve(double exposure) {
-        const float scale = static_cast<float>(exposure);
-        for (std::size_t p = 0; p < sums_.size(); ++p) {
-            const PixelSum& sum = sums_.pixels[p];
-            if (sum.samples == 0) continue;
-            const float valid = static_cast<float>(sum.samples);
-            out_.color.pixels[p] = Rgb(sum.radiance) * (scale / valid);
-            if (!by_paths_) out_.indirect.pixels[p] *= scale / valid;
-            out_.coverage.pixels[p] = static_cast<float>(sum.hits) / valid;
-            if (!out_.variance.empty() && sum.samples > 1) {
-                out_.variance.pixels[p] = static_cast<float>(sum.variance() * exposure * exposure);
-            }
-        }
-        resolve_uses();
+        const bool with_variance = context_.settings.integrator == Integrator::path && context_.settings.spp > 1;
+        resolve_pixels(pixels_, exposure, !by_paths_, with_variance, out_);
+        if (!uses_.empty()) resolve_uses(uses_, pixels_, out_);
+        if (options_.limits != nullptr && context_.settings.spp > 1) report_errors(exposure);
     }
 
   private:
@@ -95,133 +89,154 @@ class FrameShading {
         if (fewer_bounces_) context_.deeper = make_deeper_light(context_.settings, &*fewer_bounces_);
     }
 
-    SampleMoment still() const { return {context_.lighting, context_.view}; }
-
-    SampleHits cast(const SampleMoment& moment, int i) {
-        const RenderSettings& settings = context_.settings;
-        const bool as_centers = !options_.at_sample && !options_.blended && !(options_.lens.radius > 0.0);
-        if (settings.spp == 1 && as_centers) return centers_;
-        const SamplePlace place{i,
-                                settings.spp,
-                                options_.lens,
-                                settings.seed,
-                                context_.frame,
-                                options_.blended ? Blend::random : Blend::cutout};
-        return cast_sample(moment.lighting.rays, moment.view, place, &out_.counts.rays.primary);
+    SamplePlace place(int index) const {
+        SamplePlace place = place_;
+        place.index = index;
+        return place;
     }
 
-    /// Shades one sample of every pixel.
-    void add_sample(const SampleMoment& moment, const SampleHits& sample) {
-        parallel_rows(context_.view.height, 1, [&](int begin, int end) {
+    SampleShading make_shading() {
+        const RenderSettings& settings = context_.settings;
+        LightPoints points{1, 0, 0};
+        if (settings.sampling == Sampling::uniform) {
+            points = {(settings.light_samples + settings.spp - 1) / settings.spp, 0, settings.spp};
+        }
+        return {.context = context_,
+                .moment = place_.moment,
+                .by_paths = by_paths_,
+                .indirect = indirect_,
+                .cache = cached_ ? &cache_ : nullptr,
+                .points = points,
+                .records = &out_.records,
+                .uses = uses_.empty() ? nullptr : &uses_};
+    }
+
+    /// Takes the samples of a stage.
+    void take(std::span<const PixelRange> ranges) {
+        if (!options_.at_sample) {
+            const SampleMoment still{context_.lighting, context_.view};
+            take_at(still, ranges);
+        } else {
+            take_by_time(ranges);
+        }
+        ++stage_;
+    }
+
+    /// One sample of all pixels after the other: each has a time of its own.
+    void take_by_time(std::span<const PixelRange> ranges) {
+        int first = ranges.front().first, last = 0;
+        for (const PixelRange& range : ranges) {
+            first = std::min(first, range.first);
+            last = std::max(last, range.last);
+        }
+        std::vector<PixelRange> now;
+        for (int i = first; i < last; ++i) {
+            now.clear();
+            for (const PixelRange& range : ranges) {
+                if (range.first <= i && i < range.last) now.push_back({range.x, range.y, i, i + 1});
+            }
+            const SampleMoment moment = options_.at_sample(i);
+            take_at(moment, now);
+        }
+    }
+
+    void take_at(const SampleMoment& moment, std::span<const PixelRange> ranges) {
+        std::size_t begin = 0, end = 0;
+        while (begin < ranges.size()) {
+            int samples = 0;
+            while (end < ranges.size() && (samples < slice_samples || end - begin < slice_ranges)) {
+                samples += ranges[end].last - ranges[end].first;
+                ++end;
+            }
+            take_slice(moment, ranges.subspan(begin, end - begin));
+            report_progress(static_cast<double>(end) / static_cast<double>(ranges.size()));
+            begin = end;
+        }
+    }
+
+    /// Takes samples, and then finds the light of those that the cache did not cover.
+    void take_slice(const SampleMoment& moment, std::span<const PixelRange> ranges) {
+        const SampleShading shading = make_shading();
+        std::vector<std::vector<PendingSample>> waiting((ranges.size() + task_ranges - 1) / task_ranges);
+        parallel_for(ranges.size(), task_ranges, [&](std::size_t begin, std::size_t end) {
             thread_local GatherScratch scratch;
             ShadingTask task(moment.lighting.rays, scratch);
-            for (int y = begin; y < end; ++y) {
-                for (int x = 0; x < context_.view.width; ++x) add_pixel(moment, task, sample, x, y);
+            take_ranges(shading, moment, task, ranges.subspan(begin, end - begin), waiting[begin / task_ranges]);
+            finish(task);
+        });
+        std::vector<PendingSample> pending;
+        for (const auto& chunk : waiting) pending.insert(pending.end(), chunk.begin(), chunk.end());
+        waiting.clear();
+        fill_pending(cache_, context_, pending, out_);
+        add_pending(shading, moment, pending);
+    }
+
+    void take_ranges(const SampleShading& shading, const SampleMoment& moment, ShadingTask& task,
+                     std::span<const PixelRange> ranges, std::vector<PendingSample>& waiting) {
+        SamplePacket samples(moment, task);
+        const auto shade = [&](const SamplePlace& at, int x, int y, const glm::vec3& direction, const Hit& hit) {
+            SampleLight light;
+            if (hit.instance == no_index) {
+                light[LightPart::surface] = environment_radiance(moment.lighting.shading, direction);
+                add_sample(task, x, y, light);
+                return;
+            }
+            const PixelSurface surface =
+                make_pixel_surface(moment.lighting.shading, moment.view, at, hit, direction, x, y);
+            if (shade_sample(shading, moment, task, surface, light)) {
+                add_sample(task, x, y, light);
+            } else {
+                waiting.push_back({surface, light});
+            }
+        };
+        for (const PixelRange& range : ranges) {
+            for (int i = range.first; i < range.last; ++i) {
+                if (samples.is_full()) samples.finish(shade);
+                const bool is_known = i == 0 && first_ != nullptr;
+                samples.add(place(i), range.x, range.y, is_known ? &first_->hits(range.x, range.y) : nullptr);
+            }
+        }
+        samples.finish(shade);
+    }
+
+    void add_pending(const SampleShading& shading, const SampleMoment& moment, std::vector<PendingSample>& pending) {
+        if (pending.empty()) return;
+        parallel_for(pending.size(), task_ranges, [&](std::size_t begin, std::size_t end) {
+            thread_local GatherScratch scratch;
+            ShadingTask task(moment.lighting.rays, scratch);
+            for (std::size_t i = begin; i < end; ++i) {
+                add_indirect(shading, task, pending[i].surface, pending[i].light);
             }
             finish(task);
         });
+        ShadingTask task(moment.lighting.rays, pending_scratch_);
+        for (const PendingSample& sample : pending) {
+            add_sample(task, sample.surface.x, sample.surface.y, sample.light);
+        }
+        finish(task);
     }
 
-    void add_pixel(const SampleMoment& moment, ShadingTask& task, const SampleHits& sample, int x, int y) {
-        const bool hit = sample.hits(x, y).instance != no_index;
-        const ShadingScene& shading = moment.lighting.shading;
-        Rgb radiance;
-        if (!hit) {
-            radiance = environment_radiance(shading, glm::vec3(make_sample_ray(moment.view, sample, x, y).direction));
-        } else {
-            const PixelSurface surface = make_pixel_surface(shading, moment.view, sample, x, y);
-            radiance = by_paths_ ? shade_by_paths(moment, task, surface) : shade_cached(task, surface);
-            // The camera may stand in what it sees from inside.
-            if (const Rgb loss = Media().attenuation(surface); loss != Rgb(0.0f)) {
-                radiance *= glm::exp(-loss * surface.distance);
-            }
-        }
-        if (!is_finite(radiance)) {
-            out_.invalid_samples(x, y) += 1.0f;
-            ++task.invalid;
+    void add_sample(ShadingTask& task, int x, int y, const SampleLight& light) {
+        if (is_finite(light.total())) {
+            pixels_(x, y).add(light);
             return;
         }
-        sums_(x, y).add(radiance, hit);
+        pixels_(x, y).add_invalid();
+        out_.invalid_samples(x, y) += 1.0f;
+        ++task.invalid;
     }
 
-    RandomStream path_stream(const PixelSurface& surface) const {
-        return RandomStream({context_.settings.seed ^ path_seed_mask, context_.frame, surface.pixel,
-                             static_cast<std::uint32_t>(surface.sample)});
-    }
-
-    PathState start_path() const {
-        PathState state;
-        state.left = {context_.settings.bounces, context_.settings.path_depth};
-        return state;
-    }
-
-    Rgb shade_by_paths(const SampleMoment& moment, ShadingTask& task, const PixelSurface& surface) const {
-        RandomStream random = path_stream(surface);
-        return surface.material.emission + scatter_light(moment.lighting, task, surface, start_path(), random);
-    }
-
-    Rgb shade_cached(ShadingTask& task, const PixelSurface& surface) {
+    void report_errors(double exposure) {
         const RenderSettings& settings = context_.settings;
-        RandomStream random({settings.seed, context_.frame, surface.pixel, 0});  // one lattice for all samples
-        RandomStream path_random = path_stream(surface);
-        PathState beyond = start_path();
-        --beyond.left.depth;
-        beyond.roulette_after = 0;  // most lobes reflect little, and there are many samples
-        const int light_samples = (settings.light_samples + settings.spp - 1) / settings.spp;
-        const LightPoints points{light_samples, surface.sample, settings.spp};
-        Rgb radiance = surface.material.emission;
-        radiance += compute_sampled_light(context_.lighting, task, surface, points, random, beyond, path_random);
-        if (indirect_ && surface.material.has_diffuse()) {
-            const LitSurface lit(surface);
-            const Rgb indirect =
-                diffuse_radiance(surface.material, lit.cos_view, find_irradiance(task, surface)) * lit.below_sheen;
-            out_.indirect(surface.x, surface.y) += indirect;
-            radiance += indirect;
-        }
-        return radiance;
+        out_.errors = estimate_errors({.pixels = pixels_,
+                                       .threshold = options_.limits->threshold,
+                                       .accuracy = options_.limits->accuracy,
+                                       .luminance_scale = exposure * options_.limits->viewing.display_white,
+                                       .blurred = options_.at_sample || options_.lens.radius > 0.0});
+        out_.error_shares = count_errors(out_.errors, settings.error > 0.0 ? settings.error : 1.0);
     }
 
-    void resolve_uses() {
-        if (uses_.empty()) return;
-        out_.cache_count = out_.cache_radius = Image<float>(uses_.width, uses_.height);
-        for (std::size_t p = 0; p < uses_.size(); ++p) {
-            const RecordUse& used = uses_.pixels[p];
-            if (!(used.weights > 0.0f)) continue;
-            out_.cache_count.pixels[p] = used.count / static_cast<float>(context_.settings.spp);
-            out_.cache_radius.pixels[p] = used.reaches / used.weights;
-        }
-    }
-
-    /// Indirect irradiance: from the cache, or gathered if it has no record here. The latter happens where neighbour
-    /// clamping shrank a record after it covered this place.
-    Rgb find_irradiance(ShadingTask& task, const PixelSurface& surface) {
-        const float accuracy = context_.accuracy(surface.x, surface.y);
-        RecordUse* const used = uses_.empty() ? nullptr : &uses_(surface.x, surface.y);
-        if (context_.carried != nullptr) {
-            ++task.lookups;
-            if (const std::optional<Rgb> found = context_.carried->find(surface, accuracy, task, used)) {
-                ++task.hits;
-                return *found;
-            }
-        }
-        const CacheQuery place{surface.point.position, surface.point.normal, accuracy, &task};
-        if (cached_ && accuracy > 0.0f) {
-            CacheQuery query = place;
-            query.accuracy *= static_cast<float>(context_.settings.shade_reach);
-            query.used = used;
-            ++task.lookups;
-            if (const std::optional<Rgb> found = cache_.interpolate(query)) {
-                ++task.hits;
-                return *found;
-            }
-        }
-        ++task.computed;
-        out_.records(surface.x, surface.y) += 1.0f;
-        const int rays = choose_rays(context_.settings, accuracy, cache_.expected_ray_variance(place));
-        return gather_at(context_, task, surface, task.scratch, rays).irradiance;
-    }
-
-    /// Adds what a row's task counted.
+    /// Adds what a task counted.
     void finish(const ShadingTask& task) {
         const std::lock_guard lock(mutex_);
         out_.counts.rays += task.counts;
@@ -229,45 +244,46 @@ class FrameShading {
         out_.counts.cache.hits += task.hits;
         out_.counts.records += task.computed;
         out_.counts.invalid_samples += task.invalid;
-        ++rows_done_;
-        if (context_.progress && rows_done_ % 16 == 0) {
-            const double rows = static_cast<double>(context_.view.height) * context_.settings.spp;
-            const double begin = cached_ ? fill_share : 0.0;
-            context_.progress(begin + (1.0 - begin) * static_cast<double>(rows_done_) / rows, "shade");
-        }
+    }
+
+    /// How many stages follow is not known: each is taken for half of what was left.
+    void report_progress(double stage) {
+        if (!context_.progress) return;
+        const double begin = cached_ ? fill_share : 0.0;
+        const bool only_one = context_.settings.sampling == Sampling::uniform;
+        const double left = std::pow(0.5, stage_), done = only_one ? stage : 1.0 - left + 0.5 * left * stage;
+        context_.progress(begin + (1.0 - begin) * done, "shade");
     }
 
     IndirectContext context_;
-    const SampleHits& centers_;
     const SampleOptions& options_;
     ShadedFrame& out_;
     bool by_paths_, indirect_, cached_;
     IrradianceCache cache_;
     std::optional<IrradianceCache> fewer_bounces_;
     DirectGrid direct_;
-    Image<PixelSum> sums_;
-    Image<RecordUse> uses_;  ///< empty: not asked for
+    Image<PixelSamples> pixels_;
+    SamplePlace place_;  ///< of the first sample
+    const SampleHits* first_ = nullptr;  ///< hits of the pixels' first samples, if they are cast already
+    SampleHits cast_first_;
+    GatherScratch pending_scratch_;
+    int stage_ = 0;
+    Image<RecordUse> uses_;         ///< empty: not asked for
     std::mutex mutex_;
-    std::size_t rows_done_ = 0;
 };
 
 }  // namespace
 
 ShadedFrame shade_frame(const IndirectContext& context, const SampleHits& centers, double exposure,
                         const SampleOptions& options) {
-    const int width = context.view.width, height = context.view.height, spp = context.settings.spp;
     ShadedFrame out;
-    out.color = Image<Rgb>(width, height);
-    out.coverage = out.records = out.invalid_samples = Image<float>(width, height);
-    out.samples = Image<float>(width, height, static_cast<float>(spp));
-    out.counts.samples = out.color.size() * static_cast<std::uint64_t>(spp);
-    if (context.settings.integrator == Integrator::path && spp > 1) out.variance = Image<float>(width, height);
+    out.records = out.invalid_samples = Image<float>(context.view.width, context.view.height);
     FrameShading shading(context, centers, options, out);
     const auto fill_start = std::chrono::steady_clock::now();
     shading.fill();
     out.fill_seconds = seconds_since(fill_start);
     const auto shade_start = std::chrono::steady_clock::now();
-    shading.shade();
+    shading.shade(exposure);
     shading.resolve(exposure);
     out.shade_seconds = seconds_since(shade_start);
     return out;

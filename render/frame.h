@@ -1,24 +1,21 @@
 #pragma once
-// Shading a frame: emission, direct light, and indirect light read from a filled cache, for every pixel sample.
+// Shading a frame: its cache is filled, then its pixels take samples until they have enough.
 
 #include "render/cache_fill.h"
-#include "render/shaded_frame.h"
+#include "render/error_budget.h"
+#include "render/sample_shading.h"
 
 namespace aleph {
 
-/// The scene while one of a frame's samples is taken.
-struct SampleMoment {
-    LightingContext lighting;
-    const CameraView& view;
-};
-
-/// How a frame's samples differ from its pixel centres.
+/// How a frame's samples differ from its pixel centres, and how many there are.
 struct SampleOptions {
     Lens lens;
     bool blended = false;      ///< blended surfaces are in the scene
     bool record_maps = false;  ///< fill ShadedFrame::cache_count and cache_radius
     /// The scene at a sample's time, valid until the next call; empty: the shutter opens for no time.
     std::function<SampleMoment(int sample)> at_sample;
+    /// What the samples may err by; null: not known, which Sampling::uniform alone allows.
+    const VisibleLimits* limits = nullptr;
 };
 
 /// Shades a frame. With Integrator::cache it fills a cache first; with accuracy 0, irradiance is gathered at every

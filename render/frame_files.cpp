@@ -50,6 +50,10 @@ void add_maps(ChannelImage& file, const FrameOutput& output) {
     }
     add(file, "objectId.X", pick(output.hits, [](const Hit& hit) { return hit.instance; }));
     add(file, "samples.Y", output.shaded.samples);
+    add(file, "error.Y", output.shaded.errors.total);
+    for (std::size_t cause = 0; cause < cause_count; ++cause) {
+        add(file, "error." + cause_names()[cause], output.shaded.errors.by_cause[cause]);
+    }
     add(file, "records.Y", output.shaded.records);
     add(file, "cache.count", output.shaded.cache_count);
     add(file, "cache.radius", output.shaded.cache_radius);

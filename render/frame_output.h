@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <utility>
 
 #include "engine/pose/camera_view.h"
@@ -39,6 +40,7 @@ struct FrameStatistics {
     bool saliency_fallback = false;
     double median_luminance = 0.0;  ///< of the estimate, cd/m2; thresholds of vision hold from 1e-3 to 1e4
     std::size_t instances_touched = 0;
+    std::optional<ErrorShares> error;  ///< where the visible threshold is known, and pixels have several samples
     double peak_memory_mib = 0.0;
     /// Key moments that were computed for this frame, not counted above: those it needs that no frame before it did.
     std::vector<MomentStatistics> moments;

@@ -30,6 +30,13 @@ Json moments_json(const std::vector<MomentStatistics>& moments) {
     return list;
 }
 
+Json error_json(const std::optional<ErrorShares>& error) {
+    if (!error) return nullptr;
+    Json causes = Json::object();
+    for (std::size_t i = 0; i < cause_count; ++i) causes[cause_names()[i]] = error->by_cause[i];
+    return {{"asked", error->asked}, {"share_beyond", error->beyond}, {"by_cause", causes}};
+}
+
 Json frame_json(const FrameStatistics& f) {
     Json seconds = Json::object();
     for (const auto& [stage, value] : list_stages(f.seconds)) seconds[stage] = value;
@@ -56,6 +63,7 @@ Json frame_json(const FrameStatistics& f) {
           {"rounds", f.counts.cache.rounds}}},
         {"moments", moments_json(f.moments)},
         {"samples", f.counts.samples},
+        {"error", error_json(f.error)},
         {"nan", f.counts.invalid_samples},
         {"estimate",
          {{"replaced", f.sanitized.replaced}, {"clamped", f.sanitized.clamped}, {"median_cd_m2", f.median_luminance}}},

@@ -12,6 +12,10 @@ void note_estimate(FrameOutput& out, const SanitizeCounts& sanitized, const View
     out.statistics.median_luminance = median_luminance(out.estimate, viewing);
 }
 
+bool needs_indirect_luminance(const RenderSettings& settings, bool maps) {
+    return maps || settings.adapter == Adapter::threshold || settings.sampling == Sampling::threshold;
+}
+
 void compute_frame_vision(FrameOutput& out, const Scene& shot, const RenderSettings& settings, bool maps,
                           StageClock& clock) {
     StageSeconds& seconds = out.statistics.seconds;
@@ -24,7 +28,7 @@ void compute_frame_vision(FrameOutput& out, const Scene& shot, const RenderSetti
     if (adaptation.empty()) adaptation = compute_adaptation_luminance(out.estimate, shot.viewing);
     out.threshold = compute_threshold(out.perception.aleph, adaptation, settings.perception.vision);
     out.threshold_flicker = compute_flicker_threshold(out.threshold, adaptation, shot.frame_rate);
-    if (maps || settings.adapter == Adapter::threshold) {
+    if (needs_indirect_luminance(settings, maps)) {
         if (out.indirect_luminance.empty()) out.indirect_luminance = luminance_image(out.estimate);
         out.tolerance = compute_tolerance(out.threshold, out.indirect_luminance, shot.viewing);
     }

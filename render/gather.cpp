@@ -45,7 +45,7 @@ struct Lighting {
     /// Numbers for a light at what this ray hit.
     LightNumbers light_numbers(std::size_t ray) const {
         const auto& [cell, row, column, share] = scratch.places[ray];
-        return {random.next(), numbers.light(row, column), numbers.light_point(row, column)};
+        return {numbers.light(row, column), numbers.light_point(row, column)};
     }
     /// Irradiance of further bounces at a surface that a ray hit.
     Rgb find_deeper(const SurfacePlace& met) const {

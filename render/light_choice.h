@@ -22,14 +22,12 @@ struct ScatteredLight {
 
 /// Independent numbers in [0,1), from which a light is sampled.
 struct LightNumbers {
-    float candidates = 0.0f;  ///< for the lights that are compared, where there are many
     float choice = 0.0f;
     glm::vec2 point{0.0f};
 };
 
-/// A sample of one light, chosen in proportion to about what each brings without shadow (bound_illuminance). Where
-/// there are more than 16 lights, 16 are drawn by their power first: resampled importance sampling (Talbot et al.
-/// 2005). Unbiased for the sum of all lights.
+/// A sample of one light, chosen in proportion to about what each brings without shadow (light_cut.h). Unbiased for the
+/// sum of all lights.
 /// @param shares  of the lobes from which directions are sampled as well, for the weights of scatter_towards
 ScatteredLight choose_light(const LightingContext& context, const LitSurface& lit, const LobeShares& shares,
                             const LightNumbers& numbers);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <optional>
 
@@ -11,26 +12,9 @@ namespace aleph {
 
 namespace {
 
-/// W, as a sphere around the visible scene takes it in; roughly, for a choice among lights.
-std::vector<double> estimate_powers(const ShadingScene& shading, const LightSet& lights) {
-    constexpr double half_turn = std::numbers::pi;
-    const glm::vec3 diagonal = shading.bounds.high - shading.bounds.low;
-    const double radius2 = diagonal.x >= 0.0f ? 0.25 * glm::dot(diagonal, diagonal) : 1.0;
-    std::vector<double> powers;
-    for (const Emitter& emitter : lights.emitters) {
-        powers.push_back(half_turn * luminance(emitter.radiance) * emitter.area * (emitter.double_sided ? 2.0 : 1.0));
-    }
-    for (const PunctualLight& light : lights.punctual) {
-        const double solid_angle =
-            light.kind == Light::Kind::spot ? 2.0 * half_turn * light.outer_versine : 4.0 * half_turn;
-        powers.push_back(luminance(light.intensity) *
-                         (light.kind == Light::Kind::directional ? half_turn * radius2 : solid_angle));
-    }
-    if (lights.has_environment) {
-        const double mean = shading.environment_map != nullptr ? shading.environment_map->mean_luminance : 1.0;
-        powers.push_back(half_turn * half_turn * radius2 * mean * luminance(shading.environment));
-    }
-    return powers;
+/// A light that is not a number is chosen as any other: what it lights is dropped and counted, not hidden.
+float finite_strength(float strength) {
+    return std::isfinite(strength) ? strength : 1.0f;
 }
 
 void add_light(LightBounds& bounds, const glm::vec3& place, bool nearby, float radius, float strength,
@@ -45,8 +29,7 @@ void add_light(LightBounds& bounds, const glm::vec3& place, bool nearby, float r
     bounds.axis_y.push_back(normal.y);
     bounds.axis_z.push_back(normal.z);
     bounds.one_sided.push_back(axis ? 1.0f : 0.0f);
-    // A light that is not a number is chosen as any other: what it lights is dropped and counted, not hidden.
-    bounds.strength.push_back(std::isfinite(strength) ? strength : 1.0f);
+    bounds.strength.push_back(finite_strength(strength));
     bounds.inside.push_back(radius > 0.0f ? bounds.strength.back() / (radius * radius) : 0.0f);
 }
 
@@ -59,22 +42,38 @@ std::optional<glm::vec3> find_axis(const Emitter& emitter) {
     return axis;
 }
 
-}  // namespace
-
-std::vector<float> make_choice_ends(const ShadingScene& shading, const LightSet& lights) {
-    const std::vector<double> powers = estimate_powers(shading, lights);
-    double total = 0.0, end = 0.0;
-    for (const double power : powers) total += std::isfinite(power) ? power : 0.0;
-    const double uniform = 1.0 / static_cast<double>(powers.size());
-    std::vector<float> ends;
-    for (const double power : powers) {
-        const double share = std::isfinite(power) ? power / total : 0.0;
-        end += total > 0.0 ? 0.9 * share + 0.1 * uniform : uniform;
-        ends.push_back(static_cast<float>(end));
+LightNode make_node(const Emitter& emitter) {
+    LightNode node;
+    node.center = emitter.center;
+    node.radius = emitter.radius;
+    const float radiance = luminance(emitter.radiance);
+    node.strength = finite_strength(radiance * emitter.area);
+    node.most = finite_strength(std::numbers::pi_v<float> * radiance);
+    if (emitter.double_sided) return node;
+    node.axis = emitter.triangles.front().normal;
+    for (const Emitter::Triangle& t : emitter.triangles) {
+        node.cos_cone = std::min(node.cos_cone, glm::dot(t.normal, node.axis));
     }
-    if (!ends.empty()) ends.back() = 1.0f;
-    return ends;
+    node.directed = node.cos_cone > -0.99f;
+    return node;
 }
+
+LightNode make_node(const PunctualLight& light) {
+    LightNode node;
+    node.strength = finite_strength(luminance(light.intensity));
+    node.nearby = light.kind != Light::Kind::directional;
+    node.center = node.nearby ? light.position : -light.direction;
+    node.most = node.nearby ? std::numeric_limits<float>::infinity() : node.strength;
+    if (light.kind == Light::Kind::spot) {
+        node.directed = true;
+        node.axis = light.direction;
+        node.cos_emission = 1.0f - light.outer_versine;
+        node.by_cosine = false;
+    }
+    return node;
+}
+
+}  // namespace
 
 LightBounds make_light_bounds(const ShadingScene& shading, const LightSet& lights) {
     LightBounds bounds;
@@ -95,11 +94,22 @@ LightBounds make_light_bounds(const ShadingScene& shading, const LightSet& light
     return bounds;
 }
 
-LightChoice choose_at_random(const LightSet& lights, float u) {
-    const std::vector<float>& ends = lights.choice_ends;
-    const auto found = std::upper_bound(ends.begin(), ends.end(), u);
-    const std::size_t i = std::min(static_cast<std::size_t>(found - ends.begin()), ends.size() - 1);
-    return {static_cast<int>(i), ends[i] - (i == 0 ? 0.0f : ends[i - 1])};
+std::vector<LightNode> make_light_nodes(const ShadingScene& shading, const LightSet& lights) {
+    std::vector<LightNode> nodes;
+    for (const Emitter& emitter : lights.emitters) nodes.push_back(make_node(emitter));
+    for (const PunctualLight& light : lights.punctual) nodes.push_back(make_node(light));
+    if (lights.has_environment) {
+        const double mean = shading.environment_map != nullptr ? shading.environment_map->mean_luminance : 0.25;
+        LightNode node;
+        node.nearby = false;
+        node.radius = 1.0f;
+        // All light of a picture may come from where the surface faces; of a constant environment, a quarter arrives.
+        node.strength =
+            finite_strength(static_cast<float>(4.0 * std::numbers::pi * mean * luminance(shading.environment)));
+        node.most = node.strength;
+        nodes.push_back(node);
+    }
+    return nodes;
 }
 
 }  // namespace aleph

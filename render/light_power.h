@@ -1,5 +1,5 @@
 #pragma once
-// Choosing one light among many: by its power, and by what it can bring to a point.
+// What each light can bring to a point.
 
 #include <algorithm>
 #include <cmath>
@@ -11,11 +11,11 @@
 
 namespace aleph {
 
-/// LightSet::choice_ends.
-std::vector<float> make_choice_ends(const ShadingScene& shading, const LightSet& lights);
-
 /// LightSet::bounds.
 LightBounds make_light_bounds(const ShadingScene& shading, const LightSet& lights);
+
+/// The lights as leaves of a tree. Textures are taken to be white at their brightest.
+std::vector<LightNode> make_light_nodes(const ShadingScene& shading, const LightSet& lights);
 
 /// About the illuminance that light i brings to a point without obstacles. Above 0 wherever the light can bring any.
 /// Without branches, so that a loop over lights becomes vector instructions.
@@ -47,13 +47,5 @@ inline float bound_illuminance(const LightBounds& lights, std::size_t i, const g
 /// @param weights  set; a multiple of LightBounds::step of them, as far as the lights' arrays reach
 void bound_illuminances(const LightBounds& lights, const glm::vec3& position, const glm::vec3& normal, float behind,
                         std::span<float> weights);
-
-/// A light chosen by LightSet::choice_ends.
-struct LightChoice {
-    int light = 0;
-    float probability = 1.0f;
-};
-/// @param u  in [0,1)
-LightChoice choose_at_random(const LightSet& lights, float u);
 
 }  // namespace aleph

@@ -251,8 +251,8 @@ LightSet make_light_set(const ShadingScene& shading) {
     }
     lights.has_environment =
         shading.environment != Rgb(0.0f) && (shading.environment_map == nullptr || !shading.environment_map->black);
-    lights.choice_ends = make_choice_ends(shading, lights);
     lights.bounds = make_light_bounds(shading, lights);
+    lights.tree = make_light_tree(make_light_nodes(shading, lights));
     return lights;
 }
 

@@ -5,6 +5,7 @@
 #include <glm/vec3.hpp>
 #include <vector>
 
+#include "render/light_tree.h"
 #include "render/shading_scene.h"
 
 namespace aleph {
@@ -59,10 +60,8 @@ struct LightSet {
     std::vector<PunctualLight> punctual;
     bool has_environment = false;          ///< one that is not black
     std::vector<int> emitter_of_instance;  ///< per ScenePose instance: its emitter or no_index
-    /// Per light, cumulative: the probability to be chosen at random. Nine tenths follow the light's power, one tenth
-    /// is the same for all.
-    std::vector<float> choice_ends;
-    LightBounds bounds;  ///< per light
+    LightBounds bounds;                    ///< per light
+    LightTree tree;                        ///< over all lights
 
     /// Lights are numbered: emitters, then punctual lights, then the environment.
     int count() const { return static_cast<int>(emitters.size() + punctual.size()) + (has_environment ? 1 : 0); }

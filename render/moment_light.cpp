@@ -50,18 +50,14 @@ std::vector<IrradianceRecord> compute_records(const MomentInput& input, FrameCou
                             .direct = &direct,
                             .carried = input.carried,
                             .seen = view->frame == input.frame ? nullptr : &view->shading});
-        first_samples.push_back(input.cast(*view, 0, tally.counts.rays));
+        first_samples.push_back(input.cast(*view, tally.counts.rays));
         if (count_bounces(input.settings) == 1) continue;
         add_seen_surfaces(contexts.back(), first_samples.back(), seen, tally.counts.rays);
     }
     const std::optional<IrradianceCache> fewer_bounces = fill_levels(contexts.front(), seen, tally.counts);
     for (std::size_t v = 0; v < contexts.size(); ++v) {
         contexts[v].deeper = make_deeper_light(input.settings, fewer_bounces ? &*fewer_bounces : nullptr);
-        for (int i = 0; i < input.settings.spp; ++i) {
-            const SampleHits sample =
-                i == 0 ? std::move(first_samples[v]) : input.cast(*input.views[v], i, tally.counts.rays);
-            fill_cache(cache, contexts[v], sample, tally);
-        }
+        fill_cache(cache, contexts[v], first_samples[v], tally);
     }
     tally.counts.rays += counts.rays;
     counts = tally.counts;

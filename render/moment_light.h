@@ -36,8 +36,8 @@ struct MomentLight {
 /// @param records  of this moment, from compute_records
 MomentLight make_moment_light(std::shared_ptr<const KeyPose> at, const std::vector<IrradianceRecord>& records);
 
-/// One sample of every pixel of a view; adds its rays.
-using CastView = std::function<SampleHits(const KeyView& view, int sample, RayCounts& counts)>;
+/// The first sample of every pixel of a view; adds its rays.
+using CastView = std::function<SampleHits(const KeyView& view, RayCounts& counts)>;
 
 /// What the light of a moment is computed from.
 struct MomentInput {

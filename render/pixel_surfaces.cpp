@@ -1,16 +1,15 @@
 #include "render/pixel_surfaces.h"
 
+#include <bit>
 #include <cmath>
 #include <numbers>
 
 #include "engine/base/sampling.h"
-#include "render/lattice.h"
+#include "render/pixel_sequence.h"
 
 namespace aleph {
 
 namespace {
-
-constexpr std::uint32_t lens_seed_mask = 0x6c656e73u;  // keeps the lens apart from other uses of the same key
 
 /// A point of the unit disc: concentric squares become circles (Shirley and Chiu 1997).
 glm::dvec2 sample_disc(const glm::vec2& u) {
@@ -22,23 +21,32 @@ glm::dvec2 sample_disc(const glm::vec2& u) {
     return {radius * std::cos(angle), radius * std::sin(angle)};
 }
 
-/// Along additive sequences of a pixel's own start. Their steps, sqrt 3 - 1 and (sqrt 13 - 3) / 2, are even by
-/// themselves and together with the golden ratio of the pixels' lattice and the shutter's sqrt 2.
-glm::vec2 lens_point(const SamplePlace& place, std::uint32_t pixel) {
-    const glm::vec2 start = RandomStream({place.seed ^ lens_seed_mask, place.frame, pixel, 0}).next_2d();
-    const double i = place.index;
-    const glm::dvec2 at(start.x + i * 0.7320508075688772, start.y + i * 0.3027756377319946);
-    return glm::min(glm::vec2(at - glm::floor(at)), glm::vec2(0x1.fffffep-1f));
-}
-
 }  // namespace
 
-CameraRay make_sample_ray(const CameraView& view, const SampleHits& sample, int x, int y) {
-    CameraRay ray = make_camera_ray(view, x + sample.offset_x, y + sample.offset_y);
-    const Lens& lens = sample.place.lens;
+glm::dvec2 place_sample(const SamplePlace& place, int x, int y) {
+    if (place.centered) return {x + 0.5, y + 0.5};
+    const glm::vec2 u = PixelSequence(place.seed, place.moment, x, y).at_2d(SampleUse::pixel, place.index);
+    return {x + 0.5 + place_in_filter(place.filter, u.x), y + 0.5 + place_in_filter(place.filter, u.y)};
+}
+
+std::uint32_t make_view_key(const CameraView& view) {
+    std::uint64_t key = view.orthographic ? 1 : 0;
+    const auto add = [&key](double value) { key = mix_bits(key ^ std::bit_cast<std::uint64_t>(value)) + 1; };
+    for (int i = 0; i < 3; ++i) {
+        add(view.position[i]);
+        for (int j = 0; j < 3; ++j) add(view.axes[i][j]);
+    }
+    add(view.pixels_per_unit);
+    return static_cast<std::uint32_t>(key >> 32);
+}
+
+CameraRay make_sample_ray(const CameraView& view, const SamplePlace& place, int x, int y) {
+    const glm::dvec2 pixel = place_sample(place, x, y);
+    CameraRay ray = make_camera_ray(view, pixel.x, pixel.y);
+    const Lens& lens = place.lens;
     if (!(lens.radius > 0.0)) return ray;
-    const glm::dvec2 at =
-        lens.radius * sample_disc(lens_point(sample.place, static_cast<std::uint32_t>(sample.hits.index(x, y))));
+    const PixelSequence sequence(place.seed, place.moment, x, y);
+    const glm::dvec2 at = lens.radius * sample_disc(sequence.at_2d(SampleUse::lens, place.index));
     const glm::dvec3 shift = view.axes[0] * at.x + view.axes[1] * at.y;
     // Rays of a pixel meet in the plane at the focus distance: its planar distance is along the view direction.
     const double along = -glm::dot(ray.direction, view.axes[2]);
@@ -47,37 +55,33 @@ CameraRay make_sample_ray(const CameraView& view, const SampleHits& sample, int 
     return ray;
 }
 
-PixelSurface make_pixel_surface(const ShadingScene& shading, const CameraView& view, const SampleHits& sample, int x,
-                                int y) {
-    const Hit& hit = sample.hits(x, y);
-    const glm::vec3 direction(make_sample_ray(view, sample, x, y).direction);
+PixelSurface make_pixel_surface(const ShadingScene& shading, const CameraView& view, const SamplePlace& place,
+                                const Hit& hit, const glm::vec3& direction, int x, int y) {
     const SurfacePoint point = make_surface_point(shading, hit, direction);
     PixelSurface surface{view_surface(shading, point, -direction,
-                                      make_pixel_footprint(view, point, direction, hit.distance, sample.spacing))};
+                                      make_pixel_footprint(view, point, direction, hit.distance, place.spacing))};
     surface.hit = hit;
     surface.distance = hit.distance;
     const float distance = view.orthographic ? 1.0f : hit.distance;
     surface.footprint = distance / static_cast<float>(view.pixels_per_unit);
     surface.x = x;
     surface.y = y;
-    surface.sample = sample.place.index;
-    surface.pixel = static_cast<std::uint32_t>(sample.hits.index(x, y));
+    surface.sample = place.index;
+    surface.pixel = static_cast<std::uint32_t>(y) * static_cast<std::uint32_t>(view.width) + static_cast<std::uint32_t>(x);
     return surface;
+}
+
+PixelSurface make_pixel_surface(const ShadingScene& shading, const CameraView& view, const SampleHits& sample, int x,
+                                int y) {
+    const glm::vec3 direction(make_sample_ray(view, sample.place, x, y).direction);
+    return make_pixel_surface(shading, view, sample.place, sample.hits(x, y), direction, x, y);
 }
 
 SampleHits cast_sample(const RayScene& rays, const CameraView& view, const SamplePlace& place,
                        std::uint64_t* rays_cast) {
-    SampleHits sample;
-    sample.place = place;
-    if (place.count > 1) {
-        const glm::vec2 offset = lattice_point(place.index, place.count, {0.0f, 0.5f});
-        sample.offset_x = offset.x;
-        sample.offset_y = offset.y;
-        sample.spacing = 1.0f / std::sqrt(static_cast<float>(place.count));
-    }
-    sample.hits = Image<Hit>(view.width, view.height);
+    SampleHits sample{Image<Hit>(view.width, view.height), place};
     cast_rays(
-        rays, [&](int x, int y) { return make_sample_ray(view, sample, x, y); }, place.blend, sample.hits);
+        rays, [&](int x, int y) { return make_sample_ray(view, place, x, y); }, place.blend, sample.hits);
     if (rays_cast != nullptr) *rays_cast += sample.hits.size();
     return sample;
 }

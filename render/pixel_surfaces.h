@@ -3,6 +3,7 @@
 
 #include "engine/pose/camera_view.h"
 #include "engine/rays/first_hits.h"
+#include "render/pixel_filter.h"
 #include "render/surface_material.h"
 
 namespace aleph {
@@ -13,24 +14,32 @@ struct Lens {
     double focus_distance = 1.0;  ///< m, from the camera to the plane that is sharp
 };
 
-/// Which sample of every pixel, and how its rays are placed.
+/// How the rays of samples are placed. The same in all pixels but for the sequence of each.
 struct SamplePlace {
-    int index = 0, count = 1;  ///< sample `index` of `count`; the pixel's centre for count 1
+    int index = 0;                          ///< of the sample in its pixel
+    bool centered = true;                   ///< through the pixel's centre, whatever the filter
+    float spacing = 1.0f;                   ///< pixels between a pixel's samples; textures are averaged over it
     Lens lens;
-    std::uint32_t seed = 0, frame = 0;  ///< for points on the lens
-    Blend blend = Blend::cutout;        ///< what blended surfaces do to the rays
+    PixelFilter filter = PixelFilter::box;  ///< that samples are distributed by
+    std::uint32_t seed = 0, moment = 0;     ///< for the pixels' sequences
+    Blend blend = Blend::cutout;            ///< what blended surfaces do to the rays
 };
 
-/// One sample of every pixel: hits cast through (offset_x, offset_y) of the pixel.
+/// Where a sample lies in the picture, in pixels.
+glm::dvec2 place_sample(const SamplePlace& place, int x, int y);
+
+/// A key that changes whenever the camera does: while it rests, sequences that begin with it are the same in every
+/// frame, and so is their noise.
+std::uint32_t make_view_key(const CameraView& view);
+
+/// One sample of every pixel.
 struct SampleHits {
     Image<Hit> hits;
-    double offset_x = 0.5, offset_y = 0.5;
-    float spacing = 1.0f;  ///< pixels between a pixel's samples; textures are averaged over it
     SamplePlace place;
 };
 
 /// The ray of a pixel's sample, from its point on the lens. In double, so that no focus distance is too far.
-CameraRay make_sample_ray(const CameraView& view, const SampleHits& sample, int x, int y);
+CameraRay make_sample_ray(const CameraView& view, const SamplePlace& place, int x, int y);
 
 /// The surface of one pixel sample.
 struct PixelSurface : ViewedSurface {
@@ -42,12 +51,15 @@ struct PixelSurface : ViewedSurface {
     std::uint32_t pixel = 0;  ///< y * width + x, for random numbers
 };
 
+/// @param direction  of the sample's ray, unit
+/// @param hit        of that ray: a surface
+PixelSurface make_pixel_surface(const ShadingScene& shading, const CameraView& view, const SamplePlace& place,
+                                const Hit& hit, const glm::vec3& direction, int x, int y);
 /// Undefined if the pixel's ray hit nothing.
 PixelSurface make_pixel_surface(const ShadingScene& shading, const CameraView& view, const SampleHits& sample, int x,
                                 int y);
 
-/// Casts one sample of every pixel: through the centre for a single one, otherwise through point `index` of a rank-1
-/// lattice, the same in every pixel.
+/// Casts one sample of every pixel.
 /// @param rays_cast  increased by the number of rays; may be null
 SampleHits cast_sample(const RayScene& rays, const CameraView& view, const SamplePlace& place,
                        std::uint64_t* rays_cast);

@@ -57,6 +57,7 @@ void shade(const IndirectContext& context, const SampleHits& centers, double exp
     const RayCounts before = stats.counts.rays;
     stats.counts = out.shaded.counts;
     stats.counts.rays += before;
+    if (!out.shaded.errors.total.empty()) stats.error = out.shaded.error_shares;
 }
 
 }  // namespace
@@ -122,12 +123,15 @@ FrameOutput Sequence::render(std::int64_t frame, const FrameRequest& request) {
 
     const std::uint64_t traced_before = s.rays_traced(), invalid_before = s.rays.invalid_rays();
     StageClock total;
-    const SampleHits centers = s.look(frame, s.is_guided() || request.maps, request.maps, out);
+    const SampleHits centers = s.look(frame, s.needs_perception() || request.maps, request.maps, out);
     if (request.frame) {
         const auto random_frame = static_cast<std::uint32_t>(frame);
         options.blended = s.blended;
         options.record_maps = request.maps;
         if (shutter) options.at_sample = open_shutter(s, *shutter, random_frame, out.view);
+        const VisibleLimits limits{out.threshold, out.perception.aleph, out.alpha, out.indirect_luminance,
+                                   s.scene.viewing};
+        if (!out.threshold.empty()) options.limits = &limits;
         const LightingContext lighting = s.lighting();
         const IndirectContext context{.lighting = lighting,
                                       .view = out.view,

@@ -10,6 +10,7 @@
 #include "render/accuracy_map.h"
 #include "render/estimate.h"
 #include "render/frame_vision.h"
+#include "render/sample_place.h"
 #include "render/texture.h"
 
 namespace aleph {
@@ -134,7 +135,7 @@ void SequenceState::compute_frame_estimate(std::int64_t frame, const SampleHits&
     RayCounts& counts = out.statistics.counts.rays;
     std::optional<EstimateNodes> nodes;
     if (estimates_indirect_light()) nodes = find_estimate_nodes(frame, centers, counts);
-    const bool tolerance = maps || settings.adapter == Adapter::threshold;
+    const bool tolerance = needs_indirect_luminance(settings, maps);
     out.estimate = compute_estimate(lighting(), out.view, centers, settings.estimate, nodes ? &*nodes : nullptr,
                                     exposure, counts, tolerance ? &out.indirect_luminance : nullptr);
     note_estimate(out, sanitize_estimate(out.estimate), scene.viewing);
@@ -251,15 +252,11 @@ MomentSource SequenceState::key_moments() {
         view->rays = out.statistics.counts.rays;
         return view;
     };
-    const auto cast = [this](const KeyView& view, int sample, RayCounts& counts) {
+    const auto cast = [this](const KeyView& view, RayCounts& counts) {
         if (!other_rays) other_rays = std::make_unique<RayScene>(rays.share_meshes());
         other_rays->update_moving(view.posed.pose, view.shading.anchor);
-        const SamplePlace place{sample,
-                                settings.spp,
-                                find_lens(scene, view.posed.pose.cameras[camera]),
-                                settings.seed,
-                                static_cast<std::uint32_t>(view.frame),
-                                blended ? Blend::random : Blend::cutout};
+        const Lens lens = find_lens(scene, view.posed.pose.cameras[camera]);
+        const SamplePlace place = make_sample_place(settings, view.posed.view, lens, blended, 0);
         return cast_sample(*other_rays, view.posed.view, place, &counts.primary);
     };
     return {pose, look_at, cast, light};

@@ -42,6 +42,8 @@ struct SequenceState {
     bool is_guided() const {
         return settings.perception.guide != Guide::none && settings.integrator == Integrator::cache;
     }
+    /// Whether something obeys the visible threshold.
+    bool needs_perception() const { return is_guided() || settings.sampling != Sampling::uniform; }
     bool estimates_indirect_light() const { return settings.bounces > 0 && settings.estimate == EstimateKind::direct; }
     bool can_change() const { return is_world_animated(scene) || !pose_plan.cameras.empty(); }
     std::uint64_t rays_traced() const {

@@ -61,16 +61,6 @@ Setting choice_setting(std::string key, std::string help, Field field,
     return setting;
 }
 
-/// A choice of which this version has one value only.
-Setting fixed_setting(std::string key, std::string help, std::string only, std::vector<std::string> later) {
-    Setting setting = new_setting(std::move(key), SettingType::choice, std::move(help));
-    setting.choices = {only};
-    setting.later_choices = std::move(later);
-    setting.get = [only](const RenderSettings&) { return SettingValue(only); };
-    setting.set = [](RenderSettings&, const SettingValue&) {};
-    return setting;
-}
-
 Setting boolean_setting(std::string key, std::string help, bool PerceptionSettings::*field) {
     Setting setting = new_setting(std::move(key), SettingType::boolean, std::move(help));
     setting.get = [field](const RenderSettings& s) { return SettingValue(s.perception.*field); };
@@ -162,6 +152,12 @@ void add_perception(std::vector<Setting>& table) {
 /// Settings of the light transport.
 void add_light(std::vector<Setting>& table) {
     using S = RenderSettings;
+    table.push_back(with_unit(
+        number_setting("error",
+                       "largest error that is asked for; sets sampling, adapter, accuracy, gather and spp, which override it when "
+                       "they are given beside it; 0: none is asked for",
+                       &S::error, 0.0, 1000.0),
+        "visible thresholds"));
     table.push_back(without_scene(number_setting(
         "accuracy",
         "ambient accuracy: error that irradiance caching may make where the viewer is strictest; 0 gathers at every "
@@ -177,9 +173,28 @@ void add_light(std::vector<Setting>& table) {
         number_setting("path_depth", "longest path of light that mirrors and glass may make", &S::path_depth, 1, 10000),
         "surfaces"));
     table.push_back(
-        with_unit(number_setting("spp", "samples per pixel; 1 is the pixel's centre", &S::spp, 1, 65536), "samples"));
-    table.push_back(fixed_setting("sampling", "how samples are shared out among pixels", "uniform",
-                                  {"consecutive", "variance", "protocol"}));
+        with_unit(number_setting("spp", "samples per pixel, or the most of them where `sampling` chooses; 1 is the pixel's centre", &S::spp, 1, 65536), "samples"));
+    table.push_back(choice_setting<Sampling>(
+        "sampling",
+        "how many samples each pixel takes: spp (uniform), or at most spp: until two stages differ by less than the "
+        "visible threshold (consecutive), until the variance is below it (variance), spp divided by the Aleph map but at "
+        "least 16 (protocol), or until the error that is asked for is met (threshold)",
+        [](S& s) -> Sampling& { return s.sampling; },
+        {{"uniform", Sampling::uniform},
+         {"consecutive", Sampling::consecutive},
+         {"variance", Sampling::variance},
+         {"protocol", Sampling::protocol},
+         {"threshold", Sampling::threshold}}));
+    table.push_back(choice_setting<VarianceTest>(
+        "variance_test",
+        "what the sampling variance compares with the threshold: the error of the mean (standard-error), or the deviation "
+        "of the samples, as the thesis prints it, which more samples do not lower (deviation)",
+        [](S& s) -> VarianceTest& { return s.variance_test; },
+        {{"standard-error", VarianceTest::standard_error}, {"deviation", VarianceTest::deviation}}));
+    table.push_back(choice_setting<PixelFilter>(
+        "filter", "how the light around a pixel's centre makes up the pixel: its square (box), or a smooth window 3 pixels wide (blackman-harris)",
+        [](S& s) -> PixelFilter& { return s.filter; },
+        {{"box", PixelFilter::box}, {"blackman-harris", PixelFilter::blackman_harris}}));
     table.push_back(choice_setting<Integrator>(
         "integrator",
         "method for the picture's light: an irradiance cache for indirect diffuse light (cache), or path tracing, "
@@ -262,9 +277,6 @@ std::string describe_values(const Setting& setting) {
 
 std::string find_mismatch(const Setting& setting, const SettingValue& value) {
     const std::string* const text = std::get_if<std::string>(&value);
-    if (text != nullptr && std::ranges::find(setting.later_choices, *text) != setting.later_choices.end()) {
-        return "not in this version; use " + setting.choices.front();
-    }
     if (!fits(setting, value)) return "expected " + describe_values(setting);
     if (setting.type == SettingType::size) {
         const Size size = parse_size_text(*text).value_or(Size{});

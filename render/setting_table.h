@@ -20,7 +20,6 @@ struct Setting {
     std::string unit;                        ///< of numbers; empty: none
     double min = 0.0, max = 0.0;             ///< of numbers, and of both sides of a size; inclusive
     std::vector<std::string> choices;        ///< of a choice
-    std::vector<std::string> later_choices;  ///< names that this version refuses with a message of their own
     bool needs_scene = true;                 ///< false: `aleph maps --images` takes it as well
 
     std::function<SettingValue(const RenderSettings&)> get;

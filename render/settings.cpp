@@ -11,8 +11,24 @@
 
 namespace aleph {
 
+void follow_error(RenderSettings& settings, double error) {
+    constexpr double accuracy_per_threshold = 0.15;  // interpolated light then errs by a seventh of what is asked for
+    constexpr int most_samples = 4096;
+    settings.error = error;
+    settings.sampling = Sampling::threshold;
+    settings.adapter = Adapter::threshold;
+    settings.accuracy = std::min(1.0, accuracy_per_threshold * error);
+    settings.gather = 0;
+    settings.spp = most_samples;
+}
+
 void apply_settings(RenderSettings& settings, const SettingMap& map, const std::string& source) {
     const std::vector<Setting>& table = setting_table();
+    // Refused below, if it is not a number in range.
+    if (const auto error = map.find("error"); error != map.end()) {
+        const double* const value = std::get_if<double>(&error->second);
+        if (value != nullptr && *value > 0.0) follow_error(settings, *value);
+    }
     for (const auto& [key, value] : map) {
         const auto found = std::ranges::find(table, key, &Setting::key);
         if (found == table.end()) {

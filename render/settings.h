@@ -7,6 +7,7 @@
 
 #include "engine/scene/scene.h"
 #include "perception/perception_settings.h"
+#include "render/pixel_filter.h"
 
 namespace aleph {
 
@@ -35,6 +36,21 @@ enum class Integrator {
     path,   ///< path tracing: unbiased
 };
 
+/// How many samples each pixel takes (stopping_rule.h).
+enum class Sampling {
+    uniform,      ///< all the same
+    consecutive,  ///< until two stages in a row differ by less than the threshold (6.10)
+    variance,     ///< until their standard error or deviation is below it (6.12)
+    protocol,     ///< as many as the Aleph map says beforehand (6.13)
+    threshold,    ///< until 99.5 % of such pixels are within the error that is asked for
+};
+
+/// What Sampling::variance compares with the threshold.
+enum class VarianceTest {
+    standard_error,  ///< of the mean
+    deviation,       ///< of the samples, as (6.12) is printed
+};
+
 struct RenderSettings {
     int width = 640, height = 480;  ///< key "size": "640x480"
     std::uint32_t seed = 0;
@@ -48,7 +64,12 @@ struct RenderSettings {
     Integrator integrator = Integrator::cache;
     int bounces = 1;                 ///< of indirect diffuse light
     int path_depth = 32;             ///< longest path: surfaces that scatter, of all kinds
-    int spp = 16;                    ///< samples per pixel; 1 is the pixel's centre
+    /// Error that is asked for, in visible thresholds; 0: none is, and the other settings stand for themselves.
+    double error = 0.0;
+    Sampling sampling = Sampling::uniform;
+    VarianceTest variance_test = VarianceTest::standard_error;
+    PixelFilter filter = PixelFilter::blackman_harris;
+    int spp = 16;                    ///< samples per pixel, or the most of them; 1 is the pixel's centre
     int light_samples = 16;          ///< direct-light samples per pixel and light, shared out among its spp
     double shade_reach = 1.4;        ///< how far shading uses a record, as a multiple of how far filling does
     double min_radius_pixels = 12.0;  ///< least R of a record (irradiance_record.h), pixels
@@ -58,11 +79,17 @@ struct RenderSettings {
     bool operator==(const RenderSettings&) const = default;
 };
 
-/// Overwrites the settings that the map has.
+/// Overwrites the settings that the map has. An error above 0 first sets how accuracy and samples follow it
+/// (follow_error); what else the map has overrides that.
 /// @param source  where the map comes from, for messages: a file, "--set"
 /// @throws InputError naming the key, if it is unknown, or its value has another type, is out of range, or is not in
 /// this version. The settings before that key, in alphabetical order, have been overwritten.
 void apply_settings(RenderSettings& settings, const SettingMap& map, const std::string& source);
+
+/// Settings with which a picture is made to an error that is asked for: sampling and adapter `threshold`, the accuracy
+/// that leaves most of the error to samples, gathers of as many rays as that needs, 4,096 samples at most.
+/// @param error  thresholds, above 0
+void follow_error(RenderSettings& settings, double error);
 
 /// All keys with their values, as in a scene file. apply_settings of the map gives equal settings.
 SettingMap setting_map(const RenderSettings& settings);

@@ -6,6 +6,7 @@
 
 #include "engine/base/color.h"
 #include "engine/base/image.h"
+#include "render/error_report.h"
 #include "render/ray_counts.h"
 
 namespace aleph {
@@ -48,6 +49,9 @@ struct ShadedFrame : FrameTally {
     /// Records that the pixel's irradiance was interpolated from: their mean number per sample, and the weighted mean of
     /// how far they may be used, m. Empty unless SampleOptions::record_maps.
     Image<float> cache_count, cache_radius;
+    /// Estimated errors. Empty where the visible threshold is not known, or a pixel has a single sample.
+    ErrorMaps errors;
+    ErrorShares error_shares;
     double fill_seconds = 0.0, shade_seconds = 0.0;
 };
 

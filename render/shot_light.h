@@ -15,7 +15,7 @@ struct MomentSource {
     std::function<std::shared_ptr<const KeyPose>(std::int64_t frame)> pose;
     /// The view of a frame's camera, with its accuracy.
     std::function<std::shared_ptr<const KeyView>(std::int64_t frame)> look;
-    /// One sample of every pixel of a view.
+    /// The first sample of every pixel of a view.
     CastView cast;
     /// The scene at a frame, valid until the next call of `pose` or `look`.
     std::function<LightingContext(std::int64_t frame)> light;

@@ -41,6 +41,20 @@ void warn_of_units(const FrameStatistics& frame) {
         frame.frame, median);
 }
 
+/// What share of the pixels is estimated to err by more than was asked for, and why.
+void print_error(const FrameStatistics& frame) {
+    if (!frame.error) return;
+    const ErrorShares& shares = *frame.error;
+    std::string causes;
+    for (std::size_t i = 0; i < cause_count; ++i) {
+        if (shares.by_cause[i] < 1e-5) continue;
+        causes += fmt::format("{}{} {:.2g} %", causes.empty() ? "; alone: " : ", ", cause_names()[i],
+                              100.0 * shares.by_cause[i]);
+    }
+    std::cerr << fmt::format("aleph: frame {}: about {:.2g} % of the pixels err by more than {:g} visible threshold{}{}\n",
+                             frame.frame, 100.0 * shares.beyond, shares.asked, shares.asked == 1.0 ? "" : "s", causes);
+}
+
 /// Writes one frame, and adds the time for it to the frame's statistics.
 /// @return how many values the format could not hold
 std::size_t write_frame(const std::filesystem::path& path, const FrameJob& job, FrameOutput& output, bool maps) {
@@ -86,6 +100,7 @@ void write_frames(const FrameJob& job, const SceneOptions& options, const FrameR
         changed += write_frame(output_path(options.output, job.name, frame), job, output, request.maps);
         if (statistics.empty() && !options.quiet) warn_of_units(output.statistics);
         statistics.push_back(output.statistics);
+        if (!options.quiet && job.settings.error > 0.0) print_error(output.statistics);
         progress.update(done + 1.0, fmt::format("frame {}", frame));
     }
     if (!options.quiet) warn_of_changed_values(changed);

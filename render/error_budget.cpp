@@ -1,0 +1,44 @@
+#include "render/error_budget.h"
+
+#include <algorithm>
+
+#include "render/accuracy_map.h"
+
+namespace aleph {
+
+namespace {
+
+constexpr double least_share = 1.0 / 3.0;  // of a pixel's budget that samples get
+
+float strictest_around(const Image<float>& threshold, int x, int y) {
+    float least = threshold(x, y);
+    for (int ny = std::max(0, y - 1); ny <= std::min(threshold.height - 1, y + 1); ++ny) {
+        for (int nx = std::max(0, x - 1); nx <= std::min(threshold.width - 1, x + 1); ++nx) {
+            least = std::min(least, threshold(nx, ny));
+        }
+    }
+    return least;
+}
+
+}  // namespace
+
+Image<float> compute_sampling_tolerance(const VisibleLimits& limits, const RenderSettings& settings, double exposure) {
+    if (settings.sampling == Sampling::uniform || settings.sampling == Sampling::protocol) return {};
+    const double error = settings.error > 0.0 ? settings.error : 1.0;
+    const double white = limits.viewing.display_white;
+    Image<float> tolerance(limits.threshold.width, limits.threshold.height);
+    for (int y = 0; y < tolerance.height; ++y) {
+        for (int x = 0; x < tolerance.width; ++x) {
+            double left = error * strictest_around(limits.threshold, x, y) / white;
+            if (settings.sampling == Sampling::threshold && !limits.indirect_luminance.empty()) {
+                const double cached = error_deviations * error_per_accuracy * limits.accuracy(x, y) *
+                                      static_cast<double>(limits.indirect_luminance(x, y));
+                left = std::max(left - cached, least_share * left);
+            }
+            tolerance(x, y) = static_cast<float>(left / exposure);
+        }
+    }
+    return tolerance;
+}
+
+}  // namespace aleph

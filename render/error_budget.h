@@ -1,0 +1,30 @@
+#pragma once
+// How much a pixel's samples may err, given what else errs in it.
+
+#include "render/settings.h"
+#include "render/stopping_rule.h"
+
+#include "engine/base/viewing.h"
+
+namespace aleph {
+
+/// What a viewer tolerates in a frame. Images have the frame's size.
+struct VisibleLimits {
+    const Image<float>& threshold;           ///< cd/m2 (6.9)
+    const Image<float>& aleph;               ///< elevation of the threshold
+    const Image<float>& accuracy;            ///< alpha, of cached light
+    const Image<float>& indirect_luminance;  ///< of the quick estimate, exposure applied; empty: none is cached
+    ViewingConditions viewing;
+};
+
+/// The luminance that samples may err by, as they have it (before exposure).
+/// threshold: RenderSettings::error times the threshold, less the error that cached light is expected to have in 99.5 %
+/// of the pixels; at least a third of it remains. The sum of both errors is then within what was asked for.
+/// consecutive, variance: RenderSettings::error times the threshold: they know nothing of other errors.
+/// The Aleph map is that of pixel centres. A pixel's samples reach its neighbours, and beside the outline of a moving
+/// object may belong to another surface than the centre. So each pixel keeps to the strictest threshold of the nine
+/// around it.
+/// @return empty for rules that need none
+Image<float> compute_sampling_tolerance(const VisibleLimits& limits, const RenderSettings& settings, double exposure);
+
+}  // namespace aleph

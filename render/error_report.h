@@ -1,0 +1,54 @@
+#pragma once
+// The error that a picture is estimated to have, in units of the visible threshold, and what causes it.
+
+#include <array>
+#include <string>
+
+#include "engine/base/image.h"
+#include "engine/base/viewing.h"
+#include "render/pixel_samples.h"
+
+namespace aleph {
+
+enum class ErrorCause : std::uint8_t {
+    edges,     ///< samples that saw several surfaces, textures
+    blur,      ///< the same, while the shutter or the lens is open
+    direct,    ///< direct light: shadows, lights of some size
+    gloss,     ///< reflections and refractions
+    indirect,  ///< interpolation between cache records
+};
+inline constexpr std::size_t cause_count = 5;
+/// "edges", "blur", ...
+const std::array<std::string, cause_count>& cause_names();
+
+/// Standard errors of the pixels' luminance, as multiples of the visible threshold.
+struct ErrorMaps {
+    Image<float> total;
+    std::array<Image<float>, cause_count> by_cause;
+};
+
+/// Estimated shares of pixels whose error is larger than what was asked for.
+struct ErrorShares {
+    double asked = 1.0;  ///< thresholds
+    double beyond = 0.0;
+    std::array<double, cause_count> by_cause{};  ///< if this were the only one
+};
+
+/// What errors are told from.
+struct ErrorInput {
+    const Image<PixelSamples>& pixels;
+    const Image<float>& threshold;  ///< cd/m2
+    const Image<float>& accuracy;   ///< alpha
+    double luminance_scale = 1.0;   ///< cd/m2 for a luminance of 1 of the samples: exposure times display white
+    bool blurred = false;           ///< the shutter or the lens is open
+};
+
+/// From the halves of the samples of a pixel and the eight around it (PixelSamples), and from the accuracy of cached
+/// light: irradiance that is interpolated at accuracy alpha errs by about a tenth of alpha (standard deviation).
+ErrorMaps estimate_errors(const ErrorInput& input);
+
+/// If errors are normally distributed.
+/// @param asked  thresholds, above 0
+ErrorShares count_errors(const ErrorMaps& maps, double asked);
+
+}  // namespace aleph

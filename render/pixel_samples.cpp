@@ -1,0 +1,54 @@
+#include "render/pixel_samples.h"
+
+#include <glm/geometric.hpp>
+
+namespace aleph {
+
+namespace {
+
+constexpr float least_cosine = 0.9f;  // between the normals of one face
+
+}  // namespace
+
+void PixelSamples::add(const SampleLight& light) {
+    const Rgb total = light.total();
+    radiance_ += glm::dvec3(total);
+    indirect_ += light.indirect;
+    ++valid_;
+    if (light.instance != no_index) ++hits_;
+    if (valid_ == 1) {
+        instance_ = light.instance;
+        normal_ = light.normal;
+    } else if (light.instance != instance_ ||
+               (instance_ != no_index && glm::dot(light.normal, normal_) < least_cosine)) {
+        edge_ = true;
+    }
+    const double y = luminance(total), difference = y - mean_;
+    mean_ += difference / valid_;
+    squares_ += difference * (y - mean_);
+    for (std::size_t part = 0; part < luminances_.size(); ++part) luminances_[part] += luminance(light.parts[part]);
+    end_sample();
+}
+
+/// After 2, 4, 8, ... samples, compares the halves.
+void PixelSamples::end_sample() {
+    ++taken_;
+    if ((taken_ & (taken_ - 1)) != 0) return;
+    const int second_valid = valid_ - first_valid_;
+    if (first_valid_ > 0 && second_valid > 0) {
+        const double first = first_valid_, second = second_valid;
+        const double share = first * second / ((first + second) * (first + second));
+        double total = 0.0;
+        for (std::size_t part = 0; part < luminances_.size(); ++part) {
+            const double difference = first_half_[part] / first - (luminances_[part] - first_half_[part]) / second;
+            error_.parts[part] = static_cast<float>(share * difference * difference);
+            total += difference;
+        }
+        error_.total = static_cast<float>(share * total * total);
+        error_.samples = valid_;
+    }
+    first_half_ = luminances_;
+    first_valid_ = valid_;
+}
+
+}  // namespace aleph

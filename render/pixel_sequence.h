@@ -1,0 +1,63 @@
+#pragma once
+// Points of the unit square and numbers for the samples of one pixel. Any first 2^k are evenly spread, so that a pixel
+// may take samples until it has enough; and so are those of neighbouring pixels together, so that what error is left
+// is fine grain.
+
+#include <cstdint>
+#include <glm/vec2.hpp>
+
+#include "engine/base/sampling.h"
+
+namespace aleph {
+
+/// What the numbers of a sample are for. Each use has points of its own, which do not depend on those of any other.
+enum class SampleUse : std::uint8_t {
+    pixel,           ///< the place within the pixel's filter
+    lens,            ///< the place on the lens
+    time,            ///< while the shutter is open
+    light_choice,    ///< which light
+    light_point,     ///< the place on it
+    lobe_choice,     ///< which lobe of the surface
+    lobe_direction,  ///< the direction that it scatters to
+    lobe_side,       ///< reflected, or through the surface
+    indirect,        ///< indirect light
+    other,           ///< free for callers
+};
+
+/// One digital net over samples and pixels. The first 2^k samples of a pixel, or 2^k from a multiple of 2^k, have
+/// one point in each of 2^k equal rectangles, of any shape of powers of two. Those of a block of 2^j x 2^j pixels
+/// together have one in each of 2^k 4^j such rectangles: the errors of neighbours cancel, as the eye averages
+/// them. Blocks of up to 64 x 64 pixels, from multiples of their size (up to a shift by seed and use).
+///
+/// Samples, x and y of the points, and pixels along a Z-shaped curve are the four dimensions of a net: the index of a
+/// Sobol sequence and its first three dimensions. The third, of polynomial x^2 + x + 1, has no defect where its digits
+/// are taken in pairs, as squares of pixels do (Niederreiter 1992, "Random Number Generation and Quasi-Monte Carlo
+/// Methods", section 4.5). Numbers are scrambled as by Owen (Burley 2020, "Practical Hash-based Owen Scrambling",
+/// JCGT 9(4)), and so is the order of samples and of pixels. After Ahmed and Wonka 2020, "Screen-space blue-noise
+/// diffusion of Monte Carlo sampling error via hierarchical ordering of pixels", which has one number of samples.
+///
+/// The mean over seeds is exact for any number of samples. A pure function of its arguments.
+class PixelSequence {
+  public:
+    static constexpr int length = 1 << 16;  ///< samples; more of them begin another, independent sequence
+
+    /// @param seed    sequences of different seeds are independent
+    /// @param moment  so are those of different moments. It stays the same while the camera is at rest, and so does the
+    ///                noise of what is at rest
+    PixelSequence(std::uint32_t seed, std::uint32_t moment, int x, int y)
+        : key_(mix_bits((std::uint64_t{seed} << 32 | moment) + 0x9e3779b97f4a7c15ull)),
+          x_(static_cast<std::uint32_t>(x)),
+          y_(static_cast<std::uint32_t>(y)) {}
+
+    /// Number of one sample, in [0,1).
+    /// @param index  of the sample, from 0
+    float at_1d(SampleUse use, int index) const;
+    /// Point of one sample, in [0,1)^2; its x is at_1d.
+    glm::vec2 at_2d(SampleUse use, int index) const;
+
+  private:
+    std::uint64_t key_;
+    std::uint32_t x_, y_;
+};
+
+}  // namespace aleph

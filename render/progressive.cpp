@@ -1,0 +1,58 @@
+#include "render/progressive.h"
+
+#include <algorithm>
+
+#include "engine/base/parallel.h"
+
+namespace aleph {
+
+namespace {
+
+std::vector<PixelRange> first_ranges(const SamplingPlan& plan, const Image<PixelSamples>& pixels) {
+    std::vector<PixelRange> ranges;
+    ranges.reserve(pixels.size());
+    for (int y = 0; y < pixels.height; ++y) {
+        for (int x = 0; x < pixels.width; ++x) {
+            const int count = plan.rule == Sampling::protocol ? protocol_samples(plan.aleph(x, y), plan.most)
+                                                              : first_samples(plan.rule, plan.most);
+            ranges.push_back({x, y, 0, count});
+        }
+    }
+    return ranges;
+}
+
+/// The pixels of a stage that need another one.
+std::vector<PixelRange> next_ranges(const SamplingPlan& plan, const Image<PixelSamples>& pixels,
+                                    const std::vector<PixelRange>& stage) {
+    std::vector<std::uint8_t> goes_on(stage.size());
+    parallel_for(stage.size(), 4096, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) {
+            const PixelRange& range = stage[i];
+            if (range.last >= plan.most) continue;
+            goes_on[i] = !is_enough(plan.rule, plan.test, estimate_mean(pixels, range.x, range.y),
+                                    plan.tolerance(range.x, range.y));
+        }
+    });
+    std::vector<PixelRange> next;
+    for (std::size_t i = 0; i < stage.size(); ++i) {
+        const PixelRange& range = stage[i];
+        if (!goes_on[i]) continue;
+        const int more = std::min(range.last, plan.most - range.last);
+        next.push_back({range.x, range.y, range.last, range.last + more});
+    }
+    return next;
+}
+
+}  // namespace
+
+void sample_by_stages(const SamplingPlan& plan, const Image<PixelSamples>& pixels, const TakeSamples& take) {
+    std::vector<PixelRange> stage = first_ranges(plan, pixels);
+    while (true) {
+        take(stage);
+        if (plan.tolerance.empty()) return;
+        stage = next_ranges(plan, pixels, stage);
+        if (stage.empty()) return;
+    }
+}
+
+}  // namespace aleph

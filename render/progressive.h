@@ -1,0 +1,35 @@
+#pragma once
+// Progressive sampling: which pixels take how many more samples, stage by stage.
+
+#include <functional>
+#include <span>
+#include <vector>
+
+#include "render/stopping_rule.h"
+
+namespace aleph {
+
+/// How many samples pixels take.
+struct SamplingPlan {
+    Sampling rule = Sampling::uniform;
+    VarianceTest test = VarianceTest::standard_error;
+    int most = 1;            ///< samples of a pixel
+    Image<float> tolerance;  ///< of luminance, in the samples' unit (is_enough); empty for `uniform` and `protocol`
+    Image<float> aleph;      ///< for `protocol`
+};
+
+/// Samples of one pixel: those from `first` up to, not including, `last`.
+struct PixelRange {
+    int x = 0, y = 0;
+    int first = 0, last = 0;
+};
+
+/// Adds samples to the pixels. The ranges go from row to row.
+using TakeSamples = std::function<void(std::span<const PixelRange> ranges)>;
+
+/// Takes samples until the rule stops at every pixel. Between two stages the numbers of samples double. A decision
+/// reads what all pixels have after a stage, so the result does not depend on the number of threads.
+/// @param pixels  what `take` adds to; read between stages
+void sample_by_stages(const SamplingPlan& plan, const Image<PixelSamples>& pixels, const TakeSamples& take);
+
+}  // namespace aleph

@@ -1,0 +1,39 @@
+#pragma once
+// When a pixel has enough samples (Yee 2000, section 6.2, and a rule of our own).
+
+#include "engine/base/image.h"
+#include "render/pixel_samples.h"
+#include "render/settings.h"
+
+namespace aleph {
+
+/// So many standard errors hold 99.5 % of a normal distribution.
+inline constexpr double error_deviations = 2.807;
+
+/// What is known of a pixel's mean. A pixel's own samples never decide when it stops: a pixel whose first samples happen
+/// to agree would stop early, more often at a value that is too low than at one that is too high, and the picture would
+/// be biased. Neighbours tell both numbers, at this pixel's number of samples.
+struct MeanEstimate {
+    int samples = 0;
+    double error2 = 0.0;    ///< squared error of the mean luminance, from halves (PixelSamples)
+    double variance = 0.0;  ///< of one sample's luminance
+};
+
+/// From the eight pixels around (x, y); from the pixel itself where there are none.
+MeanEstimate estimate_mean(const Image<PixelSamples>& pixels, int x, int y);
+
+/// Whether a rule stops at this estimate.
+/// consecutive (6.10): the means of this stage and of the one before differ by less than the tolerance.
+/// variance (6.12): the standard error of independent samples is below the tolerance; or as printed their standard
+/// deviation, which does not fall with their number.
+/// threshold: 99.5 % of such means lie within the tolerance.
+/// @param tolerance  of luminance, in the samples' unit. 0 or less is met by an error of 0 only
+bool is_enough(Sampling rule, VarianceTest test, const MeanEstimate& mean, double tolerance);
+
+/// Samples of the Aleph sampling protocol (6.13): most / aleph, but at least 16, and at most `most`.
+int protocol_samples(double aleph, int most);
+
+/// Samples before a rule is asked first.
+int first_samples(Sampling rule, int most);
+
+}  // namespace aleph
