@@ -21,6 +21,7 @@ namespace {
 
 constexpr double fill_share = 0.3;      // of a frame's time, for progress only
 constexpr std::size_t task_ranges = 64;  // pixels of a task
+constexpr int progressive_light_samples = 2;  // of direct light, per pixel sample
 constexpr int slice_samples = 1 << 17;  // that may wait for light at a time: more only for the sake of threads
 constexpr std::size_t slice_ranges = 64 * task_ranges;
 
@@ -42,7 +43,7 @@ class FrameShading {
           known_(context, cached_ ? &cache_ : nullptr),
           direct_(context.max_radius),
           pixels_(context.view.width, context.view.height),
-          place_(make_sample_place(context.settings, context.view, options.lens, options.blended, context.frame, 0)) {
+          place_(make_sample_place(context.settings, options.lens, options.blended, context.frame, 0)) {
         if (cached_) context_.direct = &direct_;
         context_.deeper = make_deeper_light(context.settings, nullptr);
         if (options.record_maps && !by_paths_) uses_ = Image<RecordUse>(context_.view.width, context_.view.height);
@@ -73,6 +74,7 @@ class FrameShading {
         if (options_.limits != nullptr) {
             plan.tolerance = compute_sampling_tolerance(*options_.limits, settings, exposure);
             plan.aleph = options_.limits->aleph;
+            systematic_ = compute_systematic_tolerance(*options_.limits, settings, exposure);
         }
         sample_by_stages(plan, pixels_, [&](std::span<const PixelRange> ranges) { take(ranges); });
     }
@@ -101,17 +103,16 @@ class FrameShading {
 
     SampleShading make_shading() {
         const RenderSettings& settings = context_.settings;
-        LightPoints points{1, 0, 0};
-        if (settings.sampling == Sampling::uniform) {
-            points = {(settings.light_samples + settings.spp - 1) / settings.spp, 0, settings.spp};
-        }
+        const bool uniform = settings.sampling == Sampling::uniform;
         return {.context = context_,
                 .moment = place_.moment,
                 .by_paths = by_paths_,
                 .indirect = indirect_,
                 .cache = cached_ ? &cache_ : nullptr,
                 .known = &known_,
-                .points = points,
+                .points = {(settings.light_samples + settings.spp - 1) / settings.spp, 0, settings.spp},
+                .light_samples = uniform ? 0 : progressive_light_samples,
+                .tolerance = systematic_ ? &*systematic_ : nullptr,
                 .records = &out_.records,
                 .uses = uses_.empty() ? nullptr : &uses_};
     }
@@ -188,7 +189,7 @@ class FrameShading {
             }
             const PixelSurface surface =
                 make_pixel_surface(moment.lighting.shading, moment.view, at, hit, direction, x, y);
-            if (shade_sample(shading, moment, task, surface, light)) {
+            if (shade_sample(shading, moment, task, surface, pixels_(x, y), light)) {
                 add_sample(task, x, y, light);
             } else {
                 waiting.push_back({surface, light});
@@ -270,6 +271,7 @@ class FrameShading {
     DirectGrid direct_;
     Image<PixelSamples> pixels_;
     SamplePlace place_;  ///< of the first sample
+    std::optional<SystematicTolerance> systematic_;
     const SampleHits* first_ = nullptr;  ///< hits of the pixels' first samples, if they are cast already
     SampleHits cast_first_;
     GatherScratch pending_scratch_;

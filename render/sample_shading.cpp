@@ -82,47 +82,77 @@ void add_by_paths(const SampleShading& shading, const SampleMoment& moment, Shad
 }
 
 /// Lobes to sample, and what stands in for the others where the irradiance is known.
-SampledLobes choose_lobes(const SampleShading& shading, const PixelSurface& surface,
+SampledLobes choose_lobes(const SampleShading& shading, const PixelSurface& surface, const LitSurface& lit,
                           const std::optional<Rgb>& irradiance) {
-    const LitSurface lit(surface);
-    const bool tolerant = shading.gloss_tolerance != nullptr && irradiance && surface.material.has_specular();
-    const float tolerance = tolerant ? (*shading.gloss_tolerance)(surface.x, surface.y) : 0.0f;
+    const bool tolerant = shading.tolerance != nullptr && irradiance && surface.material.has_specular();
+    const float tolerance = tolerant ? shading.tolerance->gloss(surface.x, surface.y) : 0.0f;
     return choose_sampled_lobes(lit, irradiance.value_or(Rgb(0.0f)), tolerance);
 }
 
-/// @param irradiance  indirect; nothing where it is not known
-void add_with_cache(const SampleShading& shading, ShadingTask& task, const PixelSurface& surface,
-                    const std::optional<Rgb>& irradiance, SampleLight& light) {
-    const RenderSettings& settings = shading.context.settings;
-    RandomStream random({settings.seed, shading.moment, surface.pixel, 0});  // one lattice for all samples
-    RandomStream path_random = path_stream(shading, surface);
-    PathState beyond = start_path(settings);
+PathState start_beyond(const SampleShading& shading, const PixelSurface& surface) {
+    PathState beyond = start_path(shading.context.settings);
     --beyond.left.depth;
     beyond.roulette_after = 0;  // most lobes reflect little, and there are many samples
     beyond.survival = 4.0f;     // but a path that ends early leaves noise behind the rays already cast
     beyond.known = shading.known;
     beyond.accuracy = shading.context.accuracy(surface.x, surface.y);
     beyond.light_samples = lights_in_mirrors;
-    LightPoints points = shading.points;
-    points.part = surface.sample;
-    const SampledLobes lobes = choose_lobes(shading, surface, irradiance);
-    const SampledLight sampled = compute_sampled_light(shading.context.lighting, task, surface, points, random, beyond,
-                                                       path_random, &lobes.shares);
-    light[LightPart::direct] = sampled.direct;
-    light[LightPart::gloss] = sampled.lobes + lobes.radiance;
-    light[LightPart::surface] = surface.material.emission;
+    return beyond;
+}
+
+/// One sample of the lobes, from the pixel's sequence.
+Rgb sample_lobes(const SampleShading& shading, ShadingTask& task, const PixelSurface& surface, const LitSurface& lit,
+                 const LobeShares& shares, const PixelSequence& sequence) {
+    const int i = surface.sample;
+    const ScatterSample sample =
+        sample_scatter(lit, shares, sequence.at_1d(SampleUse::lobe_choice, i),
+                       sequence.at_2d(SampleUse::lobe_direction, i), sequence.at_1d(SampleUse::lobe_side, i));
+    RandomStream random = path_stream(shading, surface);
+    return follow_sample(shading.context.lighting, task, lit, sample, start_beyond(shading, surface), random);
+}
+
+/// @param irradiance  indirect; nothing where it is not known
+void add_with_cache(const SampleShading& shading, ShadingTask& task, const PixelSurface& surface,
+                    const std::optional<Rgb>& irradiance, SampleLight& light) {
+    const LightingContext& lighting = shading.context.lighting;
+    const RenderSettings& settings = shading.context.settings;
+    const LitSurface lit(surface);
+    const SampledLobes lobes = choose_lobes(shading, surface, lit, irradiance);
+    light[LightPart::surface] = surface.material.emission + lobes.radiance;
+    if (shading.light_samples == 0) {
+        RandomStream random({settings.seed, shading.moment, surface.pixel, 0});  // one lattice for all samples
+        RandomStream path_random = path_stream(shading, surface);
+        LightPoints points = shading.points;
+        points.part = surface.sample;
+        const SampledLight sampled = compute_sampled_light(lighting, task, surface, points, random,
+                                                           start_beyond(shading, surface), path_random, &lobes.shares);
+        light[LightPart::direct] = sampled.direct;
+        light[LightPart::gloss] = sampled.lobes;
+        return;
+    }
+    const PixelSequence sequence(settings.seed, shading.moment, surface.x, surface.y);
+    DirectSamples samples{surface.sample * shading.light_samples, shading.light_samples};
+    if (shading.tolerance != nullptr) samples.tolerance = shading.tolerance->lights(surface.x, surface.y);
+    light[LightPart::direct] = sample_direct_light(lighting, task, lit, lobes.shares, sequence, samples);
+    if (lobes.shares != LobeShares{}) {
+        light[LightPart::gloss] = sample_lobes(shading, task, surface, lit, lobes.shares, sequence);
+    }
 }
 
 }  // namespace
 
 bool shade_sample(const SampleShading& shading, const SampleMoment& moment, ShadingTask& task,
-                  const PixelSurface& surface, SampleLight& light) {
+                  const PixelSurface& surface, const PixelSamples& pixel, SampleLight& light) {
     light = {};
     light.instance = surface.hit.instance;
-    light.normal = surface.point.geometric;
+    light.geometric = surface.point.geometric;
+    light.normal = surface.point.normal;
     const bool needs_irradiance = !shading.by_paths && shading.indirect && surface.material.has_diffuse();
     std::optional<Rgb> irradiance;
-    if (needs_irradiance) irradiance = read_irradiance(shading, task, surface);
+    if (needs_irradiance && shading.cache != nullptr) {
+        irradiance = pixel.find_irradiance(light.instance, light.normal);
+        if (!irradiance) irradiance = light.irradiance = read_irradiance(shading, task, surface);
+    }
     if (shading.by_paths) {
         add_by_paths(shading, moment, task, surface, light);
     } else {
