@@ -8,10 +8,11 @@ namespace aleph {
 namespace {
 
 /// Keeps the random numbers of paths apart from those of direct light and of gathers (gather_at.cpp).
-constexpr std::uint32_t path_seed_mask = 0x70617468u;
+constexpr std::uint32_t path_seed_mask = 0x70617468u, irradiance_seed_mask = 0x69727261u;
 
-RandomStream path_stream(const SampleShading& shading, const PixelSurface& surface) {
-    return RandomStream({shading.context.settings.seed ^ path_seed_mask, shading.moment, surface.pixel,
+RandomStream path_stream(const SampleShading& shading, const PixelSurface& surface,
+                         std::uint32_t mask = path_seed_mask) {
+    return RandomStream({shading.context.settings.seed ^ mask, shading.moment, surface.pixel,
                          static_cast<std::uint32_t>(surface.sample)});
 }
 
@@ -56,6 +57,29 @@ Rgb gather_irradiance(const SampleShading& shading, ShadingTask& task, const Pix
         .irradiance;
 }
 
+/// Indirect irradiance while the shutter is open, from the frame's own time.
+/// @param waits  if not null, set where a record would tell it
+std::optional<Rgb> read_blurred(const SampleShading& shading, ShadingTask& task, const PixelSurface& surface,
+                                bool* waits) {
+    const float accuracy = shading.context.accuracy(surface.x, surface.y);
+    if (shading.shutter == nullptr || !(accuracy > 0.0f)) return std::nullopt;
+    RecordUse* const used = shading.uses == nullptr ? nullptr : &(*shading.uses)(surface.x, surface.y);
+    ++task.lookups;
+    const ShutterLight::Found found = shading.shutter->find(surface, accuracy, task.at_frame, used);
+    if (found.irradiance) ++task.hits;
+    if (waits != nullptr) *waits = found.missing;
+    return found.irradiance;
+}
+
+/// Indirect irradiance at the sample's own time, from one random path.
+Rgb sample_path(const SampleShading& shading, const SampleMoment& moment, ShadingTask& task,
+                const PixelSurface& surface) {
+    const RenderSettings& settings = shading.context.settings;
+    RandomStream random = path_stream(shading, surface, irradiance_seed_mask);
+    return find_deeper_irradiance(moment.lighting, task, surface.point, {settings.bounces}, settings.path_depth - 1,
+                                  random);
+}
+
 /// Share of light that reaches the camera: it may stand in what it sees from inside.
 Rgb share_left(const PixelSurface& surface) {
     const Rgb loss = Media().attenuation(surface);
@@ -78,7 +102,8 @@ void add_by_paths(const SampleShading& shading, const SampleMoment& moment, Shad
         scatter_light(moment.lighting, task, surface, start_path(shading.context.settings), random);
 }
 
-void add_with_cache(const SampleShading& shading, ShadingTask& task, const PixelSurface& surface, SampleLight& light) {
+void add_with_cache(const SampleShading& shading, const SampleMoment& moment, ShadingTask& task,
+                    const PixelSurface& surface, SampleLight& light) {
     const RenderSettings& settings = shading.context.settings;
     RandomStream random({settings.seed, shading.moment, surface.pixel, 0});  // one lattice for all samples
     RandomStream path_random = path_stream(shading, surface);
@@ -88,7 +113,7 @@ void add_with_cache(const SampleShading& shading, ShadingTask& task, const Pixel
     LightPoints points = shading.points;
     points.part = surface.sample;
     const SampledLight sampled =
-        compute_sampled_light(shading.context.lighting, task, surface, points, random, beyond, path_random);
+        compute_sampled_light(moment.lighting, task, surface, points, random, beyond, path_random);
     light[LightPart::direct] = sampled.direct;
     light[LightPart::gloss] = sampled.lobes;
     light[LightPart::surface] = surface.material.emission;
@@ -104,18 +129,31 @@ bool shade_sample(const SampleShading& shading, const SampleMoment& moment, Shad
     if (shading.by_paths) {
         add_by_paths(shading, moment, task, surface, light);
     } else {
-        add_with_cache(shading, task, surface, light);
+        add_with_cache(shading, moment, task, surface, light);
     }
     const Rgb left = share_left(surface);
     for (Rgb& part : light.parts) part *= left;
     if (shading.by_paths || !shading.indirect || !surface.material.has_diffuse()) return true;
-    std::optional<Rgb> irradiance = read_irradiance(shading, task, surface);
-    if (!irradiance && shading.cache == nullptr) irradiance = gather_irradiance(shading, task, surface);
+    std::optional<Rgb> irradiance;
+    if (shading.blurred) {
+        bool waits = false;
+        irradiance = read_blurred(shading, task, surface, &waits);
+        if (!irradiance && !waits) irradiance = sample_path(shading, moment, task, surface);
+    } else {
+        irradiance = read_irradiance(shading, task, surface);
+        if (!irradiance && shading.cache == nullptr) irradiance = gather_irradiance(shading, task, surface);
+    }
     if (irradiance) add_irradiance(surface, *irradiance, light);
     return irradiance.has_value();
 }
 
-void add_indirect(const SampleShading& shading, ShadingTask& task, const PixelSurface& surface, SampleLight& light) {
+void add_indirect(const SampleShading& shading, const SampleMoment& moment, ShadingTask& task,
+                  const PixelSurface& surface, SampleLight& light) {
+    if (shading.blurred) {
+        const std::optional<Rgb> blurred = read_blurred(shading, task, surface, nullptr);
+        add_irradiance(surface, blurred ? *blurred : sample_path(shading, moment, task, surface), light);
+        return;
+    }
     const std::optional<Rgb> irradiance = read_irradiance(shading, task, surface);
     add_irradiance(surface, irradiance ? *irradiance : gather_irradiance(shading, task, surface), light);
 }

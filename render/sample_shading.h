@@ -7,6 +7,7 @@
 #include "render/gather.h"
 #include "render/indirect_context.h"
 #include "render/pixel_samples.h"
+#include "render/shutter_light.h"
 
 namespace aleph {
 
@@ -18,8 +19,12 @@ struct SampleMoment {
 
 /// The work of one task: its rays, and what it counts.
 struct ShadingTask : RayTask {
-    ShadingTask(const RayScene& rays, GatherScratch& buffers) : RayTask(rays), scratch(buffers) {}
+    /// @param rays        at the samples' time
+    /// @param frame_rays  at the frame's own time: another scene while the shutter is open
+    ShadingTask(const RayScene& rays, const RayScene& frame_rays, GatherScratch& buffers)
+        : RayTask(rays), at_frame(frame_rays), scratch(buffers) {}
 
+    RayTask at_frame;
     GatherScratch& scratch;
     std::uint64_t lookups = 0, hits = 0, computed = 0, invalid = 0;
 };
@@ -32,9 +37,11 @@ struct SampleShading {
     bool indirect = false;     ///< there is indirect light
     /// Finished; null: irradiance that no key moment knows is gathered at every sample.
     const IrradianceCache* cache = nullptr;
-    LightPoints points{};                ///< on each light, of a pixel's first sample
-    Image<float>* records = nullptr;     ///< counts irradiance values computed here; of the frame's size
-    Image<RecordUse>* uses = nullptr;    ///< records that were read; null: not asked for
+    bool blurred = false;                   ///< the shutter is open: what `shutter` does not know is found by paths
+    const ShutterLight* shutter = nullptr;  ///< null: it knows nothing
+    LightPoints points{};                   ///< on each light, of a pixel's first sample
+    Image<float>* records = nullptr;        ///< counts irradiance values computed here; of the frame's size
+    Image<RecordUse>* uses = nullptr;       ///< records that were read; null: not asked for
 };
 
 /// Light that a pixel's surface sends to the camera.
@@ -43,7 +50,9 @@ struct SampleShading {
 bool shade_sample(const SampleShading& shading, const SampleMoment& moment, ShadingTask& task,
                   const PixelSurface& surface, SampleLight& light);
 
-/// Adds the indirect light that shade_sample did not find. Where there is still no record, it is gathered.
-void add_indirect(const SampleShading& shading, ShadingTask& task, const PixelSurface& surface, SampleLight& light);
+/// Adds the indirect light that shade_sample did not find. Where there is still no record, it is gathered, or
+/// comes from a path while the shutter is open.
+void add_indirect(const SampleShading& shading, const SampleMoment& moment, ShadingTask& task,
+                  const PixelSurface& surface, SampleLight& light);
 
 }  // namespace aleph
