@@ -13,6 +13,10 @@ constexpr std::uint32_t path_seed_mask = 0x70617468u;
 
 constexpr int lights_in_mirrors = 4;  // PathState::light_samples
 
+/// Root mean square error of irradiance that stands in for lobes, over the tolerance of the pixel's samples. At 2.8
+/// standard deviations that is .28 of the tolerance, and with the error of samples, which is independent, 1.04 of it.
+constexpr float stand_in_share = 0.1f;
+
 RandomStream path_stream(const SampleShading& shading, const PixelSurface& surface) {
     return RandomStream({shading.context.settings.seed ^ path_seed_mask, shading.moment, surface.pixel,
                          static_cast<std::uint32_t>(surface.sample)});
@@ -86,7 +90,7 @@ SampledLobes choose_lobes(const SampleShading& shading, const PixelSurface& surf
                           const std::optional<Rgb>& irradiance) {
     const LitSurface lit(surface);
     const bool tolerant = shading.gloss_tolerance != nullptr && irradiance && surface.material.has_specular();
-    const float tolerance = tolerant ? (*shading.gloss_tolerance)(surface.x, surface.y) : 0.0f;
+    const float tolerance = tolerant ? stand_in_share * (*shading.gloss_tolerance)(surface.x, surface.y) : 0.0f;
     return choose_sampled_lobes(lit, irradiance.value_or(Rgb(0.0f)), tolerance);
 }
 

@@ -33,7 +33,8 @@ struct SampleShading {
     /// Finished; null: irradiance that no key moment knows is gathered at every sample.
     const IrradianceCache* cache = nullptr;
     const KnownIrradiance* known = nullptr;  ///< to paths from lobes; null: they find all light by themselves
-    /// Radiance per pixel: how far irradiance that stands in for a lobe may be off (glossy_light.h); null: 0.
+    /// Radiance by which each pixel's samples may err: a part of it is left to irradiance that stands in for lobes
+    /// (glossy_light.h). Null: none.
     const Image<float>* gloss_tolerance = nullptr;
     LightPoints points{};              ///< on each light, of a pixel's first sample
     Image<float>* records = nullptr;   ///< counts irradiance values computed here; of the frame's size
