@@ -15,6 +15,10 @@ namespace {
 
 constexpr int rows = 24, columns = 24;
 
+/// GGX width (roughness .3) from which irradiance can stand in: highlights of narrower lobes are noise where lights
+/// alone are sampled.
+constexpr float narrowest = 0.09f;
+
 /// Parts of the albedo that are proportional to the reflectance straight on and at grazing incidence.
 struct AlbedoParts {
     float straight = 0.0f, grazing = 0.0f;
@@ -90,8 +94,8 @@ LobeStandIn find_stand_in(const LitSurface& lit, Lobe lobe) {
     const SurfaceMaterial& material = lit.material;
     switch (lobe) {
         case Lobe::gloss: {
-            if (material.is_mirror()) break;
             const float alpha = mean_alpha(material);
+            if (!(std::min(material.widths().x, material.widths().y) >= narrowest)) break;
             const AlbedoParts parts = find_parts(alpha, lit.view.z);
             const Rgb albedo = glossy_albedo(material, lit.view.z);
             const float more = std::max(material.f90 - luminance(material.f0), 0.0f);
@@ -99,7 +103,7 @@ LobeStandIn find_stand_in(const LitSurface& lit, Lobe lobe) {
             return {albedo * lit.below_sheen, lobe_deviation(alpha, lit.view.z, grazing)};
         }
         case Lobe::coat: {
-            if (material.is_coat_mirror()) break;
+            if (!(material.coat_alpha >= narrowest)) break;
             const AlbedoParts parts = find_parts(material.coat_alpha, lit.coat_view.z);
             return {Rgb((1.0f - lit.below_coat) * (parts.straight + parts.grazing)),
                     lobe_deviation(material.coat_alpha, lit.coat_view.z, 0.0f)};

@@ -20,7 +20,7 @@ struct SampledLobes {
 };
 
 /// Leaves out the lobes with the smallest errors, as many as the tolerance allows. The Lambert layer is never sampled.
-/// Mirrors, and glass, which also shows what lies behind it, always are.
+/// Lobes of a roughness below .3, and glass, which also shows what lies behind it, always are.
 /// @param irradiance  indirect, of the Lambert layer
 /// @param tolerance   for `error`, in units of radiance; 0: every lobe is sampled
 SampledLobes choose_sampled_lobes(const LitSurface& lit, const Rgb& irradiance, float tolerance);

@@ -91,9 +91,9 @@ TEST(GlossyLight, ErrorsSumToTheToleranceAtMost) {
     EXPECT_FLOAT_EQ(choose_sampled_lobes(lit, Rgb(2.0f), 1e6f).error, 2.0f * most);
 }
 
-TEST(GlossyLight, MirrorsAndGlassAreSampled) {
+TEST(GlossyLight, NarrowLobesAndGlassAreSampled) {
     for (const SurfaceMaterial& material :
-         {make_metal(0.0f), make_glass(0.5f, 1.5f, true), make_glass(0.0f, 1.5f, false)}) {
+         {make_metal(0.0f), make_metal(0.08f), make_glass(0.5f, 1.5f, true), make_glass(0.0f, 1.5f, false)}) {
         const ViewedSurface surface = make_viewed(material, direction_of(0.6f));
         const LitSurface lit(surface);
         const SampledLobes chosen = choose_sampled_lobes(lit, Rgb(1.0f), 1e6f);
