@@ -84,22 +84,17 @@ int run(int argc, char** argv) {
                    ? light.radiance
                    : light.radiance * find_transmittance(stage.lighting(), task, light.shadow_ray);
     };
-    const Method each = [](const Stage& stage, RayTask& task, const ViewedSurface& surface, std::uint32_t seed) {
-        RandomStream random({seed, 0, 0, 0}), path_random = random;
-        return compute_sampled_light(stage.lighting(), task, surface, {}, random, PathState{}, path_random).direct;
-    };
     constexpr double error = 0.05;
     for (const bool lamps : {true, false}) {
         fmt::print("{}: per call, and to an error of {}\n", lamps ? "square lamps" : "point lights", error);
-        fmt::print("  {:>6} {:<28} {:>9} {:>6} {:>9} {:>9} {:>7}\n", "lights", "method", "us", "rays", "variance",
+        fmt::print("  {:>6} {:<16} {:>9} {:>6} {:>9} {:>9} {:>7}\n", "lights", "method", "us", "rays", "variance",
                    "us to", "rays to");
         for (const int lights : {8, 32, 125, 1000}) {
             const Stage stage(make_hall(lights, lamps));
-            for (const auto& [name, method] : {std::pair("shared samples", shared), std::pair("one light", one),
-                                               std::pair("compute_sampled_light", each)}) {
+            for (const auto& [name, method] : {std::pair("shared samples", shared), std::pair("one light", one)}) {
                 const Cost cost = measure(stage, method, 40);
                 const double calls = cost.variance / (error * error);
-                fmt::print("  {:>6} {:<28} {:9.3f} {:6.2f} {:9.5f} {:9.3f} {:7.2f}\n", lights, name, 1e6 * cost.seconds,
+                fmt::print("  {:>6} {:<16} {:9.3f} {:6.2f} {:9.5f} {:9.3f} {:7.2f}\n", lights, name, 1e6 * cost.seconds,
                            cost.rays, cost.variance, 1e6 * cost.seconds * calls, cost.rays * calls);
             }
         }

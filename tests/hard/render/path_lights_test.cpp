@@ -196,6 +196,7 @@ TEST(PathLights, MC23_AThousandEqualLightsAreAtMostFourTimesAsNoisyAsTen) {
     }
 }
 
+<<<<<<< HEAD
 TEST(PathLights, MC23_AThousandLightsShareTheSamplesOfSixteen) {
     Scene scene;
     double expected = 0.0;
@@ -222,5 +223,7 @@ TEST(PathLights, MC23_AThousandLightsShareTheSamplesOfSixteen) {
     EXPECT_EQ(task.counts.shadow, 100u * 2u * 16u + 2u * 4u * 16u);
 }
 
+=======
+>>>>>>> lights
 }  // namespace
 }  // namespace aleph

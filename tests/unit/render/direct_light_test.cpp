@@ -227,6 +227,26 @@ TEST(DirectLight, LightAndLobeSamplingAgreeWithTheirCombination) {
     }
 }
 
+TEST(DirectLight, MC23_AThousandLightsShareTheSamplesOfSixteen) {
+    Scene scene;
+    double expected = 0.0;
+    for (int i = 0; i < 1000; ++i) {
+        const glm::dvec3 at(0.1 * (i % 32) - 1.6, 1.5 + 0.3 * std::sin(1.7 * i), 0.1 * (i / 32) - 1.6);
+        add_light(scene, Light::Kind::point, glm::dvec3(0.1), at);
+        expected += 0.6 / pi * 0.1 * at.y / std::pow(glm::dot(at, at), 1.5);
+    }
+    Lighting lighting(std::move(scene));
+    const Mean found = lighting.mean_at(glm::vec3(0.0f), make_lambert(0.6f), up, 2, 100);
+    EXPECT_NEAR(found.mean(), expected, 3.0 * found.error());
+    EXPECT_EQ(lighting.task.counts.shadow, 100u * 2u * 16u);
+    // The quick estimate has the same points at every surface.
+    const SurfacePoint point = make_point(glm::vec3(0.0f), up);
+    const Rgb quick = lighting.quick_at(point, make_lambert(0.6f), 4);
+    EXPECT_EQ(lighting.task.counts.shadow, 100u * 2u * 16u + 4u * 16u);
+    EXPECT_EQ(quick, lighting.quick_at(point, make_lambert(0.6f), 4));
+    EXPECT_NEAR(quick.x, expected, 0.05 * expected);
+}
+
 TEST(DirectLight, UsesAFixedNumberOfRandomDimensions) {
     Lighting lighting(make_square_lamp(z_to_down, false));
     const auto next_after = [&](const SurfaceMaterial& material, const glm::vec3& position) {

@@ -196,27 +196,48 @@ TEST(LightTree, WhatIsLeftOutIsBelowTheTolerance) {
 TEST(LightTree, DirectLightIsLessByNoMoreThanItSays) {
     const Stage stage(make_crowd(100, false));
     RayTask task(stage.rays);
-    SurfaceMaterial material = make_lambert(0.5f);
-    const ViewedSurface surface{make_point({0.3f, 2.5f, 0.1f}, {0.0f, -1.0f, 0.0f}), material, {0.0f, -1.0f, 0.0f}};
+    SurfaceMaterial glossy = make_lambert(0.5f);
+    glossy.f0 = Rgb(0.04f);
+    glossy.f90 = 1.0f;
+    glossy.alpha = 0.5f;
+    for (const SurfaceMaterial& material : {make_lambert(0.5f), glossy}) {
+        const glm::vec3 view = glm::normalize(glm::vec3(0.6f, -0.5f, 0.0f));
+        const ViewedSurface surface{make_point({0.3f, 2.5f, 0.1f}, {0.0f, -1.0f, 0.0f}), material, view};
+        const LobeShares shares{};
+        const auto light = [&](float tolerance, float& left_out) {
+            Mean mean;
+            for (std::uint32_t seed = 0; seed < 400; ++seed) {
+                mean.add(luminance(sample_direct_light(stage.lighting(), task, LitSurface(surface), shares,
+                                                       PixelSequence(seed, 0, 0, 0), {0, 4, tolerance}, &left_out)));
+            }
+            return mean;
+        };
+        float none = 1.0f, some = 0.0f;
+        const Mean all = light(0.0f, none);
+        const auto tolerance = static_cast<float>(0.2 * all.mean());
+        const Mean kept = light(tolerance, some);
+        EXPECT_EQ(none, 0.0f);
+        EXPECT_GT(some, 0.0f);
+        EXPECT_LT(some, tolerance);
+        const double error = 3.0 * std::hypot(all.error(), kept.error());
+        EXPECT_GT(kept.mean(), all.mean() - some - error);
+        EXPECT_LT(kept.mean(), all.mean() + error);
+    }
+}
+
+TEST(LightTree, LayersWithoutABoundLeaveNothingOut) {
+    const Stage stage(make_crowd(100, false));
+    RayTask task(stage.rays);
+    SurfaceMaterial coated = make_lambert(0.5f);
+    coated.coat = 1.0f;
+    coated.coat_alpha = 0.1f;
+    const ViewedSurface surface{make_point({0.3f, 2.5f, 0.1f}, {0.0f, -1.0f, 0.0f}), coated,
+                                glm::vec3(0.0f, -1.0f, 0.0f)};
     const LobeShares shares{};
-    const auto light = [&](float tolerance, float& left_out) {
-        Mean mean;
-        for (std::uint32_t seed = 0; seed < 400; ++seed) {
-            mean.add(luminance(sample_direct_light(stage.lighting(), task, LitSurface(surface), shares,
-                                                   PixelSequence(seed, 0, 0, 0), {0, 4, tolerance}, &left_out)));
-        }
-        return mean;
-    };
-    float none = 1.0f, some = 0.0f;
-    const Mean all = light(0.0f, none);
-    const auto tolerance = static_cast<float>(0.2 * all.mean());
-    const Mean kept = light(tolerance, some);
-    EXPECT_EQ(none, 0.0f);
-    EXPECT_GT(some, 0.0f);
-    EXPECT_LT(some, tolerance);
-    const double error = 3.0 * std::hypot(all.error(), kept.error());
-    EXPECT_GT(kept.mean(), all.mean() - some - error);
-    EXPECT_LT(kept.mean(), all.mean() + error);
+    float left_out = 1.0f;
+    sample_direct_light(stage.lighting(), task, LitSurface(surface), shares, PixelSequence(1, 0, 0, 0), {0, 1, 10.0f},
+                        &left_out);
+    EXPECT_EQ(left_out, 0.0f);
 }
 
 }  // namespace

@@ -127,9 +127,9 @@ TEST_P(PathWeights, SharedSamplesOfDirectLightHaveTheSameMean) {
     for (const SurfaceMaterial& material : {make_lambert(0.8f), make_metal(0.3f), make_plastic(), make_coated()}) {
         SCOPED_TRACE(seed);
         const ViewedSurface surface{make_point(glm::vec3(0.0f), up, 1e-4f), material, view};
-        const Mean lobes = estimate(stage, surface, 10'000, by_lobes(1), seed + 100);
+        const Mean lobes = estimate(stage, surface, 6000, by_lobes(1), seed + 100);
         for (const int count : {1, 4}) {
-            const Mean shared = estimate(stage, surface, 4000 / count, by_direct_samples_and_lobes(count), seed);
+            const Mean shared = estimate(stage, surface, 2400 / count, by_direct_samples_and_lobes(count), seed);
             EXPECT_LT(deviation(shared, lobes), 3.0) << shared.mean() << " " << lobes.mean();
             EXPECT_LT(shared.error(), 0.05 * shared.mean());
         }
