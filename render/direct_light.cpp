@@ -15,6 +15,7 @@ namespace {
 
 constexpr float min_estimate_alpha = 0.1f;  // GGX width of the quick estimate's lobes
 constexpr int batch_size = 16;              // shadow rays from one point, in one packet
+constexpr std::size_t least_packet = 8;     // fewer are faster one by one
 
 /// Shadow rays collected until a packet is full. The contributions of those that are not blocked are added in order.
 class ShadowBatch {
@@ -34,7 +35,11 @@ class ShadowBatch {
 
     void flush() {
         std::array<std::uint8_t, batch_size> blocked;
-        task_.tracer.occluded(std::span(rays_.data(), size_), std::span(blocked.data(), size_));
+        if (size_ < least_packet) {
+            for (std::size_t i = 0; i < size_; ++i) blocked[i] = task_.tracer.occluded(rays_[i]) ? 1 : 0;
+        } else {
+            task_.tracer.occluded(std::span(rays_.data(), size_), std::span(blocked.data(), size_));
+        }
         task_.counts.shadow += size_;
         for (std::size_t i = 0; i < size_; ++i) {
             if (!blocked[i]) sum_ += contributions_[i];

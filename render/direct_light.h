@@ -12,12 +12,9 @@ namespace aleph {
 struct LightPoints {
     int count = 1;  ///< per part
     int part = 0;
-    int parts = 1;  ///< 0: not known beforehand; any number of them is even
+    int parts = 1;
 
-    glm::vec2 at(int i, const glm::vec2& shift) const {
-        return parts > 0 ? lattice_point(i * parts + part, count * parts, shift)
-                         : sequence_point(part * count + i, shift);
-    }
+    glm::vec2 at(int i, const glm::vec2& shift) const { return lattice_point(i * parts + part, count * parts, shift); }
 };
 
 /// Light that a surface scatters, without its own emission.

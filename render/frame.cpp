@@ -14,13 +14,15 @@
 #include "render/resolve.h"
 #include "render/sample_packet.h"
 #include "render/sample_place.h"
+#include "render/shutter.h"
 
 namespace aleph {
 
 namespace {
 
-constexpr double fill_share = 0.3;      // of a frame's time, for progress only
+constexpr double fill_share = 0.3;       // of a frame's time, for progress only
 constexpr std::size_t task_ranges = 64;  // pixels of a task
+constexpr int progressive_light_samples = 2;  // of direct light, per pixel sample
 constexpr int slice_samples = 1 << 17;  // that may wait for light at a time: more only for the sake of threads
 constexpr std::size_t slice_ranges = 64 * task_ranges;
 
@@ -35,14 +37,14 @@ class FrameShading {
         : context_(context),
           options_(options),
           out_(out),
-          by_paths_(context.settings.integrator == Integrator::path || options.at_sample),
+          by_paths_(context.settings.integrator == Integrator::path),
           indirect_(context.settings.bounces > 0 && context.settings.path_depth > 1),
-          cached_(!by_paths_ && indirect_ && context.settings.accuracy > 0.0),
+          cached_(!by_paths_ && indirect_ && context.settings.accuracy > 0.0 && options.light_lasts),
           cache_(make_cache(context.lighting.shading)),
           known_(context, cached_ ? &cache_ : nullptr),
           direct_(context.max_radius),
           pixels_(context.view.width, context.view.height),
-          place_(make_sample_place(context.settings, context.view, options.lens, options.blended, context.frame, 0)) {
+          place_(make_sample_place(context.settings, options.lens, options.blended, context.frame, 0)) {
         if (cached_) context_.direct = &direct_;
         context_.deeper = make_deeper_light(context.settings, nullptr);
         if (options.record_maps && !by_paths_) uses_ = Image<RecordUse>(context_.view.width, context_.view.height);
@@ -62,18 +64,21 @@ class FrameShading {
         fill_cache(cache_, context_, *first_, out_);
         fill_mirror_places(cache_, context_, *first_, out_);
         cache_.finish();
+        if (options_.at_sample) first_ = nullptr;  // of the frame's own time
     }
 
     void shade(double exposure) {
         const RenderSettings& settings = context_.settings;
-        plan_.rule = settings.sampling;
-        plan_.test = settings.variance_test;
-        plan_.most = settings.spp;
+        SamplingPlan plan;
+        plan.rule = settings.sampling;
+        plan.test = settings.variance_test;
+        plan.most = settings.spp;
         if (options_.limits != nullptr) {
-            plan_.tolerance = compute_sampling_tolerance(*options_.limits, settings, exposure);
-            plan_.aleph = options_.limits->aleph;
+            plan.tolerance = compute_sampling_tolerance(*options_.limits, settings, exposure);
+            plan.aleph = options_.limits->aleph;
+            systematic_ = compute_systematic_tolerance(*options_.limits, settings, exposure);
         }
-        sample_by_stages(plan_, pixels_, [&](std::span<const PixelRange> ranges) { take(ranges); });
+        sample_by_stages(plan, pixels_, [&](std::span<const PixelRange> ranges) { take(ranges); });
     }
 
     void resolve(double exposure) {
@@ -100,18 +105,17 @@ class FrameShading {
 
     SampleShading make_shading() {
         const RenderSettings& settings = context_.settings;
-        LightPoints points{1, 0, 0};
-        if (settings.sampling == Sampling::uniform) {
-            points = {(settings.light_samples + settings.spp - 1) / settings.spp, 0, settings.spp};
-        }
+        const bool uniform = settings.sampling == Sampling::uniform;
         return {.context = context_,
                 .moment = place_.moment,
                 .by_paths = by_paths_,
                 .indirect = indirect_,
                 .cache = cached_ ? &cache_ : nullptr,
-                .known = &known_,
-                .gloss_tolerance = plan_.tolerance.empty() ? nullptr : &plan_.tolerance,
-                .points = points,
+                .known = options_.at_sample ? nullptr : &known_,
+                .blurred = static_cast<bool>(options_.at_sample),
+                .points = {(settings.light_samples + settings.spp - 1) / settings.spp, 0, settings.spp},
+                .light_samples = uniform ? 0 : progressive_light_samples,
+                .tolerance = systematic_ ? &*systematic_ : nullptr,
                 .records = &out_.records,
                 .uses = uses_.empty() ? nullptr : &uses_};
     }
@@ -119,33 +123,37 @@ class FrameShading {
     /// Takes the samples of a stage.
     void take(std::span<const PixelRange> ranges) {
         if (!options_.at_sample) {
-            const SampleMoment still{context_.lighting, context_.view};
-            take_at(still, ranges);
+            take_at({context_.lighting, context_.view}, make_shading(), ranges);
         } else {
             take_by_time(ranges);
         }
         ++stage_;
     }
 
-    /// One sample of all pixels after the other: each has a time of its own.
+    /// One sample of all pixels of a class after the other: each has a time of its own.
     void take_by_time(std::span<const PixelRange> ranges) {
-        int first = ranges.front().first, last = 0;
-        for (const PixelRange& range : ranges) {
-            first = std::min(first, range.first);
-            last = std::max(last, range.last);
-        }
-        std::vector<PixelRange> now;
+        const auto [first, last] = find_span(ranges);
         for (int i = first; i < last; ++i) {
-            now.clear();
-            for (const PixelRange& range : ranges) {
-                if (range.first <= i && i < range.last) now.push_back({range.x, range.y, i, i + 1});
+            for (int c = 0; c < time_classes; ++c) {
+                const std::vector<PixelRange> now = select_sample(ranges, i, c);
+                if (!now.empty()) take_blurred(options_.at_sample(i, c), now);
             }
-            const SampleMoment moment = options_.at_sample(i);
-            take_at(moment, now);
         }
     }
 
-    void take_at(const SampleMoment& moment, std::span<const PixelRange> ranges) {
+    void take_blurred(const SampleMoment& moment, std::span<const PixelRange> ranges) {
+        SampleShading shading = make_shading();
+        std::optional<ShutterLight> light;
+        if (cached_) {
+            shading.shutter = &light.emplace(context_.lighting.shading, moment.lighting.shading, context_.carried,
+                                             &cache_, context_.settings.shade_reach);
+            context_.seen = &moment.lighting.shading;
+        }
+        take_at(moment, shading, ranges);
+        context_.seen = nullptr;
+    }
+
+    void take_at(const SampleMoment& moment, const SampleShading& shading, std::span<const PixelRange> ranges) {
         std::size_t begin = 0, end = 0;
         while (begin < ranges.size()) {
             int samples = 0;
@@ -153,19 +161,18 @@ class FrameShading {
                 samples += ranges[end].last - ranges[end].first;
                 ++end;
             }
-            take_slice(moment, ranges.subspan(begin, end - begin));
+            take_slice(moment, shading, ranges.subspan(begin, end - begin));
             report_progress(static_cast<double>(end) / static_cast<double>(ranges.size()));
             begin = end;
         }
     }
 
     /// Takes samples, and then finds the light of those that the cache did not cover.
-    void take_slice(const SampleMoment& moment, std::span<const PixelRange> ranges) {
-        const SampleShading shading = make_shading();
+    void take_slice(const SampleMoment& moment, const SampleShading& shading, std::span<const PixelRange> ranges) {
         std::vector<std::vector<PendingSample>> waiting((ranges.size() + task_ranges - 1) / task_ranges);
         parallel_for(ranges.size(), task_ranges, [&](std::size_t begin, std::size_t end) {
             thread_local GatherScratch scratch;
-            ShadingTask task(moment.lighting.rays, scratch);
+            ShadingTask task(moment.lighting.rays, context_.lighting.rays, scratch);
             take_ranges(shading, moment, task, ranges.subspan(begin, end - begin), waiting[begin / task_ranges]);
             finish(task);
         });
@@ -188,7 +195,7 @@ class FrameShading {
             }
             const PixelSurface surface =
                 make_pixel_surface(moment.lighting.shading, moment.view, at, hit, direction, x, y);
-            if (shade_sample(shading, moment, task, surface, light)) {
+            if (shade_sample(shading, moment, task, surface, pixels_(x, y), light)) {
                 add_sample(task, x, y, light);
             } else {
                 waiting.push_back({surface, light});
@@ -208,13 +215,13 @@ class FrameShading {
         if (pending.empty()) return;
         parallel_for(pending.size(), task_ranges, [&](std::size_t begin, std::size_t end) {
             thread_local GatherScratch scratch;
-            ShadingTask task(moment.lighting.rays, scratch);
+            ShadingTask task(moment.lighting.rays, context_.lighting.rays, scratch);
             for (std::size_t i = begin; i < end; ++i) {
-                add_indirect(shading, task, pending[i].surface, pending[i].light);
+                add_indirect(shading, moment, task, pending[i].surface, pending[i].light);
             }
             finish(task);
         });
-        ShadingTask task(moment.lighting.rays, pending_scratch_);
+        ShadingTask task(moment.lighting.rays, context_.lighting.rays, pending_scratch_);
         for (const PendingSample& sample : pending) {
             add_sample(task, sample.surface.x, sample.surface.y, sample.light);
         }
@@ -245,6 +252,7 @@ class FrameShading {
     void finish(const ShadingTask& task) {
         const std::lock_guard lock(mutex_);
         out_.counts.rays += task.counts;
+        out_.counts.rays += task.at_frame.counts;
         out_.counts.cache.lookups += task.lookups;
         out_.counts.cache.hits += task.hits;
         out_.counts.records += task.computed;
@@ -269,13 +277,13 @@ class FrameShading {
     std::optional<IrradianceCache> fewer_bounces_;
     DirectGrid direct_;
     Image<PixelSamples> pixels_;
-    SamplingPlan plan_;
     SamplePlace place_;  ///< of the first sample
+    std::optional<SystematicTolerance> systematic_;
     const SampleHits* first_ = nullptr;  ///< hits of the pixels' first samples, if they are cast already
     SampleHits cast_first_;
     GatherScratch pending_scratch_;
     int stage_ = 0;
-    Image<RecordUse> uses_;         ///< empty: not asked for
+    Image<RecordUse> uses_;  ///< empty: not asked for
     std::mutex mutex_;
 };
 

@@ -13,13 +13,16 @@ struct SampleOptions {
     bool blended = false;      ///< blended surfaces are in the scene
     bool record_maps = false;  ///< fill ShadedFrame::cache_count and cache_radius
     /// The scene at a sample's time, valid until the next call; empty: the shutter opens for no time.
-    std::function<SampleMoment(int sample)> at_sample;
+    /// @param time_class  of the pixel (shutter.h)
+    std::function<SampleMoment(int sample, int time_class)> at_sample;
+    bool light_lasts = true;  ///< while the shutter is open; otherwise indirect light is found by paths then
     /// What the samples may err by; null: not known, which Sampling::uniform alone allows.
     const VisibleLimits* limits = nullptr;
 };
 
 /// Shades a frame. With Integrator::cache it fills a cache first; with accuracy 0, irradiance is gathered at every
-/// sample instead. While the shutter is open the scene changes from sample to sample, and all light is found by paths.
+/// sample instead. While the shutter is open the scene changes from sample to sample: indirect light is read where it
+/// lasts (shutter_light.h), and comes from one random path elsewhere, also with accuracy 0.
 /// @param centers  hits through the pixel centres, which are the samples if spp is 1
 ShadedFrame shade_frame(const IndirectContext& context, const SampleHits& centers, double exposure,
                         const SampleOptions& options = {});

@@ -114,13 +114,11 @@ std::size_t choose(std::span<const float> weights, float total, LightPick& pick)
 LightCut take_all_lights(const LightSet& lights, const Receiver& receiver, float behind) {
     LightCut cut;
     cut.size = lights.count();
+    cut.has_all = true;
     static_assert(LightCut::few % LightBounds::step == 0 && LightCut::few <= LightCut::capacity);
     bound_illuminances(lights.bounds, receiver.position, receiver.normal, behind,
                        {cut.weights.data(), lights.bounds.strength.size()});
-    for (int i = 0; i < cut.size; ++i) {
-        cut.nodes[i] = i;
-        cut.total += cut.weights[i];
-    }
+    for (int i = 0; i < cut.size; ++i) cut.total += cut.weights[i];
     return cut;
 }
 
@@ -149,7 +147,8 @@ LightPick pick_light(const LightSet& lights, const LightCut& cut, const Receiver
     pick.rest = number;
     pick.probability = 1.0f;
     const auto size = static_cast<std::size_t>(cut.size);
-    int node = cut.nodes[choose({cut.weights.data(), size}, cut.total, pick)];
+    const std::size_t chosen = choose({cut.weights.data(), size}, cut.total, pick);
+    int node = cut.has_all ? static_cast<int>(chosen) : cut.nodes[chosen];
     while (!lights.tree.is_light(node)) {
         const LightGroup& group = lights.tree.group(node);
         const LightReaches reaches = reach_of(group, receiver.position, receiver.normal, behind);

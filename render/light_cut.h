@@ -15,10 +15,11 @@ struct LightCut {
     static constexpr int few = 16;       ///< so many lights are all in the cut
     static constexpr int capacity = 24;  ///< nodes
     int size = 0;
-    std::array<int, capacity> nodes{};      ///< children of LightTree, in its order: neighbours are neighbours
-    std::array<float, capacity> weights{};  ///< about the illuminance that each brings
-    float total = 0.0f;                     ///< of the weights; infinite or not a number if a weight is
-    float left_out = 0.0f;                  ///< illuminance that the lights left out may bring, without shadows
+    bool has_all = false;                 ///< the nodes are all lights, and `nodes` is not set
+    std::array<int, capacity> nodes;      ///< children of LightTree, in its order: neighbours are neighbours
+    std::array<float, capacity> weights;  ///< about the illuminance that each brings
+    float total = 0.0f;                   ///< of the weights; infinite or not a number if a weight is
+    float left_out = 0.0f;                ///< illuminance that the lights left out may bring, without shadows
 };
 
 /// Few lights: all of them. Else groups are divided, that of the largest bound first, until there are enough nodes.

@@ -1,6 +1,22 @@
 #include "render/pending_samples.h"
 
+#include "render/carried_point.h"
+
 namespace aleph {
+
+namespace {
+
+/// Where its light is wanted (IndirectContext::seen).
+PixelSurface place_surface(const IndirectContext& context, const PendingSample& sample) {
+    PixelSurface surface = sample.surface;
+    if (context.seen != nullptr) {
+        // A sample waits only if it can be carried.
+        surface.point = *carry_point(context.lighting.shading, surface.hit, surface.point);
+    }
+    return surface;
+}
+
+}  // namespace
 
 void fill_pending(IrradianceCache& cache, const IndirectContext& context, const std::vector<PendingSample>& pending,
                   FrameTally& tally) {
@@ -10,9 +26,9 @@ void fill_pending(IrradianceCache& cache, const IndirectContext& context, const 
     FillPlaces places;
     places.points = Image<FillPoint>(count, 1);
     places.coarse_first = false;
-    places.surface_at = [&](int x, int) { return pending[x].surface; };
+    places.surface_at = [&](int x, int) { return place_surface(context, pending[x]); };
     for (int i = 0; i < count; ++i) {
-        const PixelSurface& surface = pending[i].surface;
+        const PixelSurface surface = place_surface(context, pending[i]);
         accuracy(i, 0) = context.accuracy(surface.x, surface.y);
         places.points(i, 0) = {surface.point.position, surface.footprint, surface.point.normal};
     }

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "engine/base/parallel.h"
+#include "render/shutter.h"
 
 namespace aleph {
 
@@ -44,6 +45,23 @@ std::vector<PixelRange> next_ranges(const SamplingPlan& plan, const Image<PixelS
 }
 
 }  // namespace
+
+std::pair<int, int> find_span(std::span<const PixelRange> ranges) {
+    std::pair<int, int> all{ranges.front().first, ranges.front().last};
+    for (const PixelRange& range : ranges) {
+        all = {std::min(all.first, range.first), std::max(all.second, range.last)};
+    }
+    return all;
+}
+
+std::vector<PixelRange> select_sample(std::span<const PixelRange> ranges, int index, int pixel_class) {
+    std::vector<PixelRange> taken;
+    for (const auto& [x, y, first, last] : ranges) {
+        if (first <= index && index < last && time_class(x, y) == pixel_class)
+            taken.push_back({x, y, index, index + 1});
+    }
+    return taken;
+}
 
 void sample_by_stages(const SamplingPlan& plan, const Image<PixelSamples>& pixels, const TakeSamples& take) {
     std::vector<PixelRange> stage = first_ranges(plan, pixels);

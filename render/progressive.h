@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "render/stopping_rule.h"
@@ -23,6 +24,12 @@ struct PixelRange {
     int x = 0, y = 0;
     int first = 0, last = 0;
 };
+
+/// The first and the last sample, plus 1, that any of the pixels takes.
+std::pair<int, int> find_span(std::span<const PixelRange> ranges);
+
+/// Sample `index` of those pixels of a class (shutter.h) that take it.
+std::vector<PixelRange> select_sample(std::span<const PixelRange> ranges, int index, int pixel_class);
 
 /// Adds samples to the pixels. The ranges go from row to row.
 using TakeSamples = std::function<void(std::span<const PixelRange> ranges)>;

@@ -11,8 +11,8 @@ constexpr int counted_samples = 4;  // of a pixel, where their number is not kno
 
 }  // namespace
 
-SamplePlace make_sample_place(const RenderSettings& settings, const CameraView&, const Lens& lens, bool blended,
-                              std::uint32_t moment, int index) {
+SamplePlace make_sample_place(const RenderSettings& settings, const Lens& lens, bool blended, std::uint32_t moment,
+                              int index) {
     const int count =
         settings.sampling == Sampling::uniform ? settings.spp : std::min(settings.spp, counted_samples);
     SamplePlace place;

@@ -7,6 +7,7 @@
 #include "render/gather.h"
 #include "render/indirect_context.h"
 #include "render/pixel_samples.h"
+#include "render/shutter_light.h"
 
 namespace aleph {
 
@@ -18,10 +19,20 @@ struct SampleMoment {
 
 /// The work of one task: its rays, and what it counts.
 struct ShadingTask : RayTask {
-    ShadingTask(const RayScene& rays, GatherScratch& buffers) : RayTask(rays), scratch(buffers) {}
+    /// @param rays        at the samples' time
+    /// @param frame_rays  at the frame's own time: another scene while the shutter is open
+    ShadingTask(const RayScene& rays, const RayScene& frame_rays, GatherScratch& buffers)
+        : RayTask(rays), at_frame(frame_rays), scratch(buffers) {}
 
+    RayTask at_frame;
     GatherScratch& scratch;
     std::uint64_t lookups = 0, hits = 0, computed = 0, invalid = 0;
+};
+
+/// Errors, of luminance, that do not fall with the number of samples. Per pixel.
+struct SystematicTolerance {
+    Image<float> lights;  ///< what lights that are left out may bring
+    Image<float> gloss;   ///< how far irradiance that stands in for a lobe may be off (glossy_light.h)
 };
 
 /// How a frame's samples are shaded.
@@ -33,21 +44,26 @@ struct SampleShading {
     /// Finished; null: irradiance that no key moment knows is gathered at every sample.
     const IrradianceCache* cache = nullptr;
     const KnownIrradiance* known = nullptr;  ///< to paths from lobes; null: they find all light by themselves
-    /// Radiance by which each pixel's samples may err: a part of it is left to irradiance that stands in for lobes
-    /// (glossy_light.h). Null: none.
-    const Image<float>* gloss_tolerance = nullptr;
-    LightPoints points{};              ///< on each light, of a pixel's first sample
+    bool blurred = false;                    ///< the shutter is open: what `shutter` does not know is found by paths
+    const ShutterLight* shutter = nullptr;   ///< null: it knows nothing
+    LightPoints points{};                    ///< uniform sampling: on each light, of a pixel's first sample
+    /// Progressive sampling: samples of direct light per pixel sample, shared out among all lights; 0: uniform.
+    int light_samples = 0;
+    const SystematicTolerance* tolerance = nullptr;  ///< null: nothing may be left out
     Image<float>* records = nullptr;   ///< counts irradiance values computed here; of the frame's size
     Image<RecordUse>* uses = nullptr;  ///< records that were read; null: not asked for
 };
 
 /// Light that a pixel's surface sends to the camera.
+/// @param pixel  its samples so far
 /// @param light  set
 /// @return false: the cache has no record here, and `light` lacks indirect light (add_indirect)
 bool shade_sample(const SampleShading& shading, const SampleMoment& moment, ShadingTask& task,
-                  const PixelSurface& surface, SampleLight& light);
+                  const PixelSurface& surface, const PixelSamples& pixel, SampleLight& light);
 
-/// Adds the indirect light that shade_sample did not find. Where there is still no record, it is gathered.
-void add_indirect(const SampleShading& shading, ShadingTask& task, const PixelSurface& surface, SampleLight& light);
+/// Adds the indirect light that shade_sample did not find. Where there is still no record, it is gathered, or
+/// comes from a path while the shutter is open.
+void add_indirect(const SampleShading& shading, const SampleMoment& moment, ShadingTask& task,
+                  const PixelSurface& surface, SampleLight& light);
 
 }  // namespace aleph

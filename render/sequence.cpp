@@ -37,12 +37,12 @@ void fill_geometry_maps(const ShadingScene& shading, const SampleHits& centers, 
 }
 
 /// The scene at each sample's time while the shutter is open.
-std::function<SampleMoment(int)> open_shutter(SequenceState& s, const ShutterInterval& shutter, std::uint32_t frame,
-                                              const CameraView& view) {
+std::function<SampleMoment(int, int)> open_shutter(SequenceState& s, const ShutterInterval& shutter,
+                                                   std::uint32_t frame, const CameraView& view) {
     const double shift = RandomStream({s.settings.seed ^ shutter_seed_mask, frame, 0, 0}).next();
     if (!s.open) s.open = std::make_unique<OpenShutter>(s.scene, s.pose_plan, s.textures, s.rays, s.camera);
-    return [&s, shutter, shift, &view](int sample) {
-        const double at = place_in_shutter(shutter, sample, shift);
+    return [&s, shutter, shift, &view](int sample, int pixel_class) {
+        const double at = place_in_shutter(shutter, sample, pixel_class, shift);
         return s.open->move_to(at / s.scene.frame_rate.per_second(), view.width, view.height);
     };
 }
@@ -118,7 +118,8 @@ FrameOutput Sequence::render(std::int64_t frame, const FrameRequest& request) {
         const CameraValues& camera = s.now->pose.cameras[s.camera];
         options.lens = find_lens(s.scene, camera);
         if (s.can_change()) shutter = find_shutter(s.scene, camera, frame);
-        if (!shutter && s.shot_light) carried = s.shot_light->at(frame, stats.moments);
+        if (shutter) options.light_lasts = !s.light_breaks.changes(shutter->open, shutter->close);
+        if (options.light_lasts && s.shot_light) carried = s.shot_light->at(frame, stats.moments);
     }
 
     const std::uint64_t traced_before = s.rays_traced(), invalid_before = s.rays.invalid_rays();

@@ -17,8 +17,17 @@ struct ShutterInterval {
 /// @return nothing if the shutter opens for no time at the frame itself
 std::optional<ShutterInterval> find_shutter(const Scene& scene, const CameraValues& camera, std::int64_t frame);
 
-/// Time of sample `index`, in frames: an additive sequence over the interval that starts at `shift` of it, in [0,1).
-/// Evenly spread for any number of samples, and independent of where the samples lie in their pixels.
-double place_in_shutter(const ShutterInterval& shutter, int index, double shift);
+/// Pixels whose samples have the same times are of one class. With a single class, what moves is seen as many times
+/// over as pixels have samples.
+inline constexpr int time_classes = 4;
+
+/// Class of a pixel. The four of a 2x2 block differ.
+inline int time_class(int x, int y) {
+    return (y & 1) * 2 + (x & 1);
+}
+
+/// Time of sample `index` of pixels of a class, in frames: additive sequences over the interval that start at `shift`
+/// of it, in [0,1). Those of one class, and those of all classes together, are evenly spread for any number of samples.
+double place_in_shutter(const ShutterInterval& shutter, int index, int pixel_class, double shift);
 
 }  // namespace aleph

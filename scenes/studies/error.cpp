@@ -64,8 +64,8 @@ std::optional<LuminanceDifference> check_reference(const JudgedFrame& frame, con
 /// The settings as they are, `--error` and the stopping rules.
 void run_variants(ErrorStudy& study, const ErrorOptions& options, const StudyTable& table) {
     const JudgedFrame& frame = study.frame;
-    const auto run = [&](const std::string& name, const RenderSettings& settings) {
-        study.runs.push_back(judge(frame, name, settings));
+    const auto run = [&](const std::string& name, const RenderSettings& settings, double asked = 1.0) {
+        study.runs.push_back(judge(frame, name, settings, asked));
         add_run(table, frame, study.runs.back());
     };
     if (!options.no_defaults) run("defaults", frame.settings);
@@ -73,8 +73,8 @@ void run_variants(ErrorStudy& study, const ErrorOptions& options, const StudyTab
         for (const std::string& error : options.errors) {
             std::vector<std::string> sets = options.sets;
             sets.push_back("error=" + error);
-            run("--error " + error, with_settings(frame.settings, sets));
             const double thresholds = frame.multiples[&error - options.errors.data()];
+            run("--error " + error, with_settings(frame.settings, sets), thresholds);
             study.shares.push_back({frame.name,
                                     {thresholds, study.runs.back().percent_beyond(thresholds)},
                                     study.runs.back().name,
@@ -100,7 +100,7 @@ void run_ladder(ErrorStudy& study, const ErrorOptions& options, const StudyTable
     const Ladder ladder{parse_values(options.spps, "--spps"), parse_values(options.light_samples, "--light-samples"),
                         parse_values(options.accuracies, "--accuracies"), options.most_seconds};
     const auto sides = climb(study.frame, ladder, goals, [&](const ErrorRun& run) {
-        study.runs.push_back(run);
+        study.fixed.push_back(run);
         add_run(table, study.frame, run);
     });
     for (EqualShare& share : study.shares) share.fixed = find_best_fixed(sides, share.goal);
@@ -114,7 +114,7 @@ void run_errors(const ErrorOptions& options) {
         JudgedFrame frame = prepare(scene, settings, number, options);
         const PictureError noise = measure_picture(frame.reference, frame.reference, frame.threshold, frame.multiples);
         const auto check = check_reference(frame, options);
-        studies.push_back({std::move(frame), noise, check, {}, {}});
+        studies.push_back({std::move(frame), noise, check, {}, {}, {}});
     }
     fmt::print("{}, {}, thresholds of {}, {} bounces\n\nReferences; noise in thresholds:\n\n", options.study.scene,
                options.study.size, std::get<std::string>(setting_map(settings).at("vision")), settings.bounces);
@@ -128,8 +128,13 @@ void run_errors(const ErrorOptions& options) {
         if (!options.report.empty()) write_report(options.report, studies);
     }
     fmt::print("\nSeconds of a processor by stage:\n\n");
-    if (!studies.front().runs.empty()) print_stages(studies, options.markdown);
-    fmt::print("\nSeconds at equal shares of pixels beyond:\n\n");
+    print_stages(studies, options.markdown);
+    fmt::print(
+        "\nThe program's own estimates: pixels beyond; error over estimate; pixels beyond what 99.5 % should be "
+        "within; "
+        "pixels beyond by their largest estimated cause:\n\n");
+    print_claims(studies, options.markdown);
+    fmt::print("\nSeconds of a processor at equal shares of pixels beyond:\n\n");
     print_shares(studies, options.markdown);
 }
 

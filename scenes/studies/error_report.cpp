@@ -49,6 +49,17 @@ Json cost_json(const FrameCost& cost) {
             {"most_samples", cost.most_samples}};
 }
 
+Json run_json(const ErrorRun& run) {
+    Json json{{"settings", run.name}, {"error", error_json(run.error)}, {"cost", cost_json(run.cost)}};
+    if (run.claim) {
+        json["claim"] = {{"median_ratio", run.claim->median_ratio},
+                         {"understated", run.claim->understated},
+                         {"beyond_by_cause", run.claim->beyond_by_cause}};
+    }
+    json["statistics"] = statistics_of(run);
+    return json;
+}
+
 Json study_json(const ErrorStudy& study) {
     Json json{{"frame", study.frame.name},
               {"size", fmt::format("{}x{}", study.frame.settings.width, study.frame.settings.height)},
@@ -58,13 +69,10 @@ Json study_json(const ErrorStudy& study) {
                 {"noisy_percent", study.noise.noisy_percent}}},
               {"map_seconds", study.frame.map_seconds},
               {"runs", Json::array()},
+              {"fixed", Json::array()},
               {"equal_share", Json::array()}};
-    for (const ErrorRun& run : study.runs) {
-        json["runs"].push_back({{"settings", run.name},
-                                {"error", error_json(run.error)},
-                                {"cost", cost_json(run.cost)},
-                                {"statistics", statistics_of(run)}});
-    }
+    for (const ErrorRun& run : study.runs) json["runs"].push_back(run_json(run));
+    for (const ErrorRun& run : study.fixed) json["fixed"].push_back(run_json(run));
     for (const EqualShare& share : study.shares) {
         Json entry{{"thresholds", share.goal.thresholds}, {"percent", share.goal.percent}, {"of", share.asked}};
         if (share.cost) entry["seconds"] = share.cost->seconds();
@@ -141,6 +149,7 @@ void add_run(const StudyTable& table, const JudgedFrame& frame, const ErrorRun& 
 }
 
 void print_stages(const std::vector<ErrorStudy>& studies, bool markdown) {
+    if (studies.front().runs.empty()) return;
     std::vector<std::string> columns = {"frame", "settings"};
     for (const auto& [stage, seconds] : studies.front().runs.front().cost.stages) columns.push_back(stage);
     for (const char* column : {"moments", "total", "by clock"}) columns.emplace_back(column);
@@ -151,6 +160,22 @@ void print_stages(const std::vector<ErrorStudy>& studies, bool markdown) {
             for (const auto& [stage, seconds] : run.cost.stages) cells.push_back(fmt::format("{:.2f}", seconds));
             for (const double seconds : {run.cost.moment_seconds, run.cost.seconds(), run.cost.clock_seconds})
                 cells.push_back(fmt::format("{:.2f}", seconds));
+            table.add(cells);
+        }
+    }
+}
+
+void print_claims(const std::vector<ErrorStudy>& studies, bool markdown) {
+    std::vector<std::string> columns = {"frame", "settings", "claimed (%)", "error / claim", "understated (%)"};
+    for (const std::string& cause : cause_names()) columns.push_back(cause + " (%)");
+    const StudyTable table(columns, 2, markdown);
+    for (const ErrorStudy& study : studies) {
+        for (const ErrorRun& run : study.runs) {
+            if (!run.claim) continue;
+            std::vector<std::string> cells = {
+                study.frame.name, run.name, fmt::format("{:.3f}", claimed_percent(run).value_or(0.0)),
+                fmt::format("{:.2f}", run.claim->median_ratio), fmt::format("{:.2f}", run.claim->understated)};
+            for (const double percent : run.claim->beyond_by_cause) cells.push_back(fmt::format("{:.3f}", percent));
             table.add(cells);
         }
     }

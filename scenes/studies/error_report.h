@@ -20,7 +20,8 @@ struct ErrorStudy {
     JudgedFrame frame;
     PictureError noise;                                ///< of the reference (multiples against itself)
     std::optional<LuminanceDifference> against_paths;  ///< of the reference, if it was compared
-    std::vector<ErrorRun> runs;                        ///< in the order in which they ran
+    std::vector<ErrorRun> runs;                        ///< with settings as they are, `error` and stopping rules
+    std::vector<ErrorRun> fixed;                       ///< the ladder's
     std::vector<EqualShare> shares;
 };
 
@@ -31,6 +32,8 @@ void print_references(const std::vector<ErrorStudy>& studies, bool markdown);
 StudyTable start_run_table(const std::vector<double>& multiples, bool markdown);
 void add_run(const StudyTable& table, const JudgedFrame& frame, const ErrorRun& run);
 void print_stages(const std::vector<ErrorStudy>& studies, bool markdown);
+/// What the program said of its errors, beside what they were.
+void print_claims(const std::vector<ErrorStudy>& studies, bool markdown);
 void print_shares(const std::vector<ErrorStudy>& studies, bool markdown);
 
 /// Everything, as JSON.

@@ -65,12 +65,16 @@ double ErrorRun::percent_beyond(double thresholds) const {
     return found == error.beyond.end() ? 100.0 : found->percent;
 }
 
-ErrorRun judge(const JudgedFrame& frame, const std::string& name, const RenderSettings& settings) {
+ErrorRun judge(const JudgedFrame& frame, const std::string& name, const RenderSettings& settings, double asked) {
     TimedFrame timed = render_timed(frame.scene, settings, frame.number, frame.repeats);
-    const auto exposure = std::get<double>(timed.picture.metadata.at("exposureFactor"));
-    return {name, timed.cost,
-            measure_picture(timed.picture, with_exposure(frame.reference, exposure), frame.threshold, frame.multiples),
-            std::move(timed.statistics)};
+    const ChannelImage reference =
+        with_exposure(frame.reference, std::get<double>(timed.picture.metadata.at("exposureFactor")));
+    ErrorRun run{name, std::move(timed.cost),
+                 measure_picture(timed.picture, reference, frame.threshold, frame.multiples), std::nullopt,
+                 std::move(timed.statistics)};
+    if (!timed.claimed.total.empty())
+        run.claim = check_claim(timed.picture, reference, frame.threshold, timed.claimed, asked);
+    return run;
 }
 
 std::vector<LadderSide> climb(const JudgedFrame& frame, const Ladder& ladder, const std::vector<ShareGoal>& goals,

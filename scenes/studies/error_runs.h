@@ -15,7 +15,8 @@ struct ErrorRun {
     std::string name;  ///< its settings, in words
     FrameCost cost;
     PictureError error;
-    std::string statistics;  ///< JSON (TimedFrame)
+    std::optional<ClaimCheck> claim;  ///< of what the program says of its error
+    std::string statistics;           ///< JSON (TimedFrame)
 
     /// Percent of the pixels beyond so many thresholds, one of JudgedFrame::multiples.
     double percent_beyond(double thresholds) const;
@@ -34,7 +35,8 @@ struct JudgedFrame {
     int repeats = 1;                   ///< of every rendering
 };
 
-ErrorRun judge(const JudgedFrame& frame, const std::string& name, const RenderSettings& settings);
+/// @param asked  thresholds, with which the program's own estimate is checked
+ErrorRun judge(const JudgedFrame& frame, const std::string& name, const RenderSettings& settings, double asked = 1.0);
 
 /// Fixed settings: uniform sampling without a guide.
 struct Ladder {

@@ -1,5 +1,8 @@
 #include "scenes/studies/picture_error.h"
 
+#include <algorithm>
+#include <cmath>
+
 namespace aleph {
 
 Image<float> scaled(Image<float> image, double factor) {
@@ -29,6 +32,28 @@ PictureError measure_picture(const ChannelImage& picture, const ChannelImage& re
     const LuminanceDifference difference = compare_luminance(picture, reference, {});
     out.bias = difference.bias;
     out.bias_error = difference.bias_error;
+    return out;
+}
+
+ClaimCheck check_claim(const ChannelImage& picture, const ChannelImage& reference, const Image<float>& threshold,
+                       const ErrorMaps& claimed, double asked) {
+    constexpr double normal_median = 0.67449, normal_99_5 = 2.807;  // standard deviations
+    const LuminanceError error = compute_luminance_error(picture, reference);
+    RatioHistogram ratios;
+    ClaimCheck out;
+    const double percent = 100.0 / static_cast<double>(std::max<std::size_t>(1, threshold.size()));
+    for (std::size_t i = 0; i < threshold.size(); ++i) {
+        const double size = std::abs(error.error.pixels[i]) / threshold.pixels[i];
+        ratios.add(size, claimed.total.pixels[i]);
+        if (size > normal_99_5 * claimed.total.pixels[i]) out.understated += percent;
+        if (!(size > asked)) continue;
+        std::size_t largest = 0;
+        for (std::size_t cause = 1; cause < cause_count; ++cause) {
+            if (claimed.by_cause[cause].pixels[i] > claimed.by_cause[largest].pixels[i]) largest = cause;
+        }
+        out.beyond_by_cause[largest] += percent;
+    }
+    out.median_ratio = ratios.percentile(0.5) / normal_median;
     return out;
 }
 

@@ -1,9 +1,11 @@
 #pragma once
 // The error of a picture against a noisy reference, in thresholds of a viewer, at several multiples of the threshold.
 
+#include <array>
 #include <vector>
 
 #include "render/compare_threshold.h"
+#include "render/error_report.h"
 
 namespace aleph {
 
@@ -31,6 +33,21 @@ struct PictureError {
 /// @throws InputError if sizes differ
 PictureError measure_picture(const ChannelImage& picture, const ChannelImage& reference, const Image<float>& threshold,
                              const std::vector<double>& multiples);
+
+/// What a program says of its own error, held against the error itself.
+struct ClaimCheck {
+    double median_ratio =
+        0.0;  ///< median of |error| over the median of a normal distribution with the claimed deviation
+    double understated = 0.0;  ///< percent of the pixels beyond what 99.5 % should be within: .5 is expected
+    /// Percent of the pixels beyond the asked error, by the largest claimed cause.
+    std::array<double, cause_count> beyond_by_cause{};
+};
+
+/// @param claimed  of the picture, in thresholds
+/// @param asked    thresholds
+/// @throws InputError if sizes differ
+ClaimCheck check_claim(const ChannelImage& picture, const ChannelImage& reference, const Image<float>& threshold,
+                       const ErrorMaps& claimed, double asked);
 
 /// Every value times a factor.
 Image<float> scaled(Image<float> image, double factor);

@@ -7,6 +7,7 @@
 
 #include "engine/image/image_file.h"
 #include "engine/scene/scene.h"
+#include "render/error_report.h"
 #include "render/settings.h"
 
 namespace aleph {
@@ -25,7 +26,8 @@ struct FrameCost {
 };
 
 struct TimedFrame {
-    ChannelImage picture;  ///< R, G, B, A, and `error.Y` if the program estimates its error
+    ChannelImage picture;  ///< R, G, B, A
+    ErrorMaps claimed;     ///< the program's own estimate; empty if it makes none
     FrameCost cost;
     std::string statistics;  ///< JSON, as aleph render --stats writes it
 };

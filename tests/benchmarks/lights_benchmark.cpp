@@ -86,7 +86,7 @@ int run(int argc, char** argv) {
     };
     const Method each = [](const Stage& stage, RayTask& task, const ViewedSurface& surface, std::uint32_t seed) {
         RandomStream random({seed, 0, 0, 0}), path_random = random;
-        return compute_sampled_light(stage.lighting(), task, surface, {}, random, PathState{}, path_random);
+        return compute_sampled_light(stage.lighting(), task, surface, {}, random, PathState{}, path_random).direct;
     };
     constexpr double error = 0.05;
     for (const bool lamps : {true, false}) {

@@ -19,6 +19,7 @@ RenderSettings blur_settings(std::uint32_t seed) {
     RenderSettings settings = path_settings(0, spp, seed);
     settings.width = width;
     settings.height = height;
+    settings.filter = PixelFilter::box;
     return settings;
 }
 
@@ -47,11 +48,10 @@ bool is_in_square(const glm::dvec2& p) {
     return std::abs(p.x) < 1.0 && std::abs(p.y) < 0.5;
 }
 
-/// Renders frame 0 with many seeds. Where the samples of a pixel lie does not depend on the seed, so the truth is the
-/// mean over these places and 4096 times.
+/// Renders frame 0 with many seeds. The truth is the mean over 4096 times and places in the pixel.
 void expect_coverage(const Scene& scene, const glm::dvec2& shutter, const Shape2d& covers) {
     constexpr std::uint32_t seeds = 16;
-    constexpr int times = 4096;
+    constexpr int times = 4096, places = 256;
     std::vector<Mean> coverage(width * height), red(width * height);
     Mean all;
     for (std::uint32_t seed = 0; seed < seeds; ++seed) {
@@ -69,18 +69,16 @@ void expect_coverage(const Scene& scene, const glm::dvec2& shutter, const Shape2
     double truth_sum = 0.0;
     for (int y = 0; y < height; ++y) {
         for (int x = 0; x < width; ++x) {
-            double truth = 0.0;
-            for (int s = 0; s < places; ++s) {
-                const glm::vec2 offset = lattice_point(s, places, {0.0f, 0.5f});
+            int inside = 0;
+            for (int t = 0; t < times; ++t) {
+                const glm::vec2 offset = lattice_point(t, times, {0.0f, 0.5f});
                 const glm::dvec2 point((x + offset.x - 0.5 * width) / pixels_per_metre,
                                        (0.5 * height - y - offset.y) / pixels_per_metre);
-                int inside = 0;
-                for (int t = s; t < times; t += places) {
-                    if (covers(point, shutter.x + (shutter.y - shutter.x) * (t + 0.5) / times)) ++inside;
-                }
-                truth += static_cast<double>(inside) / times;
+                const double time = std::fmod((t + 0.5) * 0.41421356237309505, 1.0);
+                if (covers(point, shutter.x + (shutter.y - shutter.x) * time)) ++inside;
             }
-            const double variance = truth * (1.0 - truth) / spp;  // of independent places and times
+            const double truth = static_cast<double>(inside) / times;
+            const double variance = truth * (1.0 - truth) / spp;  // of independent samples
             truth_sum += truth;
             const Mean& found = coverage[static_cast<std::size_t>(y) * width + x];
             // Where few seeds met the square, their spread says little.

@@ -168,7 +168,7 @@ TEST(PathLights, FX14_MC23_AThousandLightsGiveTheirSum) {
 TEST(PathLights, MC23_AThousandEqualLightsAreAtMostFourTimesAsNoisyAsTen) {
     // Per sample, relative to the mean. Ten lights are compared with one another, so that without shadows they have no
     // noise at all. With a random shadow they have: a sheet of alpha one half.
-    const auto variance_of = [](int count) {
+    const auto variance_of = [](int count, const Estimator& estimator) {
         Scene scene;
         const int side = static_cast<int>(std::ceil(std::sqrt(count)));
         for (int i = 0; i < count; ++i) {
@@ -181,15 +181,45 @@ TEST(PathLights, MC23_AThousandEqualLightsAreAtMostFourTimesAsNoisyAsTen) {
         sheet.double_sided = true;
         scene.materials.push_back(sheet);
         add_mesh(scene, make_quad(20.0, 20.0, 0), {0.0, 1.0, 0.0}, z_to_up);
-        const Mean found = estimate(Stage(std::move(scene)), make_floor(glm::vec3(0.0f), 0.6f), 6000, by_paths(0, 1));
+        const Mean found = estimate(Stage(std::move(scene)), make_floor(glm::vec3(0.0f), 0.6f), 6000, estimator);
         const double relative = found.error() / found.mean();
         return relative * relative * 6000.0;
     };
-    const double ten = variance_of(10), thousand = variance_of(1000);
-    EXPECT_GT(ten, 0.5);
-    EXPECT_LT(thousand, 4.0 * ten);
-    RecordProperty("relative_variance_of_ten_lights", std::to_string(ten));
-    RecordProperty("relative_variance_of_1000_lights", std::to_string(thousand));
+    // Each sample is one shadow ray, and visits as many nodes as the tree is deep (LightTree tests).
+    for (const auto& [name, estimator] :
+         {std::pair("paths", by_paths(0, 1)), std::pair("shared", by_direct_samples(1))}) {
+        const double ten = variance_of(10, estimator), thousand = variance_of(1000, estimator);
+        EXPECT_GT(ten, 0.5);
+        EXPECT_LT(thousand, 4.0 * ten);
+        RecordProperty(std::string(name) + "_relative_variance_of_ten_lights", std::to_string(ten));
+        RecordProperty(std::string(name) + "_relative_variance_of_1000_lights", std::to_string(thousand));
+    }
+}
+
+TEST(PathLights, MC23_AThousandLightsShareTheSamplesOfSixteen) {
+    Scene scene;
+    double expected = 0.0;
+    for (int i = 0; i < 1000; ++i) {
+        const glm::dvec3 at(0.1 * (i % 32) - 1.6, 1.5 + 0.3 * std::sin(1.7 * i), 0.1 * (i / 32) - 1.6);
+        add_light(scene, Light::Kind::point, glm::dvec3(0.1), at);
+        expected += 0.6 / pi * 0.1 * at.y / std::pow(glm::dot(at, at), 1.5);
+    }
+    const Stage stage(std::move(scene));
+    const ViewedSurface floor = make_floor(glm::vec3(0.0f), 0.6f);
+    RayTask task(stage.rays);
+    Mean found;
+    for (std::uint32_t seed = 0; seed < 100; ++seed) {
+        RandomStream random({seed, 0, 0, 0}), path_random = random;
+        found.add(luminance(
+            compute_sampled_light(stage.lighting(), task, floor, {.count = 2}, random, PathState{}, path_random)));
+    }
+    EXPECT_NEAR(found.mean(), expected, 3.0 * found.error());
+    EXPECT_EQ(task.counts.shadow, 100u * 2u * 16u);
+    // The quick estimate has the same points at every surface.
+    const Rgb quick = estimate_direct_light(stage.lighting(), task, floor, 4);
+    EXPECT_EQ(quick, estimate_direct_light(stage.lighting(), task, floor, 4));
+    EXPECT_NEAR(quick.x, expected, 0.05 * expected);
+    EXPECT_EQ(task.counts.shadow, 100u * 2u * 16u + 2u * 4u * 16u);
 }
 
 }  // namespace

@@ -62,7 +62,7 @@ TEST(Shutter, TimesAreEvenAndWithin) {
         for (const int count : {4, 16, 64, 256}) {
             std::vector<double> times;
             for (int i = 0; i < count; ++i) {
-                times.push_back((place_in_shutter(shutter, i, shift) - shutter.open) / 0.5);
+                times.push_back((place_in_shutter(shutter, i, 1, shift) - shutter.open) / 0.5);
                 ASSERT_GE(times.back(), 0.0);
                 ASSERT_LT(times.back(), 1.0);
             }
@@ -74,7 +74,7 @@ TEST(Shutter, TimesAreEvenAndWithin) {
             EXPECT_LT(discrepancy, 3.0 / count) << count;
         }
     }
-    EXPECT_EQ(place_in_shutter({3.5, 3.5}, 11, 0.7), 3.5);
+    EXPECT_EQ(place_in_shutter({3.5, 3.5}, 11, 2, 0.7), 3.5);
 }
 
 }  // namespace

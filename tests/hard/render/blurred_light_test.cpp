@@ -1,0 +1,116 @@
+// Indirect light while the shutter is open: the picture of the cache against the one of paths.
+
+#include <gtest/gtest.h>
+
+#include "tests/support/frame_bytes.h"
+#include "tests/support/shot_scenes.h"
+#include "tests/support/with_threads.h"
+
+namespace aleph {
+namespace {
+
+constexpr int columns = 16, rows = 12;
+constexpr double half_second = 15.0;  // frames
+
+RenderSettings blurred_settings(Integrator integrator, std::uint32_t seed) {
+    RenderSettings settings = shot_settings(0);
+    settings.width = columns;
+    settings.height = rows;
+    settings.spp = settings.light_samples = 16;
+    settings.integrator = integrator;
+    settings.seed = seed;
+    return settings;
+}
+
+/// Luminance of frame 0.
+std::vector<double> render_luminance(Scene scene, Integrator integrator, std::uint32_t seed) {
+    scene.exposure = 1.0;
+    scene.cameras[0].shutter = {0.0, half_second};
+    const ShadedFrame shaded = Sequence(std::move(scene), blurred_settings(integrator, seed)).render(0).shaded;
+    std::vector<double> values;
+    for (const Rgb& color : shaded.color.pixels) values.push_back(luminance(color));
+    return values;
+}
+
+/// Compares pictures of several seeds. Those of equal seed have the same times and places of samples, so their
+/// difference has the noise of light alone.
+/// @param gain  how many times the variance of the cache's pictures is below that of the paths'
+void expect_same_light(const Scene& scene, double gain) {
+    constexpr int size = columns * rows;
+    std::vector<Mean> cached(size), paths(size), differences(size);
+    Mean of_all;
+    double mean = 0.0;
+    for (std::uint32_t seed = 0; seed < 12; ++seed) {
+        const std::vector<double> a = render_luminance(scene, Integrator::cache, seed),
+                                  b = render_luminance(scene, Integrator::path, seed);
+        double difference = 0.0;
+        for (int i = 0; i < size; ++i) {
+            cached[i].add(a[i]);
+            paths[i].add(b[i]);
+            differences[i].add(a[i] - b[i]);
+            difference += (a[i] - b[i]) / size;
+            mean += b[i] / (size * 12.0);
+        }
+        of_all.add(difference);
+    }
+    double cached_variance = 0.0, path_variance = 0.0, worst = 0.0;
+    for (int i = 0; i < size; ++i) {
+        cached_variance += std::pow(cached[i].error(), 2.0);
+        path_variance += std::pow(paths[i].error(), 2.0);
+        worst = std::max(worst, std::abs(differences[i].mean()) - 3.0 * differences[i].error());
+    }
+    EXPECT_LT(cached_variance * gain, path_variance);
+    EXPECT_NEAR(of_all.mean(), 0.0, 3.0 * of_all.error() + 0.01 * mean);
+    EXPECT_LT(worst, 0.5 * mean) << "the noise of paths has long tails";
+}
+
+/// A dark box slides over the floor, farther than it is wide, seen from near above. A plate under the lamp keeps its
+/// light from the floor, so that all light there comes from the walls.
+Scene make_sliding_box() {
+    Scene scene = make_shot();
+    add_mesh(scene, make_quad(1.2, 1.2, 0), {-1.0, 2.2, -1.0}, z_to_down);
+    scene.nodes[4].translation = glm::dvec3(-0.6, 2.0, 0.6);
+    scene.nodes[4].rotation = glm::quatLookAt(glm::normalize(glm::dvec3(0.0, -2.0, -1.4)), glm::dvec3(0.0, 1.0, 0.0));
+    scene.cameras[0].fov = 0.7;
+    const int node = add_mesh(scene, make_box({0.8, 0.8, 0.8}, add_lambert(scene, glm::dvec3(0.05))));
+    scene.nodes[node].translation = move_between({-1.2, 0.4, -1.0}, {0.6, 0.4, -1.0});
+    return scene;
+}
+
+TEST(MotionBlur, MC27_IndirectLightWhereTheCameraMoves) {
+    expect_same_light(make_shot_with_moving_camera(), 4.0);
+}
+
+TEST(MotionBlur, MC27_IndirectLightUnderABoxThatSlidesAway) {
+    // The floor under the box is dark at the frame's own time.
+    expect_same_light(make_sliding_box(), 1.0);
+}
+
+TEST(MotionBlur, MC27_IndirectLightOfALampThatFadesIn) {
+    Scene scene = make_shot();
+    scene.lights[0].intensity.values = {0.0, 2.0};
+    expect_same_light(scene, 0.5);
+}
+
+TEST(MotionBlur, DT01_BlurredFramesAreEqualForAnyNumberOfThreadsAndAlone) {
+    Scene scene = make_sliding_box();
+    scene.cameras[0].shutter = {-0.5, 0.5};
+    RenderSettings settings = small_settings();
+    settings.width = 32;
+    settings.height = 24;
+    settings.light_step = 10;
+    const auto render = [&](int threads, std::initializer_list<int> frames) {
+        return with_threads(threads, [&] {
+            Sequence sequence(scene, settings);
+            std::string bytes;
+            for (const int frame : frames) bytes = frame_bytes(sequence, scene, settings, frame);
+            return bytes;
+        });
+    };
+    const std::string one = render(1, {3});
+    EXPECT_TRUE(render(4, {3}) == one);
+    EXPECT_TRUE(render(2, {7, 2, 3}) == one);
+}
+
+}  // namespace
+}  // namespace aleph
