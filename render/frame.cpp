@@ -69,15 +69,16 @@ class FrameShading {
 
     void shade(double exposure) {
         const RenderSettings& settings = context_.settings;
-        plan_.rule = settings.sampling;
-        plan_.test = settings.variance_test;
-        plan_.most = settings.spp;
+        SamplingPlan plan;
+        plan.rule = settings.sampling;
+        plan.test = settings.variance_test;
+        plan.most = settings.spp;
         if (options_.limits != nullptr) {
-            plan_.tolerance = compute_sampling_tolerance(*options_.limits, settings, exposure);
-            plan_.aleph = options_.limits->aleph;
+            plan.tolerance = compute_sampling_tolerance(*options_.limits, settings, exposure);
+            plan.aleph = options_.limits->aleph;
             systematic_ = compute_systematic_tolerance(*options_.limits, settings, exposure);
         }
-        sample_by_stages(plan_, pixels_, [&](std::span<const PixelRange> ranges) { take(ranges); });
+        sample_by_stages(plan, pixels_, [&](std::span<const PixelRange> ranges) { take(ranges); });
     }
 
     void resolve(double exposure) {
@@ -276,7 +277,6 @@ class FrameShading {
     std::optional<IrradianceCache> fewer_bounces_;
     DirectGrid direct_;
     Image<PixelSamples> pixels_;
-    SamplingPlan plan_;
     SamplePlace place_;  ///< of the first sample
     std::optional<SystematicTolerance> systematic_;
     const SampleHits* first_ = nullptr;  ///< hits of the pixels' first samples, if they are cast already

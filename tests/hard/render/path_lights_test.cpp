@@ -196,34 +196,5 @@ TEST(PathLights, MC23_AThousandEqualLightsAreAtMostFourTimesAsNoisyAsTen) {
     }
 }
 
-<<<<<<< HEAD
-TEST(PathLights, MC23_AThousandLightsShareTheSamplesOfSixteen) {
-    Scene scene;
-    double expected = 0.0;
-    for (int i = 0; i < 1000; ++i) {
-        const glm::dvec3 at(0.1 * (i % 32) - 1.6, 1.5 + 0.3 * std::sin(1.7 * i), 0.1 * (i / 32) - 1.6);
-        add_light(scene, Light::Kind::point, glm::dvec3(0.1), at);
-        expected += 0.6 / pi * 0.1 * at.y / std::pow(glm::dot(at, at), 1.5);
-    }
-    const Stage stage(std::move(scene));
-    const ViewedSurface floor = make_floor(glm::vec3(0.0f), 0.6f);
-    RayTask task(stage.rays);
-    Mean found;
-    for (std::uint32_t seed = 0; seed < 100; ++seed) {
-        RandomStream random({seed, 0, 0, 0}), path_random = random;
-        found.add(luminance(
-            compute_sampled_light(stage.lighting(), task, floor, {.count = 2}, random, PathState{}, path_random).direct));
-    }
-    EXPECT_NEAR(found.mean(), expected, 3.0 * found.error());
-    EXPECT_EQ(task.counts.shadow, 100u * 2u * 16u);
-    // The quick estimate has the same points at every surface.
-    const Rgb quick = estimate_direct_light(stage.lighting(), task, floor, 4);
-    EXPECT_EQ(quick, estimate_direct_light(stage.lighting(), task, floor, 4));
-    EXPECT_NEAR(quick.x, expected, 0.05 * expected);
-    EXPECT_EQ(task.counts.shadow, 100u * 2u * 16u + 2u * 4u * 16u);
-}
-
-=======
->>>>>>> lights
 }  // namespace
 }  // namespace aleph
