@@ -1,0 +1,218 @@
+// Progressive sampling on pixels whose samples are known distributions: stages, decisions, tolerances, unbiased means.
+
+#include "render/stopping_rule.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <limits>
+
+#include "engine/base/sampling.h"
+#include "render/error_budget.h"
+#include "render/progressive.h"
+#include "tests/support/numbers.h"
+
+namespace aleph {
+namespace {
+
+constexpr Sampling rules[] = {Sampling::consecutive, Sampling::variance, Sampling::protocol, Sampling::threshold};
+
+SampleLight grey(float value) {
+    SampleLight light;
+    light[LightPart::direct] = Rgb(value);
+    light.instance = 0;
+    return light;
+}
+
+/// A sample's luminance, from uniform numbers of its own.
+using Distribution = std::function<double(RandomStream&)>;
+
+Image<PixelSamples> sample_picture(const SamplingPlan& plan, int width, int height, std::uint32_t seed,
+                                   const Distribution& draw) {
+    Image<PixelSamples> pixels(width, height);
+    sample_by_stages(plan, pixels, [&](std::span<const PixelRange> ranges) {
+        for (const PixelRange& range : ranges) {
+            const auto pixel = static_cast<std::uint32_t>(pixels.index(range.x, range.y));
+            for (int i = range.first; i < range.last; ++i) {
+                RandomStream random({seed, 0, pixel, static_cast<std::uint32_t>(i)});
+                pixels(range.x, range.y).add(grey(static_cast<float>(draw(random))));
+            }
+        }
+    });
+    return pixels;
+}
+
+SamplingPlan make_plan(Sampling rule, int most, int width, int height, float tolerance, float aleph = 1.0f) {
+    SamplingPlan plan;
+    plan.rule = rule;
+    plan.most = most;
+    plan.aleph = Image<float>(width, height, aleph);
+    if (rule != Sampling::protocol && rule != Sampling::uniform) plan.tolerance = Image<float>(width, height, tolerance);
+    return plan;
+}
+
+/// 10,000 pixels each of which is on with a chance p: a mean that is biased towards early calm runs would show.
+void expect_unbiased(const Distribution& draw, double mean, double deviation, float tolerance, bool varies) {
+    constexpr int width = 100, height = 100, most = 512;
+    for (const Sampling rule : rules) {
+        SCOPED_TRACE(static_cast<int>(rule));
+        const SamplingPlan plan = make_plan(rule, most, width, height, tolerance, 8.0f);
+        const Image<PixelSamples> pixels = sample_picture(plan, width, height, 7, draw);
+        double sum = 0.0, variance = 0.0;
+        int fewest = most, largest = 0;
+        for (const PixelSamples& pixel : pixels.pixels) {
+            sum += luminance(pixel.mean());
+            variance += deviation * deviation / pixel.taken();
+            fewest = std::min(fewest, pixel.taken());
+            largest = std::max(largest, pixel.taken());
+        }
+        EXPECT_NEAR(sum, mean * width * height, 3.0 * std::sqrt(variance));
+        if (varies && rule != Sampling::protocol) EXPECT_LT(fewest, largest);
+    }
+}
+
+TEST(StoppingRule, MC21_RarelyLitPixelsKeepTheirMean) {
+    for (const double p : {0.02, 0.5}) {
+        SCOPED_TRACE(p);
+        expect_unbiased([p](RandomStream& random) { return random.next() < p ? 1.0 : 0.0; }, p,
+                        std::sqrt(p * (1.0 - p)), p < 0.1 ? 0.02f : 0.1f, true);
+    }
+}
+
+TEST(StoppingRule, MC21_SpikesKeepTheirMean) {
+    const double p = 1e-3, spike = 1e4;
+    expect_unbiased([=](RandomStream& random) { return random.next() < p ? spike : 0.0; }, p * spike,
+                    spike * std::sqrt(p * (1.0 - p)), 1.0f, true);
+}
+
+TEST(StoppingRule, MC02_AnEmitterThatIsSeldomHit) {
+    const double p = 1.0 / 64.0;
+    expect_unbiased([p](RandomStream& random) { return random.next() < p ? 64.0 : 0.0; }, 1.0,
+                    64.0 * std::sqrt(p * (1.0 - p)), 0.5f, true);
+}
+
+TEST(StoppingRule, MC17_BlackPixelsStopAtTheLeastNumber) {
+    for (const Sampling rule : rules) {
+        for (const float tolerance : {0.0f, 1e-6f}) {
+            const SamplingPlan plan = make_plan(rule, 512, 8, 6, tolerance, 1000.0f);
+            const Image<PixelSamples> pixels = sample_picture(plan, 8, 6, 0, [](RandomStream&) { return 0.0; });
+            for (const PixelSamples& pixel : pixels.pixels) {
+                EXPECT_EQ(pixel.taken(), rule == Sampling::threshold ? 4 : 16);
+            }
+        }
+    }
+}
+
+TEST(StoppingRule, ToleranceThatIsNotANumberSamplesToTheEnd) {
+    const SamplingPlan plan = make_plan(Sampling::threshold, 64, 4, 3, std::numeric_limits<float>::quiet_NaN());
+    const Image<PixelSamples> pixels = sample_picture(plan, 4, 3, 0, [](RandomStream& r) { return r.next(); });
+    for (const PixelSamples& pixel : pixels.pixels) EXPECT_EQ(pixel.taken(), 64);
+}
+
+TEST(StoppingRule, OnePixelDecidesByItself) {
+    const SamplingPlan plan = make_plan(Sampling::threshold, 4096, 1, 1, 0.05f);
+    const Image<PixelSamples> pixels = sample_picture(plan, 1, 1, 0, [](RandomStream& r) { return r.next(); });
+    EXPECT_GT(pixels(0, 0).taken(), 4);
+    EXPECT_LT(pixels(0, 0).taken(), 4096);
+}
+
+TEST(StoppingRule, SamplesFollowTheTolerance) {
+    // Independent samples of deviation s: 1.8 s / sqrt(n) within the tolerance needs n = (1.8 s / t)^2, up to doubling.
+    const double deviation = std::sqrt(1.0 / 12.0);
+    for (const float tolerance : {0.2f, 0.1f, 0.05f}) {
+        const SamplingPlan plan = make_plan(Sampling::threshold, 4096, 40, 30, tolerance);
+        const Image<PixelSamples> pixels = sample_picture(plan, 40, 30, 3, [](RandomStream& r) { return r.next(); });
+        double samples = 0.0;
+        int beyond = 0;
+        for (const PixelSamples& pixel : pixels.pixels) {
+            samples += pixel.taken() / 1200.0;
+            if (std::abs(luminance(pixel.mean()) - 0.5) > tolerance) ++beyond;
+        }
+        const double needed = std::pow(error_deviations * deviation / tolerance, 2.0);
+        EXPECT_GT(samples, 0.7 * needed);
+        EXPECT_LT(samples, 2.2 * needed);
+        EXPECT_LE(beyond, 1200 * 4 / 100);  // one and two times what is needed: 7.2 % and 1.1 % of a normal distribution
+    }
+}
+
+TEST(StoppingRule, TheVarianceRuleReadsDeviationOrError) {
+    const MeanEstimate mean{64, 0.0, 0.04};
+    EXPECT_TRUE(is_enough(Sampling::variance, VarianceTest::standard_error, mean, 0.026));
+    EXPECT_FALSE(is_enough(Sampling::variance, VarianceTest::standard_error, mean, 0.024));
+    EXPECT_TRUE(is_enough(Sampling::variance, VarianceTest::deviation, mean, 0.21));
+    EXPECT_FALSE(is_enough(Sampling::variance, VarianceTest::deviation, mean, 0.19));
+}
+
+TEST(StoppingRule, TheProtocolDividesTheMostSamplesByAleph) {
+    EXPECT_EQ(protocol_samples(1.0, 512), 512);
+    EXPECT_EQ(protocol_samples(3.0, 512), 171);
+    EXPECT_EQ(protocol_samples(250.0, 512), 16);
+    EXPECT_EQ(protocol_samples(0.2, 512), 512);
+    EXPECT_EQ(protocol_samples(100.0, 8), 8);
+    EXPECT_EQ(protocol_samples(std::numeric_limits<double>::quiet_NaN(), 64), 64);
+    EXPECT_EQ(protocol_samples(std::numeric_limits<double>::infinity(), 64), 16);
+}
+
+TEST(PixelSamples, HalvesTellTheErrorOfTheMean) {
+    // Independent samples: on average over many pixels, a quarter of the squared difference of halves is the variance.
+    double told = 0.0;
+    constexpr int pixels = 4000, samples = 32;
+    for (std::uint32_t pixel = 0; pixel < pixels; ++pixel) {
+        PixelSamples sum;
+        for (std::uint32_t i = 0; i < samples; ++i) sum.add(grey(RandomStream({1, 2, pixel, i}).next()));
+        EXPECT_EQ(sum.error().samples, samples);
+        told += static_cast<double>(sum.error().total) / pixels;
+    }
+    const double variance = 1.0 / 12.0 / samples;
+    EXPECT_NEAR(told, variance, 3.0 * variance * std::sqrt(2.0 / pixels));
+}
+
+TEST(PixelSamples, InvalidSamplesAreLeftOut) {
+    PixelSamples sum;
+    sum.add(grey(1.0f));
+    sum.add_invalid();
+    sum.add(grey(3.0f));
+    sum.add(grey(3.0f));
+    EXPECT_EQ(sum.taken(), 4);
+    EXPECT_EQ(sum.valid(), 3);
+    EXPECT_NEAR(sum.mean().x, 7.0f / 3.0f, 1e-6f);
+    EXPECT_EQ(sum.error().samples, 3);
+    EXPECT_NEAR(sum.error().total, 1.0 * 2.0 / 9.0 * 4.0, 1e-5);  // means 1 and 3 of one and two samples
+}
+
+TEST(ErrorBudget, EachPixelKeepsToTheStrictestThresholdAround) {
+    Image<float> threshold(5, 5, 8.0f);
+    threshold(2, 2) = 2.0f;
+    const Image<float> aleph(5, 5, 1.0f), accuracy(5, 5, 0.1f), none;
+    const VisibleLimits limits{threshold, aleph, accuracy, none, ViewingConditions{}};
+    RenderSettings settings;
+    settings.sampling = Sampling::variance;
+    settings.error = 0.5;
+    const double white = limits.viewing.display_white;
+    const Image<float> tolerance = compute_sampling_tolerance(limits, settings, 4.0);
+    EXPECT_NEAR(tolerance(1, 1), 0.5 * 2.0 / white / 4.0, 1e-8);
+    EXPECT_NEAR(tolerance(3, 2), 0.5 * 2.0 / white / 4.0, 1e-8);
+    EXPECT_NEAR(tolerance(0, 0), 0.5 * 8.0 / white / 4.0, 1e-8);
+    settings.sampling = Sampling::uniform;
+    EXPECT_TRUE(compute_sampling_tolerance(limits, settings, 4.0).empty());
+}
+
+TEST(ErrorBudget, TheSharesSumToWhatWasAskedFor) {
+    const Image<float> threshold(3, 3, 2.0f), aleph(3, 3, 1.0f), accuracy(3, 3, 0.1f), indirect(3, 3, 0.2f);
+    const VisibleLimits limits{threshold, aleph, accuracy, indirect, ViewingConditions{}};
+    RenderSettings settings;
+    follow_error(settings, 1.5);
+    const double asked = 1.5 * 2.0 / limits.viewing.display_white;
+    const double cached = error_deviations * 0.1 * 0.1 * 0.2;
+    const auto systematic = compute_systematic_tolerance(limits, settings, 1.0);
+    ASSERT_TRUE(systematic.has_value());
+    const double sampled = compute_sampling_tolerance(limits, settings, 1.0)(1, 1);
+    const double sum = sampled + cached + systematic->lights(1, 1) + error_deviations * systematic->gloss(1, 1);
+    EXPECT_NEAR(sum, asked, 1e-6 * asked);
+    settings.error = 0.0;
+    EXPECT_FALSE(compute_systematic_tolerance(limits, settings, 1.0).has_value());
+}
+
+}  // namespace
+}  // namespace aleph
