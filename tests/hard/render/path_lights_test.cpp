@@ -211,7 +211,7 @@ TEST(PathLights, MC23_AThousandLightsShareTheSamplesOfSixteen) {
     for (std::uint32_t seed = 0; seed < 100; ++seed) {
         RandomStream random({seed, 0, 0, 0}), path_random = random;
         found.add(luminance(
-            compute_sampled_light(stage.lighting(), task, floor, {.count = 2}, random, PathState{}, path_random)));
+            compute_sampled_light(stage.lighting(), task, floor, {.count = 2}, random, PathState{}, path_random).direct));
     }
     EXPECT_NEAR(found.mean(), expected, 3.0 * found.error());
     EXPECT_EQ(task.counts.shadow, 100u * 2u * 16u);
