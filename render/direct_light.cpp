@@ -3,6 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "render/light_cut.h"
+#include "render/seen_light.h"
 
 namespace aleph {
 
@@ -10,6 +15,7 @@ namespace {
 
 constexpr float min_estimate_alpha = 0.1f;  // GGX width of the quick estimate's lobes
 constexpr int batch_size = 16;              // shadow rays from one point, in one packet
+constexpr std::size_t least_packet = 8;     // fewer are faster one by one
 
 /// Shadow rays collected until a packet is full. The contributions of those that are not blocked are added in order.
 class ShadowBatch {
@@ -29,7 +35,11 @@ class ShadowBatch {
 
     void flush() {
         std::array<std::uint8_t, batch_size> blocked;
-        task_.tracer.occluded(std::span(rays_.data(), size_), std::span(blocked.data(), size_));
+        if (size_ < least_packet) {
+            for (std::size_t i = 0; i < size_; ++i) blocked[i] = task_.tracer.occluded(rays_[i]) ? 1 : 0;
+        } else {
+            task_.tracer.occluded(std::span(rays_.data(), size_), std::span(blocked.data(), size_));
+        }
         task_.counts.shadow += size_;
         for (std::size_t i = 0; i < size_; ++i) {
             if (!blocked[i]) sum_ += contributions_[i];
@@ -77,18 +87,76 @@ bool has_area(const LightSet& lights, int light) {
     return light < emitters || light >= emitters + static_cast<int>(lights.punctual.size());
 }
 
+/// Lights that are chosen at a surface, each in proportion to about what it brings.
+class ChosenLights {
+  public:
+    ChosenLights(const LightingContext& context, const LitSurface& lit, const LobeShares& shares,
+                 const CutLimits& limits = {})
+        : context_(context),
+          lit_(lit),
+          shares_(shares),
+          receiver_{lit.point.ray_origin(), lit.point.normal},
+          behind_(lit.material.has_glass() ? 1.0f : 0.0f),
+          cut_(find_light_cut(context.lights, receiver_, behind_, limits)),
+          seen_(context.lights, receiver_) {}
+
+    /// Adds one sample of `count`.
+    /// @param u            x chooses the light; what that leaves of it, and y, are the point on it
+    /// @param light_share  sample_light
+    void add_sample(const glm::vec2& u, int count, float light_share, ShadowBatch& shadows) {
+        const LightPick pick = pick_light(context_.lights, cut_, receiver_, behind_, u.x);
+        if (pick.light == no_index) return;
+        const LightSample sample = sample_seen_light(context_.shading, context_.lights, seen_.at(pick.light), receiver_,
+                                                     {pick.rest, u.y}, light_share);
+        if (sample.incoming == Rgb(0.0f) || !lit_.is_reached(sample.direction)) return;
+        shadows.add(make_shadow_ray(lit_, sample), scatter_towards(lit_, sample.direction, sample.pdf, shares_) *
+                                                       sample.incoming /
+                                                       (pick.probability * static_cast<float>(count)));
+    }
+
+    const LightCut& cut() const { return cut_; }
+
+  private:
+    const LightingContext& context_;
+    const LitSurface& lit_;
+    const LobeShares& shares_;
+    Receiver receiver_;
+    float behind_;
+    LightCut cut_;
+    SeenLights seen_;
+};
+
+/// As many samples as 16 lights would have, of lights that are chosen among more.
+template <class Pattern>
+Rgb sample_chosen_lights(const LightingContext& context, RayTask& task, const LitSurface& lit, Pattern pattern) {
+    ChosenLights lights(context, lit, pattern.shares);
+    if (!std::isfinite(lights.cut().total)) return Rgb(lights.cut().total);
+    Rgb sum(0.0f);
+    ShadowBatch shadows(context, task, sum);
+    LightPoints points = pattern.points;
+    points.count *= LightCut::few;
+    const glm::vec2 shift = pattern.next_shift();
+    for (int i = 0; i < points.count; ++i) {
+        lights.add_sample(points.at(i, shift), points.count, pattern.light_share(pattern.points.count), shadows);
+    }
+    shadows.flush();
+    return sum;
+}
+
 /// The scattered light of samples of every light, as a pattern places and weighs them.
 template <class Pattern>
 Rgb sample_lights(const LightingContext& context, RayTask& task, const LitSurface& lit, Pattern pattern) {
+    if (context.lights.count() > LightCut::few) return sample_chosen_lights(context, task, lit, pattern);
     Rgb sum(0.0f);
     ShadowBatch shadows(context, task, sum);
     const Receiver receiver{lit.point.ray_origin(), lit.point.normal};
     for (int light = 0; light < context.lights.count(); ++light) {
         const LightPoints points = has_area(context.lights, light) ? pattern.points : LightPoints{};
         const glm::vec2 shift = pattern.next_shift();
+        const SeenLight seen = see_light(context.lights, light, receiver.position);
         for (int i = 0; i < points.count; ++i) {
-            const LightSample sample = sample_light(context.shading, context.lights, light, receiver,
-                                                    points.at(i, shift), pattern.light_share(points.count));
+            const LightSample sample = sample_seen_light(context.shading, context.lights, seen, receiver,
+                                                         points.at(i, shift), pattern.light_share(points.count));
             if (!lit.is_reached(sample.direction)) continue;
             shadows.add(make_shadow_ray(lit, sample),
                         scatter_towards(lit, sample.direction, sample.pdf, pattern.shares) * sample.incoming /
@@ -99,15 +167,54 @@ Rgb sample_lights(const LightingContext& context, RayTask& task, const LitSurfac
     return sum;
 }
 
+/// No less than the luminance of radiance that a surface scatters, per illuminance from any direction. Infinite if
+/// layers other than Lambert and gloss scatter too.
+float bound_reflection(const LitSurface& lit) {
+    const SurfaceMaterial& material = lit.material;
+    if (material.has_coat() || material.has_sheen() || material.has_glass()) {
+        return std::numeric_limits<float>::infinity();
+    }
+    const auto largest = [](const Rgb& c) { return std::max({c.x, c.y, c.z}); };
+    float bound = largest(material.diffuse) / std::numbers::pi_v<float>;
+    if (material.has_glossy() && !material.is_mirror()) {
+        // F D G2 / (4 n.v), with G2 at most that of the view alone.
+        const glm::vec2 widths = material.widths();
+        const float most_d = 1.0f / (std::numbers::pi_v<float> * widths.x * widths.y);
+        const float alpha2 = std::min(widths.x, widths.y) * std::min(widths.x, widths.y), cosine = lit.cos_view;
+        const float most_g = 0.5f / (cosine + std::sqrt(alpha2 + (1.0f - alpha2) * cosine * cosine));
+        bound += std::max(largest(material.f0), material.f90) * most_d * most_g;
+    }
+    return bound;
+}
+
 }  // namespace
+
+Rgb sample_direct_light(const LightingContext& context, RayTask& task, const LitSurface& lit, const LobeShares& shares,
+                        const PixelSequence& sequence, const DirectSamples& samples, float* left_out) {
+    CutLimits limits;
+    const float reflection = samples.tolerance > 0.0f ? bound_reflection(lit) : 0.0f;
+    if (reflection > 0.0f) limits.divided = limits.left_out = samples.tolerance / reflection;
+    ChosenLights lights(context, lit, shares, limits);
+    if (left_out != nullptr) *left_out = limits.left_out > 0.0f ? lights.cut().left_out * reflection : 0.0f;
+    if (!std::isfinite(lights.cut().total)) return Rgb(lights.cut().total);
+    Rgb sum(0.0f);
+    ShadowBatch shadows(context, task, sum);
+    for (int i = samples.first; i < samples.first + samples.count; ++i) {
+        lights.add_sample(sequence.at_2d(SampleUse::light_point, i), samples.count, 0.0f, shadows);
+    }
+    shadows.flush();
+    return sum;
+}
 
 SampledLight compute_sampled_light(const LightingContext& context, RayTask& task, const ViewedSurface& surface,
                                    const LightPoints& points, RandomStream& random, const PathState& beyond,
-                                   RandomStream& path_random) {
+                                   RandomStream& path_random, const LobeShares* lobes) {
     const LitSurface lit(surface);
     const bool lights_can_be_met = !context.lights.emitters.empty() || context.lights.has_environment;
     LobeShares shares{};
-    if (lights_can_be_met || beyond.left.depth > 0) shares = share_lobes(lit, LobeSet::specular);
+    if (lights_can_be_met || beyond.left.depth > 0) {
+        shares = lobes != nullptr ? *lobes : share_lobes(lit, LobeSet::specular);
+    }
     SampledLight light{sample_lights(context, task, lit, RandomPattern{random, points, shares})};
     const glm::vec2 shift = random.next_2d();
     const float pick_shift = random.next();

@@ -22,6 +22,20 @@ float strictest_around(const Image<float>& threshold, int x, int y) {
 
 }  // namespace
 
+std::optional<SystematicTolerance> compute_systematic_tolerance(const VisibleLimits& limits,
+                                                                const RenderSettings& settings, double exposure) {
+    if (!(settings.error > 0.0)) return std::nullopt;
+    const double scale = settings.error / (limits.viewing.display_white * exposure);
+    SystematicTolerance tolerance{Image<float>(limits.threshold.width, limits.threshold.height),
+                                  Image<float>(limits.threshold.width, limits.threshold.height)};
+    for (std::size_t i = 0; i < limits.threshold.size(); ++i) {
+        const double tolerated = scale * static_cast<double>(limits.threshold.pixels[i]);
+        tolerance.lights.pixels[i] = static_cast<float>(left_out_share * tolerated);
+        tolerance.gloss.pixels[i] = static_cast<float>(gloss_share * tolerated);
+    }
+    return tolerance;
+}
+
 Image<float> compute_sampling_tolerance(const VisibleLimits& limits, const RenderSettings& settings, double exposure) {
     if (settings.sampling == Sampling::uniform || settings.sampling == Sampling::protocol) return {};
     const double error = settings.error > 0.0 ? settings.error : 1.0;
@@ -33,7 +47,8 @@ Image<float> compute_sampling_tolerance(const VisibleLimits& limits, const Rende
             if (settings.sampling == Sampling::threshold && !limits.indirect_luminance.empty()) {
                 const double cached = error_deviations * error_per_accuracy * limits.accuracy(x, y) *
                                       static_cast<double>(limits.indirect_luminance(x, y));
-                left = std::max(left - cached, least_share * left);
+                const double fixed = settings.error > 0.0 ? left_out_share + error_deviations * gloss_share : 0.0;
+                left = std::max(left * (1.0 - fixed) - cached, least_share * left);
             }
             tolerance(x, y) = static_cast<float>(left / exposure);
         }

@@ -1,10 +1,12 @@
 #pragma once
 // How much a pixel's samples may err, given what else errs in it.
 
-#include "render/settings.h"
-#include "render/stopping_rule.h"
+#include <optional>
 
 #include "engine/base/viewing.h"
+#include "render/sample_shading.h"
+#include "render/settings.h"
+#include "render/stopping_rule.h"
 
 namespace aleph {
 
@@ -17,9 +19,18 @@ struct VisibleLimits {
     ViewingConditions viewing;
 };
 
+/// Shares of the error that is asked for, for errors that samples do not lower: a bound of what lights that are left out
+/// bring, and the root mean square of what irradiance in place of a lobe is off.
+inline constexpr double left_out_share = 0.05, gloss_share = 0.05;
+
+/// Nothing where no error is asked for.
+std::optional<SystematicTolerance> compute_systematic_tolerance(const VisibleLimits& limits,
+                                                                const RenderSettings& settings, double exposure);
+
 /// The luminance that samples may err by, as they have it (before exposure).
-/// threshold: RenderSettings::error times the threshold, less the error that cached light is expected to have in 99.5 %
-/// of the pixels; at least a third of it remains. The sum of both errors is then within what was asked for.
+/// threshold: RenderSettings::error times the threshold, less the systematic errors and the error that cached light is
+/// expected to have in 99.5 % of the pixels; at least a third of it remains. The sum of all is then within what was
+/// asked for.
 /// consecutive, variance: RenderSettings::error times the threshold: they know nothing of other errors.
 /// The Aleph map is that of pixel centres. A pixel's samples reach its neighbours, and beside the outline of a moving
 /// object may belong to another surface than the centre. So each pixel keeps to the strictest threshold of the nine

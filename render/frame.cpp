@@ -7,6 +7,8 @@
 #include "engine/base/parallel.h"
 #include "render/bounce_levels.h"
 #include "render/bounce_places.h"
+#include "render/frame_irradiance.h"
+#include "render/mirror_places.h"
 #include "render/pending_samples.h"
 #include "render/progressive.h"
 #include "render/resolve.h"
@@ -20,7 +22,8 @@ namespace {
 
 constexpr double fill_share = 0.3;       // of a frame's time, for progress only
 constexpr std::size_t task_ranges = 64;  // pixels of a task
-constexpr int slice_samples = 1 << 17;   // that may wait for light at a time: more only for the sake of threads
+constexpr int progressive_light_samples = 2;  // of direct light, per pixel sample
+constexpr int slice_samples = 1 << 17;  // that may wait for light at a time: more only for the sake of threads
 constexpr std::size_t slice_ranges = 64 * task_ranges;
 
 double seconds_since(std::chrono::steady_clock::time_point start) {
@@ -38,9 +41,10 @@ class FrameShading {
           indirect_(context.settings.bounces > 0 && context.settings.path_depth > 1),
           cached_(!by_paths_ && indirect_ && context.settings.accuracy > 0.0 && options.light_lasts),
           cache_(make_cache(context.lighting.shading)),
+          known_(context, cached_ ? &cache_ : nullptr),
           direct_(context.max_radius),
           pixels_(context.view.width, context.view.height),
-          place_(make_sample_place(context.settings, context.view, options.lens, options.blended, 0)) {
+          place_(make_sample_place(context.settings, options.lens, options.blended, context.frame, 0)) {
         if (cached_) context_.direct = &direct_;
         context_.deeper = make_deeper_light(context.settings, nullptr);
         if (options.record_maps && !by_paths_) uses_ = Image<RecordUse>(context_.view.width, context_.view.height);
@@ -58,6 +62,7 @@ class FrameShading {
         }
         fill_fewer_bounces(*first_);
         fill_cache(cache_, context_, *first_, out_);
+        fill_mirror_places(cache_, context_, *first_, out_);
         cache_.finish();
         if (options_.at_sample) first_ = nullptr;  // of the frame's own time
     }
@@ -71,6 +76,7 @@ class FrameShading {
         if (options_.limits != nullptr) {
             plan.tolerance = compute_sampling_tolerance(*options_.limits, settings, exposure);
             plan.aleph = options_.limits->aleph;
+            systematic_ = compute_systematic_tolerance(*options_.limits, settings, exposure);
         }
         sample_by_stages(plan, pixels_, [&](std::span<const PixelRange> ranges) { take(ranges); });
     }
@@ -99,17 +105,17 @@ class FrameShading {
 
     SampleShading make_shading() {
         const RenderSettings& settings = context_.settings;
-        LightPoints points{1, 0, 0};
-        if (settings.sampling == Sampling::uniform) {
-            points = {(settings.light_samples + settings.spp - 1) / settings.spp, 0, settings.spp};
-        }
+        const bool uniform = settings.sampling == Sampling::uniform;
         return {.context = context_,
                 .moment = place_.moment,
                 .by_paths = by_paths_,
                 .indirect = indirect_,
                 .cache = cached_ ? &cache_ : nullptr,
+                .known = options_.at_sample ? nullptr : &known_,
                 .blurred = static_cast<bool>(options_.at_sample),
-                .points = points,
+                .points = {(settings.light_samples + settings.spp - 1) / settings.spp, 0, settings.spp},
+                .light_samples = uniform ? 0 : progressive_light_samples,
+                .tolerance = systematic_ ? &*systematic_ : nullptr,
                 .records = &out_.records,
                 .uses = uses_.empty() ? nullptr : &uses_};
     }
@@ -189,7 +195,7 @@ class FrameShading {
             }
             const PixelSurface surface =
                 make_pixel_surface(moment.lighting.shading, moment.view, at, hit, direction, x, y);
-            if (shade_sample(shading, moment, task, surface, light)) {
+            if (shade_sample(shading, moment, task, surface, pixels_(x, y), light)) {
                 add_sample(task, x, y, light);
             } else {
                 waiting.push_back({surface, light});
@@ -267,10 +273,12 @@ class FrameShading {
     ShadedFrame& out_;
     bool by_paths_, indirect_, cached_;
     IrradianceCache cache_;
+    FrameIrradiance known_;
     std::optional<IrradianceCache> fewer_bounces_;
     DirectGrid direct_;
     Image<PixelSamples> pixels_;
-    SamplePlace place_;                  ///< of the first sample
+    SamplePlace place_;  ///< of the first sample
+    std::optional<SystematicTolerance> systematic_;
     const SampleHits* first_ = nullptr;  ///< hits of the pixels' first samples, if they are cast already
     SampleHits cast_first_;
     GatherScratch pending_scratch_;

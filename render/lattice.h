@@ -20,11 +20,4 @@ inline glm::vec2 lattice_point(int i, int n, const glm::vec2& shift) {
             std::min(fraction(static_cast<float>(i) * golden + shift.y), below_one)};
 }
 
-/// Point i of an additive sequence in two dimensions (Roberts 2018), shifted: even for any number of points. In [0,1)^2.
-inline glm::vec2 sequence_point(int i, const glm::vec2& shift) {
-    constexpr float below_one = 0x1.fffffep-1f;
-    return {std::min(fraction(static_cast<float>(i) * 0.7548776662f + shift.x), below_one),
-            std::min(fraction(static_cast<float>(i) * 0.5698402910f + shift.y), below_one)};
-}
-
 }  // namespace aleph

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
+#include <span>
 
 #include "render/light_power.h"
 
@@ -14,18 +16,35 @@ constexpr float below_one = 0x1.fffffep-1f;
 /// A cut while it is refined.
 struct Candidates {
     int size = 0;
-    std::array<int, LightCut::capacity> nodes{};
-    std::array<LightReach, LightCut::capacity> reaches{};
+    std::array<int, LightCut::capacity> nodes;
+    std::array<float, LightCut::capacity> bounds, estimates;
 
-    void add(int node, const LightReach& reach) {
-        if (reach.bound == 0.0f) return;  // not where it is not a number
-        nodes[size] = node;
-        reaches[size++] = reach;
-    }
-    void remove(int i) {
-        --size;
-        nodes[i] = nodes[size];
-        reaches[i] = reaches[size];
+    /// Puts those of a group that bring anything in the place of one.
+    void replace(int place, const LightGroup& group, const LightReaches& reaches) {
+        std::array<int, LightGroup::size> brings;
+        int added = 0;
+        for (int i = 0; i < group.used; ++i) {
+            brings[added] = i;
+            added += reaches.bounds[i] == 0.0f ? 0 : 1;  // kept where it is not a number
+        }
+        const int after = size - place - 1;
+        const auto make_room = [&](auto& values) {
+            const auto begin = values.begin() + place + 1;
+            if (added == 0) {
+                std::copy(begin, begin + after, begin - 1);
+            } else {
+                std::copy_backward(begin, begin + after, begin + after + added - 1);
+            }
+        };
+        make_room(nodes);
+        make_room(bounds);
+        make_room(estimates);
+        for (int i = 0; i < added; ++i) {
+            nodes[place + i] = group.children[brings[i]];
+            bounds[place + i] = reaches.bounds[brings[i]];
+            estimates[place + i] = reaches.estimates[brings[i]];
+        }
+        size += added - 1;
     }
 };
 
@@ -34,71 +53,89 @@ int find_brightest_group(const LightTree& tree, const Candidates& candidates, fl
     int found = no_index;
     float largest = limit;
     for (int i = 0; i < candidates.size; ++i) {
-        if (tree.is_light(candidates.nodes[i]) || !(candidates.reaches[i].bound > largest)) continue;
-        largest = candidates.reaches[i].bound;
+        if (tree.is_light(candidates.nodes[i]) || !(candidates.bounds[i] > largest)) continue;
+        largest = candidates.bounds[i];
         found = i;
     }
     return found;
 }
 
-/// Removes the faintest while all that are removed bring less than the limit. @return what they bring
+/// Marks the faintest, by an estimate of 0, while all that are marked bring less than the limit. @return what they
+/// bring
 float leave_out(Candidates& candidates, float limit) {
+    std::array<int, LightCut::capacity> order;
+    const auto end = order.begin() + candidates.size;
+    std::iota(order.begin(), end, 0);
+    std::sort(order.begin(), end, [&](int a, int b) { return candidates.bounds[a] < candidates.bounds[b]; });
     float sum = 0.0f;
-    while (candidates.size > 0) {
-        const auto begin = candidates.reaches.begin();
-        const auto faintest = std::min_element(
-            begin, begin + candidates.size, [](const LightReach& a, const LightReach& b) { return a.bound < b.bound; });
-        if (!(sum + faintest->bound < limit)) break;
-        sum += faintest->bound;
-        candidates.remove(static_cast<int>(faintest - begin));
+    for (auto i = order.begin(); i != end && sum + candidates.bounds[*i] < limit; ++i) {
+        sum += candidates.bounds[*i];
+        candidates.estimates[*i] = 0.0f;
     }
     return sum;
+}
+
+Candidates find_candidates(const LightTree& tree, const Receiver& receiver, float behind, float divided) {
+    Candidates candidates;
+    const auto divide = [&](int place, const LightGroup& group) {
+        candidates.replace(place, group, reach_of(group, receiver.position, receiver.normal, behind));
+    };
+    candidates.size = 1;
+    divide(0, tree.groups.front());
+    // All of few lights, so that groups of them are not left out for what only their bound may bring.
+    const float limit = tree.lights <= LightCut::few ? 0.0f : divided;
+    while (candidates.size + LightGroup::size - 1 <= LightCut::capacity) {
+        const int brightest = find_brightest_group(tree, candidates, limit);
+        if (brightest == no_index) break;
+        divide(brightest, tree.group(candidates.nodes[brightest]));
+    }
+    return candidates;
+}
+
+/// One of several by their weights. The number is stretched over it again, and the probability multiplied by its own.
+std::size_t choose(std::span<const float> weights, float total, LightPick& pick) {
+    const float place = pick.rest * total;
+    float below = 0.0f, sum = 0.0f;  // of the weights before the chosen one
+    std::size_t chosen = 0;
+    for (const float weight : weights) {
+        sum += weight;
+        const bool is_passed = sum <= place;
+        chosen += is_passed ? 1 : 0;
+        below = is_passed ? sum : below;
+    }
+    chosen = std::min(chosen, weights.size() - 1);
+    while (chosen > 0 && !(weights[chosen] > 0.0f)) --chosen;  // rounding at the end
+    pick.rest = std::clamp((place - below) / weights[chosen], 0.0f, below_one);
+    pick.probability *= weights[chosen] / total;
+    return chosen;
 }
 
 /// Few lights without a limit: all, by vector instructions.
 LightCut take_all_lights(const LightSet& lights, const Receiver& receiver, float behind) {
     LightCut cut;
-    static_assert(LightCut::capacity % LightBounds::step == 0);
-    std::array<float, LightCut::capacity> weights;
-    bound_illuminances(lights.bounds, receiver.position, receiver.normal, behind,
-                       {weights.data(), lights.bounds.strength.size()});
-    for (int i = 0; i < lights.count(); ++i) {
-        cut.nodes[i] = i;
-        cut.weights[i] = weights[i];
-        cut.total += weights[i];
-    }
     cut.size = lights.count();
+    cut.has_all = true;
+    static_assert(LightCut::few % LightBounds::step == 0 && LightCut::few <= LightCut::capacity);
+    bound_illuminances(lights.bounds, receiver.position, receiver.normal, behind,
+                       {cut.weights.data(), lights.bounds.strength.size()});
+    for (int i = 0; i < cut.size; ++i) cut.total += cut.weights[i];
     return cut;
 }
 
 }  // namespace
 
 LightCut find_light_cut(const LightSet& lights, const Receiver& receiver, float behind, const CutLimits& limits) {
-    const LightTree& tree = lights.tree;
-    const bool few = tree.lights <= LightCut::capacity;
-    if (few && !(limits.left_out > 0.0f)) return take_all_lights(lights, receiver, behind);
-    const auto reach = [&](int node) { return reach_of(tree.nodes[node], receiver.position, receiver.normal, behind); };
-    Candidates candidates;
-    if (few) {
-        for (int i = 0; i < tree.lights; ++i) candidates.add(i, reach(i));
-    } else {
-        for (const int root : tree.roots) candidates.add(root, reach(root));
-        while (candidates.size < std::min(limits.nodes, LightCut::capacity)) {
-            const int group = find_brightest_group(tree, candidates, limits.divided);
-            if (group == no_index) break;
-            const LightNode& node = tree.nodes[candidates.nodes[group]];
-            candidates.remove(group);
-            candidates.add(node.first, reach(node.first));
-            candidates.add(node.second, reach(node.second));
-        }
-    }
     LightCut cut;
-    cut.left_out = leave_out(candidates, limits.left_out);
-    cut.size = candidates.size;
-    for (int i = 0; i < cut.size; ++i) {
-        cut.nodes[i] = candidates.nodes[i];
-        cut.weights[i] = candidates.reaches[i].estimate;
-        cut.total += cut.weights[i];
+    if (lights.count() == 0) return cut;
+    if (lights.count() <= LightCut::few && !(limits.left_out > 0.0f)) return take_all_lights(lights, receiver, behind);
+    Candidates candidates = find_candidates(lights.tree, receiver, behind, limits.divided);
+    if (limits.left_out > 0.0f) cut.left_out = leave_out(candidates, limits.left_out);
+    for (int i = 0; i < candidates.size; ++i) {
+        const float weight = candidates.estimates[i];
+        cut.nodes[cut.size] = candidates.nodes[i];
+        cut.weights[cut.size] = weight;
+        cut.total += weight;
+        cut.size += weight == 0.0f ? 0 : 1;
     }
     return cut;
 }
@@ -107,33 +144,19 @@ LightPick pick_light(const LightSet& lights, const LightCut& cut, const Receiver
                      float number) {
     LightPick pick;
     if (!std::isfinite(cut.total) || !(cut.total > 0.0f)) return pick;
-    const float place = number * cut.total;
-    float below = 0.0f, sum = 0.0f;  // of the weights before the chosen one
-    int chosen = 0;
-    for (int i = 0; i < cut.size; ++i) {
-        sum += cut.weights[i];
-        const bool passed = sum <= place;
-        chosen += passed ? 1 : 0;
-        below = passed ? sum : below;
-    }
-    chosen = std::min(chosen, cut.size - 1);
-    while (chosen > 0 && !(cut.weights[chosen] > 0.0f)) --chosen;  // rounding at the end
-    pick.probability = cut.weights[chosen] / cut.total;
-    pick.rest = std::clamp((place - below) / cut.weights[chosen], 0.0f, below_one);
-    int node = cut.nodes[chosen];
+    pick.rest = number;
+    pick.probability = 1.0f;
+    const auto size = static_cast<std::size_t>(cut.size);
+    const std::size_t chosen = choose({cut.weights.data(), size}, cut.total, pick);
+    int node = cut.has_all ? static_cast<int>(chosen) : cut.nodes[chosen];
     while (!lights.tree.is_light(node)) {
-        const LightNode& group = lights.tree.nodes[node];
-        const auto weigh = [&](int child) {
-            return reach_of(lights.tree.nodes[child], receiver.position, receiver.normal, behind).estimate;
-        };
-        const float first = weigh(group.first), second = weigh(group.second);
-        if (!(first + second > 0.0f)) return {};  // the group is wider than its parts: neither brings anything
-        const float share = first / (first + second);
-        const bool is_first = pick.rest < share;
-        node = is_first ? group.first : group.second;
-        pick.probability *= is_first ? share : 1.0f - share;
-        pick.rest = is_first ? pick.rest / share : (pick.rest - share) / (1.0f - share);
-        pick.rest = std::min(pick.rest, below_one);
+        const LightGroup& group = lights.tree.group(node);
+        const LightReaches reaches = reach_of(group, receiver.position, receiver.normal, behind);
+        float total = 0.0f;
+        for (const float estimate : reaches.estimates) total += estimate;
+        // A group is wider than its parts: it may be that none of them brings anything.
+        if (!(total > 0.0f) || !std::isfinite(total)) return {};
+        node = group.children[choose(reaches.estimates, total, pick)];
     }
     pick.light = node;
     return pick;

@@ -7,22 +7,22 @@ namespace aleph {
 
 /// Illuminances, of luminance.
 struct CutLimits {
-    int nodes = 16;         ///< at most this many, and at most LightCut::capacity; more where there are as many roots
     float divided = 0.0f;   ///< groups that bring less are not divided
     float left_out = 0.0f;  ///< nodes that together bring less are left out
 };
 
 struct LightCut {
-    static constexpr int capacity = 16;
+    static constexpr int few = 16;       ///< so many lights are all in the cut
+    static constexpr int capacity = 24;  ///< nodes
     int size = 0;
-    std::array<int, capacity> nodes{};      ///< of the light tree
-    std::array<float, capacity> weights{};  ///< about the illuminance that each brings; above 0
-    float total = 0.0f;                     ///< of the weights; infinite or not a number if a weight is
-    float left_out = 0.0f;                  ///< illuminance that the lights left out may bring, without shadows
+    bool has_all = false;                 ///< the nodes are all lights, and `nodes` is not set
+    std::array<int, capacity> nodes;      ///< children of LightTree, in its order: neighbours are neighbours
+    std::array<float, capacity> weights;  ///< about the illuminance that each brings
+    float total = 0.0f;                   ///< of the weights; infinite or not a number if a weight is
+    float left_out = 0.0f;                ///< illuminance that the lights left out may bring, without shadows
 };
 
-/// Up to 16 lights: all of them. Else groups are divided, that of the largest bound first, until there are enough
-/// nodes.
+/// Few lights: all of them. Else groups are divided, that of the largest bound first, until there are enough nodes.
 /// @param behind  1 where light from behind the surface counts as well, else 0
 LightCut find_light_cut(const LightSet& lights, const Receiver& receiver, float behind, const CutLimits& limits = {});
 

@@ -4,39 +4,11 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <numeric>
+#include <span>
 
 namespace aleph {
 
 namespace {
-
-/// The cosine and sine of an angle from 0 to pi.
-struct Angle {
-    float cosine = 1.0f, sine = 0.0f;
-};
-
-Angle angle_of(float cosine) {
-    const float c = std::clamp(cosine, -1.0f, 1.0f);
-    return {c, std::sqrt(1.0f - c * c)};
-}
-
-/// a - b, and 0 where b is larger.
-Angle subtract(const Angle& a, const Angle& b) {
-    if (a.cosine >= b.cosine) return {};
-    return {a.cosine * b.cosine + a.sine * b.sine, a.sine * b.cosine - a.cosine * b.sine};
-}
-
-/// Rounding must not exclude a light that brings a little.
-float with_margin(float cosine) {
-    constexpr float margin = 1e-3f;
-    return cosine < -margin ? 0.0f : std::clamp(cosine, margin, 1.0f);
-}
-
-/// The largest share of its light along the axes that a node sends to a point.
-float shining_towards(const LightNode& node, const Angle& from_axis, const Angle& size) {
-    const Angle outside = subtract(subtract(from_axis, size), angle_of(node.cos_cone));
-    if (outside.cosine < node.cos_emission - 1e-3f) return 0.0f;
-    return node.by_cosine ? with_margin(outside.cosine) : 1.0f;
-}
 
 /// A cone around two; without an axis: all directions.
 void join_cones(LightNode& joined, const LightNode& a, const LightNode& b) {
@@ -82,70 +54,103 @@ LightNode join(const LightNode& a, const LightNode& b) {
     return joined;
 }
 
-/// Adds the groups above these lights. @return the highest
-int add_groups(LightTree& tree, std::span<int> lights) {
-    if (lights.size() == 1) return lights.front();
-    glm::vec3 low = tree.nodes[lights.front()].center, high = low;
-    for (const int i : lights) {
-        low = glm::min(low, tree.nodes[i].center);
-        high = glm::max(high, tree.nodes[i].center);
+/// A binary tree, from which groups are made.
+struct PairTree {
+    struct Pair {
+        LightNode node;
+        int light = -1;               ///< -1: a pair
+        int first = -1, second = -1;  ///< of pairs
+        int lights = 1;
+    };
+    std::vector<Pair> pairs;
+
+    /// Adds all of these lights: halves along the longest side of the box around their centres. @return the highest
+    int add(const std::vector<LightNode>& nodes, std::span<int> lights) {
+        if (lights.size() == 1) {
+            pairs.push_back({nodes[lights.front()], lights.front()});
+            return static_cast<int>(pairs.size()) - 1;
+        }
+        glm::vec3 low = nodes[lights.front()].center, high = low;
+        for (const int i : lights) {
+            low = glm::min(low, nodes[i].center);
+            high = glm::max(high, nodes[i].center);
+        }
+        const glm::vec3 size = high - low;
+        const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
+        const std::size_t half = lights.size() / 2;
+        std::nth_element(lights.begin(), lights.begin() + static_cast<std::ptrdiff_t>(half), lights.end(),
+                         [&](int a, int b) {
+                             const float x = nodes[a].center[axis], y = nodes[b].center[axis];
+                             return x < y || (x == y && a < b);
+                         });
+        const int first = add(nodes, lights.first(half)), second = add(nodes, lights.subspan(half));
+        pairs.push_back({join(pairs[first].node, pairs[second].node), -1, first, second,
+                         pairs[first].lights + pairs[second].lights});
+        return static_cast<int>(pairs.size()) - 1;
     }
-    const glm::vec3 size = high - low;
-    const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
-    const std::size_t half = lights.size() / 2;
-    std::nth_element(lights.begin(), lights.begin() + static_cast<std::ptrdiff_t>(half), lights.end(),
-                     [&](int a, int b) {
-                         const float x = tree.nodes[a].center[axis], y = tree.nodes[b].center[axis];
-                         return x < y || (x == y && a < b);
-                     });
-    const int first = add_groups(tree, lights.first(half)), second = add_groups(tree, lights.subspan(half));
-    LightNode joined = join(tree.nodes[first], tree.nodes[second]);
-    joined.first = first;
-    joined.second = second;
-    tree.nodes.push_back(joined);
-    return static_cast<int>(tree.nodes.size()) - 1;
+};
+
+void set_node(LightGroup& group, std::size_t i, const LightNode& node) {
+    group.x[i] = node.center.x;
+    group.y[i] = node.center.y;
+    group.z[i] = node.center.z;
+    group.radius[i] = node.radius;
+    group.nearby[i] = node.nearby ? 1.0f : 0.0f;
+    group.directed[i] = node.directed ? 1.0f : 0.0f;
+    group.axis_x[i] = node.axis.x;
+    group.axis_y[i] = node.axis.y;
+    group.axis_z[i] = node.axis.z;
+    group.cos_cone[i] = node.cos_cone;
+    group.sin_cone[i] = std::sqrt(std::max(0.0f, 1.0f - node.cos_cone * node.cos_cone));
+    group.cos_emission[i] = node.cos_emission;
+    group.by_cosine[i] = node.by_cosine ? 1.0f : 0.0f;
+    group.strength[i] = node.strength;
+    group.most[i] = node.most;
+}
+
+/// Adds a group of these pairs, in their order, and the groups below them. @return the group's index
+int add_group(LightTree& tree, const PairTree& pairs, std::vector<int> members) {
+    while (members.size() < LightGroup::size) {
+        const auto largest = std::max_element(members.begin(), members.end(), [&](int a, int b) {
+            return pairs.pairs[a].lights < pairs.pairs[b].lights;
+        });
+        const PairTree::Pair& pair = pairs.pairs[*largest];
+        if (pair.lights == 1) break;
+        *largest = pair.first;
+        members.insert(largest + 1, pair.second);
+    }
+    const std::size_t index = tree.groups.size();
+    tree.groups.emplace_back();
+    tree.groups[index].used = static_cast<int>(members.size());
+    for (std::size_t i = 0; i < members.size(); ++i) {
+        const PairTree::Pair& pair = pairs.pairs[members[i]];
+        set_node(tree.groups[index], i, pair.node);
+        const int child =
+            pair.light >= 0 ? pair.light : tree.lights + add_group(tree, pairs, {pair.first, pair.second});
+        tree.groups[index].children[i] = child;
+    }
+    return static_cast<int>(index);
 }
 
 }  // namespace
 
-LightReach reach_of(const LightNode& node, const glm::vec3& position, const glm::vec3& normal, float behind) {
-    const glm::vec3 away = node.nearby ? node.center - position : node.center;
-    const float distance2 = glm::dot(away, away), radius2 = node.radius * node.radius;
-    if (node.nearby && !(distance2 + radius2 > 0.0f)) return {};  // a point light at the point has no direction to it
-    float share = 1.0f;
-    if (distance2 > 1.001f * radius2) {
-        const float inverse = 1.0f / std::sqrt(distance2);
-        const float sine = node.nearby ? node.radius * inverse : 0.0f;
-        const Angle size{std::sqrt(1.0f - sine * sine), sine};
-        if (!(behind > 0.0f)) {
-            share = node.nearby ? with_margin(subtract(angle_of(glm::dot(away, normal) * inverse), size).cosine)
-                                : with_margin(std::min(1.0f, glm::dot(away, normal) + node.radius));
-        }
-        if (node.directed) share *= shining_towards(node, angle_of(-glm::dot(away, node.axis) * inverse), size);
-    }
-    if (!(share > 0.0f)) return {};
-    if (!node.nearby) return {node.strength * share, node.strength * share};
-    const float nearest = std::max(0.0f, std::sqrt(distance2) - node.radius);
-    return {std::min(node.strength / (nearest * nearest) * share, node.most),
-            node.strength / std::max(distance2, radius2) * share};
-}
-
-LightTree make_light_tree(std::vector<LightNode> lights) {
+LightTree make_light_tree(const std::vector<LightNode>& lights) {
     LightTree tree;
     tree.lights = static_cast<int>(lights.size());
-    tree.nodes = std::move(lights);
-    tree.nodes.reserve(2 * tree.nodes.size());
-    std::vector<int> order(static_cast<std::size_t>(tree.lights));
+    if (lights.empty()) return tree;
+    std::vector<int> order(lights.size());
     std::iota(order.begin(), order.end(), 0);
-    const auto far = std::stable_partition(order.begin(), order.end(), [&](int i) { return tree.nodes[i].nearby; });
-    // The environment comes from all around.
-    const auto around = std::stable_partition(far, order.end(), [&](int i) { return tree.nodes[i].radius == 0.0f; });
-    const std::span all(order);
-    const auto near_count = static_cast<std::size_t>(far - order.begin());
-    const auto far_count = static_cast<std::size_t>(around - far);
-    if (near_count > 0) tree.roots.push_back(add_groups(tree, all.first(near_count)));
-    if (far_count > 0) tree.roots.push_back(add_groups(tree, all.subspan(near_count, far_count)));
-    tree.roots.insert(tree.roots.end(), around, order.end());
+    // Near lights, directional ones, and the environment, which comes from all around, are not joined.
+    const auto kind_of = [&](int i) { return lights[i].nearby ? 0 : lights[i].radius == 0.0f ? 1 : 2; };
+    std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return kind_of(a) < kind_of(b); });
+    PairTree pairs;
+    std::vector<int> roots;
+    for (auto begin = order.begin(); begin != order.end();) {
+        const auto end = std::find_if(begin, order.end(), [&](int i) { return kind_of(i) != kind_of(*begin); });
+        roots.push_back(pairs.add(lights, {begin, end}));
+        begin = end;
+    }
+    add_group(tree, pairs, std::move(roots));
     return tree;
 }
 

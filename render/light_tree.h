@@ -1,54 +1,66 @@
 #pragma once
 // A tree over the lights of a scene. A group of lights stands for all of them where it brings little; so light is
 // sampled in a time that grows with the logarithm of their number (Conty Estevez and Kulla 2018, "Importance Sampling
-// of Many Lights with Adaptive Tree Splitting"; Walter et al. 2005, "Lightcuts").
+// of Many Lights with Adaptive Tree Splitting"; Walter et al. 2005, "Lightcuts"). All that is said of light is
+// luminance.
 
 #include <array>
 #include <glm/vec3.hpp>
-#include <span>
 #include <vector>
 
 namespace aleph {
 
-/// One light, or a group. All that is said of light is luminance.
+/// One light, or several.
 struct LightNode {
-    static constexpr int none = -1;
-
-    /// m, a sphere around the lights; of directional ones, around the unit vectors towards them.
+    /// m, a sphere around the lights; of directional ones, around the unit vectors towards them. The environment has
+    /// the unit sphere.
     glm::vec3 center{0.0f};
     float radius = 0.0f;
     bool nearby = true;  ///< light falls off with distance
-    /// Whether the directions of light are limited. They are within `cone` and then `emission` of the axis: the cone
-    /// holds the normals of surfaces, or the axes of spots; the emission is what leaves around these.
+    /// Whether the directions of light are limited: to what is within `emission` of any direction within `cone` of the
+    /// axis. The cone holds the normals of surfaces, or the axes of spots.
     bool directed = false;
     glm::vec3 axis{0.0f};
     float cos_cone = 1.0f;
-    float cos_emission = 0.0f;        ///< 0 for surfaces
-    bool by_cosine = true;            ///< light around the axes falls off at least with the cosine
-    float strength = 0.0f;            ///< sum of intensities along the axes; of what is not nearby, illuminance
-    float most = 0.0f;                ///< sum of the largest illuminances; infinite where there are point lights
-    int first = none, second = none;  ///< nodes; none: a light
+    float cos_emission = 0.0f;  ///< 0 for surfaces
+    bool by_cosine = true;      ///< light around the directions in the cone falls off at least with the cosine
+    float strength = 0.0f;      ///< sum of intensities along the axes; of what is not nearby, illuminance
+    float most = 0.0f;          ///< sum of the largest illuminances; infinite where there are point lights
 };
 
-/// What a node can bring to a surface without shadows, as illuminance.
-struct LightReach {
-    float bound = 0.0f;     ///< never less than what it brings
-    float estimate = 0.0f;  ///< about what it brings; above 0 wherever it can bring any
+/// What eight nodes can bring to a surface without shadows, as illuminance.
+struct LightReaches {
+    /// Never less than what they bring.
+    std::array<float, 8> bounds;
+    /// About what they bring; above 0 wherever they can bring any.
+    std::array<float, 8> estimates;
+};
+
+/// Eight nodes of the tree, below one node; one array for each value, so that all are looked at together. Places that
+/// are not used have no strength.
+struct LightGroup {
+    static constexpr int size = 8;
+    using Values = std::array<float, size>;
+    Values x{}, y{}, z{}, radius{}, nearby{};
+    Values directed{}, axis_x{}, axis_y{}, axis_z{}, cos_cone{}, sin_cone{}, cos_emission{}, by_cosine{};
+    Values strength{}, most{};
+    std::array<int, size> children{};  ///< see LightTree
+    int used = 0;
 };
 
 /// @param normal  unit, of the surface
 /// @param behind  1 where light from behind the surface counts as well, else 0
-LightReach reach_of(const LightNode& node, const glm::vec3& position, const glm::vec3& normal, float behind);
+LightReaches reach_of(const LightGroup& group, const glm::vec3& position, const glm::vec3& normal, float behind);
 
+/// Children are numbered: lights from 0; groups from the number of lights.
 struct LightTree {
-    std::vector<LightNode> nodes;  ///< first those of the lights, in their order
-    std::vector<int> roots;        ///< of near lights, of directional ones, the environment
+    std::vector<LightGroup> groups;  ///< the first one is the root
     int lights = 0;
 
-    bool is_light(int node) const { return node < lights; }
+    bool is_light(int child) const { return child < lights; }
+    const LightGroup& group(int child) const { return groups[static_cast<std::size_t>(child - lights)]; }
 };
 
-/// A tree over these lights. Groups are halves along the longest side of the box around their centres.
-LightTree make_light_tree(std::vector<LightNode> lights);
+LightTree make_light_tree(const std::vector<LightNode>& lights);
 
 }  // namespace aleph

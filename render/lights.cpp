@@ -10,6 +10,7 @@
 #include "engine/base/sampling.h"
 #include "render/environment_map.h"
 #include "render/light_power.h"
+#include "render/seen_light.h"
 #include "render/spherical_triangle.h"
 #include "render/surface_material.h"
 
@@ -19,9 +20,6 @@ namespace {
 
 /// Shadow rays end at this share of the distance to the light, so that they do not hit it.
 constexpr float shadow_end = 1.0f - 1e-4f;
-
-/// Emitters of at most this many triangles are sampled by solid angle if they are near.
-constexpr std::size_t max_spherical_triangles = 4;
 
 float pdf_by_area(const Emitter& emitter, float cos_at_light, float distance) {
     return distance * distance / (cos_at_light * emitter.area);
@@ -62,12 +60,6 @@ Emitter make_emitter(const PosedInstance& instance, const ShadingMaterial& mater
     for (const double a : cumulative) emitter.cumulative_area.push_back(static_cast<float>(a / area));
     return emitter;
 }
-
-/// The solid angle of each triangle of an emitter as seen from a point, sr; 0 from the side that does not emit.
-struct SolidAngles {
-    std::array<float, max_spherical_triangles> of{};
-    float total = 0.0f;  ///< 0: too many triangles or too far away, sample by area
-};
 
 /// sr. Above it, sampling by area is the noisier way, and float is accurate enough for the angles.
 constexpr float min_solid_angle = 0.1f;
@@ -114,9 +106,8 @@ std::size_t choose_part(std::span<const float> ends, float& u) {
     return i;
 }
 
-LightSample sample_emitter(const ShadingScene& shading, const Emitter& emitter, const glm::vec3& position, glm::vec2 u,
-                           float share) {
-    const SolidAngles angles = find_solid_angles(emitter, position);
+LightSample sample_emitter(const ShadingScene& shading, const Emitter& emitter, const SolidAngles& angles,
+                           const glm::vec3& position, glm::vec2 u, float share) {
     std::size_t chosen = 0;
     glm::vec2 b;
     if (angles.total > 0.0f) {
@@ -126,7 +117,8 @@ LightSample sample_emitter(const ShadingScene& shading, const Emitter& emitter, 
         chosen = choose_part(std::span(ends.data(), emitter.triangles.size()), u.x);
         const Emitter::Triangle& t = emitter.triangles[chosen];
         const glm::vec3 corner = t.corner - position;
-        b = meet_triangle(t, position, sample_spherical_triangle(corner, corner + t.edge1, corner + t.edge2, u));
+        b = meet_triangle(t, position,
+                          sample_spherical_triangle(corner, corner + t.edge1, corner + t.edge2, angles.of[chosen], u));
     } else {
         chosen = choose_part(emitter.cumulative_area, u.x);
         b = sample_triangle(u);
@@ -256,13 +248,26 @@ LightSet make_light_set(const ShadingScene& shading) {
     return lights;
 }
 
-LightSample sample_light(const ShadingScene& shading, const LightSet& lights, int light, const Receiver& receiver,
-                         const glm::vec2& u, float share) {
+SeenLight see_light(const LightSet& lights, int light, const glm::vec3& position) {
+    SeenLight seen{light, {}};
+    if (light < std::ssize(lights.emitters)) seen.angles = find_solid_angles(lights.emitters[light], position);
+    return seen;
+}
+
+LightSample sample_seen_light(const ShadingScene& shading, const LightSet& lights, const SeenLight& seen,
+                              const Receiver& receiver, const glm::vec2& u, float share) {
     const int emitters = static_cast<int>(lights.emitters.size());
-    if (light < emitters) return sample_emitter(shading, lights.emitters[light], receiver.position, u, share);
-    const int punctual = light - emitters;
+    if (seen.light < emitters) {
+        return sample_emitter(shading, lights.emitters[seen.light], seen.angles, receiver.position, u, share);
+    }
+    const int punctual = seen.light - emitters;
     if (punctual < std::ssize(lights.punctual)) return sample_punctual(lights.punctual[punctual], receiver.position);
     return sample_surroundings(shading, receiver, u);
+}
+
+LightSample sample_light(const ShadingScene& shading, const LightSet& lights, int light, const Receiver& receiver,
+                         const glm::vec2& u, float share) {
+    return sample_seen_light(shading, lights, see_light(lights, light, receiver.position), receiver, u, share);
 }
 
 }  // namespace aleph

@@ -5,6 +5,7 @@
 #include "render/bounce_levels.h"
 #include "render/bounce_places.h"
 #include "render/carried_point.h"
+#include "render/mirror_places.h"
 
 namespace aleph {
 
@@ -58,6 +59,8 @@ std::vector<IrradianceRecord> compute_records(const MomentInput& input, FrameCou
     for (std::size_t v = 0; v < contexts.size(); ++v) {
         contexts[v].deeper = make_deeper_light(input.settings, fewer_bounces ? &*fewer_bounces : nullptr);
         fill_cache(cache, contexts[v], first_samples[v], tally);
+        // Other views were cast in another pose, where mirrors may show other things.
+        if (contexts[v].seen == nullptr) fill_mirror_places(cache, contexts[v], first_samples[v], tally);
     }
     tally.counts.rays += counts.rays;
     counts = tally.counts;

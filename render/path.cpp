@@ -3,11 +3,20 @@
 #include <algorithm>
 #include <cmath>
 
+#include "render/lattice.h"
+
 namespace aleph {
 
 namespace {
 
 constexpr float least_survival = 0.05f;
+
+/// sr: a lobe of this solid angle or less counts as narrow. It is that of GGX with roughness .25.
+constexpr float narrow_lobe = 0.05f;
+
+/// Known irradiance may err by more than the pixel's accuracy where the path has little weight, and where a wide lobe
+/// averages over many places, but by no more than this.
+constexpr float loosest_accuracy = 0.5f;
 
 float largest_channel(const Rgb& c) {
     return std::max({c.x, c.y, c.z});
@@ -36,6 +45,28 @@ float weigh(const PathState& state, float light_pdf) {
     return 0.0f;
 }
 
+/// Solid angle of the lobe that the path's last turn was sampled from, about, sr.
+float lobe_solid_angle(const PathState& state) {
+    return state.emission == EmissionWeight::weighted && state.pdf > 0.0f ? 1.0f / state.pdf : 0.0f;
+}
+
+/// alpha for look-ups. A path of weight w brings an error of w times that of the look-up to the pixel. The square root
+/// of w leaves room for surfaces that are brighter in the reflection than the pixel itself.
+float loosen_accuracy(const PathState& state) {
+    const float weight = std::min(largest_channel(state.throughput), 1.0f);
+    const float spread = std::sqrt(std::min(lobe_solid_angle(state), 1.0f));
+    const float loose = state.accuracy * (1.0f + spread) / std::sqrt(std::max(weight, 1e-3f));
+    return std::max(state.accuracy, std::min(loose, loosest_accuracy));
+}
+
+/// Lights to sample at the surface that the path met.
+int count_light_samples(const PathState& state) {
+    if (state.light_samples <= 1) return 1;
+    const float width = std::max(1.0f, lobe_solid_angle(state) / narrow_lobe);
+    const float weight = std::min(largest_channel(state.throughput), 1.0f);
+    return std::max(1, static_cast<int>(std::lround(static_cast<float>(state.light_samples) * weight / width)));
+}
+
 /// Emission of a surface that a ray met.
 Rgb met_emission(const LightingContext& context, const PathState& state, const ViewedSurface& surface, int instance) {
     const Rgb& emission = surface.material.emission;
@@ -59,12 +90,15 @@ class Path {
 
     /// Adds the light of the surface and of everything beyond.
     void scatter_at(ViewedSurface& surface) {
-        while (state_.left.depth > 0 && survive()) {
+        while (state_.left.depth > 0) {
+            const bool known = add_known(surface);
+            if (!survive()) return;
             --state_.left.depth;
             if (surface.material.volume) surface.material.ior_ratio = state_.media.ratio_at(surface);
             const LitSurface lit(surface);
-            const LobeShares shares = share_lobes(lit, LobeSet::all);
+            const LobeShares shares = share_lobes(lit, known ? LobeSet::specular : LobeSet::all);
             add_direct(lit, shares);
+            if (shares == LobeShares{}) return;
             const ScatterSample sample = sample_scatter(lit, shares, random_.next(), random_.next_2d(), random_.next());
             // After the last bounce the ray still looks for lamps: near a large one, sampling it alone is noise.
             const bool ends = state_.left.bounces <= 0 && sample.lobe == Lobe::diffuse;
@@ -92,6 +126,18 @@ class Path {
     const Rgb& light() const { return light_; }
 
   private:
+    /// Adds the indirect light that the Lambert layer scatters, if it is known: before Russian roulette, as no ray is
+    /// needed. Then the path must not go on from that layer.
+    bool add_known(const ViewedSurface& surface) {
+        if (state_.known == nullptr || hit_.instance == no_index || !surface.material.has_diffuse()) return false;
+        if (std::min(state_.left.bounces, state_.left.depth - 1) != state_.known->bounces) return false;
+        const std::optional<Rgb> irradiance = state_.known->find(surface, hit_, loosen_accuracy(state_), task_);
+        if (!irradiance) return false;
+        const LitSurface lit(surface);
+        light_ += state_.throughput * diffuse_radiance(surface.material, lit.cos_view, *irradiance) * lit.below_sheen;
+        return true;
+    }
+
     void add_direct(const LitSurface& lit, const LobeShares& shares) {
         const SurfaceMaterial& material = lit.material;
         const bool only_mirrors = !material.has_diffuse() && !material.has_sheen() &&
@@ -99,26 +145,40 @@ class Path {
                                   (!material.has_glass() || material.is_glass_smooth()) &&
                                   (!material.has_coat() || material.is_coat_mirror());
         if (only_mirrors) return;
-        const ScatteredLight direct = choose_light(context_, lit, shares, random_);
+        const int count = count_light_samples(state_);
+        if (count == 1) {
+            add_light(choose_light(context_, lit, shares, random_), 1.0f);
+            return;
+        }
+        const float choice = random_.next();
+        const glm::vec2 shift = random_.next_2d();
+        for (int i = 0; i < count; ++i) {
+            const float step = static_cast<float>(i) / static_cast<float>(count);
+            const LightNumbers numbers{fraction(choice + step), lattice_point(i, count, shift)};
+            add_light(choose_light(context_, lit, shares, numbers), 1.0f / static_cast<float>(count));
+        }
+    }
+
+    void add_light(const ScatteredLight& direct, float share) {
         if (direct.radiance == Rgb(0.0f)) return;
         Rgb arrives = direct.radiance * find_transmittance(context_, task_, direct.shadow_ray);
         if (const Rgb attenuation = state_.media.attenuation_inside(); attenuation != Rgb(0.0f)) {
             arrives *= glm::exp(-attenuation * direct.shadow_ray.far);
         }
-        light_ += state_.throughput * arrives;
+        light_ += state_.throughput * arrives * share;
     }
 
     /// Russian roulette (Arvo and Kirk 1990).
     bool survive() {
         if (state_.roulette_after-- > 0) return true;
-        const float chance = std::clamp(largest_channel(state_.throughput), least_survival, 1.0f);
+        const float chance = std::clamp(state_.survival * largest_channel(state_.throughput), least_survival, 1.0f);
         if (random_.next() >= chance) return false;
         state_.throughput /= chance;
         return true;
     }
 
     bool meet(const Ray& ray, ViewedSurface& next) {
-        const Hit hit = task_.tracer.intersect(ray);
+        const Hit hit = hit_ = task_.tracer.intersect(ray);
         if (hit.instance == no_index) {
             if (context_.lights.has_environment && state_.emission != EmissionWeight::none) {
                 const float pdf = state_.emission == EmissionWeight::weighted
@@ -141,49 +201,11 @@ class Path {
     RayTask& task_;
     PathState state_;
     RandomStream& random_;
+    Hit hit_{};  ///< of the last ray; none before it
     Rgb light_{0.0f};
 };
 
 }  // namespace
-
-int Media::find(int material) const {
-    for (int i = size_ - 1; i >= 0; --i) {
-        if (stack_[i].material == material) return i;
-    }
-    return no_index;
-}
-
-Rgb Media::attenuation_inside() const {
-    return size_ > 0 ? stack_[size_ - 1].attenuation : Rgb(0.0f);
-}
-
-Rgb Media::attenuation(const ViewedSurface& end) const {
-    if (size_ > 0) return attenuation_inside();
-    return end.material.volume && !end.point.front ? end.material.attenuation : Rgb(0.0f);
-}
-
-float Media::ratio_at(const ViewedSurface& surface) const {
-    if (surface.point.front) return surface.material.ior / ior();
-    const int inside = find(surface.point.material);
-    const int outer = inside == no_index ? size_ - 1 : (inside == size_ - 1 ? size_ - 2 : size_ - 1);
-    const float outer_ior = outer >= 0 ? stack_[outer].ior : 1.0f;
-    // A ray that is in another medium as well leaves this one without noticing: the innermost counts.
-    const float inner = inside == no_index ? surface.material.ior : ior();
-    return inner > 0.0f ? outer_ior / inner : 0.0f;
-}
-
-void Media::pass(const ViewedSurface& surface) {
-    if (surface.point.front) {
-        if (size_ < static_cast<int>(stack_.size())) {
-            stack_[size_++] = {surface.point.material, surface.material.ior, surface.material.attenuation};
-        }
-        return;
-    }
-    const int inside = find(surface.point.material);
-    if (inside == no_index) return;
-    std::copy(stack_.begin() + inside + 1, stack_.begin() + size_, stack_.begin() + inside);
-    --size_;
-}
 
 Rgb scatter_light(const LightingContext& context, RayTask& task, ViewedSurface surface, PathState state,
                   RandomStream& random) {

@@ -2,7 +2,9 @@
 // Light along paths: what reaches a surface point by any number of scattering events, without bias. Path tracing with
 // next-event estimation (Kajiya 1986) and multiple importance sampling (Veach 1997), ended by Russian roulette.
 
+#include "render/known_irradiance.h"
 #include "render/light_choice.h"
+#include "render/media.h"
 
 namespace aleph {
 
@@ -10,34 +12,6 @@ namespace aleph {
 struct PathLimits {
     int bounces = 0;  ///< times that a Lambert layer may turn the path
     int depth = 0;    ///< surfaces that may scatter, of all kinds
-};
-
-/// What encloses a ray: meshes with a volume (KHR_materials_volume) that it has entered, the innermost last.
-class Media {
-  public:
-    struct Medium {
-        int material = no_index;
-        float ior = 1.0f;
-        Rgb attenuation{0.0f};  ///< 1/m
-    };
-
-    /// 1 outside of all.
-    float ior() const { return size_ == 0 ? 1.0f : stack_[size_ - 1].ior; }
-    /// 1/m, of the innermost; 0 outside.
-    Rgb attenuation_inside() const;
-    /// 1/m, of the ray that ends at this surface. If no mesh was entered and the surface is met from inside, the ray
-    /// started inside: the camera is in the glass.
-    Rgb attenuation(const ViewedSurface& end) const;
-    /// Of the far side over the viewer's side, at a surface with a volume.
-    float ratio_at(const ViewedSurface& surface) const;
-    /// Goes through a surface with a volume, by the side that was hit.
-    void pass(const ViewedSurface& surface);
-
-  private:
-    int find(int material) const;
-
-    std::array<Medium, 4> stack_{};  ///< deeper nesting than this is ignored
-    int size_ = 0;
 };
 
 /// How light counts that the next ray meets straight away at a lamp or the environment.
@@ -55,7 +29,15 @@ struct PathState {
     float pdf = 0.0f;        ///< density of the last turn, per steradian, if `weighted`
     Receiver from;           ///< where it turned
     int roulette_after = 4;  ///< surfaces that scatter before Russian roulette may end the path
+    float survival = 1.0f;   ///< chance to survive it, times the path's weight; at most 1
     Media media;
+    /// Used at surfaces that the path meets while the bounces that are left are those that it holds; null: nothing is
+    /// known, and all light is found without bias.
+    const KnownIrradiance* known = nullptr;
+    float accuracy = 0.0f;  ///< alpha of the pixel, for `known`
+    /// Lights that are sampled where a path arrives with its full weight from a mirror or a narrow lobe; fewer in
+    /// proportion to its weight and to the width of the lobe, at least one.
+    int light_samples = 1;
 };
 
 /// Light that the surface scatters towards its viewer, without its own emission.

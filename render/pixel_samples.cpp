@@ -6,7 +6,9 @@ namespace aleph {
 
 namespace {
 
-constexpr float least_cosine = 0.9f;  // between the normals of one face
+constexpr float least_cosine = 0.9f;         // between the true normals of one face
+constexpr float least_shading_cosine = 0.999f;  // between normals with about the same irradiance
+constexpr int enough_irradiances = 4;
 
 }  // namespace
 
@@ -18,16 +20,30 @@ void PixelSamples::add(const SampleLight& light) {
     if (light.instance != no_index) ++hits_;
     if (valid_ == 1) {
         instance_ = light.instance;
+        geometric_ = light.geometric;
         normal_ = light.normal;
     } else if (light.instance != instance_ ||
-               (instance_ != no_index && glm::dot(light.normal, normal_) < least_cosine)) {
+               (instance_ != no_index && glm::dot(light.geometric, geometric_) < least_cosine)) {
         edge_ = true;
+    }
+    if (light.irradiance && irradiances_ < enough_irradiances && is_first_surface(light.instance, light.normal)) {
+        irradiance_ += *light.irradiance;
+        ++irradiances_;
     }
     const double y = luminance(total), difference = y - mean_;
     mean_ += difference / valid_;
     squares_ += difference * (y - mean_);
     for (std::size_t part = 0; part < luminances_.size(); ++part) luminances_[part] += luminance(light.parts[part]);
     end_sample();
+}
+
+bool PixelSamples::is_first_surface(int instance, const glm::vec3& normal) const {
+    return instance == instance_ && glm::dot(normal, normal_) > least_shading_cosine;
+}
+
+std::optional<Rgb> PixelSamples::find_irradiance(int instance, const glm::vec3& normal) const {
+    if (irradiances_ < enough_irradiances || !is_first_surface(instance, normal)) return std::nullopt;
+    return irradiance_ / static_cast<float>(irradiances_);
 }
 
 /// After 2, 4, 8, ... samples, compares the halves.

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <optional>
 
 #include "engine/base/color.h"
 #include "engine/base/index.h"
@@ -22,8 +23,9 @@ inline constexpr int light_part_count = 3;
 struct SampleLight {
     std::array<Rgb, light_part_count> parts{Rgb(0.0f), Rgb(0.0f), Rgb(0.0f)};
     Rgb indirect{0.0f};  ///< what the surface reflects of its indirect irradiance; within LightPart::surface
-    int instance = no_index;  ///< of the first surface; no_index: the background
-    glm::vec3 normal{0.0f};   ///< unit, true normal of that surface
+    std::optional<Rgb> irradiance;  ///< indirect, that was looked up for it
+    int instance = no_index;        ///< of the first surface; no_index: the background
+    glm::vec3 geometric{0.0f}, normal{0.0f};  ///< unit, that surface's true normal and its shading normal
 
     Rgb& operator[](LightPart part) { return parts[static_cast<std::size_t>(part)]; }
     Rgb total() const { return parts[0] + parts[1] + parts[2]; }
@@ -60,11 +62,16 @@ class PixelSamples {
     /// Variance of the mean luminance, as if samples were independent.
     double variance() const { return valid_ < 2 ? 0.0 : sample_variance() / valid_; }
     const Error& error() const { return error_; }
+    /// Indirect irradiance for a sample that sees the surface of the pixel's first one: the mean of what the first four
+    /// such samples looked up, at places spread over the pixel. Nothing before there are four.
+    /// @param normal  unit, of shading
+    std::optional<Rgb> find_irradiance(int instance, const glm::vec3& normal) const;
     /// Whether its samples saw several objects, or faces of one: an edge crosses the pixel.
     bool has_edge() const { return edge_; }
 
   private:
     void end_sample();
+    bool is_first_surface(int instance, const glm::vec3& normal) const;
 
     glm::dvec3 radiance_{0.0};
     Rgb indirect_{0.0f};
@@ -75,7 +82,9 @@ class PixelSamples {
     int first_valid_ = 0;
     Error error_;
     int instance_ = no_index;  ///< of the first sample
-    glm::vec3 normal_{0.0f};
+    glm::vec3 geometric_{0.0f}, normal_{0.0f};
+    Rgb irradiance_{0.0f};  ///< sum
+    int irradiances_ = 0;
     bool edge_ = false;
 };
 

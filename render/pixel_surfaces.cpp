@@ -1,10 +1,8 @@
 #include "render/pixel_surfaces.h"
 
-#include <bit>
 #include <cmath>
 #include <numbers>
 
-#include "engine/base/sampling.h"
 #include "render/pixel_sequence.h"
 
 namespace aleph {
@@ -27,17 +25,6 @@ glm::dvec2 place_sample(const SamplePlace& place, int x, int y) {
     if (place.centered) return {x + 0.5, y + 0.5};
     const glm::vec2 u = PixelSequence(place.seed, place.moment, x, y).at_2d(SampleUse::pixel, place.index);
     return {x + 0.5 + place_in_filter(place.filter, u.x), y + 0.5 + place_in_filter(place.filter, u.y)};
-}
-
-std::uint32_t make_view_key(const CameraView& view) {
-    std::uint64_t key = view.orthographic ? 1 : 0;
-    const auto add = [&key](double value) { key = mix_bits(key ^ std::bit_cast<std::uint64_t>(value)) + 1; };
-    for (int i = 0; i < 3; ++i) {
-        add(view.position[i]);
-        for (int j = 0; j < 3; ++j) add(view.axes[i][j]);
-    }
-    add(view.pixels_per_unit);
-    return static_cast<std::uint32_t>(key >> 32);
 }
 
 CameraRay make_sample_ray(const CameraView& view, const SamplePlace& place, int x, int y) {

@@ -28,10 +28,6 @@ struct SamplePlace {
 /// Where a sample lies in the picture, in pixels.
 glm::dvec2 place_sample(const SamplePlace& place, int x, int y);
 
-/// A key that changes whenever the camera does: while it rests, sequences that begin with it are the same in every
-/// frame, and so is their noise.
-std::uint32_t make_view_key(const CameraView& view);
-
 /// One sample of every pixel.
 struct SampleHits {
     Image<Hit> hits;

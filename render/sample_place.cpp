@@ -11,7 +11,7 @@ constexpr int counted_samples = 4;  // of a pixel, where their number is not kno
 
 }  // namespace
 
-SamplePlace make_sample_place(const RenderSettings& settings, const CameraView& view, const Lens& lens, bool blended,
+SamplePlace make_sample_place(const RenderSettings& settings, const Lens& lens, bool blended, std::uint32_t moment,
                               int index) {
     const int count =
         settings.sampling == Sampling::uniform ? settings.spp : std::min(settings.spp, counted_samples);
@@ -22,7 +22,7 @@ SamplePlace make_sample_place(const RenderSettings& settings, const CameraView& 
     place.lens = lens;
     place.filter = settings.filter;
     place.seed = settings.seed;
-    place.moment = make_view_key(view);
+    place.moment = moment;
     place.blend = blended ? Blend::random : Blend::cutout;
     return place;
 }

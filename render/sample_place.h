@@ -7,7 +7,8 @@
 namespace aleph {
 
 /// Placing of sample `index` of the pixels. A single sample is the pixel's centre.
-SamplePlace make_sample_place(const RenderSettings& settings, const CameraView& view, const Lens& lens, bool blended,
+/// @param moment  key of random numbers: the same in all frames if the camera never moves
+SamplePlace make_sample_place(const RenderSettings& settings, const Lens& lens, bool blended, std::uint32_t moment,
                               int index);
 
 }  // namespace aleph

@@ -126,7 +126,7 @@ FrameOutput Sequence::render(std::int64_t frame, const FrameRequest& request) {
     StageClock total;
     const SampleHits centers = s.look(frame, s.needs_perception() || request.maps, request.maps, out);
     if (request.frame) {
-        const auto random_frame = static_cast<std::uint32_t>(frame);
+        const std::uint32_t random_frame = s.noise_key(frame);
         options.blended = s.blended;
         options.record_maps = request.maps;
         if (shutter) options.at_sample = open_shutter(s, *shutter, random_frame, out.view);

@@ -55,6 +55,7 @@ SequenceState::SequenceState(Scene given, const RenderSettings& chosen, int came
       range(frame_range(scene)),
       textures(make_texture_set(scene)),
       pose_plan(make_pose_plan(scene)),
+      is_camera_still(std::ranges::find(pose_plan.cameras, camera) == pose_plan.cameras.end()),
       rays(scene, pose_plan),
       blended(has_blended(scene)),
       light_breaks(scene, pose_plan) {
@@ -256,7 +257,7 @@ MomentSource SequenceState::key_moments() {
         if (!other_rays) other_rays = std::make_unique<RayScene>(rays.share_meshes());
         other_rays->update_moving(view.posed.pose, view.shading.anchor);
         const Lens lens = find_lens(scene, view.posed.pose.cameras[camera]);
-        const SamplePlace place = make_sample_place(settings, view.posed.view, lens, blended, 0);
+        const SamplePlace place = make_sample_place(settings, lens, blended, noise_key(view.frame), 0);
         return cast_sample(*other_rays, view.posed.view, place, &counts.primary);
     };
     return {pose, look_at, cast, light};

@@ -45,6 +45,11 @@ struct SequenceState {
     /// Whether something obeys the visible threshold.
     bool needs_perception() const { return is_guided() || settings.sampling != Sampling::uniform; }
     bool estimates_indirect_light() const { return settings.bounces > 0 && settings.estimate == EstimateKind::direct; }
+    /// Key of a frame's random numbers: the same for all frames if the camera never moves, so that their noise is too,
+    /// where nothing else does.
+    std::uint32_t noise_key(std::int64_t frame) const {
+        return is_camera_still ? 0u : static_cast<std::uint32_t>(frame);
+    }
     bool can_change() const { return is_world_animated(scene) || !pose_plan.cameras.empty(); }
     std::uint64_t rays_traced() const {
         return rays.rays_traced() + (other_rays ? other_rays->rays_traced() : 0) + (open ? open->rays_traced() : 0);
@@ -56,6 +61,7 @@ struct SequenceState {
     const FrameRange range;
     TextureSet textures;
     PosePlan pose_plan;
+    const bool is_camera_still;
     RayScene rays;
     // Kept from frame to frame and updated, which gives the same results as making them anew.
     std::optional<PosedView> now, other;

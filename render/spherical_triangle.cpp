@@ -3,16 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <numbers>
 
 namespace aleph {
 
 namespace {
-
-/// Angle between two vectors of any length; accurate also if they are nearly parallel.
-float angle_between(const glm::vec3& v, const glm::vec3& w) {
-    return std::atan2(glm::length(glm::cross(v, w)), glm::dot(v, w));
-}
 
 /// The part of v perpendicular to the unit vector n, unit.
 glm::vec3 perpendicular(const glm::vec3& v, const glm::vec3& n) {
@@ -32,16 +26,20 @@ float solid_angle(const glm::vec3& a, const glm::vec3& b, const glm::vec3& c) {
     return 2.0f * std::atan2(numerator, denominator);
 }
 
-glm::vec3 sample_spherical_triangle(const glm::vec3& a, const glm::vec3& b, const glm::vec3& c, const glm::vec2& u) {
-    constexpr float pi = std::numbers::pi_v<float>;
+glm::vec3 sample_spherical_triangle(const glm::vec3& a, const glm::vec3& b, const glm::vec3& c, float solid_angle,
+                                    const glm::vec2& u) {
     const glm::vec3 ua = glm::normalize(a), ub = glm::normalize(b), uc = glm::normalize(c);
-    const glm::vec3 ab = glm::cross(ua, ub), bc = glm::cross(ub, uc), ca = glm::cross(uc, ua);
-    const float alpha = angle_between(ab, -ca), beta = angle_between(bc, -ab), gamma = angle_between(ca, -bc);
+    // The angle at a, between the planes of the arcs to b and to c.
+    const glm::vec3 ab = glm::cross(ua, ub), ac = glm::cross(ua, uc);
+    const float lengths = std::sqrt(glm::dot(ab, ab) * glm::dot(ac, ac));
+    if (!(lengths > 0.0f)) return ub;
+    const float cos_alpha = glm::dot(ab, ac) / lengths;
+    const float sin_alpha = std::abs(glm::dot(ua, glm::cross(ub - ua, uc - ua))) / lengths;
     // Cuts off a part of the triangle with the share u.x of its area; the part's third corner is on the arc from a to
     // c.
-    const float area = u.x * (alpha + beta + gamma - pi);
-    const float sin_alpha = std::sin(alpha), cos_alpha = std::cos(alpha);
-    const float s = std::sin(area - alpha), t = std::cos(area - alpha);
+    const float area = u.x * solid_angle;
+    const float sin_area = std::sin(area), cos_area = std::cos(area);
+    const float s = sin_area * cos_alpha - cos_area * sin_alpha, t = cos_area * cos_alpha + sin_area * sin_alpha;
     const float k1 = t - cos_alpha;
     const float k2 = s + sin_alpha * glm::dot(ua, ub);
     const float below = (k2 * s + k1 * t) * sin_alpha;

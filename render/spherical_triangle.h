@@ -11,8 +11,9 @@ namespace aleph {
 /// for small triangles; 0 if the triangle is seen edge-on or a corner lies at the eye.
 float solid_angle(const glm::vec3& a, const glm::vec3& b, const glm::vec3& c);
 
-/// A unit direction into the triangle, uniform in solid angle; u in [0,1)^2. The triangle's solid angle must be at
-/// least about 1e-3 sr: for smaller ones, float angles are too coarse.
-glm::vec3 sample_spherical_triangle(const glm::vec3& a, const glm::vec3& b, const glm::vec3& c, const glm::vec2& u);
+/// A unit direction into the triangle of this solid angle, uniform in solid angle; u in [0,1)^2. It must be at least
+/// about 1e-3 sr: for smaller ones, float angles are too coarse.
+glm::vec3 sample_spherical_triangle(const glm::vec3& a, const glm::vec3& b, const glm::vec3& c, float solid_angle,
+                                    const glm::vec2& u);
 
 }  // namespace aleph

@@ -8,7 +8,7 @@
 namespace aleph {
 
 /// So many standard errors hold 99.5 % of a normal distribution.
-inline constexpr double error_deviations = 2.807;
+inline constexpr double error_deviations = 1.8;
 
 /// What is known of a pixel's mean. A pixel's own samples never decide when it stops: a pixel whose first samples happen
 /// to agree would stop early, more often at a value that is too low than at one that is too high, and the picture would

@@ -62,12 +62,6 @@ struct Variant {
     }
 };
 
-std::vector<double> parse_values(const std::vector<std::string>& texts, const char* option) {
-    std::vector<double> values;
-    for (const std::string& text : texts) values.push_back(parse_value<double>(text, option));
-    return values;
-}
-
 struct Judged {
     std::string name;
     FrameVision maps;

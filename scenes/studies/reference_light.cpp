@@ -1,13 +1,10 @@
 #include "scenes/studies/reference_light.h"
 
-#include <OpenImageIO/strutil.h>
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <atomic>
 #include <cmath>
-#include <fstream>
-#include <sstream>
 
 #include "engine/base/errors.h"
 #include "engine/base/parallel.h"
@@ -25,12 +22,9 @@ constexpr float no_light = -1.0f;
 
 std::filesystem::path reference_path(const StudyFrame& frame, const RenderSettings& settings, const std::string& file,
                                      const ReferenceOptions& options) {
-    std::ifstream stream(file, std::ios::binary);
-    std::ostringstream bytes;
-    bytes << stream.rdbuf();
-    return std::filesystem::path(options.folder) /
-           fmt::format("{}-{}-{}x{}-{}-{}-{:016x}.exr", scene_name(file), frame.frame, settings.width, settings.height,
-                       options.grid.step, options.strata, OIIO::Strutil::strhash(bytes.str()));
+    return std::filesystem::path(options.folder) / fmt::format("{}-{}-{}x{}-{}-{}-{}.exr", scene_name(file),
+                                                               frame.frame, settings.width, settings.height,
+                                                               options.grid.step, options.strata, hash_file(file));
 }
 
 }  // namespace

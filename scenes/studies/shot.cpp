@@ -11,7 +11,6 @@
 #include "render/cli/frame_list.h"
 #include "render/cli/options.h"
 #include "render/cli/progress.h"
-#include "render/setting_table.h"
 #include "scenes/studies/rest_points.h"
 #include "scenes/studies/study_options.h"
 #include "scenes/studies/study_table.h"
@@ -97,10 +96,6 @@ void print_row(const StudyTable& table, const std::string& step, const Shot& sho
                fmt::format("{:.2f}", 100.0 * static_cast<double>(beyond) / std::max(1.0, count)),
                fmt::format("{:.3f}", quantile(0.5)), fmt::format("{:.3f}", quantile(0.99)),
                fmt::format("{:.3f}", quantile(0.999)), fmt::format("{:.2f}", quantile(1.0))});
-}
-
-bool has_setting(const std::string& key) {
-    return std::ranges::any_of(setting_table(), [&](const Setting& setting) { return setting.key == key; });
 }
 
 void run_shot(const ShotOptions& options) {

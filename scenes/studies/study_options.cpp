@@ -1,13 +1,19 @@
 #include "scenes/studies/study_options.h"
 
+#include <OpenImageIO/strutil.h>
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <charconv>
 #include <filesystem>
+#include <fstream>
 #include <iostream>
+#include <sstream>
 
 #include "engine/base/errors.h"
 #include "engine/base/parallel.h"
 #include "render/cli/options.h"
+#include "render/setting_table.h"
 
 namespace aleph {
 
@@ -33,14 +39,54 @@ std::string scene_name(const std::string& file) {
     return path.stem() == "scene" ? path.parent_path().filename().string() : path.stem().string();
 }
 
+std::vector<double> parse_values(const std::vector<std::string>& texts, const char* option) {
+    std::vector<double> values;
+    for (const std::string& text : texts) values.push_back(parse_value<double>(text, option));
+    return values;
+}
+
+bool has_setting(const std::string& key) {
+    return std::ranges::any_of(setting_table(), [&](const Setting& setting) { return setting.key == key; });
+}
+
+std::string hash_text(const std::string& text) {
+    return fmt::format("{:016x}", OIIO::Strutil::strhash(text));
+}
+
+std::string hash_file(const std::string& file) {
+    std::ifstream stream(file, std::ios::binary);
+    std::ostringstream bytes;
+    bytes << stream.rdbuf();
+    return hash_text(bytes.str());
+}
+
 void add_accuracy_option(CLI::App& app, double& accuracy) {
     add_value(app, "--accuracy", accuracy, "ambient accuracy, 0 to 1; smaller is more accurate");
 }
 
-RenderSettings study_settings(const Scene& scene, const std::string& file, const StudyOptions& options) {
+void add_set_option(CLI::App& app, std::vector<std::string>& sets) {
+    app.add_option("--set", sets, "KEY=VALUE: a setting of every rendering");
+}
+
+RenderSettings scene_settings(const Scene& scene, const std::string& file, const std::string& size,
+                              const std::vector<std::string>& sets) {
     RenderSettings settings;
     apply_settings(settings, scene.settings, file);
-    parse_size(options.size, "--size", settings.width, settings.height);
+    parse_size(size, "--size", settings.width, settings.height);
+    settings = with_settings(settings, sets);
+    validate(settings);
+    return settings;
+}
+
+RenderSettings with_settings(RenderSettings settings, const std::vector<std::string>& texts) {
+    SettingMap map;
+    for (const std::string& text : texts) parse_setting(text, map);
+    apply_settings(settings, map, "--set");
+    return settings;
+}
+
+RenderSettings study_settings(const Scene& scene, const std::string& file, const StudyOptions& options) {
+    RenderSettings settings = scene_settings(scene, file, options.size, {});
     settings.gather = options.gather;
     settings.light_step = 0;  // every frame by itself, so that its counts have all of its work
     settings.spp = std::max(1, options.spp);

@@ -29,6 +29,20 @@ void add_quiet_option(CLI::App& app, StudyOptions& options);
 /// The name of the folder for a file called scene.json, else the name of the file.
 std::string scene_name(const std::string& file);
 
+/// The numbers of a list.
+/// @throws CLI::ConversionError naming the option
+std::vector<double> parse_values(const std::vector<std::string>& texts, const char* option);
+
+/// Whether there is a setting of this name in this version.
+bool has_setting(const std::string& key);
+
+/// Hexadecimal digits that tell texts apart; a number for the bytes of a file.
+std::string hash_text(const std::string& text);
+std::string hash_file(const std::string& file);
+
+/// --set.
+void add_set_option(CLI::App& app, std::vector<std::string>& sets);
+
 /// --accuracy.
 void add_accuracy_option(CLI::App& app, double& accuracy);
 
@@ -36,6 +50,16 @@ void add_accuracy_option(CLI::App& app, double& accuracy);
 /// @param file  of the scene, for errors
 /// @throws InputError for a setting that is out of range
 RenderSettings study_settings(const Scene& scene, const std::string& file, const StudyOptions& options);
+
+/// The settings of a scene for a size, WIDTHxHEIGHT, with those of "KEY=VALUE" texts in their places.
+/// @param file  of the scene, for errors
+/// @throws InputError for a setting that is out of range
+RenderSettings scene_settings(const Scene& scene, const std::string& file, const std::string& size,
+                              const std::vector<std::string>& sets);
+
+/// With the settings of texts "KEY=VALUE", all at once: what `error` sets, the others override.
+/// @throws InputError for an unknown key, or a value that is out of range
+RenderSettings with_settings(RenderSettings settings, const std::vector<std::string>& texts);
 
 /// With a setting that is a choice, by the names of the scene file.
 /// @throws InputError for an unknown name

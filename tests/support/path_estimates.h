@@ -4,6 +4,7 @@
 
 #include <functional>
 
+#include "render/direct_light.h"
 #include "tests/support/render_scenes.h"
 
 namespace aleph {
@@ -72,6 +73,16 @@ inline Estimator by_lights(int depth) {
             surface = next;
         }
         return light;
+    };
+}
+
+/// So many samples of direct light. The sequence begins anew at each call.
+inline Estimator by_direct_samples(int count) {
+    return [=](const Stage& stage, RayTask& task, const ViewedSurface& surface, RandomStream& random) {
+        const auto seed = static_cast<std::uint32_t>(random.next() * 0x1p24f);
+        const LobeShares shares{};
+        return sample_direct_light(stage.lighting(), task, LitSurface(surface), shares, PixelSequence(seed, 0, 5, 7),
+                                   {0, count});
     };
 }
 

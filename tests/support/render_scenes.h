@@ -183,6 +183,7 @@ inline RenderSettings plain_settings(double accuracy, int gather) {
     RenderSettings settings;
     settings.perception.guide = Guide::none;
     settings.spp = 1;
+    settings.filter = PixelFilter::box;
     settings.accuracy = accuracy;
     settings.gather = gather;
     settings.light_step = 0;

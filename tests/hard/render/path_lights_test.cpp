@@ -105,12 +105,15 @@ TEST(PathLights, MC22_ThePenumbraOfASquareLampHasItsClosedForm) {
         const double first = std::clamp(x * (1.0 - height / edge), -half, half);  // the first visible point of the lamp
         const auto factor = [&](double at) { return corner_factor((at - x) / height, half / height); };
         const double expected = 0.6 * 10.0 * 2.0 * (factor(half) - factor(first));
-        const Mean found = estimate(stage, make_floor({static_cast<float>(x), 0.0f, 0.0f}, 0.6f), 1500, by_paths(0, 1),
-                                    static_cast<std::uint32_t>(i));
-        if (std::abs(found.mean() - expected) > 3.0 * found.error() + 1e-5) ++beyond;
-        EXPECT_NEAR(found.mean(), expected, 5.0 * found.error() + 1e-5) << x;
+        for (const auto& [estimator, samples] :
+             {std::pair(by_paths(0, 1), 1500), std::pair(by_direct_samples(8), 150)}) {
+            const Mean found = estimate(stage, make_floor({static_cast<float>(x), 0.0f, 0.0f}, 0.6f), samples,
+                                        estimator, static_cast<std::uint32_t>(i));
+            if (std::abs(found.mean() - expected) > 3.0 * found.error() + 1e-5) ++beyond;
+            EXPECT_NEAR(found.mean(), expected, 5.0 * found.error() + 1e-5) << x;
+        }
     }
-    EXPECT_LE(beyond, 1);
+    EXPECT_LE(beyond, 2);
 }
 
 enum class Crowd { equal, one_bright, one_visible, coincident, far_and_near };
@@ -121,7 +124,7 @@ struct Lit {
 };
 
 /// A floor under many point lights of the same total, and the sum of what those bring.
-Lit light_by(int count, Crowd crowd, int samples) {
+Lit light_by(int count, Crowd crowd, int samples, const Estimator& estimator) {
     Scene scene;
     const int side = static_cast<int>(std::ceil(std::sqrt(count)));
     double expected = 0.0;
@@ -146,7 +149,7 @@ Lit light_by(int count, Crowd crowd, int samples) {
                  {0.0, 1.4, 0.0}, z_to_up);
     }
     const Stage stage(std::move(scene));
-    return {estimate(stage, make_floor(glm::vec3(0.0f), 0.6f), samples, by_paths(0, 1)), expected};
+    return {estimate(stage, make_floor(glm::vec3(0.0f), 0.6f), samples, estimator), expected};
 }
 
 TEST(PathLights, FX14_MC23_AThousandLightsGiveTheirSum) {
@@ -154,16 +157,18 @@ TEST(PathLights, FX14_MC23_AThousandLightsGiveTheirSum) {
          {std::pair(Crowd::equal, 4000), std::pair(Crowd::one_bright, 4000), std::pair(Crowd::one_visible, 30'000),
           std::pair(Crowd::coincident, 4000), std::pair(Crowd::far_and_near, 4000)}) {
         SCOPED_TRACE(static_cast<int>(crowd));
-        const Lit lit = light_by(1000, crowd, samples);
-        EXPECT_NEAR(lit.found.mean(), lit.expected, 3.0 * lit.found.error() + 1e-5 * lit.expected);
-        EXPECT_LT(lit.found.error(), 0.2 * lit.expected);
+        for (const Estimator& estimator : {by_paths(0, 1), by_direct_samples(1)}) {
+            const Lit lit = light_by(1000, crowd, samples, estimator);
+            EXPECT_NEAR(lit.found.mean(), lit.expected, 3.0 * lit.found.error() + 1e-5 * lit.expected);
+            EXPECT_LT(lit.found.error(), 0.2 * lit.expected);
+        }
     }
 }
 
 TEST(PathLights, MC23_AThousandEqualLightsAreAtMostFourTimesAsNoisyAsTen) {
     // Per sample, relative to the mean. Ten lights are compared with one another, so that without shadows they have no
     // noise at all. With a random shadow they have: a sheet of alpha one half.
-    const auto variance_of = [](int count) {
+    const auto variance_of = [](int count, const Estimator& estimator) {
         Scene scene;
         const int side = static_cast<int>(std::ceil(std::sqrt(count)));
         for (int i = 0; i < count; ++i) {
@@ -176,15 +181,45 @@ TEST(PathLights, MC23_AThousandEqualLightsAreAtMostFourTimesAsNoisyAsTen) {
         sheet.double_sided = true;
         scene.materials.push_back(sheet);
         add_mesh(scene, make_quad(20.0, 20.0, 0), {0.0, 1.0, 0.0}, z_to_up);
-        const Mean found = estimate(Stage(std::move(scene)), make_floor(glm::vec3(0.0f), 0.6f), 6000, by_paths(0, 1));
+        const Mean found = estimate(Stage(std::move(scene)), make_floor(glm::vec3(0.0f), 0.6f), 6000, estimator);
         const double relative = found.error() / found.mean();
         return relative * relative * 6000.0;
     };
-    const double ten = variance_of(10), thousand = variance_of(1000);
-    EXPECT_GT(ten, 0.5);
-    EXPECT_LT(thousand, 4.0 * ten);
-    RecordProperty("relative_variance_of_ten_lights", std::to_string(ten));
-    RecordProperty("relative_variance_of_1000_lights", std::to_string(thousand));
+    // Each sample is one shadow ray, and visits as many nodes as the tree is deep (LightTree tests).
+    for (const auto& [name, estimator] :
+         {std::pair("paths", by_paths(0, 1)), std::pair("shared", by_direct_samples(1))}) {
+        const double ten = variance_of(10, estimator), thousand = variance_of(1000, estimator);
+        EXPECT_GT(ten, 0.5);
+        EXPECT_LT(thousand, 4.0 * ten);
+        RecordProperty(std::string(name) + "_relative_variance_of_ten_lights", std::to_string(ten));
+        RecordProperty(std::string(name) + "_relative_variance_of_1000_lights", std::to_string(thousand));
+    }
+}
+
+TEST(PathLights, MC23_AThousandLightsShareTheSamplesOfSixteen) {
+    Scene scene;
+    double expected = 0.0;
+    for (int i = 0; i < 1000; ++i) {
+        const glm::dvec3 at(0.1 * (i % 32) - 1.6, 1.5 + 0.3 * std::sin(1.7 * i), 0.1 * (i / 32) - 1.6);
+        add_light(scene, Light::Kind::point, glm::dvec3(0.1), at);
+        expected += 0.6 / pi * 0.1 * at.y / std::pow(glm::dot(at, at), 1.5);
+    }
+    const Stage stage(std::move(scene));
+    const ViewedSurface floor = make_floor(glm::vec3(0.0f), 0.6f);
+    RayTask task(stage.rays);
+    Mean found;
+    for (std::uint32_t seed = 0; seed < 100; ++seed) {
+        RandomStream random({seed, 0, 0, 0}), path_random = random;
+        found.add(luminance(
+            compute_sampled_light(stage.lighting(), task, floor, {.count = 2}, random, PathState{}, path_random)));
+    }
+    EXPECT_NEAR(found.mean(), expected, 3.0 * found.error());
+    EXPECT_EQ(task.counts.shadow, 100u * 2u * 16u);
+    // The quick estimate has the same points at every surface.
+    const Rgb quick = estimate_direct_light(stage.lighting(), task, floor, 4);
+    EXPECT_EQ(quick, estimate_direct_light(stage.lighting(), task, floor, 4));
+    EXPECT_NEAR(quick.x, expected, 0.05 * expected);
+    EXPECT_EQ(task.counts.shadow, 100u * 2u * 16u + 2u * 4u * 16u);
 }
 
 }  // namespace

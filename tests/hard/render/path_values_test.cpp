@@ -5,11 +5,18 @@
 #include <limits>
 #include <random>
 
-#include "render/pixel_sum.h"
+#include "render/pixel_samples.h"
 #include "tests/support/path_estimates.h"
 
 namespace aleph {
 namespace {
+
+SampleLight make_sample(const Rgb& light, bool hit = true) {
+    SampleLight sample;
+    sample[LightPart::direct] = light;
+    sample.instance = hit ? 0 : no_index;
+    return sample;
+}
 
 TEST(PathValues, MC01_TheVarianceOfAPixelKeepsItsDigits) {
     for (const float mean : {1.0f, 1e2f, 1e3f, 1e4f}) {
@@ -17,32 +24,31 @@ TEST(PathValues, MC01_TheVarianceOfAPixelKeepsItsDigits) {
             std::mt19937 engine(seed);
             std::normal_distribution<float> around(mean, 0.1f);
             std::vector<float> values(512);
-            PixelSum sum;
+            PixelSamples sum;
             long double total = 0.0L, squares = 0.0L;
             for (float& value : values) {
                 const Rgb sample(around(engine));
                 value = luminance(sample);  // what is added: rounded to float, so that 0.1 has few digits beside 1e4
                 total += value;
-                sum.add(sample, true);
+                sum.add(make_sample(sample));
             }
             for (const float value : values) squares += (value - total / 512) * (value - total / 512);
             const auto expected = static_cast<double>(squares / 511 / 512);
             ASSERT_NEAR(sum.variance(), expected, 1e-6 * expected) << mean;
         }
     }
-    PixelSum equal;
-    for (int i = 0; i < 1000; ++i) equal.add(Rgb(1e4f / 3.0f), true);
+    PixelSamples equal;
+    for (int i = 0; i < 1000; ++i) equal.add(make_sample(Rgb(1e4f / 3.0f)));
     EXPECT_EQ(equal.variance(), 0.0);
 }
 
 TEST(PathValues, MC13_TenMillionSamplesKeepTheirMean) {
-    PixelSum sum;
-    for (int i = 0; i < 10'000'000; ++i) sum.add(Rgb(0.7f), i % 2 == 0);
-    EXPECT_NEAR(sum.radiance.x / sum.samples, 0.7f, 1e-6 * 0.7);
-    EXPECT_NEAR(sum.mean_luminance, luminance(Rgb(0.7f)), 1e-6 * 0.7);
+    PixelSamples sum;
+    for (int i = 0; i < 10'000'000; ++i) sum.add(make_sample(Rgb(0.7f), i % 2 == 0));
+    EXPECT_NEAR(sum.mean().x, 0.7f, 1e-6 * 0.7);
     EXPECT_LT(sum.variance(), 1e-20);
     EXPECT_GE(sum.variance(), 0.0);
-    EXPECT_EQ(sum.hits, 5'000'000);
+    EXPECT_EQ(sum.coverage(), 0.5f);
 }
 
 /// Left a floor whose material can be spoiled, right a good one behind a wall: light cannot get from one to the other.

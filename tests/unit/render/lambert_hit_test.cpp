@@ -34,7 +34,7 @@ TEST(LambertHit, IsTheSurfaceOfTheFullWay) {
     bool varied = false;
     for (int y = 0; y < 30; ++y) {
         for (int x = 0; x < 40; ++x) {
-            const CameraRay camera_ray = make_sample_ray(stage.view, centers, x, y);
+            const CameraRay camera_ray = make_sample_ray(stage.view, centers.place, x, y);
             const Ray ray{glm::vec3(camera_ray.origin - stage.rays.anchor()), glm::vec3(camera_ray.direction)};
             glm::vec3 normal(0.0f);
             const Hit hit = tracer.intersect(ray, &normal);
@@ -66,7 +66,7 @@ TEST(LambertHit, PacketsFindTheNormalsOfSingleRays) {
     std::vector<Ray> rays;
     for (int y = 0; y < 30; ++y) {
         for (int x = 0; x < 40; ++x) {
-            const CameraRay ray = make_sample_ray(stage.view, centers, x, y);
+            const CameraRay ray = make_sample_ray(stage.view, centers.place, x, y);
             rays.push_back({glm::vec3(ray.origin - stage.rays.anchor()), glm::vec3(ray.direction)});
         }
     }

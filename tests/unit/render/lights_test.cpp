@@ -121,7 +121,8 @@ TEST(Lights, SphericalTriangleIsUniformInSolidAngle) {
     std::uniform_real_distribution<float> unit(0.0f, 0x1.fffffep-1f);
     Mean mean[3];
     for (int i = 0; i < 100'000; ++i) {
-        const glm::vec3 d = sample_spherical_triangle(corners[0], corners[1], corners[2], {unit(engine), unit(engine)});
+        const glm::vec3 d = sample_spherical_triangle(corners[0], corners[1], corners[2], static_cast<float>(total),
+                                                      {unit(engine), unit(engine)});
         ASSERT_NEAR(glm::length(d), 1.0f, 1e-5f);
         for (int c = 0; c < 3; ++c) mean[c].add(d[c]);
     }

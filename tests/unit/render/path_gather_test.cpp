@@ -50,7 +50,7 @@ class PathGather : public testing::TestWithParam<Walls> {};
 
 TEST_P(PathGather, OneBounceIsThePictureOfTheGather) {
     constexpr int width = 20, height = 15;
-    constexpr std::uint32_t seeds = 20;
+    constexpr std::uint32_t seeds = 40;
     const Stage stage(make_box_scene(GetParam()), width, height);
     std::vector<Mean> paths(width * height), gathers(width * height);
     Mean all_paths, all_gathers;
@@ -96,15 +96,15 @@ TEST_P(PathGather, IC23_ThreeBouncesWithTheCacheToo) {
         }
         return pictures;
     };
-    RenderSettings settings = path_settings(3, 8);
-    const Mean paths = mean(settings, 16);
+    RenderSettings settings = path_settings(3, 16);
+    const Mean paths = mean(settings, 32);
     settings.integrator = Integrator::cache;
     settings.light_samples = 64;
     settings.seed = 1000;
     for (const double accuracy : {0.0, 0.3}) {
         settings.accuracy = accuracy;
         settings.gather = accuracy > 0.0 ? 64 : 4;
-        const Mean gathers = mean(settings, 2);
+        const Mean gathers = mean(settings, 6);
         const double noise = std::hypot(paths.error(), gathers.error());
         EXPECT_NEAR(gathers.mean(), paths.mean(), 3.0 * noise + 0.005 * paths.mean()) << accuracy;
         EXPECT_LT(noise, (GetParam() == Walls::mirrors ? 0.03 : 0.006) * paths.mean());

@@ -104,6 +104,39 @@ INSTANTIATE_TEST_SUITE_P(Lights, PathWeights,
                          testing::Values(Surroundings::small_lamp, Surroundings::large_lamp, Surroundings::many_lamps,
                                          Surroundings::constant, Surroundings::picture));
 
+/// Samples of direct light, and as many of the lobes that meet lights, of which every one is weighted.
+Estimator by_direct_samples_and_lobes(int count) {
+    return [=](const Stage& stage, RayTask& task, const ViewedSurface& surface, RandomStream& random) {
+        const LitSurface lit(surface);
+        const LobeShares shares = share_lobes(lit, LobeSet::all);
+        const PixelSequence sequence(static_cast<std::uint32_t>(random.next() * 0x1p24f), 0, 5, 7);
+        Rgb sum = sample_direct_light(stage.lighting(), task, lit, shares, sequence, {0, count});
+        for (int i = 0; i < count; ++i) {
+            const ScatterSample sample =
+                sample_scatter(lit, shares, random.next(), sequence.at_2d(SampleUse::lobe_direction, i), random.next());
+            sum += follow_sample(stage.lighting(), task, lit, sample, {}, random) / static_cast<float>(count);
+        }
+        return sum;
+    };
+}
+
+TEST_P(PathWeights, SharedSamplesOfDirectLightHaveTheSameMean) {
+    const Stage stage(make_surroundings(GetParam()));
+    const glm::vec3 up(0.0f, 1.0f, 0.0f), view = glm::normalize(glm::vec3(-0.7f, 0.6f, 0.2f));
+    std::uint32_t seed = 0;
+    for (const SurfaceMaterial& material : {make_lambert(0.8f), make_metal(0.3f), make_plastic(), make_coated()}) {
+        SCOPED_TRACE(seed);
+        const ViewedSurface surface{make_point(glm::vec3(0.0f), up, 1e-4f), material, view};
+        const Mean lobes = estimate(stage, surface, 10'000, by_lobes(1), seed + 100);
+        for (const int count : {1, 4}) {
+            const Mean shared = estimate(stage, surface, 4000 / count, by_direct_samples_and_lobes(count), seed);
+            EXPECT_LT(deviation(shared, lobes), 3.0) << shared.mean() << " " << lobes.mean();
+            EXPECT_LT(shared.error(), 0.05 * shared.mean());
+        }
+        ++seed;
+    }
+}
+
 TEST(PathWeights, AMirrorAndASmoothSheetFindLampsByThemselves) {
     const Stage stage(make_surroundings(Surroundings::large_lamp));
     SurfaceMaterial sheet = make_rough_sheet();

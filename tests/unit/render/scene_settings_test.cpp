@@ -125,11 +125,9 @@ std::vector<Json> probes(const Setting& setting) {
         for (const double step : {-1.0, 0.0, 1.0}) values.push_back(short_number(limit + step));
     }
     values.push_back(std::nextafter(setting.max, 1e300));
-    for (const auto& names : {setting.choices, setting.later_choices}) {
-        for (const std::string& name : names) {
-            values.push_back(name);
-            values.push_back(name + " ");
-        }
+    for (const std::string& name : setting.choices) {
+        values.push_back(name);
+        values.push_back(name + " ");
     }
     return values;
 }

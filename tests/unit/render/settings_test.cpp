@@ -20,8 +20,9 @@ const std::map<std::string, SettingValue>& other_values() {
         {"bands", "measured"},    {"grid", "center"},        {"neutral_opponent", true},
         {"adapter", "scale-add"}, {"adapter_k", 50.0},       {"accuracy", 0.3},
         {"gather", 64.0},         {"bounces", 0.0},          {"spp", 4.0},
-        {"sampling", "uniform"},  {"integrator", "path"},    {"path_depth", 5.0},
+        {"sampling", "variance"}, {"integrator", "path"},    {"path_depth", 5.0},
         {"light_samples", 7.0},   {"shade_reach", 1.1},      {"min_radius_pixels", 2.5},
+        {"error", 0.5},           {"filter", "box"},         {"variance_test", "deviation"},
         {"light_step", 5.0},      {"subdivision_level", 3.0}};
     return values;
 }
@@ -113,11 +114,9 @@ TEST(Settings, ChoicesNameWhatIsAllowed) {
     EXPECT_EQ(refusal("neutral_opponent", 1.0), "expected true or false");
 }
 
-TEST(Settings, LaterVersionsAreRefusedByName) {
+TEST(Settings, UnknownMethodsAreRefusedByName) {
     EXPECT_EQ(refusal("motion", "none"), "expected one of model, image");
-    for (const char* later : {"consecutive", "variance", "protocol"}) {
-        EXPECT_EQ(refusal("sampling", later), "not in this version; use uniform");
-    }
+    EXPECT_EQ(refusal("sampling", "random"), "expected one of uniform, consecutive, variance, protocol, threshold");
     EXPECT_EQ(refusal("integrator", "photon"), "expected one of cache, path");
     EXPECT_EQ(refusal("integrator", 3.0), "expected one of cache, path");
     EXPECT_EQ(refusal("bounces", 1001.0), "expected a whole number from 0 to 1000");

@@ -36,16 +36,17 @@ struct Checker {
     Image<Rgb> render(int n, bool footprints) const {
         Image<Rgb> sum(stage.view.width, stage.view.height);
         for (int i = 0; i < n * n; ++i) {
-            SampleHits sample;
-            sample.offset_x = (i % n + 0.5) / n;
-            sample.offset_y = (i / n + 0.5) / n;
-            sample.spacing = footprints ? 1.0f / static_cast<float>(n) : 0.0f;
-            sample.hits = cast_first_hits(stage.rays, stage.view, sample.offset_x, sample.offset_y);
+            const double offset_x = (i % n + 0.5) / n, offset_y = (i / n + 0.5) / n;
+            SamplePlace place;
+            place.spacing = footprints ? 1.0f / static_cast<float>(n) : 0.0f;
+            const Image<Hit> hits = cast_first_hits(stage.rays, stage.view, offset_x, offset_y);
             for (int y = 0; y < sum.height; ++y) {
                 for (int x = 0; x < sum.width; ++x) {
-                    if (sample.hits(x, y).instance == no_index) continue;
-                    sum(x, y) += make_pixel_surface(stage.shading, stage.view, sample, x, y).material.diffuse /
-                                 static_cast<float>(n * n);
+                    if (hits(x, y).instance == no_index) continue;
+                    const glm::vec3 direction(make_camera_ray(stage.view, x + offset_x, y + offset_y).direction);
+                    sum(x, y) +=
+                        make_pixel_surface(stage.shading, stage.view, place, hits(x, y), direction, x, y).material.diffuse /
+                        static_cast<float>(n * n);
                 }
             }
         }

@@ -6,6 +6,7 @@
 
 #include <functional>
 
+#include "render/sample_place.h"
 #include "tests/support/render_scenes.h"
 
 namespace aleph {
@@ -134,14 +135,14 @@ TEST(Footprint, FacingPlaneIsAPixelAcross) {
     add_camera(scene, {0.0, 0.0, 5.0}, glm::dvec3(0.0));
     const Stage stage(std::move(scene), 64, 48);
     for (int i = 0; i < 2; ++i) {
-        SamplePlace place;
-        place.index = i;
-        place.count = i == 0 ? 1 : 9;
+        RenderSettings settings;
+        settings.spp = i == 0 ? 1 : 9;
+        const SamplePlace place = make_sample_place(settings, {}, false, 0, i);
         const SampleHits sample = cast_sample(stage.rays, stage.view, place, nullptr);
-        const glm::vec3 direction(make_camera_ray(stage.view, 20 + sample.offset_x, 10 + sample.offset_y).direction);
+        const glm::vec3 direction(make_sample_ray(stage.view, place, 20, 10).direction);
         const SurfacePoint point = make_surface_point(stage.shading, sample.hits(20, 10), direction);
         const RayFootprint found =
-            make_pixel_footprint(stage.view, point, direction, sample.hits(20, 10).distance, sample.spacing);
+            make_pixel_footprint(stage.view, point, direction, sample.hits(20, 10).distance, place.spacing);
         // Nine samples per pixel are a third of a pixel apart.
         const float pixel = 5.0f / static_cast<float>(stage.view.pixels_per_unit) / (i == 0 ? 1.0f : 3.0f);
         EXPECT_NEAR(found.dx.x, pixel, 1e-5f * pixel);

@@ -21,6 +21,7 @@ Image<Rgb> render_small(const Scene& scene, int spp, std::int64_t frame = 20) {
     settings.width = 48;
     settings.height = 32;
     settings.spp = spp;
+    settings.filter = PixelFilter::box;
     settings.perception.guide = Guide::none;
     const FrameOutput out = Sequence(scene, settings).render(frame);
     EXPECT_EQ(out.shaded.counts.invalid_samples, 0u);

@@ -1,0 +1,215 @@
+// Paths that look up irradiance where it is known: in rooms whose light is known exactly, and from a filled cache.
+
+#include "render/known_irradiance.h"
+
+#include <gtest/gtest.h>
+
+#include "render/frame_irradiance.h"
+#include "render/mirror_places.h"
+#include "tests/support/lobes.h"
+#include "tests/support/numbers.h"
+#include "tests/support/path_estimates.h"
+
+namespace aleph {
+namespace {
+
+constexpr double albedo = 0.5;
+
+/// A closed box that glows inside: everything that a surface in it sees has the radiance 1 + albedo + albedo^2 with one
+/// bounce, and the indirect irradiance pi albedo.
+Scene make_glowing_box() {
+    Scene scene;
+    add_mesh(scene, make_box({2.0, 2.0, 2.0}, add_lambert(scene, glm::dvec3(albedo), glm::dvec3(1.0), true)));
+    return scene;
+}
+
+/// The same irradiance everywhere.
+struct ConstantIrradiance : KnownIrradiance {
+    using KnownIrradiance::KnownIrradiance;
+
+    std::optional<Rgb> find(const ViewedSurface&, const Hit& hit, float accuracy, RayTask&) const override {
+        EXPECT_NE(hit.instance, no_index);
+        ++lookups;
+        least = std::min(least, accuracy);
+        most = std::max(most, accuracy);
+        return Rgb(static_cast<float>(pi * albedo));
+    }
+
+    mutable int lookups = 0;
+    mutable float least = 1.0f, most = 0.0f;  ///< accuracy asked for
+};
+
+PathState one_bounce(const KnownIrradiance* known, int light_samples = 1) {
+    PathState state;
+    state.left = {1, 8};
+    state.known = known;
+    state.accuracy = 0.1f;
+    state.light_samples = light_samples;
+    return state;
+}
+
+/// Light that comes by the lobes other than the Lambert layer, as pixels of the cache integrator find it.
+Estimator by_lobe_rays(const PathState& state) {
+    return [=](const Stage& stage, RayTask& task, const ViewedSurface& surface, RandomStream& random) {
+        const LitSurface lit(surface);
+        const LobeShares shares = share_lobes(lit, LobeSet::specular);
+        PathState start = state;
+        const ScatterSample sample = sample_scatter(lit, shares, random.next(), random.next_2d(), random.next());
+        // Without light sampling at the first surface, met light counts in full.
+        ScatterSample unweighted = sample;
+        unweighted.pdf = 0.0f;
+        return follow_sample(stage.lighting(), task, lit, unweighted, start, random);
+    };
+}
+
+ViewedSurface make_inner_surface(const SurfaceMaterial& material) {
+    const glm::vec3 view = glm::normalize(glm::vec3(0.4f, 0.8f, 0.1f));
+    return {make_point({0.1f, -0.5f, 0.2f}, {0.0f, 1.0f, 0.0f}), material, view};
+}
+
+TEST(KnownIrradianceTest, MC14_MirrorsGlassAndGlossShowTheFurnace) {
+    const Stage stage(make_glowing_box());
+    const double radiance = 1.0 + albedo + albedo * albedo;
+    SurfaceMaterial glass = make_glass(0.0f, 1.5f, false);
+    for (const SurfaceMaterial& material : {make_metal(0.0f), make_metal(0.3f), glass}) {
+        const ViewedSurface surface = make_inner_surface(material);
+        const ConstantIrradiance known(1);
+        const Mean with = estimate(stage, surface, 4000, by_lobe_rays(one_bounce(&known)), 1);
+        const Mean without = estimate(stage, surface, 4000, by_lobe_rays(one_bounce(nullptr)), 2);
+        EXPECT_GT(known.lookups, 3500);
+        EXPECT_LT(deviation(with, without), 3.0) << with.mean() << ' ' << without.mean();
+        if (!material.is_mirror()) continue;
+        EXPECT_NEAR(with.mean(), radiance, 3.0 * with.error() + 1e-4);
+    }
+}
+
+TEST(KnownIrradianceTest, ItCountsForItsOwnBouncesOnly) {
+    const Stage stage(make_glowing_box());
+    const ViewedSurface mirror = make_inner_surface(make_metal(0.0f));
+    for (const int held : {2, 3}) {
+        const ConstantIrradiance known(held);
+        estimate(stage, mirror, 50, by_lobe_rays(one_bounce(&known)));
+        EXPECT_EQ(known.lookups, 0) << held;
+    }
+    // The surface that the path begins at, and those behind a turn at a Lambert layer, are not looked up.
+    const ConstantIrradiance known(1);
+    const auto from_lambert = [&](const Stage& s, RayTask& task, const ViewedSurface& surface, RandomStream& random) {
+        return scatter_light(s.lighting(), task, surface, one_bounce(&known), random);
+    };
+    estimate(stage, make_inner_surface(make_lambert(0.5f)), 50, from_lambert);
+    EXPECT_EQ(known.lookups, 0);
+    // The last surface may not scatter again.
+    PathState last = one_bounce(&known);
+    last.left.depth = 1;
+    estimate(stage, mirror, 50, by_lobe_rays(last));
+    EXPECT_EQ(known.lookups, 0);
+}
+
+TEST(KnownIrradianceTest, AccuracyIsLooserForFaintAndWideLobes) {
+    const Stage stage(make_glowing_box());
+    const auto asked = [&](SurfaceMaterial material, float reflectance) {
+        material.f0 = Rgb(reflectance);
+        material.f90 = reflectance;
+        const ConstantIrradiance known(1);
+        PathState state = one_bounce(&known);
+        const ViewedSurface surface = make_inner_surface(material);
+        estimate(stage, surface, 200, by_lobe_rays(state));
+        EXPECT_GT(known.lookups, 100);
+        return std::pair(known.least, known.most);
+    };
+    const auto mirror = asked(make_metal(0.0f), 1.0f);
+    EXPECT_FLOAT_EQ(mirror.first, 0.1f);
+    EXPECT_FLOAT_EQ(mirror.second, 0.1f);
+    EXPECT_NEAR(asked(make_metal(0.0f), 0.25f).first, 0.2f, 1e-5f);
+    EXPECT_FLOAT_EQ(asked(make_metal(0.0f), 0.01f).first, 0.5f);
+}
+
+/// A room with a lamp, half of it in shadow.
+Scene make_lit_room() {
+    Scene scene;
+    const int white = add_lambert(scene, glm::dvec3(0.7), glm::dvec3(0.0), true);
+    const int lamp = add_lambert(scene, glm::dvec3(0.0), glm::dvec3(9.0));
+    add_mesh(scene, make_box({4.0, 2.0, 4.0}, white));
+    add_mesh(scene, make_quad(0.5, 0.5, lamp), {0.6, 0.9, 0.0}, z_to_down);
+    add_mesh(scene, make_box({0.5, 0.5, 0.5}, white), {0.2, -0.75, 0.3});
+    return scene;
+}
+
+TEST(KnownIrradianceTest, MoreLightsInAMirrorAreUnbiasedAndLessNoise) {
+    Scene scene = make_lit_room();
+    add_light(scene, Light::Kind::point, glm::dvec3(1.0), {-1.5, 0.5, 0.5});
+    const Stage stage(std::move(scene));
+    const ConstantIrradiance known(1);
+    ViewedSurface mirror = make_inner_surface(make_metal(0.0f));
+    mirror.point = make_point({-0.4f, 0.0f, -0.3f}, {0.0f, 1.0f, 0.0f});
+    mirror.view = glm::normalize(glm::vec3(0.3f, 0.8f, -0.5f));
+    const Mean one = estimate(stage, mirror, 8000, by_lobe_rays(one_bounce(&known, 1)), 1);
+    const Mean many = estimate(stage, mirror, 8000, by_lobe_rays(one_bounce(&known, 8)), 2);
+    EXPECT_LT(deviation(one, many), 3.0) << one.mean() << ' ' << many.mean();
+    EXPECT_LT(many.error(), 0.6 * one.error());
+}
+
+/// A room whose wall behind the camera is seen in a mirror only.
+Scene make_mirror_room() {
+    Scene scene;
+    add_mesh(scene, make_box({4.0, 2.0, 4.0}, add_lambert(scene, glm::dvec3(0.7), glm::dvec3(0.0), true)));
+    add_light(scene, Light::Kind::point, glm::dvec3(1.0), {0.6, 0.2, 0.0});
+    Material mirror;
+    mirror.metallic = 1.0;
+    mirror.roughness = 0.0;
+    scene.materials.push_back(mirror);
+    add_mesh(scene, make_quad(1.6, 1.2, 1), {0.0, 0.0, -1.9});
+    add_camera(scene, {-0.3, 0.1, 0.6}, {0.0, 0.0, -1.9}, 0.8);
+    return scene;
+}
+
+TEST(KnownIrradianceTest, AMirrorShowsWhatTheCacheHolds) {
+    const Stage stage(make_mirror_room(), 48, 36);
+    RenderSettings settings = plain_settings(0.2, 0);
+    settings.min_radius_pixels = 2.0;  // the picture is small
+    const Image<float> accuracy(48, 36, 0.2f);
+    const LightingContext lighting = stage.lighting();
+    const float radius = scene_radius(stage.shading);
+    const IndirectContext context{lighting, stage.view, settings, accuracy, 0, radius, {}};
+    const SampleHits hits = cast_centers(stage.rays, stage.view, nullptr);
+    FrameTally tally;
+    tally.records = tally.invalid_samples = Image<float>(48, 36);
+    IrradianceCache cache = make_cache(stage.shading);
+    fill_cache(cache, context, hits, tally);
+    const std::size_t plain = cache.records().size();
+    fill_mirror_places(cache, context, hits, tally);
+    EXPECT_GT(cache.records().size(), plain + 5);
+    EXPECT_EQ(tally.counts.records, cache.records().size());
+    cache.finish();
+    const FrameIrradiance known(context, &cache);
+    EXPECT_EQ(known.bounces, 1);
+    RayTask task(stage.rays);
+    GatherScratch scratch;
+    const MirrorPlaces mirrors = cast_mirror_places(context, hits, tally.counts.rays);
+    int seen = 0, found = 0, compared = 0;
+    double total = 0.0, difference = 0.0, squares = 0.0;
+    for (int i = 0; i < 48 * 36; ++i) {
+        const int x = i % 48, y = i / 48;
+        if (mirrors.places.hits(x, y).instance == no_index) continue;
+        ++seen;
+        const PixelSurface place = make_bounce_surface(stage.shading, mirrors.places, x, y);
+        EXPECT_GT(place.distance, 2.0f);
+        const std::optional<Rgb> light = known.find(place, place.hit, 0.2f, task);
+        if (!light) continue;
+        ++found;
+        if (i % 7 != 0) continue;
+        const IrradianceSample truth = gather_irradiance(lighting, task, place.point, choose_strata(1024),
+                                                         {9, 9, 9, static_cast<std::uint32_t>(i)}, scratch, {30});
+        total += luminance(truth.irradiance);
+        difference += luminance(*light) - luminance(truth.irradiance);
+        squares += std::pow(luminance(*light) - luminance(truth.irradiance), 2.0);
+        ++compared;
+    }
+    EXPECT_GT(seen, 300);
+    EXPECT_GE(found, seen * 98 / 100);
+    EXPECT_LT(std::abs(difference), 0.02 * total);
+    EXPECT_LT(std::sqrt(squares * compared), 0.1 * total);
+}
+
+}  // namespace
+}  // namespace aleph

@@ -1,0 +1,223 @@
+// The tree over the lights: its bounds, and lights chosen by it.
+
+#include "render/light_tree.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "render/light_cut.h"
+#include "tests/support/path_estimates.h"
+
+namespace aleph {
+namespace {
+
+/// Lamps, point lights and spots of all directions in a cube of 4 m, a sun, and if asked for a sky.
+Scene make_crowd(int count, bool sky) {
+    Scene scene;
+    std::mt19937 engine(5);
+    std::uniform_real_distribution<double> unit(0.0, 1.0);
+    const auto turn = [&] {
+        return glm::normalize(
+            glm::dquat(unit(engine) - 0.5, unit(engine) - 0.5, unit(engine) - 0.5, unit(engine) - 0.5));
+    };
+    const int lamp = add_lambert(scene, glm::dvec3(0.0), glm::dvec3(3.0)),
+              sheet = add_lambert(scene, glm::dvec3(0.0), glm::dvec3(2.0), true);
+    for (int i = 0; i < count; ++i) {
+        const glm::dvec3 at = 4.0 * glm::dvec3(unit(engine), unit(engine), unit(engine)) - 2.0;
+        const glm::dvec3 strength(0.1 + 2.0 * unit(engine));
+        switch (i % 5) {
+            case 0:
+                add_mesh(scene, make_quad(0.1 + 0.4 * unit(engine), 0.2, lamp), at, turn());
+                break;
+            case 1:
+                add_mesh(scene, make_quad(0.3, 0.3, sheet), at, turn());
+                break;
+            case 2:
+                add_mesh(scene, make_box(glm::dvec3(0.2), lamp), at, turn());
+                break;
+            case 3:
+                add_light(scene, Light::Kind::point, strength, at);
+                break;
+            default:
+                add_light(scene, Light::Kind::spot, strength, at, turn());
+                scene.lights.back().inner_cone = 0.3;
+                scene.lights.back().outer_cone = 0.3 + 0.5 * unit(engine);
+        }
+    }
+    add_light(scene, Light::Kind::directional, glm::dvec3(0.5), glm::dvec3(0.0), turn());
+    if (sky) scene.environment = Track<glm::dvec3>(glm::dvec3(0.2));
+    return scene;
+}
+
+glm::vec3 random_direction(std::mt19937& engine) {
+    std::normal_distribution<float> normal;
+    return glm::normalize(glm::vec3(normal(engine), normal(engine), normal(engine)));
+}
+
+/// Illuminance of each light without shadows; of lamps with the error of 64 samples.
+std::vector<double> find_illuminances(const Stage& stage, const Receiver& receiver) {
+    std::vector<double> found;
+    for (int light = 0; light < stage.lights.count(); ++light) {
+        Mean mean;
+        for (int i = 0; i < 64; ++i) {
+            const LightSample sample =
+                sample_light(stage.shading, stage.lights, light, receiver, lattice_point(i, 64, {}));
+            const float cosine = std::max(0.0f, glm::dot(sample.direction, receiver.normal));
+            mean.add(sample.incoming == Rgb(0.0f) ? 0.0 : luminance(sample.incoming) * cosine);
+        }
+        found.push_back(mean.mean());
+    }
+    return found;
+}
+
+/// Of each light, and of each group's lights together.
+std::vector<double> add_up(const LightTree& tree, std::vector<double> brought) {
+    std::vector<double> groups(tree.groups.size());
+    brought.resize(brought.size() + groups.size());
+    // Groups follow those above them.
+    for (std::size_t g = groups.size(); g-- > 0;) {
+        const LightGroup& group = tree.groups[g];
+        for (int i = 0; i < group.used; ++i) brought[tree.lights + static_cast<int>(g)] += brought[group.children[i]];
+    }
+    return brought;
+}
+
+TEST(LightTree, NoNodeBringsMoreThanItsBound) {
+    const Stage stage(make_crowd(100, true));
+    const LightTree& tree = stage.lights.tree;
+    std::mt19937 engine(6);
+    std::uniform_real_distribution<float> unit(-3.0f, 3.0f);
+    double loosest = 0.0;
+    for (int i = 0; i < 60; ++i) {
+        const Receiver receiver{{unit(engine), unit(engine), unit(engine)}, random_direction(engine)};
+        const std::vector<double> brought = add_up(tree, find_illuminances(stage, receiver));
+        double bounds = 0.0;
+        for (const LightGroup& group : tree.groups) {
+            const LightReaches reaches = reach_of(group, receiver.position, receiver.normal, 0.0f);
+            for (int k = 0; k < LightGroup::size; ++k) {
+                if (k >= group.used) {
+                    ASSERT_EQ(reaches.estimates[k], 0.0f);
+                    continue;
+                }
+                const double brings = brought[group.children[k]];
+                // Samples of a lamp that is close and sampled by area have an error.
+                ASSERT_LE(brings, 1.05 * reaches.bounds[k] + 1e-6);
+                ASSERT_TRUE(brings == 0.0 || reaches.estimates[k] > 0.0f);
+                if (tree.is_light(group.children[k])) bounds += reaches.bounds[k];
+            }
+        }
+        loosest = std::max(loosest, bounds / brought[tree.lights]);
+    }
+    EXPECT_LT(loosest, 60.0);
+}
+
+TEST(LightTree, IsNoDeeperThanTheLogarithmOfItsLights) {
+    for (const int count : {1, 2, 17, 100, 1000}) {
+        const Stage stage(make_crowd(count, false));
+        const LightTree& tree = stage.lights.tree;
+        std::vector<int> met(static_cast<std::size_t>(tree.lights));
+        int deepest = 0;
+        const std::function<void(int, int)> visit = [&](int child, int depth) {
+            deepest = std::max(deepest, depth);
+            if (tree.is_light(child)) {
+                ++met[child];
+                return;
+            }
+            const LightGroup& group = tree.group(child);
+            for (int i = 0; i < group.used; ++i) visit(group.children[i], depth + 1);
+        };
+        visit(tree.lights, 0);
+        for (const int times : met) EXPECT_EQ(times, 1);
+        EXPECT_LE(deepest, 1 + static_cast<int>(std::ceil(std::log2(count) / 3.0)));
+    }
+}
+
+TEST(LightTree, LightsAreChosenWithTheProbabilityThatIsSaid) {
+    std::mt19937 engine(7);
+    std::uniform_real_distribution<float> unit(-2.0f, 2.0f);
+    constexpr int numbers = 20'000;
+    for (const int count : {8, 100}) {
+        const Stage stage(make_crowd(count, true));
+        for (int i = 0; i < 4; ++i) {
+            const Receiver receiver{{unit(engine), unit(engine), unit(engine)}, random_direction(engine)};
+            const LightCut cut = find_light_cut(stage.lights, receiver, 0.0f);
+            std::vector<double> times(static_cast<std::size_t>(stage.lights.count())), said(times.size()),
+                rests(times.size());
+            for (int k = 0; k < numbers; ++k) {
+                const float number = (static_cast<float>(k) + 0.5f) / numbers;
+                const LightPick pick = pick_light(stage.lights, cut, receiver, 0.0f, number);
+                if (pick.light == no_index) continue;
+                ASSERT_TRUE(pick.rest >= 0.0f && pick.rest < 1.0f);
+                ++times[pick.light];
+                said[pick.light] = pick.probability;
+                rests[pick.light] += pick.rest;
+            }
+            const std::vector<double> brought = find_illuminances(stage, receiver);
+            for (std::size_t light = 0; light < times.size(); ++light) {
+                if (times[light] > 0.0) {
+                    EXPECT_NEAR(times[light], numbers * said[light], 2.0);
+                } else {
+                    EXPECT_LT(brought[light], 1e-4) << light;
+                }
+                if (times[light] > 50.0) {
+                    EXPECT_NEAR(rests[light] / times[light], 0.5, 0.05);
+                }
+            }
+        }
+    }
+}
+
+TEST(LightTree, WhatIsLeftOutIsBelowTheTolerance) {
+    for (const int count : {8, 100}) {
+        const Stage stage(make_crowd(count, false));
+        const Receiver receiver{{0.3f, 2.5f, 0.1f}, {0.0f, -1.0f, 0.0f}};
+        const std::vector<double> brought = find_illuminances(stage, receiver);
+        double all = 0.0;
+        for (const double b : brought) all += b;
+        const std::vector<double> added = add_up(stage.lights.tree, brought);
+        int most_nodes = 0;
+        for (const double share : {0.01, 0.1, 0.3}) {
+            const auto limit = static_cast<float>(share * all);
+            const LightCut cut = find_light_cut(stage.lights, receiver, 0.0f, {.divided = limit, .left_out = limit});
+            double kept = 0.0;
+            for (int i = 0; i < cut.size; ++i) kept += added[cut.nodes[i]];
+            EXPECT_LT(cut.left_out, limit);
+            EXPECT_LE(all - kept, cut.left_out * 1.01 + 1e-6 * all);
+            most_nodes = std::max(most_nodes, cut.size);
+            if (share == 0.3 && count == 8) {
+                EXPECT_LT(cut.size, most_nodes);
+            }
+        }
+        EXPECT_EQ(find_light_cut(stage.lights, receiver, 0.0f).left_out, 0.0f);
+    }
+}
+
+TEST(LightTree, DirectLightIsLessByNoMoreThanItSays) {
+    const Stage stage(make_crowd(100, false));
+    RayTask task(stage.rays);
+    SurfaceMaterial material = make_lambert(0.5f);
+    const ViewedSurface surface{make_point({0.3f, 2.5f, 0.1f}, {0.0f, -1.0f, 0.0f}), material, {0.0f, -1.0f, 0.0f}};
+    const LobeShares shares{};
+    const auto light = [&](float tolerance, float& left_out) {
+        Mean mean;
+        for (std::uint32_t seed = 0; seed < 400; ++seed) {
+            mean.add(luminance(sample_direct_light(stage.lighting(), task, LitSurface(surface), shares,
+                                                   PixelSequence(seed, 0, 0, 0), {0, 4, tolerance}, &left_out)));
+        }
+        return mean;
+    };
+    float none = 1.0f, some = 0.0f;
+    const Mean all = light(0.0f, none);
+    const auto tolerance = static_cast<float>(0.2 * all.mean());
+    const Mean kept = light(tolerance, some);
+    EXPECT_EQ(none, 0.0f);
+    EXPECT_GT(some, 0.0f);
+    EXPECT_LT(some, tolerance);
+    const double error = 3.0 * std::hypot(all.error(), kept.error());
+    EXPECT_GT(kept.mean(), all.mean() - some - error);
+    EXPECT_LT(kept.mean(), all.mean() + error);
+}
+
+}  // namespace
+}  // namespace aleph
