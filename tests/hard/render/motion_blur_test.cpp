@@ -51,7 +51,7 @@ bool is_in_square(const glm::dvec2& p) {
 /// Renders frame 0 with many seeds. The truth is the mean over 4096 times and places in the pixel.
 void expect_coverage(const Scene& scene, const glm::dvec2& shutter, const Shape2d& covers) {
     constexpr std::uint32_t seeds = 16;
-    constexpr int times = 4096, places = 256;
+    constexpr int times = 4096;
     std::vector<Mean> coverage(width * height), red(width * height);
     Mean all;
     for (std::uint32_t seed = 0; seed < seeds; ++seed) {
