@@ -14,16 +14,15 @@
 #include "render/resolve.h"
 #include "render/sample_packet.h"
 #include "render/sample_place.h"
-#include "render/shutter.h"
 
 namespace aleph {
 
 namespace {
 
-constexpr double fill_share = 0.3;       // of a frame's time, for progress only
-constexpr std::size_t task_ranges = 64;  // pixels of a task
+constexpr double fill_share = 0.3;            // of a frame's time, for progress only
+constexpr std::size_t task_ranges = 64;       // pixels of a task
 constexpr int progressive_light_samples = 2;  // of direct light, per pixel sample
-constexpr int slice_samples = 1 << 17;  // that may wait for light at a time: more only for the sake of threads
+constexpr int slice_samples = 1 << 17;        // that may wait for light at a time: more only for the sake of threads
 constexpr std::size_t slice_ranges = 64 * task_ranges;
 
 double seconds_since(std::chrono::steady_clock::time_point start) {
@@ -125,20 +124,9 @@ class FrameShading {
         if (!options_.at_sample) {
             take_at({context_.lighting, context_.view}, make_shading(), ranges);
         } else {
-            take_by_time(ranges);
+            take_in_turn(ranges, [this](int i, int c, auto now) { take_blurred(options_.at_sample(i, c), now); });
         }
         ++stage_;
-    }
-
-    /// One sample of all pixels of a class after the other: each has a time of its own.
-    void take_by_time(std::span<const PixelRange> ranges) {
-        const auto [first, last] = find_span(ranges);
-        for (int i = first; i < last; ++i) {
-            for (int c = 0; c < time_classes; ++c) {
-                const std::vector<PixelRange> now = select_sample(ranges, i, c);
-                if (!now.empty()) take_blurred(options_.at_sample(i, c), now);
-            }
-        }
     }
 
     void take_blurred(const SampleMoment& moment, std::span<const PixelRange> ranges) {

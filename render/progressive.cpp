@@ -44,16 +44,7 @@ std::vector<PixelRange> next_ranges(const SamplingPlan& plan, const Image<PixelS
     return next;
 }
 
-}  // namespace
-
-std::pair<int, int> find_span(std::span<const PixelRange> ranges) {
-    std::pair<int, int> all{ranges.front().first, ranges.front().last};
-    for (const PixelRange& range : ranges) {
-        all = {std::min(all.first, range.first), std::max(all.second, range.last)};
-    }
-    return all;
-}
-
+/// Sample `index` of those pixels of a class that take it.
 std::vector<PixelRange> select_sample(std::span<const PixelRange> ranges, int index, int pixel_class) {
     std::vector<PixelRange> taken;
     for (const auto& [x, y, first, last] : ranges) {
@@ -61,6 +52,22 @@ std::vector<PixelRange> select_sample(std::span<const PixelRange> ranges, int in
             taken.push_back({x, y, index, index + 1});
     }
     return taken;
+}
+
+}  // namespace
+
+void take_in_turn(std::span<const PixelRange> ranges, const TakeSample& take) {
+    int first = ranges.front().first, last = 0;
+    for (const PixelRange& range : ranges) {
+        first = std::min(first, range.first);
+        last = std::max(last, range.last);
+    }
+    for (int i = first; i < last; ++i) {
+        for (int c = 0; c < time_classes; ++c) {
+            const std::vector<PixelRange> now = select_sample(ranges, i, c);
+            if (!now.empty()) take(i, c, now);
+        }
+    }
 }
 
 void sample_by_stages(const SamplingPlan& plan, const Image<PixelSamples>& pixels, const TakeSamples& take) {

@@ -3,7 +3,6 @@
 
 #include <functional>
 #include <span>
-#include <utility>
 #include <vector>
 
 #include "render/stopping_rule.h"
@@ -25,11 +24,9 @@ struct PixelRange {
     int first = 0, last = 0;
 };
 
-/// The first and the last sample, plus 1, that any of the pixels takes.
-std::pair<int, int> find_span(std::span<const PixelRange> ranges);
-
-/// Sample `index` of those pixels of a class (shutter.h) that take it.
-std::vector<PixelRange> select_sample(std::span<const PixelRange> ranges, int index, int pixel_class);
+/// One sample of all pixels of a class (shutter.h) after the other: each has a time of its own.
+using TakeSample = std::function<void(int sample, int pixel_class, std::span<const PixelRange> ranges)>;
+void take_in_turn(std::span<const PixelRange> ranges, const TakeSample& take);
 
 /// Adds samples to the pixels. The ranges go from row to row.
 using TakeSamples = std::function<void(std::span<const PixelRange> ranges)>;

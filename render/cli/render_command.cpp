@@ -24,7 +24,7 @@ void add_render_command(CLI::App& app, Command& command) {
         "allows more, which saves time; with --guide none the accuracy is the same everywhere.\n"
         "Indirect light is computed at key moments, every --light-step frames, at both sides of a cut and at the last "
         "frame; frames between two of them interpolate. A frame rendered alone takes two of them and their middle, a "
-        "sequence two more for each step. An open shutter and --integrator path do not use them.\n"
+        "sequence two more for each step. --integrator path does not use them.\n"
         "The file has the channels R, G, B and A. `aleph maps --help` describes those that --aovs adds.\n\n"
         "Examples:\n"
         "  aleph render scenes/pool/scene.json --frames 20 --spp 1 -o frame.png          a quick look\n"

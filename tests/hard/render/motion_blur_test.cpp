@@ -102,6 +102,28 @@ TEST(MotionBlur, MC27_AMovingSquareCoversItsShareOfTheTime) {
     });
 }
 
+TEST(MotionBlur, MC27_FewSamplesShowNoCopies) {
+    // A tall bar that moves by 12 pixels, with 4 samples a pixel: blocks of 2x2 pixels see 16 times.
+    Scene scene = make_square_scene({0.0, 1.0});
+    scene.nodes[0].scale = glm::dvec3(0.25, 8.0, 1.0);
+    scene.nodes[0].translation = keyed<glm::dvec3>({0.0, at(1)}, {{-1.5, 0.0, 0.0}, {1.5, 0.0, 0.0}});
+    double squares = 0.0;
+    int blocks = 0;
+    for (std::uint32_t seed = 0; seed < 16; ++seed) {
+        RenderSettings settings = blur_settings(seed);
+        settings.spp = 4;
+        const Image<float> coverage = Sequence(scene, settings).render(0).shaded.coverage;
+        for (int x = 8; x < 16; x += 2) {  // where the bar passes wholly: 2 of 12 pixels wide
+            for (int y = 0; y < height; y += 2) {
+                const float sum = coverage(x, y) + coverage(x + 1, y) + coverage(x, y + 1) + coverage(x + 1, y + 1);
+                squares += std::pow(0.25 * sum - 2.0 / 12.0, 2.0);
+                ++blocks;
+            }
+        }
+    }
+    EXPECT_LT(std::sqrt(squares / blocks), 0.4 * 2.0 / 12.0);  // with the same times in all pixels: 0.58
+}
+
 TEST(MotionBlur, MC27_TurnsFollowTheArc) {
     const glm::dvec2 shutter(-0.5, 0.5);
     for (const double degrees : {0.0, 179.0, 540.0}) {
