@@ -12,13 +12,27 @@ Image<float> scaled(Image<float> image, double factor) {
     return image;
 }
 
+namespace {
+
+/// A background is exactly known, and often more than half of a picture.
+double median_of_shaded(const LuminanceError& error, const Image<float>& threshold) {
+    RatioHistogram ratios;
+    for (std::size_t i = 0; i < threshold.size(); ++i) {
+        if (error.variance.empty() || error.variance.pixels[i] > 0.0)
+            ratios.add(std::abs(error.error.pixels[i]), threshold.pixels[i]);
+    }
+    return ratios.percentile(0.5);
+}
+
+}  // namespace
+
 PictureError measure_picture(const ChannelImage& picture, const ChannelImage& reference, const Image<float>& threshold,
                              const std::vector<double>& multiples) {
     const LuminanceError error = compute_luminance_error(picture, reference);
     const ThresholdSum sum = measure_error(error, threshold);
     PictureError out;
     out.pixels = sum.errors.count();
-    out.median = sum.errors.percentile(0.5);
+    out.median = median_of_shaded(error, threshold);
     out.percentile_99_5 = sum.errors.percentile(0.995);
     out.worst = sum.errors.worst();
     out.noise_median = sum.noise.percentile(0.5);

@@ -19,10 +19,11 @@ struct BeyondShare {
 
 struct PictureError {
     std::size_t pixels = 0;
-    std::vector<BeyondShare> beyond;                          ///< for each multiple asked
-    double median = 0.0, percentile_99_5 = 0.0, worst = 0.0;  ///< of |error| over the threshold
-    double noise_median = 0.0, noise_percentile_99 = 0.0;     ///< of the reference's standard error over the threshold
-    double noisy_percent = 0.0;                               ///< pixels whose standard error is above a tenth of it
+    std::vector<BeyondShare> beyond;            ///< for each multiple asked
+    double percentile_99_5 = 0.0, worst = 0.0;  ///< of |error| over the threshold
+    double median = 0.0;  ///< the same, of the pixels that are not alike in all passes of the reference: no background
+    double noise_median = 0.0, noise_percentile_99 = 0.0;  ///< of the reference's standard error over the threshold
+    double noisy_percent = 0.0;                            ///< pixels whose standard error is above a tenth of it
     double bias = 0.0, bias_error = 0.0;  ///< of the picture's mean luminance, relative; the reference's standard error
 };
 

@@ -70,6 +70,15 @@ TEST(ClaimCheck, HoldsEstimatesAgainstErrors) {
     EXPECT_EQ(check.dearest, 0.0);  // 1 % of four pixels is none
 }
 
+TEST(PictureError, TakesTheMedianOfWhatIsShaded) {
+    ChannelImage reference;
+    add_pass(reference, grey_picture({0.0f, 0.0f, 0.0f, 1.00f, 1.00f}));
+    add_pass(reference, grey_picture({0.0f, 0.0f, 0.0f, 1.02f, 1.02f}));
+    const PictureError error =
+        measure_picture(grey_picture({0.0f, 0.0f, 0.0f, 1.03f, 1.03f}), reference, Image<float>(5, 1, 1.0f), {1.0});
+    EXPECT_NEAR(error.median, 2.0, 0.02);
+}
+
 ErrorRun make_run(double percent, double seconds, double moments) {
     ErrorRun run;
     run.error.pixels = 1000;
