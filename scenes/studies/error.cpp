@@ -130,10 +130,11 @@ void run_errors(const ErrorOptions& options) {
     fmt::print("\nSeconds of a processor by stage:\n\n");
     print_stages(studies, options.markdown);
     fmt::print(
-        "\nThe program's own estimates: pixels beyond; error over estimate; pixels beyond what 99.5 % should be "
-        "within; "
-        "pixels beyond by their largest estimated cause:\n\n");
+        "\nThe program's own estimates, percent: pixels beyond; error over estimate; pixels beyond what 99.5 % should "
+        "be "
+        "within; samples of the 1 % with most; by their largest estimated cause, pixels beyond and samples:\n\n");
     print_claims(studies, options.markdown);
+    if (options.no_ladder) return;
     fmt::print("\nSeconds of a processor at equal shares of pixels beyond:\n\n");
     print_shares(studies, options.markdown);
 }

@@ -54,7 +54,9 @@ Json run_json(const ErrorRun& run) {
     if (run.claim) {
         json["claim"] = {{"median_ratio", run.claim->median_ratio},
                          {"understated", run.claim->understated},
-                         {"beyond_by_cause", run.claim->beyond_by_cause}};
+                         {"dearest", run.claim->dearest},
+                         {"beyond_by_cause", run.claim->beyond_by_cause},
+                         {"samples_by_cause", run.claim->samples_by_cause}};
     }
     json["statistics"] = statistics_of(run);
     return json;
@@ -166,16 +168,22 @@ void print_stages(const std::vector<ErrorStudy>& studies, bool markdown) {
 }
 
 void print_claims(const std::vector<ErrorStudy>& studies, bool markdown) {
-    std::vector<std::string> columns = {"frame", "settings", "claimed (%)", "error / claim", "understated (%)"};
-    for (const std::string& cause : cause_names()) columns.push_back(cause + " (%)");
+    std::vector<std::string> columns = {"frame",         "settings",        "claimed (%)",
+                                        "error / claim", "understated (%)", "samples of 1 %"};
+    for (const std::string& cause : cause_names()) columns.push_back(cause + ": beyond");
+    for (const std::string& cause : cause_names()) columns.push_back(cause + ": samples");
     const StudyTable table(columns, 2, markdown);
     for (const ErrorStudy& study : studies) {
         for (const ErrorRun& run : study.runs) {
             if (!run.claim) continue;
-            std::vector<std::string> cells = {
-                study.frame.name, run.name, fmt::format("{:.3f}", claimed_percent(run).value_or(0.0)),
-                fmt::format("{:.2f}", run.claim->median_ratio), fmt::format("{:.2f}", run.claim->understated)};
+            std::vector<std::string> cells = {study.frame.name,
+                                              run.name,
+                                              fmt::format("{:.3f}", claimed_percent(run).value_or(0.0)),
+                                              fmt::format("{:.2f}", run.claim->median_ratio),
+                                              fmt::format("{:.2f}", run.claim->understated),
+                                              fmt::format("{:.0f}", run.claim->dearest)};
             for (const double percent : run.claim->beyond_by_cause) cells.push_back(fmt::format("{:.3f}", percent));
+            for (const double percent : run.claim->samples_by_cause) cells.push_back(fmt::format("{:.0f}", percent));
             table.add(cells);
         }
     }

@@ -72,8 +72,8 @@ ErrorRun judge(const JudgedFrame& frame, const std::string& name, const RenderSe
     ErrorRun run{name, std::move(timed.cost),
                  measure_picture(timed.picture, reference, frame.threshold, frame.multiples), std::nullopt,
                  std::move(timed.statistics)};
-    if (!timed.claimed.total.empty())
-        run.claim = check_claim(timed.picture, reference, frame.threshold, timed.claimed, asked);
+    if (!timed.claim.errors.total.empty())
+        run.claim = check_claim(timed.picture, reference, frame.threshold, timed.claim, asked);
     return run;
 }
 

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <numeric>
 
 namespace aleph {
 
@@ -10,13 +12,27 @@ Image<float> scaled(Image<float> image, double factor) {
     return image;
 }
 
+namespace {
+
+/// A background is exactly known, and often more than half of a picture.
+double median_of_shaded(const LuminanceError& error, const Image<float>& threshold) {
+    RatioHistogram ratios;
+    for (std::size_t i = 0; i < threshold.size(); ++i) {
+        if (error.variance.empty() || error.variance.pixels[i] > 0.0)
+            ratios.add(std::abs(error.error.pixels[i]), threshold.pixels[i]);
+    }
+    return ratios.percentile(0.5);
+}
+
+}  // namespace
+
 PictureError measure_picture(const ChannelImage& picture, const ChannelImage& reference, const Image<float>& threshold,
                              const std::vector<double>& multiples) {
     const LuminanceError error = compute_luminance_error(picture, reference);
     const ThresholdSum sum = measure_error(error, threshold);
     PictureError out;
     out.pixels = sum.errors.count();
-    out.median = sum.errors.percentile(0.5);
+    out.median = median_of_shaded(error, threshold);
     out.percentile_99_5 = sum.errors.percentile(0.995);
     out.worst = sum.errors.worst();
     out.noise_median = sum.noise.percentile(0.5);
@@ -35,25 +51,46 @@ PictureError measure_picture(const ChannelImage& picture, const ChannelImage& re
     return out;
 }
 
+namespace {
+
+std::size_t largest_cause(const ErrorMaps& errors, std::size_t pixel) {
+    std::size_t largest = 0;
+    for (std::size_t cause = 1; cause < cause_count; ++cause) {
+        if (errors.by_cause[cause].pixels[pixel] > errors.by_cause[largest].pixels[pixel]) largest = cause;
+    }
+    return largest;
+}
+
+/// Percent of the samples that the 1 % of the pixels with most of them take.
+double percent_of_dearest(std::vector<float> samples) {
+    std::ranges::sort(samples, std::greater());
+    const auto few = samples.begin() + static_cast<std::ptrdiff_t>(samples.size() / 100);
+    const double all = std::accumulate(samples.begin(), samples.end(), 0.0);
+    return 100.0 * std::accumulate(samples.begin(), few, 0.0) / std::max(all, 1.0);
+}
+
+}  // namespace
+
 ClaimCheck check_claim(const ChannelImage& picture, const ChannelImage& reference, const Image<float>& threshold,
-                       const ErrorMaps& claimed, double asked) {
+                       const PictureClaim& claim, double asked) {
     constexpr double normal_median = 0.67449, normal_99_5 = 2.807;  // standard deviations
     const LuminanceError error = compute_luminance_error(picture, reference);
+    const std::vector<float>& samples = claim.samples.pixels;
+    const double per_sample = 100.0 / std::max(1.0, std::accumulate(samples.begin(), samples.end(), 0.0));
+    const double per_pixel = 100.0 / static_cast<double>(std::max<std::size_t>(1, threshold.size()));
     RatioHistogram ratios;
     ClaimCheck out;
-    const double percent = 100.0 / static_cast<double>(std::max<std::size_t>(1, threshold.size()));
     for (std::size_t i = 0; i < threshold.size(); ++i) {
         const double size = std::abs(error.error.pixels[i]) / threshold.pixels[i];
-        ratios.add(size, claimed.total.pixels[i]);
-        if (size > normal_99_5 * claimed.total.pixels[i]) out.understated += percent;
-        if (!(size > asked)) continue;
-        std::size_t largest = 0;
-        for (std::size_t cause = 1; cause < cause_count; ++cause) {
-            if (claimed.by_cause[cause].pixels[i] > claimed.by_cause[largest].pixels[i]) largest = cause;
-        }
-        out.beyond_by_cause[largest] += percent;
+        const float claimed = claim.errors.total.pixels[i];
+        const std::size_t cause = largest_cause(claim.errors, i);
+        ratios.add(size, claimed);
+        out.samples_by_cause[cause] += per_sample * samples[i];
+        if (size > normal_99_5 * claimed) out.understated += per_pixel;
+        if (size > asked) out.beyond_by_cause[cause] += per_pixel;
     }
     out.median_ratio = ratios.percentile(0.5) / normal_median;
+    out.dearest = percent_of_dearest(samples);
     return out;
 }
 

@@ -19,10 +19,11 @@ struct BeyondShare {
 
 struct PictureError {
     std::size_t pixels = 0;
-    std::vector<BeyondShare> beyond;                          ///< for each multiple asked
-    double median = 0.0, percentile_99_5 = 0.0, worst = 0.0;  ///< of |error| over the threshold
-    double noise_median = 0.0, noise_percentile_99 = 0.0;     ///< of the reference's standard error over the threshold
-    double noisy_percent = 0.0;                               ///< pixels whose standard error is above a tenth of it
+    std::vector<BeyondShare> beyond;            ///< for each multiple asked
+    double percentile_99_5 = 0.0, worst = 0.0;  ///< of |error| over the threshold
+    double median = 0.0;  ///< the same, of the pixels that are not alike in all passes of the reference: no background
+    double noise_median = 0.0, noise_percentile_99 = 0.0;  ///< of the reference's standard error over the threshold
+    double noisy_percent = 0.0;                            ///< pixels whose standard error is above a tenth of it
     double bias = 0.0, bias_error = 0.0;  ///< of the picture's mean luminance, relative; the reference's standard error
 };
 
@@ -34,20 +35,27 @@ struct PictureError {
 PictureError measure_picture(const ChannelImage& picture, const ChannelImage& reference, const Image<float>& threshold,
                              const std::vector<double>& multiples);
 
-/// What a program says of its own error, held against the error itself.
+/// What a program says of the error of its picture.
+struct PictureClaim {
+    ErrorMaps errors;      ///< in thresholds
+    Image<float> samples;  ///< that each pixel took
+};
+
+/// That, held against the error itself.
 struct ClaimCheck {
     double median_ratio =
         0.0;  ///< median of |error| over the median of a normal distribution with the claimed deviation
     double understated = 0.0;  ///< percent of the pixels beyond what 99.5 % should be within: .5 is expected
-    /// Percent of the pixels beyond the asked error, by the largest claimed cause.
-    std::array<double, cause_count> beyond_by_cause{};
+    double dearest = 0.0;      ///< percent of all samples that the 1 % of the pixels with most samples take
+    /// By the largest claimed cause of a pixel: percent of the pixels that are beyond the asked error, percent of all
+    /// samples.
+    std::array<double, cause_count> beyond_by_cause{}, samples_by_cause{};
 };
 
-/// @param claimed  of the picture, in thresholds
-/// @param asked    thresholds
+/// @param asked  thresholds
 /// @throws InputError if sizes differ
 ClaimCheck check_claim(const ChannelImage& picture, const ChannelImage& reference, const Image<float>& threshold,
-                       const ErrorMaps& claimed, double asked);
+                       const PictureClaim& claim, double asked);
 
 /// Every value times a factor.
 Image<float> scaled(Image<float> image, double factor);

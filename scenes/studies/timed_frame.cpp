@@ -43,8 +43,10 @@ TimedFrame render_once(const Scene& scene, const RenderSettings& settings, std::
     double seconds = 0.0;
     clock.add_to(seconds);
     const FrameCost cost = find_cost(output, processor_seconds() - start, seconds);
-    return {make_frame_image(output, false, sequence.scene(), settings, sequence.exposure()), output.shaded.errors,
-            cost, format_statistics({output.statistics}, sequence.scene(), settings, sequence.exposure())};
+    return {make_frame_image(output, false, sequence.scene(), settings, sequence.exposure()),
+            {output.shaded.errors, output.shaded.samples},
+            cost,
+            format_statistics({output.statistics}, sequence.scene(), settings, sequence.exposure())};
 }
 
 }  // namespace

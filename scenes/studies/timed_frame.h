@@ -7,8 +7,8 @@
 
 #include "engine/image/image_file.h"
 #include "engine/scene/scene.h"
-#include "render/error_report.h"
 #include "render/settings.h"
+#include "scenes/studies/picture_error.h"
 
 namespace aleph {
 
@@ -27,7 +27,7 @@ struct FrameCost {
 
 struct TimedFrame {
     ChannelImage picture;  ///< R, G, B, A
-    ErrorMaps claimed;     ///< the program's own estimate; empty if it makes none
+    PictureClaim claim;    ///< `errors` is empty if the program estimates none
     FrameCost cost;
     std::string statistics;  ///< JSON, as aleph render --stats writes it
 };

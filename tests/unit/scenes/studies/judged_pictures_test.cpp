@@ -49,6 +49,36 @@ TEST(PictureError, CountsAtEveryMultipleOfTheThreshold) {
     EXPECT_NEAR(error.bias, 0.12 / 4.0, 1e-6);
 }
 
+TEST(ClaimCheck, HoldsEstimatesAgainstErrors) {
+    ChannelImage reference;
+    for (int i = 0; i < 2; ++i) add_pass(reference, grey_picture({1.0f, 1.0f, 1.0f, 1.0f}));
+    PictureClaim claim;
+    claim.errors.total = Image<float>(4, 1, 0.5f);
+    for (Image<float>& cause : claim.errors.by_cause) cause = Image<float>(4, 1, 0.1f);
+    claim.errors.by_cause[1](3, 0) = claim.errors.by_cause[2](2, 0) = 0.4f;
+    claim.samples = Image<float>(4, 1, 10.0f);
+    claim.samples(3, 0) = 70.0f;
+    const ClaimCheck check = check_claim(grey_picture({1.005f, 1.005f, 1.012f, 1.02f}), reference,
+                                         Image<float>(4, 1, 1.0f), claim, 1.0);  // errors of .5, .5, 1.2 and 2
+    EXPECT_NEAR(check.understated, 25.0, 1e-9);
+    EXPECT_NEAR(check.median_ratio, 1.0 / 0.67449, 0.02);
+    EXPECT_NEAR(check.beyond_by_cause[0], 0.0, 1e-9);
+    EXPECT_NEAR(check.beyond_by_cause[1], 25.0, 1e-9);
+    EXPECT_NEAR(check.beyond_by_cause[2], 25.0, 1e-9);
+    EXPECT_NEAR(check.samples_by_cause[0], 20.0, 1e-9);
+    EXPECT_NEAR(check.samples_by_cause[1], 70.0, 1e-9);
+    EXPECT_EQ(check.dearest, 0.0);  // 1 % of four pixels is none
+}
+
+TEST(PictureError, TakesTheMedianOfWhatIsShaded) {
+    ChannelImage reference;
+    add_pass(reference, grey_picture({0.0f, 0.0f, 0.0f, 1.00f, 1.00f}));
+    add_pass(reference, grey_picture({0.0f, 0.0f, 0.0f, 1.02f, 1.02f}));
+    const PictureError error =
+        measure_picture(grey_picture({0.0f, 0.0f, 0.0f, 1.03f, 1.03f}), reference, Image<float>(5, 1, 1.0f), {1.0});
+    EXPECT_NEAR(error.median, 2.0, 0.02);
+}
+
 ErrorRun make_run(double percent, double seconds, double moments) {
     ErrorRun run;
     run.error.pixels = 1000;
