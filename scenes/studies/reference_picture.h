@@ -12,10 +12,10 @@ namespace aleph {
 /// Where reference pictures are kept, since they take minutes, and what they are.
 struct ReferencePictureOptions {
     int passes = 16;  ///< renderings that it is the mean of, at least 2
-    int pass_spp =
-        32;  ///< samples per pixel of the first; each has one more than the one before (reference_picture.cpp)
-    /// "path": traced paths. "gather": no cache, 16 gather rays and 2 samples of every light at every pixel sample: a
-    /// fifth of the time for the same noise.
+    /// Samples per pixel of the first. Each has one more than the one before (reference_picture.cpp).
+    int pass_spp = 32;
+    /// "path": traced paths. "gather": no cache, 16 gather rays and 2 samples of every light at every pixel sample,
+    /// which have the noise of paths that take several times as long.
     std::string kind = "path";
     std::string folder = "build/references";
 };

@@ -91,7 +91,8 @@ ErrorRun make_run(double percent, double seconds, double moments) {
 TEST(BestFixed, IsTheCheapestSideAtTheGoal) {
     const LadderSide rough{"rough", {make_run(10.0, 1.0, 0.0), make_run(2.0, 100.0, 0.0)}};
     const LadderSide fine{"fine", {make_run(10.0, 10.0, 0.0), make_run(0.1, 1000.0, 0.0)}};
-    const auto best = find_best_fixed({rough, fine}, {1.0, 1.0});
+    const LadderSide dear{"dear", {make_run(10.0, 20.0, 0.0), make_run(0.1, 2000.0, 0.0)}};
+    const auto best = find_best_fixed({rough, fine, dear}, {1.0, 1.0});
     ASSERT_TRUE(best);
     EXPECT_EQ(best->name, "fine");
     EXPECT_FALSE(best->at_most);
