@@ -19,8 +19,8 @@ struct VisibleLimits {
     ViewingConditions viewing;
 };
 
-/// Shares of the error that is asked for, for errors that samples do not lower: a bound of what lights that are left out
-/// bring, and the root mean square of what irradiance in place of a lobe is off.
+/// Shares of the error that is asked for, for errors that samples do not lower: a bound of what lights that are left
+/// out bring, and the root mean square of what irradiance in place of a lobe is off.
 inline constexpr double left_out_share = 0.05, gloss_share = 0.05;
 
 /// Nothing where no error is asked for.
@@ -28,8 +28,8 @@ std::optional<SystematicTolerance> compute_systematic_tolerance(const VisibleLim
                                                                 const RenderSettings& settings, double exposure);
 
 /// The luminance that samples may err by, as they have it (before exposure).
-/// threshold: RenderSettings::error times the threshold, less the systematic errors and the error that cached light is
-/// expected to have in 99.5 % of the pixels; at least a third of it remains. The sum of all is then within what was
+/// threshold: RenderSettings::error times the threshold, less the systematic errors and error_deviations times the
+/// expected error of cached light; at least a third of it remains. The sum of all is then within what was
 /// asked for.
 /// consecutive, variance: RenderSettings::error times the threshold: they know nothing of other errors.
 /// The Aleph map is that of pixel centres. A pixel's samples reach its neighbours, and beside the outline of a moving

@@ -6,7 +6,7 @@ namespace aleph {
 
 namespace {
 
-constexpr float least_cosine = 0.9f;         // between the true normals of one face
+constexpr float least_cosine = 0.9f;            // between the true normals of one face
 constexpr float least_shading_cosine = 0.999f;  // between normals with about the same irradiance
 constexpr int enough_irradiances = 4;
 

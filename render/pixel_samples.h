@@ -22,7 +22,7 @@ inline constexpr int light_part_count = 3;
 /// Light of one sample, by part.
 struct SampleLight {
     std::array<Rgb, light_part_count> parts{Rgb(0.0f), Rgb(0.0f), Rgb(0.0f)};
-    Rgb indirect{0.0f};  ///< what the surface reflects of its indirect irradiance; within LightPart::surface
+    Rgb indirect{0.0f};             ///< what the surface reflects of its indirect irradiance; within LightPart::surface
     std::optional<Rgb> irradiance;  ///< indirect, that was looked up for it
     int instance = no_index;        ///< of the first surface; no_index: the background
     glm::vec3 geometric{0.0f}, normal{0.0f};  ///< unit, that surface's true normal and its shading normal

@@ -54,7 +54,8 @@ PixelSurface make_pixel_surface(const ShadingScene& shading, const CameraView& v
     surface.x = x;
     surface.y = y;
     surface.sample = place.index;
-    surface.pixel = static_cast<std::uint32_t>(y) * static_cast<std::uint32_t>(view.width) + static_cast<std::uint32_t>(x);
+    surface.pixel =
+        static_cast<std::uint32_t>(y) * static_cast<std::uint32_t>(view.width) + static_cast<std::uint32_t>(x);
     return surface;
 }
 

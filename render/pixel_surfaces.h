@@ -16,9 +16,9 @@ struct Lens {
 
 /// How the rays of samples are placed. The same in all pixels but for the sequence of each.
 struct SamplePlace {
-    int index = 0;                          ///< of the sample in its pixel
-    bool centered = true;                   ///< through the pixel's centre, whatever the filter
-    float spacing = 1.0f;                   ///< pixels between a pixel's samples; textures are averaged over it
+    int index = 0;         ///< of the sample in its pixel
+    bool centered = true;  ///< through the pixel's centre, whatever the filter
+    float spacing = 1.0f;  ///< pixels between a pixel's samples; textures are averaged over it
     Lens lens;
     PixelFilter filter = PixelFilter::box;  ///< that samples are distributed by
     std::uint32_t seed = 0, moment = 0;     ///< for the pixels' sequences

@@ -13,8 +13,7 @@ constexpr int counted_samples = 4;  // of a pixel, where their number is not kno
 
 SamplePlace make_sample_place(const RenderSettings& settings, const Lens& lens, bool blended, std::uint32_t moment,
                               int index) {
-    const int count =
-        settings.sampling == Sampling::uniform ? settings.spp : std::min(settings.spp, counted_samples);
+    const int count = settings.sampling == Sampling::uniform ? settings.spp : std::min(settings.spp, counted_samples);
     SamplePlace place;
     place.index = index;
     place.centered = settings.spp == 1;

@@ -197,8 +197,8 @@ bool shade_sample(const SampleShading& shading, const SampleMoment& moment, Shad
     for (Rgb& part : light.parts) part *= left;
     if (!needs_irradiance) return true;
     if (!irradiance && !waits) {
-        irradiance = shading.blurred ? sample_path(shading, moment, task, surface)
-                                     : gather_irradiance(shading, task, surface);
+        irradiance =
+            shading.blurred ? sample_path(shading, moment, task, surface) : gather_irradiance(shading, task, surface);
     }
     if (irradiance) add_irradiance(surface, *irradiance, light);
     return irradiance.has_value();

@@ -50,8 +50,8 @@ struct SampleShading {
     /// Progressive sampling: samples of direct light per pixel sample, shared out among all lights; 0: uniform.
     int light_samples = 0;
     const SystematicTolerance* tolerance = nullptr;  ///< null: nothing may be left out
-    Image<float>* records = nullptr;   ///< counts irradiance values computed here; of the frame's size
-    Image<RecordUse>* uses = nullptr;  ///< records that were read; null: not asked for
+    Image<float>* records = nullptr;                 ///< counts irradiance values computed here; of the frame's size
+    Image<RecordUse>* uses = nullptr;                ///< records that were read; null: not asked for
 };
 
 /// Light that a pixel's surface sends to the camera.

@@ -141,7 +141,8 @@ void add_perception(std::vector<Setting>& table) {
                                                   &PerceptionSettings::neutral_opponent)));
     table.push_back(without_scene(choice_setting<Adapter>(
         "adapter",
-        "how accuracy follows the Aleph map: thesis (6.7) (compress), (6.8) (scale-add), or the visible threshold itself "
+        "how accuracy follows the Aleph map: thesis (6.7) (compress), (6.8) (scale-add), or the visible threshold "
+        "itself "
         "(threshold)",
         [](S& s) -> Adapter& { return s.adapter; },
         {{"compress", Adapter::compress}, {"scale-add", Adapter::scale_add}, {"threshold", Adapter::threshold}})));
@@ -153,10 +154,11 @@ void add_perception(std::vector<Setting>& table) {
 void add_light(std::vector<Setting>& table) {
     using S = RenderSettings;
     table.push_back(with_unit(
-        number_setting("error",
-                       "largest error that is asked for; sets sampling, adapter, accuracy, gather and spp, which override it when "
-                       "they are given beside it; 0: none is asked for",
-                       &S::error, 0.0, 1000.0),
+        number_setting(
+            "error",
+            "largest error that is asked for; sets sampling, adapter, accuracy, gather and spp, which override it when "
+            "they are given beside it; 0: none is asked for",
+            &S::error, 0.0, 1000.0),
         "visible thresholds"));
     table.push_back(without_scene(number_setting(
         "accuracy",
@@ -167,17 +169,21 @@ void add_light(std::vector<Setting>& table) {
         number_setting("gather", "rays over the hemisphere for one irradiance value; 0: what the accuracy needs",
                        &S::gather, 0, 1 << 20),
         "rays"));
-    table.push_back(number_setting(
-        "bounces", "bounces of indirect diffuse light; the quick estimate has at most 1", &S::bounces, 0, 1000));
+    table.push_back(number_setting("bounces", "bounces of indirect diffuse light; the quick estimate has at most 1",
+                                   &S::bounces, 0, 1000));
     table.push_back(with_unit(
         number_setting("path_depth", "longest path of light that mirrors and glass may make", &S::path_depth, 1, 10000),
         "surfaces"));
-    table.push_back(
-        with_unit(number_setting("spp", "samples per pixel, or the most of them where `sampling` chooses; 1 is the pixel's centre", &S::spp, 1, 65536), "samples"));
+    table.push_back(with_unit(
+        number_setting("spp",
+                       "samples per pixel, or the most of them where `sampling` chooses; 1 is the pixel's centre",
+                       &S::spp, 1, 65536),
+        "samples"));
     table.push_back(choice_setting<Sampling>(
         "sampling",
         "how many samples each pixel takes: spp (uniform), or at most spp: until two stages differ by less than the "
-        "visible threshold (consecutive), until the variance is below it (variance), spp divided by the Aleph map but at "
+        "visible threshold (consecutive), until the variance is below it (variance), spp divided by the Aleph map but "
+        "at "
         "least 16 (protocol), or until the error that is asked for is met (threshold)",
         [](S& s) -> Sampling& { return s.sampling; },
         {{"uniform", Sampling::uniform},
@@ -187,14 +193,17 @@ void add_light(std::vector<Setting>& table) {
          {"threshold", Sampling::threshold}}));
     table.push_back(choice_setting<VarianceTest>(
         "variance_test",
-        "what the sampling variance compares with the threshold: the error of the mean (standard-error), or the deviation "
+        "what the sampling variance compares with the threshold: the error of the mean (standard-error), or the "
+        "deviation "
         "of the samples, as the thesis prints it, which more samples do not lower (deviation)",
         [](S& s) -> VarianceTest& { return s.variance_test; },
         {{"standard-error", VarianceTest::standard_error}, {"deviation", VarianceTest::deviation}}));
-    table.push_back(choice_setting<PixelFilter>(
-        "filter", "how the light around a pixel's centre makes up the pixel: its square (box), or a smooth window 3 pixels wide (blackman-harris)",
-        [](S& s) -> PixelFilter& { return s.filter; },
-        {{"box", PixelFilter::box}, {"blackman-harris", PixelFilter::blackman_harris}}));
+    table.push_back(
+        choice_setting<PixelFilter>("filter",
+                                    "how the light around a pixel's centre makes up the pixel: its square (box), or a "
+                                    "smooth window 3 pixels wide (blackman-harris)",
+                                    [](S& s) -> PixelFilter& { return s.filter; },
+                                    {{"box", PixelFilter::box}, {"blackman-harris", PixelFilter::blackman_harris}}));
     table.push_back(choice_setting<Integrator>(
         "integrator",
         "method for the picture's light: an irradiance cache for indirect diffuse light (cache), or path tracing, "
@@ -207,9 +216,10 @@ void add_light(std::vector<Setting>& table) {
     table.push_back(number_setting(
         "shade_reach", "how far shading uses a cache record, as a multiple of how far filling the cache uses it",
         &S::shade_reach, 1.0, 2.0));
-    table.push_back(with_unit(number_setting("min_radius_pixels", "least radius of a cache record, which reaches accuracy times as far",
-                                             &S::min_radius_pixels, 0.1, 1000.0),
-                              "pixels"));
+    table.push_back(with_unit(
+        number_setting("min_radius_pixels", "least radius of a cache record, which reaches accuracy times as far",
+                       &S::min_radius_pixels, 0.1, 1000.0),
+        "pixels"));
     table.push_back(with_unit(
         number_setting("light_step",
                        "frames between the key moments at which indirect light is computed for the frames around them; "

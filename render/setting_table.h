@@ -16,11 +16,11 @@ enum class SettingType { size, whole_number, number, choice, boolean };
 struct Setting {
     std::string key;  ///< in scene files and for --set; the option's name has '-' in place of '_'
     SettingType type = SettingType::number;
-    std::string help;                        ///< one line, without values and unit
-    std::string unit;                        ///< of numbers; empty: none
-    double min = 0.0, max = 0.0;             ///< of numbers, and of both sides of a size; inclusive
-    std::vector<std::string> choices;        ///< of a choice
-    bool needs_scene = true;                 ///< false: `aleph maps --images` takes it as well
+    std::string help;                  ///< one line, without values and unit
+    std::string unit;                  ///< of numbers; empty: none
+    double min = 0.0, max = 0.0;       ///< of numbers, and of both sides of a size; inclusive
+    std::vector<std::string> choices;  ///< of a choice
+    bool needs_scene = true;           ///< false: `aleph maps --images` takes it as well
 
     std::function<SettingValue(const RenderSettings&)> get;
     std::function<void(RenderSettings&, const SettingValue&)> set;  ///< of a value without a mismatch

@@ -12,7 +12,7 @@
 namespace aleph {
 
 void follow_error(RenderSettings& settings, double error) {
-    constexpr double accuracy_per_threshold = 0.15;  // interpolated light then errs by a seventh of what is asked for
+    constexpr double accuracy_per_threshold = 0.1;  // interpolated light then errs by a tenth of what is asked for
     constexpr int most_samples = 4096;
     settings.error = error;
     settings.sampling = Sampling::threshold;

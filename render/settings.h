@@ -42,7 +42,7 @@ enum class Sampling {
     consecutive,  ///< until two stages in a row differ by less than the threshold (6.10)
     variance,     ///< until their standard error or deviation is below it (6.12)
     protocol,     ///< as many as the Aleph map says beforehand (6.13)
-    threshold,    ///< until 99.5 % of such pixels are within the error that is asked for
+    threshold,    ///< until 99.5 % of the pixels are about within the error that is asked for
 };
 
 /// What Sampling::variance compares with the threshold.
@@ -62,19 +62,19 @@ struct RenderSettings {
     double accuracy = 0.15;    ///< ambient accuracy alpha_Acc; 0 gathers at every sample
     int gather = 0;            ///< hemisphere samples per irradiance value; 0: what the accuracy needs (choose_rays)
     Integrator integrator = Integrator::cache;
-    int bounces = 1;                 ///< of indirect diffuse light
-    int path_depth = 32;             ///< longest path: surfaces that scatter, of all kinds
+    int bounces = 1;      ///< of indirect diffuse light
+    int path_depth = 32;  ///< longest path: surfaces that scatter, of all kinds
     /// Error that is asked for, in visible thresholds; 0: none is, and the other settings stand for themselves.
     double error = 0.0;
     Sampling sampling = Sampling::uniform;
     VarianceTest variance_test = VarianceTest::standard_error;
     PixelFilter filter = PixelFilter::blackman_harris;
-    int spp = 16;                    ///< samples per pixel, or the most of them; 1 is the pixel's centre
-    int light_samples = 16;          ///< direct-light samples per pixel and light, shared out among its spp
-    double shade_reach = 1.4;        ///< how far shading uses a record, as a multiple of how far filling does
+    int spp = 16;                     ///< samples per pixel, or the most of them; 1 is the pixel's centre
+    int light_samples = 16;           ///< direct-light samples per pixel and light, shared out among its spp
+    double shade_reach = 1.4;         ///< how far shading uses a record, as a multiple of how far filling does
     double min_radius_pixels = 12.0;  ///< least R of a record (irradiance_record.h), pixels
-    int light_step = 10;             ///< frames between key moments of indirect light; 0: every frame computes its own
-    int subdivision_level = -1;      ///< of every subdivision cage; -1: as fine as the pixels need (cage_level.h)
+    int light_step = 10;              ///< frames between key moments of indirect light; 0: every frame computes its own
+    int subdivision_level = -1;       ///< of every subdivision cage; -1: as fine as the pixels need (cage_level.h)
 
     bool operator==(const RenderSettings&) const = default;
 };

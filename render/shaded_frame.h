@@ -37,7 +37,7 @@ struct FrameTally {
 };
 
 struct ShadedFrame : FrameTally {
-    Image<Rgb> color;       ///< mean of the valid samples, linear, exposure applied; 0 if no sample is valid
+    Image<Rgb> color;  ///< mean of the valid samples, linear, exposure applied; 0 if no sample is valid
     /// The part of `color` that surfaces reflect of their indirect irradiance, read from the cache or gathered. Empty
     /// if light is found by paths.
     Image<Rgb> indirect;
@@ -46,8 +46,8 @@ struct ShadedFrame : FrameTally {
     /// Variance of the pixel's mean luminance, exposure applied, from its samples. With Integrator::path and 2 samples
     /// or more; otherwise empty, since samples that share a cache do not tell its error.
     Image<float> variance;
-    /// Records that the pixel's irradiance was interpolated from: their mean number per sample, and the weighted mean of
-    /// how far they may be used, m. Empty unless SampleOptions::record_maps.
+    /// Records that the pixel's irradiance was interpolated from: their mean number per sample, and the weighted mean
+    /// of how far they may be used, m. Empty unless SampleOptions::record_maps.
     Image<float> cache_count, cache_radius;
     /// Estimated errors. Empty where the visible threshold is not known, or a pixel has a single sample.
     ErrorMaps errors;

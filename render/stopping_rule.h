@@ -7,12 +7,14 @@
 
 namespace aleph {
 
-/// So many standard errors hold 99.5 % of a normal distribution.
-inline constexpr double error_deviations = 1.8;
+/// Standard errors that a tolerance has to hold. At the limit, 3.6 % of a normal distribution would lie beyond. But few
+/// pixels are at the limit: numbers of samples double, and halves overrate the error of even samples. In pictures,
+/// about half a percent of the pixels is beyond (render/README.md).
+inline constexpr double error_deviations = 2.1;
 
-/// What is known of a pixel's mean. A pixel's own samples never decide when it stops: a pixel whose first samples happen
-/// to agree would stop early, more often at a value that is too low than at one that is too high, and the picture would
-/// be biased. Neighbours tell both numbers, at this pixel's number of samples.
+/// What is known of a pixel's mean. A pixel's own samples never decide when it stops: a pixel whose first samples
+/// happen to agree would stop early, more often at a value that is too low than at one that is too high, and the
+/// picture would be biased. Neighbours tell both numbers, at this pixel's number of samples.
 struct MeanEstimate {
     int samples = 0;
     double error2 = 0.0;    ///< squared error of the mean luminance, from halves (PixelSamples)
@@ -26,7 +28,7 @@ MeanEstimate estimate_mean(const Image<PixelSamples>& pixels, int x, int y);
 /// consecutive (6.10): the means of this stage and of the one before differ by less than the tolerance.
 /// variance (6.12): the standard error of independent samples is below the tolerance; or as printed their standard
 /// deviation, which does not fall with their number.
-/// threshold: 99.5 % of such means lie within the tolerance.
+/// threshold: error_deviations standard errors are within the tolerance.
 /// @param tolerance  of luminance, in the samples' unit. 0 or less is met by an error of 0 only
 bool is_enough(Sampling rule, VarianceTest test, const MeanEstimate& mean, double tolerance);
 

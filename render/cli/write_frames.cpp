@@ -51,8 +51,9 @@ void print_error(const FrameStatistics& frame) {
         causes += fmt::format("{}{} {:.2g} %", causes.empty() ? "; alone: " : ", ", cause_names()[i],
                               100.0 * shares.by_cause[i]);
     }
-    std::cerr << fmt::format("aleph: frame {}: about {:.2g} % of the pixels err by more than {:g} visible threshold{}{}\n",
-                             frame.frame, 100.0 * shares.beyond, shares.asked, shares.asked == 1.0 ? "" : "s", causes);
+    std::cerr << fmt::format(
+        "aleph: frame {}: about {:.2g} % of the pixels err by more than {:g} visible threshold{}{}\n", frame.frame,
+        100.0 * shares.beyond, shares.asked, shares.asked == 1.0 ? "" : "s", causes);
 }
 
 /// Writes one frame, and adds the time for it to the frame's statistics.

@@ -73,7 +73,7 @@ TEST(Settings, AnErrorChoosesWhatCostsAndTheRestOverridesIt) {
     apply_settings(settings, {{"error", 2.0}, {"gather", 100.0}}, "test");
     EXPECT_EQ(settings.sampling, Sampling::threshold);
     EXPECT_EQ(settings.adapter, Adapter::threshold);
-    EXPECT_DOUBLE_EQ(settings.accuracy, 0.3);
+    EXPECT_DOUBLE_EQ(settings.accuracy, 0.2);
     EXPECT_EQ(settings.spp, 4096);
     EXPECT_EQ(settings.gather, 100);
     apply_settings(settings, {{"spp", 64.0}}, "test");  // as the command line after the scene's file
