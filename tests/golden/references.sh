@@ -13,8 +13,8 @@ build=${BUILD:-$root/build}
 out=$build/golden/references
 aleph=$build/aleph
 common=(--size 72x54 --bounces 1 -q)
-traced=(--integrator path --spp "${SPP:-4096}" --seed 7)
-cached=(--integrator cache --guide none --accuracy .1 --gather 256 --spp 16)
+traced=(--filter box --integrator path --spp "${SPP:-4096}" --seed 7)
+cached=(--filter box --integrator cache --guide none --accuracy .1 --gather 256 --spp 16)
 
 # Renders $1 (scene) with the options of the table ($2) and the others into $out/NAME.exr.
 render() {
