@@ -13,7 +13,11 @@ namespace aleph {
 
 namespace {
 
-constexpr std::string_view variance_name = "variance.Y";
+/// How certain a picture is.
+bool is_certainty(const std::string& channel) {
+    return channel == "variance.Y" || channel.starts_with("error.");
+}
+
 constexpr std::array<std::string_view, 5> count_names = {"samples.Y", "records.Y", "invalid.Y", "cache.count",
                                                          "cache.radius"};
 
@@ -26,7 +30,7 @@ std::vector<std::string> missing_in(const ChannelImage& image, const ChannelImag
     std::vector<std::string> names;
     for (const Channel& channel : other.channels) {
         const bool optional =
-            channel.name == variance_name || std::ranges::find(count_names, channel.name) != count_names.end();
+            is_certainty(channel.name) || std::ranges::find(count_names, channel.name) != count_names.end();
         if (!optional && !image.find(channel.name)) names.push_back(printable(channel.name));
     }
     return names;
@@ -53,7 +57,7 @@ std::vector<ChannelPair> match_all(const ChannelImage& a, const ChannelImage& b)
     std::vector<ChannelPair> pairs;
     for (const Channel& channel : b.channels) {
         const Image<float>* in_a = a.find(channel.name);
-        if (in_a && channel.name != variance_name) pairs.push_back({channel.name, in_a, &channel.values});
+        if (in_a && !is_certainty(channel.name)) pairs.push_back({channel.name, in_a, &channel.values});
     }
     if (pairs.empty()) throw InputError("", "", "the pictures have no channel in common");
     return pairs;

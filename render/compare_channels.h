@@ -16,8 +16,8 @@ struct ChannelPair {
     const Image<float>* b;
 };
 
-/// The channels that are compared, in the order of b. `variance.Y` says how certain a picture is and is compared only
-/// if it is named. `samples.Y`, `records.Y`, `invalid.Y`, `cache.count` and `cache.radius` say how a picture was made:
+/// The channels that are compared, in the order of b. `variance.Y` and `error.*` say how certain a picture is and are
+/// compared only if they are named. `samples.Y`, `records.Y`, `invalid.Y`, `cache.count` and `cache.radius` say how a picture was made:
 /// they are left out if only one picture has them.
 /// @param wanted  channels ("Z") or layers ("forward"); empty: all
 /// @throws InputError if sizes or channels differ, or a wanted channel is not in both

@@ -82,7 +82,8 @@ void add_limits(CLI::App& app, CompareSettings& s) {
 constexpr const char* compare_footer =
     "Exit code: 0 the same; 1 different, or a NaN or infinity in either; 2 unreadable, or other sizes or "
     "channels.\n"
-    "variance.Y is compared only if --channels names it; samples.Y, records.Y, invalid.Y, cache.count and\n"
+    "variance.Y and error are compared only if --channels names them; samples.Y, records.Y, invalid.Y, cache.count "
+    "and\n"
     "cache.radius only if both pictures have them.\n\n"
     "Sequences: 'name.####.exr', in quotes, or folders that hold one numbered sequence. Frames are paired by number.\n"
     "With --threshold the sequences differ too where the error flickers: where it changes from one frame to the next\n"

@@ -48,6 +48,8 @@ constexpr const char* maps_footer =
     "  R G B A                  the picture and its coverage (render)\n"
     "  samples.Y records.Y invalid.Y\n"
     "                           samples, irradiance values, samples thrown away (render)\n"
+    "  error.Y error.edges error.blur error.direct error.gloss error.indirect\n"
+    "                           estimated error and its parts by cause, in visible thresholds (render)\n"
     "  cache.count cache.radius\n"
     "                           records that indirect light is from, how far they may be used, m (render)\n"
     "\n"

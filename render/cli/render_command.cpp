@@ -19,6 +19,10 @@ void add_render_command(CLI::App& app, Command& command) {
             "written after the last frame; a file of another scene, other settings or another build is refused")
         ->type_name("FILE");
     render->footer(
+        "--error is the simplest way: the largest error, in differences that a viewer just sees (1 is one of them). It "
+        "chooses accuracy, gather rays and samples; options given beside it override them. Afterwards the program "
+        "prints "
+        "what share of the pixels it expects to err by more; --aovs has the error of every pixel and its causes.\n"
         "--accuracy is the error that irradiance caching may make where the viewer is strictest. Elsewhere the Aleph "
         "map "
         "allows more, which saves time; with --guide none the accuracy is the same everywhere.\n"
@@ -27,6 +31,7 @@ void add_render_command(CLI::App& app, Command& command) {
         "sequence two more for each step. --integrator path does not use them.\n"
         "The file has the channels R, G, B and A. `aleph maps --help` describes those that --aovs adds.\n\n"
         "Examples:\n"
+        "  aleph render scenes/pool/scene.json --frames 20 --error 1 -o frame.exr        no visible error\n"
         "  aleph render scenes/pool/scene.json --frames 20 --spp 1 -o frame.png          a quick look\n"
         "  aleph render scenes/pool/scene.json -o out/ --stats out/stats.json            the whole shot\n"
         "  aleph render scenes/pool/scene.json --frames 20 --guide none -o unguided.exr  the baseline\n"

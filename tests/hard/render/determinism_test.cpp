@@ -79,6 +79,28 @@ TEST(Determinism, DT01_UnguidedAndDenseFilesToo) {
     }
 }
 
+TEST(Determinism, DT01_DT04_EveryRuleOfStopping) {
+    const Scene& scene = pool_scene();
+    for (const Sampling rule : {Sampling::consecutive, Sampling::variance, Sampling::protocol, Sampling::threshold}) {
+        RenderSettings settings = small_settings();
+        follow_error(settings, 1.0);
+        settings.sampling = rule;
+        settings.spp = 32;
+        settings.width = 40;
+        settings.height = 30;
+        const auto render = [&](int threads, int before) {
+            return with_threads(threads, [&] {
+                Sequence sequence(scene, settings);
+                for (int frame = 21 - before; frame < 21; ++frame) sequence.render(frame);
+                return frame_bytes(sequence, scene, settings, 21);
+            });
+        };
+        const std::string one = render(1, 0);
+        EXPECT_TRUE(render(3, 0) == one) << static_cast<int>(rule);
+        EXPECT_TRUE(render(2, 1) == one) << static_cast<int>(rule);
+    }
+}
+
 TEST(Determinism, DT04_IC14_AFrameAloneOrInASequence) {
     const Scene& scene = pool_scene();
     const RenderSettings settings = small_settings();

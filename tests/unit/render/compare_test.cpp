@@ -110,7 +110,8 @@ TEST(Compare, OtherShapesAreErrors) {
 TEST(Compare, ChannelsOfHowAPictureWasMadeMayBeMissing) {
     const ChannelImage plain = grey_image(4, 4, 0.5f);
     ChannelImage counted = plain;
-    for (const char* name : {"variance.Y", "samples.Y", "records.Y", "invalid.Y", "cache.count", "cache.radius"}) {
+    for (const char* name : {"variance.Y", "samples.Y", "records.Y", "invalid.Y", "cache.count", "cache.radius",
+                             "error.Y", "error.direct"}) {
         counted.channels.push_back({name, Image<float>(4, 4, 3.0f)});
     }
     EXPECT_TRUE(compare_images(plain, counted).same);
@@ -121,6 +122,10 @@ TEST(Compare, ChannelsOfHowAPictureWasMadeMayBeMissing) {
     other.channels[3].values(1, 1) = 9.0f;
     EXPECT_TRUE(compare_images(counted, other).same);
     EXPECT_FALSE(compare_images(counted, other, {0.0, 0.0, 0.0, {"variance"}}).same);
+    other = counted;
+    other.channels.back().values(1, 1) = 9.0f;
+    EXPECT_TRUE(compare_images(counted, other).same);
+    EXPECT_FALSE(compare_images(counted, other, {0.0, 0.0, 0.0, {"error"}}).same);
     other = counted;
     other.channels[4].values(1, 1) = 9.0f;
     EXPECT_FALSE(compare_images(counted, other).same);

@@ -27,6 +27,8 @@ std::set<std::string> written_channels() {
                    output.shaded.cache_radius, output.hits, output.estimate, output.motion.displacement,
                    output.motion.path_length, output.motion.validity, output.velocity, output.alpha, output.threshold,
                    output.threshold_flicker, output.depth, output.normal);
+    make_one_pixel(output.shaded.errors.total);
+    for (Image<float>& cause : output.shaded.errors.by_cause) make_one_pixel(cause);
     PerceptionMaps& maps = output.perception;
     make_one_pixel(maps.aleph, maps.retinal_velocity, maps.saliency, maps.conspicuity_intensity, maps.conspicuity_color,
                    maps.conspicuity_orientation, maps.conspicuity_motion);
@@ -55,7 +57,7 @@ std::set<std::string> documented_channels() {
 }
 
 TEST(Channels, TheReadmeListsEveryChannelAndNoOther) {
-    EXPECT_EQ(written_channels().size(), 32u);
+    EXPECT_EQ(written_channels().size(), 38u);
     EXPECT_EQ(documented_channels(), written_channels());
 }
 
