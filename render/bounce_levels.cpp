@@ -34,16 +34,10 @@ IrradianceCache fill_level(const IndirectContext& context, const BouncePlaces& p
     const int width = places.hits.width, height = places.hits.height;
     const Image<float> accuracy(width, height, level_accuracy(context.settings, turns));
     DirectGrid direct(context.max_radius);
-    const IndirectContext level{.lighting = context.lighting,
-                                .view = context.view,
-                                .settings = context.settings,
-                                .accuracy = accuracy,
-                                .frame = context.frame,
-                                .max_radius = context.max_radius,
-                                .progress = {},
-                                .direct = &direct,
-                                .deeper = make_level_light(context.settings, turns, below),
-                                .turns_before = turns};
+    IndirectContext level = make_places_context(context, accuracy);
+    level.direct = &direct;
+    level.deeper = make_level_light(context.settings, turns, below);
+    level.turns_before = turns;
     FrameTally tally;
     tally.records = tally.invalid_samples = Image<float>(width, height);
     IrradianceCache cache = make_cache(context.lighting.shading);

@@ -251,7 +251,8 @@ class FrameShading {
     void report_progress(double stage) {
         if (!context_.progress) return;
         const double begin = cached_ ? fill_share : 0.0;
-        const bool only_one = context_.settings.sampling == Sampling::uniform;
+        const Sampling rule = context_.settings.sampling;
+        const bool only_one = rule == Sampling::uniform || rule == Sampling::protocol;
         const double left = std::pow(0.5, stage_), done = only_one ? stage : 1.0 - left + 0.5 * left * stage;
         context_.progress(begin + (1.0 - begin) * done, "shade");
     }

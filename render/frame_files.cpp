@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <numeric>
+
 #include "engine/base/errors.h"
 
 namespace aleph {
@@ -98,7 +100,9 @@ ChannelImage make_frame_image(const FrameOutput& output, bool maps, const Scene&
     file.metadata["displayPersistence"] = scene.viewing.persistence;
     file.metadata["exposureFactor"] = exposure;
     if (output.view.width > 0) {  // pictures that were not rendered here have no camera and no samples
-        file.metadata["samplesPerPixel"] = static_cast<double>(settings.spp);
+        const Image<float>& samples = output.shaded.samples;
+        const double taken = std::accumulate(samples.pixels.begin(), samples.pixels.end(), 0.0);
+        file.metadata["samplesPerPixel"] = samples.empty() ? 0.0 : taken / static_cast<double>(samples.size());
         file.metadata["seed"] = static_cast<double>(settings.seed);
         file.metadata["worldToCamera"] = format_camera(output.view);
     }

@@ -44,4 +44,18 @@ struct IndirectContext {
     int turns_before = 0;  ///< at Lambert layers, between the picture and the surfaces whose light is gathered
 };
 
+/// The context of a frame for a list of places instead of its pixels.
+/// @param accuracy  alpha per place; must outlive the result
+inline IndirectContext make_places_context(const IndirectContext& frame, const Image<float>& accuracy) {
+    return {.lighting = frame.lighting,
+            .view = frame.view,
+            .settings = frame.settings,
+            .accuracy = accuracy,
+            .frame = frame.frame,
+            .max_radius = frame.max_radius,
+            .progress = {},
+            .direct = frame.direct,
+            .deeper = frame.deeper};
+}
+
 }  // namespace aleph

@@ -122,15 +122,7 @@ void fill_mirror_places(IrradianceCache& cache, const IndirectContext& context, 
                         FrameTally& tally) {
     MirrorPlaces mirrors = cast_mirror_places(context, sample, tally.counts.rays);
     if (!mirrors.any) return;
-    const IndirectContext mirrored{.lighting = context.lighting,
-                                   .view = context.view,
-                                   .settings = context.settings,
-                                   .accuracy = mirrors.accuracy,
-                                   .frame = context.frame,
-                                   .max_radius = context.max_radius,
-                                   .progress = {},
-                                   .direct = context.direct,
-                                   .deeper = context.deeper};
+    const IndirectContext mirrored = make_places_context(context, mirrors.accuracy);
     fill_places(cache, mirrored, make_fill_places(context.lighting.shading, mirrors.places), tally);
 }
 

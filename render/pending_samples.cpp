@@ -32,19 +32,10 @@ void fill_pending(IrradianceCache& cache, const IndirectContext& context, const 
         accuracy(i, 0) = context.accuracy(surface.x, surface.y);
         places.points(i, 0) = {surface.point.position, surface.footprint, surface.point.normal};
     }
-    const IndirectContext listed{.lighting = context.lighting,
-                                 .view = context.view,
-                                 .settings = context.settings,
-                                 .accuracy = accuracy,
-                                 .frame = context.frame,
-                                 .max_radius = context.max_radius,
-                                 .progress = {},
-                                 .direct = context.direct,
-                                 .deeper = context.deeper};
     FrameTally filled;
     filled.records = filled.invalid_samples = Image<float>(count, 1);
     const std::size_t known = cache.records().size();
-    fill_places(cache, listed, places, filled);
+    fill_places(cache, make_places_context(context, accuracy), places, filled);
     cache.finish(known);
     for (int i = 0; i < count; ++i) {
         const PixelSurface& surface = pending[i].surface;

@@ -8,6 +8,7 @@ namespace {
 
 constexpr float least_cosine = 0.9f;            // between the true normals of one face
 constexpr float least_shading_cosine = 0.999f;  // between normals with about the same irradiance
+constexpr float widest_step = 2.0f;             // footprints across a face
 constexpr int enough_irradiances = 4;
 
 }  // namespace
@@ -20,13 +21,13 @@ void PixelSamples::add(const SampleLight& light) {
     if (light.instance != no_index) ++hits_;
     if (valid_ == 1) {
         instance_ = light.instance;
+        position_ = light.position;
         geometric_ = light.geometric;
         normal_ = light.normal;
-    } else if (light.instance != instance_ ||
-               (instance_ != no_index && glm::dot(light.geometric, geometric_) < least_cosine)) {
+    } else if (!is_on_first_face(light)) {
         edge_ = true;
     }
-    if (light.irradiance && irradiances_ < enough_irradiances && is_first_surface(light.instance, light.normal)) {
+    if (light.irradiance && irradiances_ < enough_irradiances && is_first_surface(light)) {
         irradiance_ += *light.irradiance;
         ++irradiances_;
     }
@@ -37,12 +38,19 @@ void PixelSamples::add(const SampleLight& light) {
     end_sample();
 }
 
-bool PixelSamples::is_first_surface(int instance, const glm::vec3& normal) const {
-    return instance == instance_ && glm::dot(normal, normal_) > least_shading_cosine;
+/// Of one object, about parallel, and not a step behind or before it.
+bool PixelSamples::is_on_first_face(const SampleLight& light) const {
+    if (light.instance != instance_ || instance_ == no_index) return light.instance == instance_;
+    const float step = std::abs(glm::dot(light.position - position_, geometric_));
+    return glm::dot(light.geometric, geometric_) >= least_cosine && step <= widest_step * light.footprint;
 }
 
-std::optional<Rgb> PixelSamples::find_irradiance(int instance, const glm::vec3& normal) const {
-    if (irradiances_ < enough_irradiances || !is_first_surface(instance, normal)) return std::nullopt;
+bool PixelSamples::is_first_surface(const SampleLight& light) const {
+    return is_on_first_face(light) && glm::dot(light.normal, normal_) > least_shading_cosine;
+}
+
+std::optional<Rgb> PixelSamples::find_irradiance(const SampleLight& light) const {
+    if (irradiances_ < enough_irradiances || !is_first_surface(light)) return std::nullopt;
     return irradiance_ / static_cast<float>(irradiances_);
 }
 

@@ -25,7 +25,9 @@ struct SampleLight {
     Rgb indirect{0.0f};             ///< what the surface reflects of its indirect irradiance; within LightPart::surface
     std::optional<Rgb> irradiance;  ///< indirect, that was looked up for it
     int instance = no_index;        ///< of the first surface; no_index: the background
-    glm::vec3 geometric{0.0f}, normal{0.0f};  ///< unit, that surface's true normal and its shading normal
+    glm::vec3 position{0.0f};       ///< m, on that surface
+    glm::vec3 geometric{0.0f}, normal{0.0f};  ///< unit, its true normal and its shading normal
+    float footprint = 0.0f;                   ///< m, of a pixel there
 
     Rgb& operator[](LightPart part) { return parts[static_cast<std::size_t>(part)]; }
     Rgb total() const { return parts[0] + parts[1] + parts[2]; }
@@ -64,14 +66,15 @@ class PixelSamples {
     const Error& error() const { return error_; }
     /// Indirect irradiance for a sample that sees the surface of the pixel's first one: the mean of what the first four
     /// such samples looked up, at places spread over the pixel. Nothing before there are four.
-    /// @param normal  unit, of shading
-    std::optional<Rgb> find_irradiance(int instance, const glm::vec3& normal) const;
+    /// @param light  of the sample: its surface
+    std::optional<Rgb> find_irradiance(const SampleLight& light) const;
     /// Whether its samples saw several objects, or faces of one: an edge crosses the pixel.
     bool has_edge() const { return edge_; }
 
   private:
     void end_sample();
-    bool is_first_surface(int instance, const glm::vec3& normal) const;
+    bool is_on_first_face(const SampleLight& light) const;
+    bool is_first_surface(const SampleLight& light) const;
 
     glm::dvec3 radiance_{0.0};
     Rgb indirect_{0.0f};
@@ -82,7 +85,7 @@ class PixelSamples {
     int first_valid_ = 0;
     Error error_;
     int instance_ = no_index;  ///< of the first sample
-    glm::vec3 geometric_{0.0f}, normal_{0.0f};
+    glm::vec3 position_{0.0f}, geometric_{0.0f}, normal_{0.0f};
     Rgb irradiance_{0.0f};  ///< sum
     int irradiances_ = 0;
     bool edge_ = false;

@@ -179,13 +179,15 @@ bool shade_sample(const SampleShading& shading, const SampleMoment& moment, Shad
                   const PixelSurface& surface, const PixelSamples& pixel, SampleLight& light) {
     light = {};
     light.instance = surface.hit.instance;
+    light.position = surface.point.position;
+    light.footprint = surface.footprint;
     light.geometric = surface.point.geometric;
     light.normal = surface.point.normal;
     const bool needs_irradiance = !shading.by_paths && shading.indirect && surface.material.has_diffuse();
     std::optional<Rgb> irradiance;
     bool waits = false;  // for a record
     if (needs_irradiance) {
-        irradiance = pixel.find_irradiance(light.instance, light.normal);
+        irradiance = pixel.find_irradiance(light);
         if (!irradiance) irradiance = light.irradiance = look_up(shading, task, surface, waits);
     }
     if (shading.by_paths) {
