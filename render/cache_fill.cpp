@@ -170,19 +170,21 @@ RadiusBounds radius_bounds(const IndirectContext& context, float footprint, floa
 
 void fill_places(IrradianceCache& cache, const IndirectContext& context, const FillPlaces& places, FrameTally& tally) {
     const bool coarse = places.coarse_first;
-    for (int stride = coarse ? first_stride : 1; stride >= 1; stride /= 2) {
+    for (int stride = coarse ? first_stride : places.finest; stride >= places.finest; stride /= 2) {
         fill_tiles(cache, context, places, list_tiles(places.points, stride, coarse), tally);
     }
     // A new record near a wall shrinks its neighbours' radii, and pixels that they covered before are uncovered again.
     // Without these reviews, shading would gather at each such pixel. Later samples look at every pixel anyway.
     for (int review = 0; coarse && review < max_reviews; ++review) {
-        if (fill_tiles(cache, context, places, list_tiles(places.points, 1, false), tally) == 0) break;
+        if (fill_tiles(cache, context, places, list_tiles(places.points, places.finest, false), tally) == 0) break;
     }
 }
 
-void fill_cache(IrradianceCache& cache, const IndirectContext& context, const SampleHits& sample, FrameTally& tally) {
+void fill_cache(IrradianceCache& cache, const IndirectContext& context, const SampleHits& sample, FrameTally& tally,
+                int finest) {
     const auto surface_at = [&](int x, int y) { return *find_surface(context, sample, x, y); };
-    fill_places(cache, context, {find_points(context, sample, tally.counts.rays), surface_at, sample.place.index == 0},
+    fill_places(cache, context,
+                {find_points(context, sample, finest, tally.counts.rays), surface_at, sample.place.index == 0, finest},
                 tally);
 }
 

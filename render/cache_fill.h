@@ -29,6 +29,7 @@ struct FillPlaces {
     std::function<PixelSurface(int x, int y)> surface_at;
     /// Tiles start large; otherwise every point is looked at once.
     bool coarse_first = true;
+    int finest = 1;  ///< the last tiles' size, a power of 2
 };
 
 /// Adds records until every place is covered. A gather that is not finite makes no record: it is counted as invalid,
@@ -41,8 +42,10 @@ RadiusBounds radius_bounds(const IndirectContext& context, float footprint, floa
 
 /// fill_places for the surfaces that this sample of the pixels shows.
 /// @param sample  if it is the pixels' first, tiles start large; later samples are looked at pixel by pixel
-/// @param tally  increased; its images have the frame's size
-void fill_cache(IrradianceCache& cache, const IndirectContext& context, const SampleHits& sample, FrameTally& tally);
+/// @param tally   increased; its images have the frame's size
+/// @param finest  of FillPlaces
+void fill_cache(IrradianceCache& cache, const IndirectContext& context, const SampleHits& sample, FrameTally& tally,
+                int finest = 1);
 
 /// An empty cache whose index spans the whole scene.
 IrradianceCache make_cache(const ShadingScene& shading);

@@ -43,7 +43,9 @@ Image<float> compute_sampling_tolerance(const VisibleLimits& limits, const Rende
     Image<float> tolerance(limits.threshold.width, limits.threshold.height);
     for (int y = 0; y < tolerance.height; ++y) {
         for (int x = 0; x < tolerance.width; ++x) {
-            double left = error * strictest_around(limits.threshold, x, y) / white;
+            const bool moves = limits.outlines(x, y) == Outline::moving;
+            const float threshold = moves ? strictest_around(limits.threshold, x, y) : limits.threshold(x, y);
+            double left = error * threshold / white;
             if (settings.sampling == Sampling::threshold && !limits.indirect_luminance.empty()) {
                 const double cached = error_deviations * error_per_accuracy * limits.accuracy(x, y) *
                                       static_cast<double>(limits.indirect_luminance(x, y));

@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "engine/base/viewing.h"
+#include "render/outlines.h"
 #include "render/sample_shading.h"
 #include "render/settings.h"
 #include "render/stopping_rule.h"
@@ -16,6 +17,7 @@ struct VisibleLimits {
     const Image<float>& aleph;               ///< elevation of the threshold
     const Image<float>& accuracy;            ///< alpha, of cached light
     const Image<float>& indirect_luminance;  ///< of the quick estimate, exposure applied; empty: none is cached
+    const Image<Outline>& outlines;
     ViewingConditions viewing;
 };
 
@@ -32,9 +34,9 @@ std::optional<SystematicTolerance> compute_systematic_tolerance(const VisibleLim
 /// expected error of cached light; at least a third of it remains. The sum of all is then within what was
 /// asked for.
 /// consecutive, variance: RenderSettings::error times the threshold: they know nothing of other errors.
-/// The Aleph map is that of pixel centres. A pixel's samples reach its neighbours, and beside the outline of a moving
-/// object may belong to another surface than the centre. So each pixel keeps to the strictest threshold of the nine
-/// around it.
+/// The Aleph map is that of pixel centres. Beside the outline of a moving object, a pixel's samples may belong to another
+/// surface than its centre, which moves less and is seen better. So a pixel there keeps to the strictest threshold of
+/// the nine around it.
 /// @return empty for rules that need none
 Image<float> compute_sampling_tolerance(const VisibleLimits& limits, const RenderSettings& settings, double exposure);
 

@@ -17,14 +17,14 @@ struct SquaredErrors {
     std::array<double, light_part_count> parts{};
 };
 
-/// Of a pixel's mean, from the pixel and those around it.
-SquaredErrors estimate_sampling(const Image<PixelSamples>& pixels, int x, int y) {
+/// Of a pixel's mean, from the pixel and those around it that are like it (estimate_mean).
+SquaredErrors estimate_sampling(const Image<PixelSamples>& pixels, const Image<Outline>& outlines, int x, int y) {
     SquaredErrors sum;
     int count = 0;
     for (int ny = std::max(0, y - 1); ny <= std::min(pixels.height - 1, y + 1); ++ny) {
         for (int nx = std::max(0, x - 1); nx <= std::min(pixels.width - 1, x + 1); ++nx) {
             const PixelSamples::Error& error = pixels(nx, ny).error();
-            if (error.samples == 0) continue;
+            if (error.samples == 0 || !are_alike(outlines, x, y, nx, ny)) continue;
             ++count;
             sum.total += static_cast<double>(error.total) * error.samples;
             for (std::size_t i = 0; i < sum.parts.size(); ++i) {
@@ -43,7 +43,7 @@ using CauseErrors = std::array<double, cause_count>;
 /// Squared errors by cause.
 CauseErrors find_causes(const ErrorInput& input, int x, int y) {
     const PixelSamples& pixel = input.pixels(x, y);
-    const SquaredErrors sampled = estimate_sampling(input.pixels, x, y);
+    const SquaredErrors sampled = estimate_sampling(input.pixels, input.outlines, x, y);
     CauseErrors errors{};
     const auto error = [&errors](ErrorCause cause) -> double& { return errors[static_cast<std::size_t>(cause)]; };
     double& of_surfaces = error(input.blurred ? ErrorCause::blur : ErrorCause::edges);

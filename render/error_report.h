@@ -6,6 +6,7 @@
 
 #include "engine/base/image.h"
 #include "engine/base/viewing.h"
+#include "render/outlines.h"
 #include "render/pixel_samples.h"
 
 namespace aleph {
@@ -39,6 +40,7 @@ struct ErrorInput {
     const Image<PixelSamples>& pixels;
     const Image<float>& threshold;  ///< cd/m2
     const Image<float>& accuracy;   ///< alpha
+    const Image<Outline>& outlines;
     double luminance_scale = 1.0;   ///< cd/m2 for a luminance of 1 of the samples: exposure times display white
     bool blurred = false;           ///< the shutter or the lens is open
 };

@@ -17,13 +17,14 @@ std::optional<PixelSurface> find_surface(const IndirectContext& context, const S
     return surface;
 }
 
-Image<FillPoint> find_points(const IndirectContext& context, const SampleHits& sample, RayCounts& counts) {
+Image<FillPoint> find_points(const IndirectContext& context, const SampleHits& sample, int step, RayCounts& counts) {
     std::mutex counts_mutex;
     Image<FillPoint> points(sample.hits.width, sample.hits.height);
     parallel_rows(points.height, 4, [&](int begin, int end) {
         RayTask task(context.lighting.rays);
         for (int y = begin; y < end; ++y) {
-            for (int x = 0; x < points.width; ++x) {
+            if (y % step != 0) continue;
+            for (int x = 0; x < points.width; x += step) {
                 if (sample.hits(x, y).instance == no_index) continue;
                 const std::optional<PixelSurface> surface = find_surface(context, sample, x, y);
                 if (!surface || !surface->material.has_diffuse()) continue;

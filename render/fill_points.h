@@ -15,8 +15,8 @@ struct FillPoint {
 /// The surface that a pixel shows, in the pose whose light is wanted; nothing if it is not there.
 std::optional<PixelSurface> find_surface(const IndirectContext& context, const SampleHits& sample, int x, int y);
 
-/// Those of all pixels.
+/// Those of every `step`th pixel of every `step`th row; elsewhere no light is needed.
 /// @param counts  increased by the rays cast
-Image<FillPoint> find_points(const IndirectContext& context, const SampleHits& sample, RayCounts& counts);
+Image<FillPoint> find_points(const IndirectContext& context, const SampleHits& sample, int step, RayCounts& counts);
 
 }  // namespace aleph

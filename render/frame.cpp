@@ -75,6 +75,7 @@ class FrameShading {
         if (options_.limits != nullptr) {
             plan.tolerance = compute_sampling_tolerance(*options_.limits, settings, exposure);
             plan.aleph = options_.limits->aleph;
+            plan.outlines = options_.limits->outlines;
             systematic_ = compute_systematic_tolerance(*options_.limits, settings, exposure);
         }
         sample_by_stages(plan, pixels_, [&](std::span<const PixelRange> ranges) { take(ranges); });
@@ -99,6 +100,7 @@ class FrameShading {
     SamplePlace place(int index) const {
         SamplePlace place = place_;
         place.index = index;
+        place.spacing = find_spacing(context_.settings, index);
         return place;
     }
 
@@ -231,6 +233,7 @@ class FrameShading {
         out_.errors = estimate_errors({.pixels = pixels_,
                                        .threshold = options_.limits->threshold,
                                        .accuracy = options_.limits->accuracy,
+                                       .outlines = options_.limits->outlines,
                                        .luminance_scale = exposure * options_.limits->viewing.display_white,
                                        .blurred = options_.at_sample || options_.lens.radius > 0.0});
         out_.error_shares = count_errors(out_.errors, settings.error > 0.0 ? settings.error : 1.0);

@@ -13,9 +13,10 @@ namespace aleph {
 struct SamplingPlan {
     Sampling rule = Sampling::uniform;
     VarianceTest test = VarianceTest::standard_error;
-    int most = 1;            ///< samples of a pixel
-    Image<float> tolerance;  ///< of luminance, in the samples' unit (is_enough); empty for `uniform` and `protocol`
-    Image<float> aleph;      ///< for `protocol`
+    int most = 1;             ///< samples of a pixel
+    Image<float> tolerance;   ///< of luminance, in the samples' unit (is_enough); empty for `uniform` and `protocol`
+    Image<float> aleph;       ///< for `protocol`
+    Image<Outline> outlines;  ///< for `threshold`; empty: none
 };
 
 /// Samples of one pixel: those from `first` up to, not including, `last`.
@@ -31,8 +32,9 @@ void take_in_turn(std::span<const PixelRange> ranges, const TakeSample& take);
 /// Adds samples to the pixels. The ranges go from row to row.
 using TakeSamples = std::function<void(std::span<const PixelRange> ranges)>;
 
-/// Takes samples until the rule stops at every pixel. Between two stages the numbers of samples double. A decision
-/// reads what all pixels have after a stage, so the result does not depend on the number of threads.
+/// Takes samples until the rule stops at every pixel. At each stage the pixels that do not have enough double their
+/// samples. A decision reads what all pixels have after a stage, so the result does not depend on the number of
+/// threads. A pixel that had enough goes on when the later samples of its neighbours show more noise.
 /// @param pixels  what `take` adds to; read between stages
 void sample_by_stages(const SamplingPlan& plan, const Image<PixelSamples>& pixels, const TakeSamples& take);
 

@@ -1,23 +1,27 @@
 #include "render/sample_place.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+
+#include "render/stopping_rule.h"
 
 namespace aleph {
 
-namespace {
-
-constexpr int counted_samples = 4;  // of a pixel, where their number is not known beforehand
-
-}  // namespace
+float find_spacing(const RenderSettings& settings, int index) {
+    const auto first_of_stage = static_cast<unsigned>(std::max(index + 1, own_samples));
+    const int count = settings.sampling == Sampling::uniform
+                          ? settings.spp
+                          : std::min(settings.spp, static_cast<int>(std::bit_ceil(first_of_stage)));
+    return 1.0f / std::sqrt(static_cast<float>(count));
+}
 
 SamplePlace make_sample_place(const RenderSettings& settings, const Lens& lens, bool blended, std::uint32_t moment,
                               int index) {
-    const int count = settings.sampling == Sampling::uniform ? settings.spp : std::min(settings.spp, counted_samples);
     SamplePlace place;
     place.index = index;
     place.centered = settings.spp == 1;
-    place.spacing = 1.0f / std::sqrt(static_cast<float>(count));
+    place.spacing = find_spacing(settings, index);
     place.lens = lens;
     place.filter = settings.filter;
     place.seed = settings.seed;

@@ -130,8 +130,14 @@ FrameOutput Sequence::render(std::int64_t frame, const FrameRequest& request) {
         options.blended = s.blended;
         options.record_maps = request.maps;
         if (shutter) options.at_sample = open_shutter(s, *shutter, random_frame, out.view);
+        Image<Outline> outlines;
+        if (!out.threshold.empty()) {
+            outlines = find_outlines(out.view, centers.hits, out.motion);
+            const double error = s.settings.error > 0.0 ? s.settings.error : 1.0;
+            mark_contrasts(outlines, out.estimate, out.threshold, error / s.scene.viewing.display_white);
+        }
         const VisibleLimits limits{out.threshold, out.perception.aleph, out.alpha, out.indirect_luminance,
-                                   s.scene.viewing};
+                                   outlines,      s.scene.viewing};
         if (!out.threshold.empty()) options.limits = &limits;
         const LightingContext lighting = s.lighting();
         const IndirectContext context{.lighting = lighting,

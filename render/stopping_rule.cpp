@@ -8,11 +8,11 @@ namespace aleph {
 namespace {
 
 constexpr int thesis_samples = 16;  // least number of the thesis's rules
-constexpr int own_samples = 4;      // and of ours, whose neighbours tell the error of eight times as many
+constexpr int outline_samples = 8;  // where few neighbours are alike, and each may miss what the others see
 
 }  // namespace
 
-MeanEstimate estimate_mean(const Image<PixelSamples>& pixels, int x, int y) {
+MeanEstimate estimate_mean(const Image<PixelSamples>& pixels, const Image<Outline>& outlines, int x, int y) {
     const PixelSamples& pixel = pixels(x, y);
     double error2 = 0.0, variance = 0.0;  // of one sample
     int count = 0;
@@ -22,11 +22,15 @@ MeanEstimate estimate_mean(const Image<PixelSamples>& pixels, int x, int y) {
         variance += other.sample_variance();
         ++count;
     };
-    for (int ny = std::max(0, y - 1); ny <= std::min(pixels.height - 1, y + 1); ++ny) {
-        for (int nx = std::max(0, x - 1); nx <= std::min(pixels.width - 1, x + 1); ++nx) {
-            if (nx != x || ny != y) add(pixels(nx, ny));
+    const auto add_neighbours = [&](auto&& counts) {
+        for (int ny = std::max(0, y - 1); ny <= std::min(pixels.height - 1, y + 1); ++ny) {
+            for (int nx = std::max(0, x - 1); nx <= std::min(pixels.width - 1, x + 1); ++nx) {
+                if ((nx != x || ny != y) && counts(nx, ny)) add(pixels(nx, ny));
+            }
         }
-    }
+    };
+    add_neighbours([&](int nx, int ny) { return are_alike(outlines, x, y, nx, ny); });
+    if (count == 0) add_neighbours([](int, int) { return true; });
     if (pixels.size() == 1) add(pixel);
     MeanEstimate estimate{pixel.taken()};
     if (count == 0) return estimate;
@@ -56,7 +60,7 @@ int protocol_samples(double aleph, int most) {
     return std::min(most, std::max(thesis_samples, static_cast<int>(samples)));
 }
 
-int first_samples(Sampling rule, int most) {
+int first_samples(Sampling rule, Outline outline, int most) {
     switch (rule) {
         case Sampling::uniform:
         case Sampling::protocol:
@@ -67,7 +71,7 @@ int first_samples(Sampling rule, int most) {
         case Sampling::threshold:
             break;
     }
-    return std::min(most, own_samples);
+    return std::min(most, outline == Outline::none ? own_samples : outline_samples);
 }
 
 }  // namespace aleph

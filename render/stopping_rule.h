@@ -2,15 +2,19 @@
 // When a pixel has enough samples (Yee 2000, section 6.2, and a rule of our own).
 
 #include "engine/base/image.h"
+#include "render/outlines.h"
 #include "render/pixel_samples.h"
 #include "render/settings.h"
 
 namespace aleph {
 
-/// Standard errors that a tolerance has to hold. At the limit, 3.6 % of a normal distribution would lie beyond. But few
-/// pixels are at the limit: numbers of samples double, and halves overrate the error of even samples. In pictures,
-/// about half a percent of the pixels is beyond (render/README.md).
-inline constexpr double error_deviations = 2.1;
+/// Standard errors that a tolerance has to hold. At the limit, 6 % of a normal distribution would lie beyond. But few
+/// pixels are at the limit: numbers of samples double, and halves overrate the error of even samples. In pictures, less
+/// than half a percent of the pixels is beyond (render/README.md).
+inline constexpr double error_deviations = 1.9;
+
+/// First samples of a pixel with `threshold`: its neighbours tell the error of eight times as many.
+inline constexpr int own_samples = 2;
 
 /// What is known of a pixel's mean. A pixel's own samples never decide when it stops: a pixel whose first samples
 /// happen to agree would stop early, more often at a value that is too low than at one that is too high, and the
@@ -21,8 +25,10 @@ struct MeanEstimate {
     double variance = 0.0;  ///< of one sample's luminance
 };
 
-/// From the eight pixels around (x, y); from the pixel itself where there are none.
-MeanEstimate estimate_mean(const Image<PixelSamples>& pixels, int x, int y);
+/// From those of the eight pixels around (x, y) that have an outline as it has, or have none as it has none: beside an
+/// outline the noise is another. From all eight where there is no such pixel; from the pixel itself where it is alone.
+/// @param outlines  of the same size, or empty: none
+MeanEstimate estimate_mean(const Image<PixelSamples>& pixels, const Image<Outline>& outlines, int x, int y);
 
 /// Whether a rule stops at this estimate.
 /// consecutive (6.10): the means of this stage and of the one before differ by less than the tolerance.
@@ -36,6 +42,6 @@ bool is_enough(Sampling rule, VarianceTest test, const MeanEstimate& mean, doubl
 int protocol_samples(double aleph, int most);
 
 /// Samples before a rule is asked first.
-int first_samples(Sampling rule, int most);
+int first_samples(Sampling rule, Outline outline, int most);
 
 }  // namespace aleph

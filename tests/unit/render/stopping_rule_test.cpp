@@ -102,7 +102,7 @@ TEST(StoppingRule, MC17_BlackPixelsStopAtTheLeastNumber) {
             const SamplingPlan plan = make_plan(rule, 512, 8, 6, tolerance, 1000.0f);
             const Image<PixelSamples> pixels = sample_picture(plan, 8, 6, 0, [](RandomStream&) { return 0.0; });
             for (const PixelSamples& pixel : pixels.pixels) {
-                EXPECT_EQ(pixel.taken(), rule == Sampling::threshold ? 4 : 16);
+                EXPECT_EQ(pixel.taken(), rule == Sampling::threshold ? own_samples : 16);
             }
         }
     }
@@ -117,7 +117,7 @@ TEST(StoppingRule, ToleranceThatIsNotANumberSamplesToTheEnd) {
 TEST(StoppingRule, OnePixelDecidesByItself) {
     const SamplingPlan plan = make_plan(Sampling::threshold, 4096, 1, 1, 0.02f);
     const Image<PixelSamples> pixels = sample_picture(plan, 1, 1, 1, [](RandomStream& r) { return r.next(); });
-    EXPECT_GT(pixels(0, 0).taken(), 4);
+    EXPECT_GT(pixels(0, 0).taken(), own_samples);
     EXPECT_LT(pixels(0, 0).taken(), 4096);
 }
 
@@ -137,8 +137,42 @@ TEST(StoppingRule, SamplesFollowTheTolerance) {
         const double needed = std::pow(error_deviations * deviation / tolerance, 2.0);
         EXPECT_GT(samples, 0.7 * needed);
         EXPECT_LT(samples, 2.2 * needed);
-        EXPECT_LE(beyond, 1200 * 6 / 100);  // 3.6 % of a normal distribution at the limit
+        EXPECT_LE(beyond, 1200 * 6 / 100);  // 5.7 % of a normal distribution at the limit
     }
+}
+
+TEST(StoppingRule, PixelsWithAnOutlineAreJudgedByOthersWithOne) {
+    Image<PixelSamples> pixels(3, 3);
+    Image<Outline> outlines(3, 3, Outline::none);
+    for (int y = 0; y < 3; ++y) {
+        outlines(1, y) = Outline::still;
+        for (int x = 0; x < 3; ++x) {
+            for (int i = 0; i < 2; ++i) pixels(x, y).add(grey(x == 1 ? static_cast<float>(i) : 0.0f));
+        }
+    }
+    EXPECT_NEAR(estimate_mean(pixels, outlines, 1, 1).error2, 0.25, 1e-7);
+    EXPECT_EQ(estimate_mean(pixels, outlines, 0, 1).error2, 0.0);
+    EXPECT_NEAR(estimate_mean(pixels, {}, 1, 1).error2, 0.25 * 2.0 / 8.0, 1e-7);
+    outlines(1, 0) = outlines(1, 2) = Outline::none;  // alone among others
+    EXPECT_NEAR(estimate_mean(pixels, outlines, 1, 1).error2, 0.25 * 2.0 / 8.0, 1e-7);
+}
+
+TEST(StoppingRule, APixelGoesOnWhenItsNeighboursShowNoiseLater) {
+    // The first samples of all pixels agree. Later ones differ in the left half only.
+    const SamplingPlan plan = make_plan(Sampling::threshold, 64, 8, 4, 0.1f);
+    Image<PixelSamples> pixels(8, 4);
+    sample_by_stages(plan, pixels, [&](std::span<const PixelRange> ranges) {
+        for (const PixelRange& range : ranges) {
+            const bool starts = range.first == 0;
+            for (int i = range.first; i < range.last; ++i) {
+                const float value = starts ? (range.x == 0 ? static_cast<float>(i) : 0.5f) : static_cast<float>(i % 2);
+                pixels(range.x, range.y).add(grey(range.x < 4 ? value : 0.5f));
+            }
+        }
+    });
+    EXPECT_GT(pixels(0, 1).taken(), own_samples);  // beside noise from the beginning
+    EXPECT_GT(pixels(1, 1).taken(), own_samples);
+    EXPECT_EQ(pixels(7, 1).taken(), own_samples);
 }
 
 TEST(StoppingRule, TheVarianceRuleReadsDeviationOrError) {
@@ -212,11 +246,14 @@ TEST(PixelSamples, InvalidSamplesAreLeftOut) {
     EXPECT_NEAR(sum.error().total, 1.0 * 2.0 / 9.0 * 4.0, 1e-5);  // means 1 and 3 of one and two samples
 }
 
-TEST(ErrorBudget, EachPixelKeepsToTheStrictestThresholdAround) {
+TEST(ErrorBudget, MovingOutlinesKeepToTheStrictestThresholdAround) {
     Image<float> threshold(5, 5, 8.0f);
     threshold(2, 2) = 2.0f;
     const Image<float> aleph(5, 5, 1.0f), accuracy(5, 5, 0.1f), none;
-    const VisibleLimits limits{threshold, aleph, accuracy, none, ViewingConditions{}};
+    Image<Outline> outlines(5, 5, Outline::none);
+    outlines(1, 1) = outlines(3, 2) = Outline::moving;
+    outlines(2, 1) = Outline::still;
+    const VisibleLimits limits{threshold, aleph, accuracy, none, outlines, ViewingConditions{}};
     RenderSettings settings;
     settings.sampling = Sampling::variance;
     settings.error = 0.5;
@@ -225,13 +262,16 @@ TEST(ErrorBudget, EachPixelKeepsToTheStrictestThresholdAround) {
     EXPECT_NEAR(tolerance(1, 1), 0.5 * 2.0 / white / 4.0, 1e-8);
     EXPECT_NEAR(tolerance(3, 2), 0.5 * 2.0 / white / 4.0, 1e-8);
     EXPECT_NEAR(tolerance(0, 0), 0.5 * 8.0 / white / 4.0, 1e-8);
+    EXPECT_NEAR(tolerance(2, 1), 0.5 * 8.0 / white / 4.0, 1e-8);
+    EXPECT_NEAR(tolerance(1, 2), 0.5 * 8.0 / white / 4.0, 1e-8);
     settings.sampling = Sampling::uniform;
     EXPECT_TRUE(compute_sampling_tolerance(limits, settings, 4.0).empty());
 }
 
 TEST(ErrorBudget, TheSharesSumToWhatWasAskedFor) {
     const Image<float> threshold(3, 3, 2.0f), aleph(3, 3, 1.0f), accuracy(3, 3, 0.1f), indirect(3, 3, 0.2f);
-    const VisibleLimits limits{threshold, aleph, accuracy, indirect, ViewingConditions{}};
+    const Image<Outline> outlines(3, 3, Outline::none);
+    const VisibleLimits limits{threshold, aleph, accuracy, indirect, outlines, ViewingConditions{}};
     RenderSettings settings;
     follow_error(settings, 1.5);
     const double asked = 1.5 * 2.0 / limits.viewing.display_white;

@@ -1,0 +1,42 @@
+#pragma once
+// Which pixels show more than one thing, told from pixel centres.
+
+#include <cstdint>
+
+#include "engine/base/image.h"
+#include "engine/pose/camera_view.h"
+#include "engine/rays/hit.h"
+#include "motion/motion_field.h"
+
+namespace aleph {
+
+/// What the centres of a pixel and the eight around it show.
+enum class Outline : std::uint8_t {
+    none = 0,   ///< one face, evenly lit
+    still = 1,  ///< several faces, which move alike, or a contrast
+    moving = 2  ///< several faces, some of which move differently
+};
+
+/// Faces differ where pixel centres show several objects, or where one object has a step or a crease: along a plane the
+/// inverse distance from a pinhole is linear in the picture, to second order in the angle of a pixel. A
+/// step of half a pixel's size or more counts, or a crease of some 30 degrees.
+/// No random number is involved, so that what depends on outlines, such as when a pixel stops, favours no samples.
+/// @param hits    through pixel centres, of the view's size
+/// @param motion  of these surfaces; empty: nothing moves
+Image<Outline> find_outlines(const CameraView& view, const Image<Hit>& hits, const MotionField& motion);
+
+/// Marks pixels without an outline as `still` where the luminances of the nine differ by more than half of what is
+/// tolerated, as at shadows and in textures: a few samples of one pixel may miss what those of another meet.
+/// @param estimate   quick estimate of the frame, at pixel centres
+/// @param threshold  cd/m2
+/// @param tolerated  luminance of the estimate that is tolerated, per cd/m2 of the threshold
+void mark_contrasts(Image<Outline>& outlines, const Image<Rgb>& estimate, const Image<float>& threshold,
+                    double tolerated);
+
+/// Whether both pixels have an outline, or neither has one: their samples vary alike.
+/// @param outlines  empty: none has
+inline bool are_alike(const Image<Outline>& outlines, int x, int y, int other_x, int other_y) {
+    return outlines.empty() || (outlines(x, y) == Outline::none) == (outlines(other_x, other_y) == Outline::none);
+}
+
+}  // namespace aleph
