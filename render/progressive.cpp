@@ -23,25 +23,22 @@ std::vector<PixelRange> first_ranges(const SamplingPlan& plan, const Image<Pixel
     return ranges;
 }
 
-/// The pixels that do not have enough samples. Also of those that had before: their neighbours know more now.
-std::vector<PixelRange> next_ranges(const SamplingPlan& plan, const Image<PixelSamples>& pixels) {
-    std::vector<std::uint8_t> goes_on(pixels.size());
-    parallel_rows(pixels.height, 8, [&](int begin, int end) {
-        for (int y = begin; y < end; ++y) {
-            for (int x = 0; x < pixels.width; ++x) {
-                if (pixels(x, y).taken() >= plan.most) continue;
-                goes_on[pixels.index(x, y)] =
-                    !is_enough(plan.rule, plan.test, estimate_mean(pixels, plan.outlines, x, y), plan.tolerance(x, y));
-            }
+/// The pixels of a stage that need another one.
+std::vector<PixelRange> next_ranges(const SamplingPlan& plan, const Image<PixelSamples>& pixels,
+                                    const std::vector<PixelRange>& stage) {
+    std::vector<std::uint8_t> goes_on(stage.size());
+    parallel_for(stage.size(), 4096, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) {
+            const PixelRange& range = stage[i];
+            if (range.last >= plan.most) continue;
+            goes_on[i] = !is_enough(plan.rule, plan.test, estimate_mean(pixels, plan.outlines, range.x, range.y),
+                                    plan.tolerance(range.x, range.y));
         }
     });
     std::vector<PixelRange> next;
-    for (int y = 0; y < pixels.height; ++y) {
-        for (int x = 0; x < pixels.width; ++x) {
-            if (!goes_on[pixels.index(x, y)]) continue;
-            const int taken = pixels(x, y).taken();
-            next.push_back({x, y, taken, std::min(2 * taken, plan.most)});
-        }
+    for (std::size_t i = 0; i < stage.size(); ++i) {
+        const PixelRange& range = stage[i];
+        if (goes_on[i]) next.push_back({range.x, range.y, range.last, std::min(2 * range.last, plan.most)});
     }
     return next;
 }
@@ -77,7 +74,7 @@ void sample_by_stages(const SamplingPlan& plan, const Image<PixelSamples>& pixel
     while (true) {
         take(stage);
         if (plan.tolerance.empty()) return;
-        stage = next_ranges(plan, pixels);
+        stage = next_ranges(plan, pixels, stage);
         if (stage.empty()) return;
     }
 }

@@ -12,30 +12,45 @@ constexpr int outline_samples = 8;  // where few neighbours are alike, and each 
 
 }  // namespace
 
-MeanEstimate estimate_mean(const Image<PixelSamples>& pixels, const Image<Outline>& outlines, int x, int y) {
-    const PixelSamples& pixel = pixels(x, y);
-    double error2 = 0.0, variance = 0.0;  // of one sample
+namespace {
+
+/// Sums over pixels around one.
+struct NoiseSum {
+    double error2 = 0.0, variance = 0.0;  ///< of one sample
     int count = 0;
-    const auto add = [&](const PixelSamples& other) {
-        if (other.error().samples == 0) return;
-        error2 += static_cast<double>(other.error().total) * other.error().samples;
-        variance += other.sample_variance();
+
+    void add(const PixelSamples& pixel) {
+        if (pixel.error().samples == 0) return;
+        error2 += static_cast<double>(pixel.error().total) * pixel.error().samples;
+        variance += pixel.sample_variance();
         ++count;
-    };
-    const auto add_neighbours = [&](auto&& counts) {
-        for (int ny = std::max(0, y - 1); ny <= std::min(pixels.height - 1, y + 1); ++ny) {
-            for (int nx = std::max(0, x - 1); nx <= std::min(pixels.width - 1, x + 1); ++nx) {
-                if ((nx != x || ny != y) && counts(nx, ny)) add(pixels(nx, ny));
-            }
+    }
+};
+
+template <class Counts>
+NoiseSum sum_around(const Image<PixelSamples>& pixels, int x, int y, int reach, const Counts& counts) {
+    NoiseSum sum;
+    for (int ny = std::max(0, y - reach); ny <= std::min(pixels.height - 1, y + reach); ++ny) {
+        for (int nx = std::max(0, x - reach); nx <= std::min(pixels.width - 1, x + reach); ++nx) {
+            if ((nx != x || ny != y) && counts(nx, ny)) sum.add(pixels(nx, ny));
         }
-    };
-    add_neighbours([&](int nx, int ny) { return are_alike(outlines, x, y, nx, ny); });
-    if (count == 0) add_neighbours([](int, int) { return true; });
-    if (pixels.size() == 1) add(pixel);
-    MeanEstimate estimate{pixel.taken()};
-    if (count == 0) return estimate;
-    estimate.error2 = error2 / (static_cast<double>(count) * pixel.taken());
-    estimate.variance = variance / count;
+    }
+    return sum;
+}
+
+}  // namespace
+
+MeanEstimate estimate_mean(const Image<PixelSamples>& pixels, const Image<Outline>& outlines, int x, int y) {
+    const auto alike = [&](int nx, int ny) { return are_alike(outlines, x, y, nx, ny); };
+    NoiseSum near = sum_around(pixels, x, y, 1, alike), wide = sum_around(pixels, x, y, 2, alike);
+    if (wide.count == 0) near = sum_around(pixels, x, y, 1, [](int, int) { return true; });
+    if (pixels.size() == 1) near.add(pixels(x, y));
+    MeanEstimate estimate{pixels(x, y).taken()};
+    for (const NoiseSum& sum : {near, wide}) {
+        if (sum.count == 0) continue;
+        estimate.error2 = std::max(estimate.error2, sum.error2 / (sum.count * static_cast<double>(estimate.samples)));
+        estimate.variance = std::max(estimate.variance, sum.variance / sum.count);
+    }
     return estimate;
 }
 

@@ -25,8 +25,9 @@ struct MeanEstimate {
     double variance = 0.0;  ///< of one sample's luminance
 };
 
-/// From those of the eight pixels around (x, y) that have an outline as it has, or have none as it has none: beside an
-/// outline the noise is another. From all eight where there is no such pixel; from the pixel itself where it is alone.
+/// The larger of what the eight pixels around (x, y) tell, and the 24. Only those count that have an outline as it has,
+/// or have none as it has none: beside an outline the noise is another. Where there is no such pixel, all eight
+/// tell; where it is alone, the pixel itself.
 /// @param outlines  of the same size, or empty: none
 MeanEstimate estimate_mean(const Image<PixelSamples>& pixels, const Image<Outline>& outlines, int x, int y);
 

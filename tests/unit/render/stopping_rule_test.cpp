@@ -153,26 +153,17 @@ TEST(StoppingRule, PixelsWithAnOutlineAreJudgedByOthersWithOne) {
     EXPECT_NEAR(estimate_mean(pixels, outlines, 1, 1).error2, 0.25, 1e-7);
     EXPECT_EQ(estimate_mean(pixels, outlines, 0, 1).error2, 0.0);
     EXPECT_NEAR(estimate_mean(pixels, {}, 1, 1).error2, 0.25 * 2.0 / 8.0, 1e-7);
-    outlines(1, 0) = outlines(1, 2) = Outline::none;  // alone among others
-    EXPECT_NEAR(estimate_mean(pixels, outlines, 1, 1).error2, 0.25 * 2.0 / 8.0, 1e-7);
-}
-
-TEST(StoppingRule, APixelGoesOnWhenItsNeighboursShowNoiseLater) {
-    // The first samples of all pixels agree. Later ones differ in the left half only.
-    const SamplingPlan plan = make_plan(Sampling::threshold, 64, 8, 4, 0.1f);
-    Image<PixelSamples> pixels(8, 4);
-    sample_by_stages(plan, pixels, [&](std::span<const PixelRange> ranges) {
-        for (const PixelRange& range : ranges) {
-            const bool starts = range.first == 0;
-            for (int i = range.first; i < range.last; ++i) {
-                const float value = starts ? (range.x == 0 ? static_cast<float>(i) : 0.5f) : static_cast<float>(i % 2);
-                pixels(range.x, range.y).add(grey(range.x < 4 ? value : 0.5f));
-            }
-        }
-    });
-    EXPECT_GT(pixels(0, 1).taken(), own_samples);  // beside noise from the beginning
-    EXPECT_GT(pixels(1, 1).taken(), own_samples);
-    EXPECT_EQ(pixels(7, 1).taken(), own_samples);
+    pixels = Image<PixelSamples>(5, 5);
+    outlines = Image<Outline>(5, 5, Outline::none);
+    outlines(1, 1) = Outline::still;  // alone among others
+    for (PixelSamples& pixel : pixels.pixels) {
+        for (int i = 0; i < 2; ++i) pixel.add(grey(0.0f));
+    }
+    for (int i = 0; i < 2; ++i) pixels(0, 1).add(grey(static_cast<float>(i)));
+    EXPECT_GT(estimate_mean(pixels, outlines, 1, 1).error2, 0.0);
+    // Noise two pixels away, where the nearest are calm.
+    EXPECT_EQ(estimate_mean(pixels, {}, 3, 1).error2, 0.0);
+    EXPECT_GT(estimate_mean(pixels, {}, 2, 1).error2, 0.0);
 }
 
 TEST(StoppingRule, TheVarianceRuleReadsDeviationOrError) {
