@@ -187,6 +187,14 @@ float bound_reflection(const LitSurface& lit) {
     return bound;
 }
 
+/// Whether all samples of the lobes have the same direction.
+bool is_single_mirror(const LitSurface& lit, const LobeShares& shares) {
+    const auto share = [&](Lobe lobe) { return shares[static_cast<std::size_t>(lobe)]; };
+    const SurfaceMaterial& material = lit.material;
+    return (material.is_mirror() && share(Lobe::gloss) == 1.0f) ||
+           (material.is_coat_mirror() && share(Lobe::coat) == 1.0f);
+}
+
 }  // namespace
 
 Rgb sample_direct_light(const LightingContext& context, RayTask& task, const LitSurface& lit, const LobeShares& shares,
@@ -199,8 +207,9 @@ Rgb sample_direct_light(const LightingContext& context, RayTask& task, const Lit
     if (!std::isfinite(lights.cut().total)) return Rgb(lights.cut().total);
     Rgb sum(0.0f);
     ShadowBatch shadows(context, task, sum);
+    SequenceOfUse points = sequence.of(SampleUse::light_point);
     for (int i = samples.first; i < samples.first + samples.count; ++i) {
-        lights.add_sample(sequence.at_2d(SampleUse::light_point, i), samples.count, 0.0f, shadows);
+        lights.add_sample(points.at(i), samples.count, 0.0f, shadows);
     }
     shadows.flush();
     return sum;
@@ -219,12 +228,18 @@ SampledLight compute_sampled_light(const LightingContext& context, RayTask& task
     const glm::vec2 shift = random.next_2d();
     const float pick_shift = random.next();
     if (shares == LobeShares{}) return light;
-    for (int i = 0; i < points.count; ++i) {
+    const int paths = is_single_mirror(lit, shares) ? 1 : points.count;
+    PathState state = beyond;
+    if (paths < points.count) {
+        state.light_samples *= points.count;
+        state.survival *= static_cast<float>(points.count);
+    }
+    for (int i = 0; i < paths; ++i) {
         const float pick = fraction(pick_shift + static_cast<float>(i * points.parts + points.part) * 0.75487767f);
         const ScatterSample sample = sample_scatter(lit, shares, pick, points.at(i, shift), path_random.next());
-        light.lobes += follow_sample(context, task, lit, sample, beyond, path_random);
+        light.lobes += follow_sample(context, task, lit, sample, state, path_random);
     }
-    light.lobes /= static_cast<float>(points.count);
+    light.lobes /= static_cast<float>(paths);
     return light;
 }
 

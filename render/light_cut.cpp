@@ -63,12 +63,16 @@ int find_brightest_group(const LightTree& tree, const Candidates& candidates, fl
 /// Marks the faintest, by an estimate of 0, while all that are marked bring less than the limit. @return what they
 /// bring
 float leave_out(Candidates& candidates, float limit) {
-    std::array<int, LightCut::capacity> order;
-    const auto end = order.begin() + candidates.size;
-    std::iota(order.begin(), end, 0);
-    std::sort(order.begin(), end, [&](int a, int b) { return candidates.bounds[a] < candidates.bounds[b]; });
+    std::array<int, LightCut::capacity> faint;  // none of the others can be left out
+    auto end = faint.begin();
+    for (int i = 0; i < candidates.size; ++i) {
+        if (candidates.bounds[i] < limit) *end++ = i;
+    }
+    std::sort(faint.begin(), end, [&](int a, int b) {
+        return candidates.bounds[a] < candidates.bounds[b] || (candidates.bounds[a] == candidates.bounds[b] && a < b);
+    });
     float sum = 0.0f;
-    for (auto i = order.begin(); i != end && sum + candidates.bounds[*i] < limit; ++i) {
+    for (auto i = faint.begin(); i != end && sum + candidates.bounds[*i] < limit; ++i) {
         sum += candidates.bounds[*i];
         candidates.estimates[*i] = 0.0f;
     }
@@ -93,18 +97,14 @@ Candidates find_candidates(const LightTree& tree, const Receiver& receiver, floa
 }
 
 /// One of several by their weights. The number is stretched over it again, and the probability multiplied by its own.
-std::size_t choose(std::span<const float> weights, float total, LightPick& pick) {
-    const float place = pick.rest * total;
-    float below = 0.0f, sum = 0.0f;  // of the weights before the chosen one
-    std::size_t chosen = 0;
-    for (const float weight : weights) {
-        sum += weight;
-        const bool is_passed = sum <= place;
-        chosen += is_passed ? 1 : 0;
-        below = is_passed ? sum : below;
-    }
-    chosen = std::min(chosen, weights.size() - 1);
+/// @param ends  sums of the weights up to and including each
+std::size_t choose(std::span<const float> weights, std::span<const float> ends, LightPick& pick) {
+    const float total = ends.back(), place = pick.rest * total;
+    int passed = 0;
+    for (const float end : ends) passed += end <= place ? 1 : 0;
+    auto chosen = std::min(static_cast<std::size_t>(passed), weights.size() - 1);
     while (chosen > 0 && !(weights[chosen] > 0.0f)) --chosen;  // rounding at the end
+    const float below = chosen == 0 ? 0.0f : ends[chosen - 1];
     pick.rest = std::clamp((place - below) / weights[chosen], 0.0f, below_one);
     pick.probability *= weights[chosen] / total;
     return chosen;
@@ -118,7 +118,7 @@ LightCut take_all_lights(const LightSet& lights, const Receiver& receiver, float
     static_assert(LightCut::few % LightBounds::step == 0 && LightCut::few <= LightCut::capacity);
     bound_illuminances(lights.bounds, receiver.position, receiver.normal, behind,
                        {cut.weights.data(), lights.bounds.strength.size()});
-    for (int i = 0; i < cut.size; ++i) cut.total += cut.weights[i];
+    for (int i = 0; i < cut.size; ++i) cut.ends[i] = cut.total += cut.weights[i];
     return cut;
 }
 
@@ -135,6 +135,7 @@ LightCut find_light_cut(const LightSet& lights, const Receiver& receiver, float 
         cut.nodes[cut.size] = candidates.nodes[i];
         cut.weights[cut.size] = weight;
         cut.total += weight;
+        cut.ends[cut.size] = cut.total;
         cut.size += weight == 0.0f ? 0 : 1;
     }
     return cut;
@@ -147,16 +148,17 @@ LightPick pick_light(const LightSet& lights, const LightCut& cut, const Receiver
     pick.rest = number;
     pick.probability = 1.0f;
     const auto size = static_cast<std::size_t>(cut.size);
-    const std::size_t chosen = choose({cut.weights.data(), size}, cut.total, pick);
+    const std::size_t chosen = choose({cut.weights.data(), size}, {cut.ends.data(), size}, pick);
     int node = cut.has_all ? static_cast<int>(chosen) : cut.nodes[chosen];
     while (!lights.tree.is_light(node)) {
         const LightGroup& group = lights.tree.group(node);
         const LightReaches reaches = reach_of(group, receiver.position, receiver.normal, behind);
+        LightGroup::Values ends;
         float total = 0.0f;
-        for (const float estimate : reaches.estimates) total += estimate;
+        for (std::size_t i = 0; i < ends.size(); ++i) ends[i] = total += reaches.estimates[i];
         // A group is wider than its parts: it may be that none of them brings anything.
         if (!(total > 0.0f) || !std::isfinite(total)) return {};
-        node = group.children[choose(reaches.estimates, total, pick)];
+        node = group.children[choose(reaches.estimates, ends, pick)];
     }
     pick.light = node;
     return pick;

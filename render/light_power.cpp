@@ -46,7 +46,7 @@ LightNode make_node(const Emitter& emitter) {
     LightNode node;
     node.center = emitter.center;
     node.radius = emitter.radius;
-    const float radiance = luminance(emitter.radiance);
+    const float radiance = luminance(emitter.brightest);
     node.strength = finite_strength(radiance * emitter.area);
     node.most = finite_strength(std::numbers::pi_v<float> * radiance);
     if (emitter.double_sided) return node;
@@ -78,7 +78,7 @@ LightNode make_node(const PunctualLight& light) {
 LightBounds make_light_bounds(const ShadingScene& shading, const LightSet& lights) {
     LightBounds bounds;
     for (const Emitter& emitter : lights.emitters) {
-        add_light(bounds, emitter.center, true, emitter.radius, luminance(emitter.radiance) * emitter.area,
+        add_light(bounds, emitter.center, true, emitter.radius, luminance(emitter.brightest) * emitter.area,
                   find_axis(emitter));
     }
     for (const PunctualLight& light : lights.punctual) {

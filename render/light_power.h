@@ -14,7 +14,7 @@ namespace aleph {
 /// LightSet::bounds.
 LightBounds make_light_bounds(const ShadingScene& shading, const LightSet& lights);
 
-/// The lights as leaves of a tree. Textures are taken to be white at their brightest.
+/// The lights as leaves of a tree. Textures are taken to be as bright as Emitter::brightest all over.
 std::vector<LightNode> make_light_nodes(const ShadingScene& shading, const LightSet& lights);
 
 /// About the illuminance that light i brings to a point without obstacles. Above 0 wherever the light can bring any.

@@ -13,6 +13,7 @@
 #include "render/seen_light.h"
 #include "render/spherical_triangle.h"
 #include "render/surface_material.h"
+#include "render/texture.h"
 
 namespace aleph {
 
@@ -25,13 +26,18 @@ float pdf_by_area(const Emitter& emitter, float cos_at_light, float distance) {
     return distance * distance / (cos_at_light * emitter.area);
 }
 
-Emitter make_emitter(const PosedInstance& instance, const ShadingMaterial& material, int index) {
+Emitter make_emitter(const ShadingScene& shading, int index) {
+    const PosedInstance& instance = shading.instances[index];
+    const ShadingMaterial& material = shading.materials[instance.material];
     Emitter emitter;
     emitter.instance = index;
     emitter.double_sided = material.double_sided;
     emitter.textured = material.material != nullptr && material.material->emission_texture.image != no_index;
     emitter.pierced = material.material != nullptr && material.material->alpha_mode != Material::AlphaMode::opaque;
-    emitter.radiance = material.values.emission;
+    emitter.radiance = emitter.brightest = material.values.emission;
+    if (const int texture = shading.textures->materials[instance.material].emission.texture; texture != no_index) {
+        emitter.brightest *= glm::max(shading.textures->textures[texture].largest, 1.0f);
+    }
     const Mesh& mesh = *instance.mesh;
     std::vector<double> cumulative;
     double area = 0.0;
@@ -230,7 +236,7 @@ LightSet make_light_set(const ShadingScene& shading) {
         const PosedInstance& instance = shading.instances[i];
         const ShadingMaterial& material = shading.materials[instance.material];
         if (!instance.visible || !material.emits) continue;
-        Emitter emitter = make_emitter(instance, material, i);
+        Emitter emitter = make_emitter(shading, i);
         if (emitter.triangles.empty()) continue;
         lights.emitter_of_instance[i] = static_cast<int>(lights.emitters.size());
         lights.emitters.push_back(std::move(emitter));

@@ -22,6 +22,7 @@ struct Emitter {
     bool textured = false;
     bool pierced = false;    ///< some rays may pass it: a mask, or blended
     Rgb radiance{0.0f};      ///< without texture
+    Rgb brightest{0.0f};     ///< no less than the radiance anywhere: where its texture is brightest, or white
     float area = 0.0f;       ///< m2, of all triangles
     glm::vec3 center{0.0f};  ///< m, of a sphere around all triangles
     float radius = 0.0f;     ///< m, of that sphere

@@ -71,27 +71,39 @@ constexpr Points<bits> make_points(const Find& find) {
     return points;
 }
 
-constexpr Points<pixel_bits> of_pixel = make_points<pixel_bits>([](std::uint32_t i) { return find_point(0, i); });
-constexpr Points<8> of_low_sample = make_points<8>([](std::uint32_t i) { return find_point(i, 0); });
-constexpr Points<8> of_high_sample = make_points<8>([](std::uint32_t i) { return find_point(i << 8, 0); });
-
-std::uint32_t reverse_bits(std::uint32_t x) {
+constexpr std::uint32_t reverse_bits(std::uint32_t x) {
     x = (x & 0x55555555u) << 1 | (x >> 1 & 0x55555555u);
     x = (x & 0x33333333u) << 2 | (x >> 2 & 0x33333333u);
     x = (x & 0x0f0f0f0fu) << 4 | (x >> 4 & 0x0f0f0f0fu);
     return __builtin_bswap32(x);
 }
 
+/// Scrambling needs digits in reverse, the first one lowest. So the tables have them reversed, and their indices too.
+constexpr Digits reverse_digits(const Digits& digits) {
+    return {reverse_bits(digits.x), reverse_bits(digits.y)};
+}
+
+constexpr std::uint32_t reverse_index(std::uint32_t i, int bits) {
+    return reverse_bits(i) >> (32 - bits);
+}
+
+constexpr Points<pixel_bits> of_pixel = make_points<pixel_bits>(
+    [](std::uint32_t i) { return reverse_digits(find_point(0, reverse_index(i, pixel_bits))); });
+constexpr Points<8> of_low_sample =
+    make_points<8>([](std::uint32_t i) { return reverse_digits(find_point(reverse_index(i, 8), 0)); });
+constexpr Points<8> of_high_sample =
+    make_points<8>([](std::uint32_t i) { return reverse_digits(find_point(reverse_index(i, 8) << 8, 0)); });
+
 /// Owen scrambling: each bit is flipped or not by a hash of those above it (Laine and Karras 2011; multipliers: Vegdahl
 /// 2021, "Building a better LK hash").
-std::uint32_t scramble(std::uint32_t number, std::uint32_t seed) {
-    std::uint32_t x = reverse_bits(number);
+/// @param x  reversed, and so is the result
+std::uint32_t scramble(std::uint32_t x, std::uint32_t seed) {
     x ^= x * 0x3d20adeau;
     x += seed;
     x *= (seed >> 16) | 1;
     x ^= x * 0x05526c56u;
     x ^= x * 0x53a22864u;
-    return reverse_bits(x);
+    return x;
 }
 
 /// The lower 16 bits, at the even places.
@@ -103,8 +115,9 @@ std::uint32_t spread_bits(std::uint32_t x) {
     return (x | x << 1) & 0x55555555u;
 }
 
-/// The place of a pixel along a Z-shaped curve whose steps have another order at each level. Flips alone would leave
-/// the pixels of a block paired in the same way for all seeds, so that two uses are correlated within blocks.
+/// The place of a pixel, reversed, along a Z-shaped curve whose steps have another order at each level. Flips alone
+/// would leave the pixels of a block paired in the same way for all seeds, so that two uses are correlated within
+/// blocks.
 std::uint32_t place_pixel(std::uint32_t x, std::uint32_t y, std::uint64_t seed) {
     const std::uint64_t offset = mix_bits(seed + 0xa0761d6478bd642full);
     std::uint32_t even = spread_bits(x + static_cast<std::uint32_t>(offset));
@@ -113,38 +126,42 @@ std::uint32_t place_pixel(std::uint32_t x, std::uint32_t y, std::uint64_t seed) 
     odd ^= even & static_cast<std::uint32_t>(offset >> 32);
     even ^= odd & static_cast<std::uint32_t>(offset >> 31);
     odd ^= even & static_cast<std::uint32_t>(seed >> 32);
-    return scramble(even | odd << 1, static_cast<std::uint32_t>(seed)) & ((1u << pixel_bits) - 1);
+    return scramble(reverse_bits(even | odd << 1), static_cast<std::uint32_t>(seed)) >> (32 - pixel_bits);
 }
 
-/// The point of a sample before its digits are scrambled.
-Digits find_digits(std::uint32_t x, std::uint32_t y, std::uint32_t index, std::uint64_t seed) {
-    const std::uint64_t orders = mix_bits(seed + 0xd1342543de82ef95ull);
-    const std::uint32_t sample = scramble(index, static_cast<std::uint32_t>(orders >> 32));
-    Digits digits = of_pixel[place_pixel(x, y, orders)];
-    digits ^= of_low_sample[sample & 0xff];
-    digits ^= of_high_sample[sample >> 8 & 0xff];
-    return digits;
+std::uint64_t seed_of(std::uint64_t key, SampleUse use, std::uint32_t part) {
+    const std::uint64_t number = std::uint64_t{part} << 8 | static_cast<std::uint64_t>(use);
+    return mix_bits(key + (number + 1) * 0x9e3779b97f4a7c15ull);
 }
 
-std::uint64_t seed_of(std::uint64_t key, SampleUse use, std::uint32_t index) {
-    const std::uint64_t part = std::uint64_t{index >> sample_bits} << 8 | static_cast<std::uint64_t>(use);
-    return mix_bits(key + (part + 1) * 0x9e3779b97f4a7c15ull);
+/// A number in [0,1) from reversed digits.
+float number_of(std::uint32_t digits, std::uint64_t seed) {
+    return unit_float(reverse_bits(scramble(digits, static_cast<std::uint32_t>(seed))));
 }
 
 }  // namespace
 
-float PixelSequence::at_1d(SampleUse use, int index) const {
-    const auto i = static_cast<std::uint32_t>(index);
-    const std::uint64_t seed = seed_of(key_, use, i);
-    return unit_float(scramble(find_digits(x_, y_, i, seed).x, static_cast<std::uint32_t>(seed)));
+SequenceOfUse::SequenceOfUse(std::uint64_t key, std::uint32_t x, std::uint32_t y, SampleUse use)
+    : key_(key), x_(x), y_(y), use_(use) {
+    begin(0);
 }
 
-glm::vec2 PixelSequence::at_2d(SampleUse use, int index) const {
+void SequenceOfUse::begin(std::uint32_t part) {
+    part_ = part;
+    seed_ = seed_of(key_, use_, part);
+    const std::uint64_t orders = mix_bits(seed_ + 0xd1342543de82ef95ull);
+    order_ = static_cast<std::uint32_t>(orders >> 32);
+    const Digits& digits = of_pixel[place_pixel(x_, y_, orders)];
+    pixel_x_ = digits.x;
+    pixel_y_ = digits.y;
+}
+
+glm::vec2 SequenceOfUse::at(int index) {
     const auto i = static_cast<std::uint32_t>(index);
-    const std::uint64_t seed = seed_of(key_, use, i);
-    const Digits digits = find_digits(x_, y_, i, seed);
-    return {unit_float(scramble(digits.x, static_cast<std::uint32_t>(seed))),
-            unit_float(scramble(digits.y, static_cast<std::uint32_t>(seed >> 32)))};
+    if (i >> sample_bits != part_) begin(i >> sample_bits);
+    const std::uint32_t sample = scramble(reverse_bits(i), order_);
+    const Digits &low = of_low_sample[sample >> 24], &high = of_high_sample[sample >> 16 & 0xff];
+    return {number_of(pixel_x_ ^ low.x ^ high.x, seed_), number_of(pixel_y_ ^ low.y ^ high.y, seed_ >> 32)};
 }
 
 }  // namespace aleph

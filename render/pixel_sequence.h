@@ -24,6 +24,26 @@ enum class SampleUse : std::uint8_t {
     other,           ///< free for callers
 };
 
+/// The points of one use. What its samples have in common is computed once.
+class SequenceOfUse {
+  public:
+    SequenceOfUse(std::uint64_t key, std::uint32_t x, std::uint32_t y, SampleUse use);
+
+    /// PixelSequence::at_2d; fastest for indices in ascending order.
+    glm::vec2 at(int index);
+
+  private:
+    void begin(std::uint32_t part);
+
+    std::uint64_t key_;
+    std::uint32_t x_, y_;
+    SampleUse use_;
+    std::uint32_t part_ = 0;                   ///< of PixelSequence::length samples
+    std::uint64_t seed_ = 0;                   ///< of that part
+    std::uint32_t order_ = 0;                  ///< of its samples
+    std::uint32_t pixel_x_ = 0, pixel_y_ = 0;  ///< the pixel's digits
+};
+
 /// One digital net over samples and pixels. The first 2^k samples of a pixel, or 2^k from a multiple of 2^k, have
 /// one point in each of 2^k equal rectangles, of any shape of powers of two. Those of a block of 2^j x 2^j pixels
 /// together have one in each of 2^k 4^j such rectangles: the errors of neighbours cancel, as the eye averages
@@ -49,11 +69,12 @@ class PixelSequence {
           x_(static_cast<std::uint32_t>(x)),
           y_(static_cast<std::uint32_t>(y)) {}
 
+    SequenceOfUse of(SampleUse use) const { return {key_, x_, y_, use}; }
     /// Number of one sample, in [0,1).
     /// @param index  of the sample, from 0
-    float at_1d(SampleUse use, int index) const;
+    float at_1d(SampleUse use, int index) const { return at_2d(use, index).x; }
     /// Point of one sample, in [0,1)^2; its x is at_1d.
-    glm::vec2 at_2d(SampleUse use, int index) const;
+    glm::vec2 at_2d(SampleUse use, int index) const { return of(use).at(index); }
 
   private:
     std::uint64_t key_;

@@ -25,6 +25,7 @@ struct Texture {
     TextureSpace space = TextureSpace::linear;
     int width = 0, height = 0;             ///< texels of level 0
     std::vector<Image<glm::vec4>> coarse;  ///< level 1 and up
+    glm::vec3 largest{0.0f};               ///< of each colour channel, over all texels
 };
 
 /// A material's reference to a texture, ready for look-ups.

@@ -1,5 +1,6 @@
 // Texture pyramids: each texel is the mean of the finer level over exactly the texel's area.
 
+#include <algorithm>
 #include <cmath>
 #include <glm/vec4.hpp>
 
@@ -73,6 +74,18 @@ Image<glm::vec4> reduce(int width, int height, const Read& read) {
     return out;
 }
 
+/// Without values that are not numbers.
+glm::vec3 find_largest(const Texture& texture) {
+    glm::vec3 largest(0.0f);
+    for (int y = 0; y < texture.height; ++y) {
+        for (int x = 0; x < texture.width; ++x) {
+            const glm::vec4 texel = read_texel(*texture.image, x, y, texture.space);
+            for (int c = 0; c < 3; ++c) largest[c] = std::max(largest[c], texel[c]);
+        }
+    }
+    return largest;
+}
+
 }  // namespace
 
 Texture make_texture(const SceneImage& image, TextureSpace space) {
@@ -81,6 +94,7 @@ Texture make_texture(const SceneImage& image, TextureSpace space) {
     texture.space = space;
     texture.width = image.bytes.empty() ? image.floats.width : image.bytes.width;
     texture.height = image.bytes.empty() ? image.floats.height : image.bytes.height;
+    texture.largest = find_largest(texture);
     if (texture.width <= 1 && texture.height <= 1) return texture;
     texture.coarse.push_back(
         reduce(texture.width, texture.height, [&](int x, int y) { return read_texel(image, x, y, space); }));

@@ -260,23 +260,24 @@ TEST(DirectLight, UsesAFixedNumberOfRandomDimensions) {
     EXPECT_EQ(next_after(make_lambert(0.0f), {0.0f, 5.0f, 0.0f}), expected);
 }
 
-TEST(DirectLight, LatticePointsAreEven) {
-    for (const int n : {1, 2, 5, 16, 64}) {
-        // Each of the n strata of x holds one point; y, a golden-ratio sequence, leaves no large gap.
-        std::vector<int> strata(static_cast<std::size_t>(n), 0);
-        std::vector<float> ys;
-        for (int i = 0; i < n; ++i) {
-            const glm::vec2 p = lattice_point(i, n, {0.0f, 0.3f});
-            ASSERT_GE(std::min(p.x, p.y), 0.0f);
-            ASSERT_LT(std::max(p.x, p.y), 1.0f);
-            ++strata[static_cast<int>(p.x * static_cast<float>(n))];
-            ys.push_back(p.y);
-        }
-        for (const int count : strata) EXPECT_EQ(count, 1);
-        std::sort(ys.begin(), ys.end());
-        for (std::size_t i = 1; i < ys.size(); ++i) EXPECT_LT(ys[i] - ys[i - 1], 3.0f / static_cast<float>(n));
-    }
-    EXPECT_LT(lattice_point(0, 1, {0.49999997f, 0.99999997f}).x, 1.0f);
+/// All samples of a mirror have one direction: one ray stands for them.
+TEST(DirectLight, AMirrorCastsOneRayForAllSamplesOfALobe) {
+    Scene scene;
+    add_mesh(scene, make_quad(4.0, 4.0, add_lambert(scene, glm::dvec3(0.0), glm::dvec3(3.0))), {0.0, 2.0, 0.0},
+             z_to_down);
+    Lighting lighting(std::move(scene));
+    SurfaceMaterial mirror = make_metal(0.0f);
+    const glm::vec3 view = glm::normalize(glm::vec3(0.2f, 1.0f, 0.0f));
+    const Rgb one = lighting.at(glm::vec3(0.0f), mirror, view, 1);
+    const std::uint64_t rays = lighting.task.counts.specular;
+    EXPECT_EQ(rays, 1u);
+    const Rgb eight = lighting.at(glm::vec3(0.0f), mirror, view, 8);
+    EXPECT_EQ(lighting.task.counts.specular - rays, 1u);
+    EXPECT_GT(one.x, 2.0f);
+    EXPECT_NEAR(eight.x, one.x, 1e-5f);
+    // A rough one has many directions.
+    lighting.at(glm::vec3(0.0f), make_metal(0.2f), view, 8);
+    EXPECT_GT(lighting.task.counts.glossy, 4u);
 }
 
 }  // namespace

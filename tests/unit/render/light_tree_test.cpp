@@ -112,6 +112,29 @@ TEST(LightTree, NoNodeBringsMoreThanItsBound) {
     EXPECT_LT(loosest, 60.0);
 }
 
+/// Float images may be brighter than white.
+TEST(LightTree, TheBoundOfATexturedLampIsThatOfItsBrightestTexel) {
+    for (const float value : {1.0f, 20.0f}) {
+        Scene scene;
+        SceneImage image;
+        image.floats = Image<glm::vec4>(2, 2);
+        for (glm::vec4& texel : image.floats.pixels) texel = glm::vec4(0.5f * value);
+        image.floats(1, 1) = glm::vec4(value);
+        scene.images.push_back(image);
+        add_mesh(scene, make_quad(0.5, 0.5, add_lambert(scene, glm::dvec3(0.0), glm::dvec3(1.0))), {0.0, 2.0, 0.0},
+                 z_to_down);
+        scene.materials[0].emission_texture = {.image = 0, .nearest = true};
+        const Stage stage(std::move(scene));
+        const Receiver receiver{{0.3f, 0.0f, 0.1f}, {0.0f, 1.0f, 0.0f}};
+        const double brought = find_illuminances(stage, receiver).front();
+        const LightReaches reaches = reach_of(stage.lights.tree.groups.front(), receiver.position, receiver.normal, 0);
+        EXPECT_GT(brought, 0.0);
+        EXPECT_GE(reaches.bounds[0], brought);
+        EXPECT_LT(reaches.bounds[0], 3.0 * brought);
+        EXPECT_GE(find_light_cut(stage.lights, receiver, 0.0f, {.left_out = static_cast<float>(brought)}).size, 1);
+    }
+}
+
 TEST(LightTree, IsNoDeeperThanTheLogarithmOfItsLights) {
     for (const int count : {1, 2, 17, 100, 1000}) {
         const Stage stage(make_crowd(count, false));

@@ -198,5 +198,16 @@ TEST(PixelSequence, IsAPureFunctionAndOneDimensionIsTheFirstOfTwo) {
     EXPECT_NE(sequence.at_1d(SampleUse::lens, 0), sequence.at_1d(SampleUse::lens, PixelSequence::length));
 }
 
+TEST(PixelSequence, PointsOfOneUseDoNotDependOnThoseBefore) {
+    const PixelSequence sequence(7, 2, 31, 5);
+    SequenceOfUse points = sequence.of(SampleUse::lens);
+    for (const int i : {0, 1, PixelSequence::length + 3, 2, 5 * PixelSequence::length - 1, PixelSequence::length, 0}) {
+        const glm::vec2 alone = sequence.at_2d(SampleUse::lens, i);
+        EXPECT_EQ(points.at(i), alone) << i;
+        EXPECT_EQ(sequence.at_1d(SampleUse::lens, i), alone.x);
+    }
+    EXPECT_NE(points.at(3), points.at(3 + PixelSequence::length));
+}
+
 }  // namespace
 }  // namespace aleph
