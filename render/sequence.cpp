@@ -38,12 +38,11 @@ void fill_geometry_maps(const ShadingScene& shading, const SampleHits& centers, 
 
 /// The scene at each sample's time while the shutter is open.
 std::function<SampleMoment(int, int)> open_shutter(SequenceState& s, const ShutterInterval& shutter,
-                                                   std::uint32_t frame, const CameraView& view) {
+                                                   std::uint32_t frame) {
     const double shift = RandomStream({s.settings.seed ^ shutter_seed_mask, frame, 0, 0}).next();
-    if (!s.open) s.open = std::make_unique<OpenShutter>(s.scene, s.pose_plan, s.textures, s.rays, s.camera);
-    return [&s, shutter, shift, &view](int sample, int pixel_class) {
+    return [&s, shutter, shift](int sample, int pixel_class) {
         const double at = place_in_shutter(shutter, sample, pixel_class, shift);
-        return s.open->move_to(at / s.scene.frame_rate.per_second(), view.width, view.height);
+        return s.look_at(at);
     };
 }
 
@@ -117,7 +116,7 @@ FrameOutput Sequence::render(std::int64_t frame, const FrameRequest& request) {
         s.move_to_frame(s.now, frame);
         const CameraValues& camera = s.now->pose.cameras[s.camera];
         options.lens = find_lens(s.scene, camera);
-        if (s.can_change()) shutter = find_shutter(s.scene, camera, frame);
+        shutter = s.find_open_shutter(frame);
         if (shutter) options.light_lasts = !s.light_breaks.changes(shutter->open, shutter->close);
         if (options.light_lasts && s.shot_light) carried = s.shot_light->at(frame, stats.moments);
     }
@@ -129,7 +128,7 @@ FrameOutput Sequence::render(std::int64_t frame, const FrameRequest& request) {
         const std::uint32_t random_frame = s.noise_key(frame);
         options.blended = s.blended;
         options.record_maps = request.maps;
-        if (shutter) options.at_sample = open_shutter(s, *shutter, random_frame, out.view);
+        if (shutter) options.at_sample = open_shutter(s, *shutter, random_frame);
         const VisibleLimits limits{out.threshold, out.perception.aleph, out.alpha, out.indirect_luminance,
                                    s.scene.viewing};
         if (!out.threshold.empty()) options.limits = &limits;
