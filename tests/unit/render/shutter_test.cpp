@@ -68,6 +68,7 @@ TEST(Shutter, ItsCenterStaysInTheShot) {
     EXPECT_DOUBLE_EQ(center({0.0, 2.0}, 4), 4.5);  // the shot ends at 5
     EXPECT_DOUBLE_EQ(center({-0.5, 0.5}, 5), 5.0);
     EXPECT_DOUBLE_EQ(center({-2.0, 0.5}, 5), 5.25);  // it begins at 5
+    EXPECT_LT(center({1.0, 1.0}, 4), 5.0);
 }
 
 TEST(Shutter, TimesAreEvenAndWithin) {
