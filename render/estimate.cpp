@@ -17,12 +17,17 @@ int points_per_light(const LightSet& lights) {
 
 }  // namespace
 
+Rgb estimate_radiance(const LightingContext& context, RayTask& task, const PixelSurface& surface, EstimateKind kind) {
+    const SurfaceMaterial& material = surface.material;
+    if (kind == EstimateKind::flat) return material.emission + (material.diffuse + material.f0);
+    return material.emission + estimate_direct_light(context, task, surface, points_per_light(context.lights));
+}
+
 Image<Rgb> compute_estimate(const LightingContext& context, const CameraView& view, const SampleHits& centers,
                             EstimateKind kind, const EstimateNodes* indirect, double exposure, RayCounts& counts,
                             Image<float>* indirect_luminance) {
     Image<Rgb> estimate(view.width, view.height);
     const float scale = static_cast<float>(exposure);
-    const int points = points_per_light(context.lights);
     Image<DiffuseSurface> surfaces;
     if (indirect != nullptr && kind == EstimateKind::direct) surfaces = Image<DiffuseSurface>(view.width, view.height);
     std::mutex counts_mutex;
@@ -38,13 +43,8 @@ Image<Rgb> compute_estimate(const LightingContext& context, const CameraView& vi
                 }
                 if (hit) {
                     const PixelSurface s = make_pixel_surface(context.shading, view, centers, x, y);
-                    radiance = s.material.emission;
-                    if (kind == EstimateKind::flat) {
-                        radiance += s.material.diffuse + s.material.f0;
-                    } else {
-                        radiance += estimate_direct_light(context, task, s, points);
-                        if (!surfaces.empty()) surfaces(x, y) = make_diffuse_surface(s);
-                    }
+                    radiance = estimate_radiance(context, task, s, kind);
+                    if (!surfaces.empty()) surfaces(x, y) = make_diffuse_surface(s);
                 }
                 estimate(x, y) = radiance * scale;
             }

@@ -63,7 +63,7 @@ class FrameShading {
         fill_cache(cache_, context_, *first_, out_);
         fill_mirror_places(cache_, context_, *first_, out_);
         cache_.finish();
-        if (options_.at_sample) first_ = nullptr;  // of the frame's own time
+        if (options_.at_sample) first_ = nullptr;  // of the shutter's centre
     }
 
     void shade(double exposure) {

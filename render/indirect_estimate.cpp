@@ -182,18 +182,23 @@ EstimateNodes gather_estimate(const LightingContext& context, const CameraView& 
     return nodes;
 }
 
+NodeIrradiance::NodeIrradiance(const EstimateNodes& nodes) : nodes_(nodes), mean_(mean_irradiance(nodes)) {}
+
+Rgb NodeIrradiance::at(const DiffuseSurface& surface, const glm::dvec2& pixel) const {
+    const EstimateNodes::Interpolated found =
+        nodes_.interpolate(surface, pixel, nodes_.levels(), NodeSpline::quadratic);
+    return found.irradiance + mean_ * (1.0f - found.confidence);
+}
+
 Image<Rgb> interpolate_estimate(const EstimateNodes& nodes, const Image<DiffuseSurface>& surfaces) {
     Image<Rgb> light(surfaces.width, surfaces.height);
-    const Rgb mean = mean_irradiance(nodes);
+    const NodeIrradiance irradiance(nodes);
     parallel_rows(surfaces.height, 4, [&](int begin, int end) {
         for (int y = begin; y < end; ++y) {
             for (int x = 0; x < surfaces.width; ++x) {
                 const DiffuseSurface& surface = surfaces(x, y);
                 if (!(surface.footprint > 0.0f)) continue;
-                const EstimateNodes::Interpolated found =
-                    nodes.interpolate(surface, {x, y}, nodes.levels(), NodeSpline::quadratic);
-                const Rgb irradiance = found.irradiance + mean * (1.0f - found.confidence);
-                light(x, y) = surface.reflected * irradiance;
+                light(x, y) = surface.reflected * irradiance.at(surface, {x, y});
             }
         }
     });

@@ -76,6 +76,19 @@ struct CarriedEstimate {
 EstimateNodes gather_estimate(const LightingContext& context, const CameraView& view, const SampleHits& centers,
                               const CarriedEstimate* carried, RayCounts& counts);
 
+/// Irradiance between the nodes of a view, at any surface near it: the mean of all nodes where they do not tell.
+class NodeIrradiance {
+  public:
+    /// Keeps a reference.
+    explicit NodeIrradiance(const EstimateNodes& nodes);
+    /// @param pixel  as in EstimateNodes::interpolate
+    Rgb at(const DiffuseSurface& surface, const glm::dvec2& pixel) const;
+
+  private:
+    const EstimateNodes& nodes_;
+    Rgb mean_;
+};
+
 /// The radiance, towards the viewer, of the light that arrives after one bounce, without the noise and the blocks that
 /// the model of vision would take for detail. Biased: what is smaller than about 30 pixels of a 640x480 picture, such
 /// as the shadow of a chair leg, is smoothed away.

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "engine/pose/parts.h"
+#include "render/shutter.h"
 
 namespace aleph {
 
@@ -66,7 +67,7 @@ const std::vector<std::int64_t>& LightBreaks::find(std::int64_t first, std::int6
     if (!is_new) return entry->second;
     std::vector<Sources> frames;
     for (std::int64_t frame = first; frame <= last; ++frame)
-        frames.push_back(look(scene_.frame_rate.seconds_of(frame)));
+        frames.push_back(look(find_shutter_center(scene_, shutter_, frame)));
     std::vector<float> largest(frames.front().values.size(), 0.0f);
     for (const Sources& sources : frames) raise_to(largest, sources.values);
     for (std::size_t i = 1; i < frames.size(); ++i) {

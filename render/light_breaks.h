@@ -14,8 +14,10 @@ namespace aleph {
 /// deforming meshes.
 class LightBreaks {
   public:
-    /// Keeps references to both.
-    LightBreaks(const Scene& scene, const PosePlan& plan) : scene_(scene), plan_(plan) {}
+    /// Keeps references to scene and plan.
+    /// @param shutter  of the camera, at whose centre frames are looked at (find_shutter_center)
+    LightBreaks(const Scene& scene, const PosePlan& plan, const glm::dvec2& shutter = glm::dvec2(0.0))
+        : scene_(scene), plan_(plan), shutter_(shutter) {}
 
     /// Frames after `first`, up to `last`, that differ from the frame before them by a jump: a mesh or a lamp comes or
     /// goes; or the light of a lamp, of an emissive material or of the environment changes by more than a quarter of
@@ -32,6 +34,7 @@ class LightBreaks {
 
     const Scene& scene_;
     const PosePlan& plan_;
+    const glm::dvec2 shutter_;
     std::optional<ScenePose> posed_;
     std::map<std::pair<std::int64_t, std::int64_t>, std::vector<std::int64_t>> found_;
 };

@@ -27,19 +27,22 @@ glm::dvec2 place_sample(const SamplePlace& place, int x, int y) {
     return {x + 0.5 + place_in_filter(place.filter, u.x), y + 0.5 + place_in_filter(place.filter, u.y)};
 }
 
-CameraRay make_sample_ray(const CameraView& view, const SamplePlace& place, int x, int y) {
-    const glm::dvec2 pixel = place_sample(place, x, y);
+CameraRay make_lens_ray(const CameraView& view, const Lens& lens, const glm::dvec2& pixel, const glm::vec2& u) {
     CameraRay ray = make_camera_ray(view, pixel.x, pixel.y);
-    const Lens& lens = place.lens;
-    if (!(lens.radius > 0.0)) return ray;
-    const PixelSequence sequence(place.seed, place.moment, x, y);
-    const glm::dvec2 at = lens.radius * sample_disc(sequence.at_2d(SampleUse::lens, place.index));
+    const glm::dvec2 at = lens.radius * sample_disc(u);
     const glm::dvec3 shift = view.axes[0] * at.x + view.axes[1] * at.y;
     // Rays of a pixel meet in the plane at the focus distance: its planar distance is along the view direction.
     const double along = -glm::dot(ray.direction, view.axes[2]);
     ray.origin += shift;
     ray.direction = glm::normalize(ray.direction - shift * (along / lens.focus_distance));
     return ray;
+}
+
+CameraRay make_sample_ray(const CameraView& view, const SamplePlace& place, int x, int y) {
+    const glm::dvec2 pixel = place_sample(place, x, y);
+    if (!(place.lens.radius > 0.0)) return make_camera_ray(view, pixel.x, pixel.y);
+    const PixelSequence sequence(place.seed, place.moment, x, y);
+    return make_lens_ray(view, place.lens, pixel, sequence.at_2d(SampleUse::lens, place.index));
 }
 
 PixelSurface make_pixel_surface(const ShadingScene& shading, const CameraView& view, const SamplePlace& place,

@@ -34,6 +34,10 @@ struct SampleHits {
     SamplePlace place;
 };
 
+/// The ray through a place in the picture (pixels) from a point of a lens that is open.
+/// @param u  the point of the lens, in [0,1)^2
+CameraRay make_lens_ray(const CameraView& view, const Lens& lens, const glm::dvec2& pixel, const glm::vec2& u);
+
 /// The ray of a pixel's sample, from its point on the lens. In double, so that no focus distance is too far.
 CameraRay make_sample_ray(const CameraView& view, const SamplePlace& place, int x, int y);
 

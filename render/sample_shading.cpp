@@ -60,7 +60,7 @@ Rgb gather_irradiance(const SampleShading& shading, ShadingTask& task, const Pix
         .irradiance;
 }
 
-/// Indirect irradiance while the shutter is open, from the frame's own time.
+/// Indirect irradiance while the shutter is open, from the shutter's centre.
 /// @param waits  if not null, set where a record would tell it
 std::optional<Rgb> read_blurred(const SampleShading& shading, ShadingTask& task, const PixelSurface& surface,
                                 bool* waits) {

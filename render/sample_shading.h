@@ -20,7 +20,7 @@ struct SampleMoment {
 /// The work of one task: its rays, and what it counts.
 struct ShadingTask : RayTask {
     /// @param rays        at the samples' time
-    /// @param frame_rays  at the frame's own time: another scene while the shutter is open
+    /// @param frame_rays  at the shutter's centre: another scene while the shutter is open
     ShadingTask(const RayScene& rays, const RayScene& frame_rays, GatherScratch& buffers)
         : RayTask(rays), at_frame(frame_rays), scratch(buffers) {}
 

@@ -38,13 +38,21 @@ void fill_geometry_maps(const ShadingScene& shading, const SampleHits& centers, 
 
 /// The scene at each sample's time while the shutter is open.
 std::function<SampleMoment(int, int)> open_shutter(SequenceState& s, const ShutterInterval& shutter,
-                                                   std::uint32_t frame, const CameraView& view) {
+                                                   std::uint32_t frame) {
     const double shift = RandomStream({s.settings.seed ^ shutter_seed_mask, frame, 0, 0}).next();
-    if (!s.open) s.open = std::make_unique<OpenShutter>(s.scene, s.pose_plan, s.textures, s.rays, s.camera);
-    return [&s, shutter, shift, &view](int sample, int pixel_class) {
+    return [&s, shutter, shift](int sample, int pixel_class) {
         const double at = place_in_shutter(shutter, sample, pixel_class, shift);
-        return s.open->move_to(at / s.scene.frame_rate.per_second(), view.width, view.height);
+        return s.look_at(at);
     };
+}
+
+/// Empty where nothing is known of what a viewer sees.
+Image<Outline> find_visible_outlines(const SequenceState& s, const SampleHits& centers, const FrameOutput& out) {
+    if (out.threshold.empty()) return {};
+    Image<Outline> outlines = find_outlines(out.view, centers.hits, out.motion);
+    const double error = s.settings.error > 0.0 ? s.settings.error : 1.0;
+    mark_contrasts(outlines, out.estimate, out.threshold, error / s.scene.viewing.display_white);
+    return outlines;
 }
 
 /// Fills the cache, shades the picture and adds their times and counts to the frame's statistics.
@@ -117,7 +125,7 @@ FrameOutput Sequence::render(std::int64_t frame, const FrameRequest& request) {
         s.move_to_frame(s.now, frame);
         const CameraValues& camera = s.now->pose.cameras[s.camera];
         options.lens = find_lens(s.scene, camera);
-        if (s.can_change()) shutter = find_shutter(s.scene, camera, frame);
+        shutter = s.find_open_shutter(frame);
         if (shutter) options.light_lasts = !s.light_breaks.changes(shutter->open, shutter->close);
         if (options.light_lasts && s.shot_light) carried = s.shot_light->at(frame, stats.moments);
     }
@@ -129,13 +137,8 @@ FrameOutput Sequence::render(std::int64_t frame, const FrameRequest& request) {
         const std::uint32_t random_frame = s.noise_key(frame);
         options.blended = s.blended;
         options.record_maps = request.maps;
-        if (shutter) options.at_sample = open_shutter(s, *shutter, random_frame, out.view);
-        Image<Outline> outlines;
-        if (!out.threshold.empty()) {
-            outlines = find_outlines(out.view, centers.hits, out.motion);
-            const double error = s.settings.error > 0.0 ? s.settings.error : 1.0;
-            mark_contrasts(outlines, out.estimate, out.threshold, error / s.scene.viewing.display_white);
-        }
+        if (shutter) options.at_sample = open_shutter(s, *shutter, random_frame);
+        const Image<Outline> outlines = find_visible_outlines(s, centers, out);
         const VisibleLimits limits{out.threshold, out.perception.aleph, out.alpha, out.indirect_luminance,
                                    outlines,      s.scene.viewing};
         if (!out.threshold.empty()) options.limits = &limits;

@@ -25,7 +25,7 @@ class Sequence {
     ~Sequence();
     Sequence(Sequence&&) noexcept;
 
-    /// @throws InputError if a picture is requested and the camera has an aperture without a focus distance
+    /// @throws InputError if the camera has an aperture without a focus distance
     FrameOutput render(std::int64_t frame, const FrameRequest& request = {});
 
     /// Takes the light of key moments from a file that save_light wrote, if there is one. Frames have the same bytes

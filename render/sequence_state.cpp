@@ -30,6 +30,14 @@ bool is_cut(const Scene& scene, std::int64_t frame) {
     return std::find(scene.cuts.begin(), scene.cuts.end(), frame) != scene.cuts.end();
 }
 
+/// Of a camera, by its index in ScenePose::cameras.
+glm::dvec2 read_shutter(const Scene& scene, int camera) {
+    for (const Node& node : scene.nodes) {
+        if (node.camera != no_index && camera-- == 0) return scene.cameras[node.camera].shutter;
+    }
+    return glm::dvec2(0.0);
+}
+
 /// Motion to the next frame; from the previous one at the scene's last frame; none across a cut.
 OtherFrame find_other_frame(const Scene& scene, const FrameRange& range, std::int64_t frame) {
     const bool is_last = frame == range.last && range.last > range.first;
@@ -52,13 +60,14 @@ SequenceState::SequenceState(Scene given, const RenderSettings& chosen, int came
     : scene(refine_cages(std::move(given), camera_index, chosen)),
       settings(chosen),
       camera(camera_index),
+      shutter(read_shutter(scene, camera)),
       range(frame_range(scene)),
       textures(make_texture_set(scene)),
       pose_plan(make_pose_plan(scene)),
       is_camera_still(std::ranges::find(pose_plan.cameras, camera) == pose_plan.cameras.end()),
       rays(scene, pose_plan),
       blended(has_blended(scene)),
-      light_breaks(scene, pose_plan) {
+      light_breaks(scene, pose_plan, shutter) {
     if (!reads_moments()) return;
     const auto find_breaks = [this](std::int64_t first, std::int64_t last) { return light_breaks.find(first, last); };
     shot_light.emplace(KeyMoments{range, scene.cuts, settings.light_step, find_breaks}, settings,
@@ -67,7 +76,8 @@ SequenceState::SequenceState(Scene given, const RenderSettings& chosen, int came
 
 /// Takes `posed` to a frame. Its first call poses the whole scene, later calls only what can move.
 void SequenceState::move_to_frame(std::optional<PosedView>& posed, std::int64_t frame) const {
-    const double seconds = scene.frame_rate.seconds_of(frame);
+    const double seconds =
+        can_change() ? find_shutter_center(scene, shutter, frame) : scene.frame_rate.seconds_of(frame);
     if (posed) {
         update_posed_view(scene, pose_plan, seconds, camera, *posed);
     } else {
@@ -132,7 +142,9 @@ EstimateNodes SequenceState::find_estimate_nodes(std::int64_t frame, const Sampl
     return moment->nodes;
 }
 
-void SequenceState::compute_frame_estimate(std::int64_t frame, const SampleHits& centers, bool maps, FrameOutput& out) {
+/// @return the nodes of its indirect light, if it has any
+std::optional<EstimateNodes> SequenceState::compute_frame_estimate(std::int64_t frame, const SampleHits& centers,
+                                                                   bool maps, FrameOutput& out) {
     RayCounts& counts = out.statistics.counts.rays;
     std::optional<EstimateNodes> nodes;
     if (estimates_indirect_light()) nodes = find_estimate_nodes(frame, centers, counts);
@@ -140,6 +152,7 @@ void SequenceState::compute_frame_estimate(std::int64_t frame, const SampleHits&
     out.estimate = compute_estimate(lighting(), out.view, centers, settings.estimate, nodes ? &*nodes : nullptr,
                                     exposure, counts, tolerance ? &out.indirect_luminance : nullptr);
     note_estimate(out, sanitize_estimate(out.estimate), scene.viewing);
+    return nodes;
 }
 
 /// Brings rays and shading to `now`. @return instances that were updated
@@ -212,9 +225,11 @@ SampleHits SequenceState::look(std::int64_t frame, bool perceive, bool maps, Fra
     clock.add_to(stats.seconds.first_hits);
 
     if (perceive) {
-        compute_frame_estimate(frame, centers, maps, out);
+        const std::optional<EstimateNodes> nodes = compute_frame_estimate(frame, centers, maps, out);
         clock.add_to(stats.seconds.estimate);
         compute_motion(centers, which, maps, clock, out);
+        blur_frame_estimate(frame, centers, nodes ? &*nodes : nullptr, out);
+        clock.add_to(stats.seconds.estimate);
         compute_frame_vision(out, scene, settings, maps, clock);
     } else {
         out.perception.aleph = Image<float>(settings.width, settings.height, 1.0f);

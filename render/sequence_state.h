@@ -13,6 +13,7 @@
 #include "render/open_shutter.h"
 #include "render/settings.h"
 #include "render/shot_light.h"
+#include "render/shutter.h"
 
 namespace aleph {
 
@@ -28,7 +29,12 @@ struct SequenceState {
     void prepare_estimate(std::int64_t frame, std::int64_t but, RayCounts& counts);
     std::unique_ptr<CarriedEstimate> carry_estimate(std::int64_t frame);
     EstimateNodes find_estimate_nodes(std::int64_t frame, const SampleHits& centers, RayCounts& counts);
-    void compute_frame_estimate(std::int64_t frame, const SampleHits& centers, bool maps, FrameOutput& out);
+    std::optional<EstimateNodes> compute_frame_estimate(std::int64_t frame, const SampleHits& centers, bool maps,
+                                                        FrameOutput& out);
+    std::optional<ShutterInterval> find_open_shutter(std::int64_t frame) const;
+    SampleMoment look_at(double at);
+    void blur_frame_estimate(std::int64_t frame, const SampleHits& centers, const EstimateNodes* nodes,
+                             FrameOutput& out);
     std::size_t update_rays_and_shading();
     void update_other_rays();
     void compute_motion(const SampleHits& centers, OtherFrame which, bool maps, StageClock& clock, FrameOutput& out);
@@ -58,6 +64,7 @@ struct SequenceState {
     const Scene scene;
     const RenderSettings settings;
     const int camera;
+    const glm::dvec2 shutter;  ///< of the camera
     const FrameRange range;
     TextureSet textures;
     PosePlan pose_plan;

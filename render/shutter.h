@@ -14,8 +14,13 @@ struct ShutterInterval {
 };
 
 /// The shutter of a camera at a frame, cut off where another shot begins (Scene::cuts).
+/// @param shutter  of the camera: open and close, frames relative to the frame
 /// @return nothing if the shutter opens for no time at the frame itself
-std::optional<ShutterInterval> find_shutter(const Scene& scene, const CameraValues& camera, std::int64_t frame);
+std::optional<ShutterInterval> find_shutter(const Scene& scene, const glm::dvec2& shutter, std::int64_t frame);
+
+/// The moment that stands for a whole frame, s: the shutter's centre, or the centre of what a cut leaves of it where
+/// its own lies in another shot; the frame's own time if the shutter opens for no time.
+double find_shutter_center(const Scene& scene, const glm::dvec2& shutter, std::int64_t frame);
 
 /// Pixels whose samples have the same times are of one class. With a single class, what moves is seen as many times
 /// over as pixels have samples.

@@ -2,7 +2,7 @@
 // Indirect light of samples that are taken while the shutter is open, each at a time of its own.
 //
 // Indirect light changes slowly, so it is taken to stay on its surface: a point is carried to where it lies at the
-// frame's own time, and the light of the key moments or of the frame's cache is read there. That holds where the light
+// shutter's centre, and the light of the key moments or of the frame's cache is read there. That holds where the light
 // changes by less than alpha, the accuracy of the pixel, and only there it is used:
 // - What stands still. The point moves by less than the reach of the records that it reads, and its normal turns by no
 //   more than a record's may (irradiance_record.h).
@@ -17,7 +17,8 @@
 
 namespace aleph {
 
-/// A thing that moves between a frame's own time and a sample's: two spheres around it, in the frame's coordinates.
+/// A thing that moves between the shutter's centre and a sample's time: two spheres around it, in the frame's
+/// coordinates.
 struct ShutterMover {
     int instance = no_index;
     glm::vec3 centers[2]{};  ///< m, at the frame's time and at the sample's
@@ -40,7 +41,7 @@ float find_hidden_change(const std::vector<ShutterMover>& movers, const glm::vec
 class ShutterLight {
   public:
     /// Keeps references to the poses and what is known.
-    /// @param frame    the scene at the frame's own time
+    /// @param frame    the scene at the shutter's centre
     /// @param sample   at the sample's time
     /// @param carried  light of key moments at the frame's time; may be null
     /// @param cache    the frame's own; may be null
@@ -60,7 +61,7 @@ class ShutterLight {
     };
 
     /// Irradiance at a surface of the sample's time, where it is known to this accuracy. Any thread may call it.
-    /// @param task  casts rays at the frame's own time
+    /// @param task  casts rays at the shutter's centre
     /// @param used  increased by the records that are used; may be null
     Found find(const PixelSurface& surface, float accuracy, RayTask& task, RecordUse* used = nullptr) const;
 

@@ -5,6 +5,7 @@
 #include "tests/support/directions.h"
 #include "tests/support/numbers.h"
 #include "tests/support/path_estimates.h"
+#include "tests/support/penumbra.h"
 
 namespace aleph {
 namespace {
@@ -83,28 +84,13 @@ TEST(PathLights, MC11_TrianglesWithoutAreaGiveNoLightAndTakeNone) {
     EXPECT_NEAR(found.mean(), expected, 3.0 * found.error() + 1e-5);
 }
 
-/// Form factor of the rectangle from 0 to x and 0 to y at height 1 above a point of a parallel surface, with signs.
-double corner_factor(double x, double y) {
-    const double a = std::sqrt(1.0 + x * x), b = std::sqrt(1.0 + y * y);
-    return (x / a * std::atan(y / a) + y / b * std::atan(x / b)) / (2.0 * pi);
-}
-
 TEST(PathLights, MC22_ThePenumbraOfASquareLampHasItsClosedForm) {
-    // The lamp is at height 2, and a half-plane at height 1 over x < 0 hides what lies beyond -x of it.
-    constexpr double height = 2.0, edge = 1.0, half = 0.4;
-    Scene scene;
-    const int lamp = add_lambert(scene, glm::dvec3(0.0), glm::dvec3(10.0));
-    add_mesh(scene, make_quad(2.0 * half, 2.0 * half, lamp), {0.0, height, 0.0}, z_to_down);
-    add_mesh(scene, make_quad(20.0, 20.0, add_lambert(scene, glm::dvec3(0.0), glm::dvec3(0.0), true)),
-             {-10.0, edge, 0.0}, z_to_up);
-    const Stage stage(std::move(scene));
+    const Stage stage(Penumbra::make_scene());
     int beyond = 0;
     constexpr int points = 49;
     for (int i = 0; i < points; ++i) {
         const double x = -0.6 + 1.2 * i / (points - 1);
-        const double first = std::clamp(x * (1.0 - height / edge), -half, half);  // the first visible point of the lamp
-        const auto factor = [&](double at) { return corner_factor((at - x) / height, half / height); };
-        const double expected = 0.6 * 10.0 * 2.0 * (factor(half) - factor(first));
+        const double expected = Penumbra::at(x, 0.0);
         for (const auto& [estimator, samples] :
              {std::pair(by_paths(0, 1), 1500), std::pair(by_direct_samples(8), 150)}) {
             const Mean found = estimate(stage, make_floor({static_cast<float>(x), 0.0f, 0.0f}, 0.6f), samples,

@@ -13,13 +13,11 @@ namespace {
 ShutterInterval open_at(std::int64_t frame, const glm::dvec2& shutter, std::vector<std::int64_t> cuts = {}) {
     Scene scene;
     scene.cuts = std::move(cuts);
-    CameraValues camera;
-    camera.shutter = shutter;
-    return find_shutter(scene, camera, frame).value();
+    return find_shutter(scene, shutter, frame).value();
 }
 
 TEST(Shutter, IsRelativeToTheFrame) {
-    EXPECT_FALSE(find_shutter({}, {}, 7).has_value());
+    EXPECT_FALSE(find_shutter({}, glm::dvec2(0.0), 7).has_value());
     const ShutterInterval whole = open_at(7, {-0.25, 0.5});
     EXPECT_EQ(whole.open, 6.75);
     EXPECT_EQ(whole.close, 7.5);
@@ -54,6 +52,23 @@ TEST(Shutter, MC27_AShutterBeyondTheCutShowsTheLastMomentBeforeIt) {
             EXPECT_GT(found.close, static_cast<double>(cut) - 1e-3);
         }
     }
+}
+
+TEST(Shutter, ItsCenterStaysInTheShot) {
+    Scene scene;
+    scene.frame_rate = {30, 1};
+    scene.cuts = {5};
+    const auto center = [&](const glm::dvec2& shutter, std::int64_t frame) {
+        return 30.0 * find_shutter_center(scene, shutter, frame);
+    };
+    EXPECT_DOUBLE_EQ(center({0.0, 0.0}, 3), 3.0);
+    EXPECT_DOUBLE_EQ(center({-0.3, 0.3}, 3), 3.0);
+    EXPECT_DOUBLE_EQ(center({0.0, 0.5}, 3), 3.25);
+    EXPECT_DOUBLE_EQ(center({0.5, 0.5}, 3), 3.5);
+    EXPECT_DOUBLE_EQ(center({0.0, 2.0}, 4), 4.5);  // the shot ends at 5
+    EXPECT_DOUBLE_EQ(center({-0.5, 0.5}, 5), 5.0);
+    EXPECT_DOUBLE_EQ(center({-2.0, 0.5}, 5), 5.25);  // it begins at 5
+    EXPECT_LT(center({1.0, 1.0}, 4), 5.0);
 }
 
 TEST(Shutter, TimesAreEvenAndWithin) {

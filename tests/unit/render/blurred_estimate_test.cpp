@@ -1,0 +1,130 @@
+// Maps of a frame whose shutter or lens is open: motion at the shutter's centre, an estimate blurred as the picture is.
+
+#include "render/blurred_estimate.h"
+
+#include <gtest/gtest.h>
+
+#include "render/sequence.h"
+#include "tests/support/keyed_track.h"
+#include "tests/support/quick_settings.h"
+#include "tests/support/render_scenes.h"
+
+namespace aleph {
+namespace {
+
+constexpr int width = 48, height = 32;
+constexpr double pixels_per_metre = 8.0;  // the picture is 6 m by 4 m, parallel rays
+constexpr double frames_per_second = 30.0;
+const FrameRequest maps_only{.frame = false, .maps = true, .progress = {}};
+
+/// A bright square of 1 m (node 0) whose middle is at these places in frames 0, 1, ..., before a dim wall.
+Scene make_moving_square(const std::vector<double>& places, const glm::dvec2& shutter) {
+    Scene scene;
+    scene.exposure = 1.0;
+    scene.range = FrameRange{0, 100};
+    add_mesh(scene, make_quad(1.0, 1.0, add_lambert(scene, glm::dvec3(0.0), glm::dvec3(0.8))));
+    std::vector<double> times;
+    std::vector<glm::dvec3> at;
+    for (std::size_t i = 0; i < places.size(); ++i) {
+        times.push_back(static_cast<double>(i) / frames_per_second);
+        at.emplace_back(places[i], 0.0, 0.0);
+    }
+    scene.nodes[0].translation = keyed<glm::dvec3>(times, at);
+    add_mesh(scene, make_quad(20.0, 20.0, add_lambert(scene, glm::dvec3(0.0), glm::dvec3(0.1))), {0.0, 0.0, -1.0});
+    add_camera(scene, {0.0, 0.0, 5.0}, glm::dvec3(0.0));
+    scene.cameras[0].orthographic = true;
+    scene.cameras[0].half_height = 0.5 * height / pixels_per_metre;
+    scene.cameras[0].shutter = shutter;
+    return scene;
+}
+
+FrameOutput look(Scene scene, std::int64_t frame = 0) {
+    return Sequence(std::move(scene), quick_settings(width, height)).render(frame, maps_only);
+}
+
+TEST(ShutterCenter, MotionIsFromCenterToCenter) {
+    // Faster in the second frame: from .5 to 1.5 it moves by half of each way.
+    const FrameOutput out = look(make_moving_square({-1.5, -0.5, 1.5, 1.5}, {0.0, 1.0}));
+    const int row = height / 2, middle = static_cast<int>(0.5 * width - 1.0 * pixels_per_metre);
+    EXPECT_EQ(out.hits(middle, row).instance, 0);
+    EXPECT_EQ(out.hits(middle - 5, row).instance, 1);
+    EXPECT_EQ(out.hits(middle + 5, row).instance, 1);
+    EXPECT_NEAR(out.motion.displacement(middle, row).x, 1.5 * pixels_per_metre, 1e-9);
+    EXPECT_NEAR(out.motion.displacement(middle, row).y, 0.0, 1e-9);
+}
+
+TEST(ShutterCenter, OfAMomentBesideTheFrame) {
+    const FrameOutput out = look(make_moving_square({-1.5, -0.5, 1.5, 1.5}, {1.0, 1.0}));
+    const int row = height / 2, middle = static_cast<int>(0.5 * width - 0.5 * pixels_per_metre);
+    EXPECT_EQ(out.hits(middle, row).instance, 0);
+    EXPECT_NEAR(out.motion.displacement(middle, row).x, 2.0 * pixels_per_metre, 1e-9);
+}
+
+TEST(ShutterCenter, OfACentredShutterIsTheFrame) {
+    const std::vector<double> places{-1.5, -0.5, 1.5, 1.5};
+    const FrameOutput open = look(make_moving_square(places, {-0.3, 0.3}), 1),
+                      closed = look(make_moving_square(places, {0.0, 0.0}), 1);
+    EXPECT_EQ(open.motion.displacement, closed.motion.displacement);
+    EXPECT_EQ(open.depth, closed.depth);
+    EXPECT_EQ(open.velocity.pixels, closed.velocity.pixels);
+}
+
+TEST(BlurredEstimate, AMovingSquareCoversItsShareOfTheTime) {
+    // 2.9 m in the time that the shutter is open, about the middle of the picture.
+    const FrameOutput out = look(make_moving_square({-2.9, 0.0, 2.9}, {-0.5, 0.5}), 1);
+    const int row = height / 2;
+    double sum = 0.0, sum_expected = 0.0;
+    for (int x = 0; x < width; ++x) {
+        const double place = (x + 0.5 - 0.5 * width) / pixels_per_metre;
+        const double first = std::max(-1.45, place - 0.5), last = std::min(1.45, place + 0.5);
+        const double expected = 0.1 + 0.7 * std::max(0.0, last - first) / 2.9;
+        EXPECT_NEAR(out.estimate(x, row).x, expected, 0.7 / blur_looks + 1e-5) << x;
+        sum += out.estimate(x, row).x;
+        sum_expected += expected;
+    }
+    EXPECT_NEAR(sum, sum_expected, 0.01 * sum_expected);
+    // Above and below the square nothing moves.
+    for (int x = 0; x < width; ++x) EXPECT_NEAR(out.estimate(x, 2).x, 0.1f, 1e-6f);
+}
+
+TEST(BlurredEstimate, WhatRestsKeepsItsValues) {
+    // A lit floor with a lamp's shadow beside the square that moves: of emission alone, it casts none on it.
+    const auto estimate = [](const glm::dvec2& shutter) {
+        Scene scene = make_moving_square({-3.0, 0.0, 3.0}, shutter);
+        scene.materials[1] = scene.materials[0];
+        scene.materials[1].emission = glm::dvec3(0.0);
+        scene.materials[1].base_color = glm::dvec3(0.7);
+        add_mesh(scene, make_quad(0.8, 0.3, 1), {0.7, 1.4, 0.5});
+        add_light(scene, Light::Kind::point, glm::dvec3(9.0), {-1.0, 3.0, 2.0});
+        return look(std::move(scene), 1).estimate;
+    };
+    const Image<Rgb> open = estimate({-0.5, 0.5}), closed = estimate({0.0, 0.0});
+    for (int y = 0; y < 8; ++y) {
+        for (int x = 0; x < width; ++x) {
+            EXPECT_NEAR(open(x, y).x, closed(x, y).x, 1e-4f * closed(x, y).x) << x << " " << y;
+        }
+    }
+    EXPECT_GT(std::abs(open(width / 2 + 5, height / 2).x - closed(width / 2 + 5, height / 2).x), 0.05f);
+}
+
+TEST(BlurredEstimate, ALensBlursByTheCircleOfConfusion) {
+    Scene scene = make_moving_square({0.0, 0.0}, {0.0, 0.0});
+    scene.cameras[0].aperture = 1.0;
+    scene.cameras[0].focus_distance = 2.5;  // the square is 5 m away: its point covers a disc of 1 m
+    scene.nodes[0].scale = glm::dvec3(0.5);
+    const Image<Rgb> estimate = look(scene).estimate;
+    double sum = 0.0, squares = 0.0;
+    for (int y = 0; y < height; ++y) {
+        for (int x = 0; x < width; ++x) {
+            const glm::dvec2 at = (glm::dvec2(x, y) + 0.5 - 0.5 * glm::dvec2(width, height)) / pixels_per_metre;
+            sum += estimate(x, y).x - 0.1;
+            squares += (estimate(x, y).x - 0.1) * glm::dot(at, at);
+        }
+    }
+    EXPECT_NEAR(sum, 0.7 * 0.25 * pixels_per_metre * pixels_per_metre, 0.5);
+    // A disc of radius r has the second moment r^2 / 2, a square of side s s^2 / 6.
+    EXPECT_NEAR(squares / sum, 0.5 + 0.25 / 6.0, 0.05);
+}
+
+}  // namespace
+}  // namespace aleph
