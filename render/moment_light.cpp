@@ -11,7 +11,7 @@ namespace aleph {
 
 namespace {
 
-/// Pixels. Frames fill the little that tiles of this size leave open.
+/// Pixels, of views at other times than the moment's. Frames fill the little that tiles of this size leave open.
 constexpr int finest_tiles = 2;
 
 /// Whether linear interpolation between two moments may err too much: half way, if they differ by more than the
@@ -61,7 +61,7 @@ std::vector<IrradianceRecord> compute_records(const MomentInput& input, FrameCou
     const std::optional<IrradianceCache> fewer_bounces = fill_levels(contexts.front(), seen, tally.counts);
     for (std::size_t v = 0; v < contexts.size(); ++v) {
         contexts[v].deeper = make_deeper_light(input.settings, fewer_bounces ? &*fewer_bounces : nullptr);
-        fill_cache(cache, contexts[v], first_samples[v], tally, finest_tiles);
+        fill_cache(cache, contexts[v], first_samples[v], tally, contexts[v].seen == nullptr ? 1 : finest_tiles);
         // Other views were cast in another pose, where mirrors may show other things.
         if (contexts[v].seen == nullptr) fill_mirror_places(cache, contexts[v], first_samples[v], tally);
     }

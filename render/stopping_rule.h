@@ -8,13 +8,13 @@
 
 namespace aleph {
 
-/// Standard errors that a tolerance has to hold. At the limit, 6 % of a normal distribution would lie beyond. But few
+/// Standard errors that a tolerance has to hold. At the limit, 5 % of a normal distribution would lie beyond. But few
 /// pixels are at the limit: numbers of samples double, and halves overrate the error of even samples. In pictures, less
 /// than half a percent of the pixels is beyond (render/README.md).
-inline constexpr double error_deviations = 1.9;
+inline constexpr double error_deviations = 2.0;
 
 /// First samples of a pixel with `threshold`: its neighbours tell the error of eight times as many.
-inline constexpr int own_samples = 2;
+inline constexpr int own_samples = 4;
 
 /// What is known of a pixel's mean. A pixel's own samples never decide when it stops: a pixel whose first samples
 /// happen to agree would stop early, more often at a value that is too low than at one that is too high, and the
