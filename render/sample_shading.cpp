@@ -148,7 +148,7 @@ void add_with_cache(const SampleShading& shading, const SampleMoment& moment, Sh
         RandomStream random({settings.seed, shading.moment, surface.pixel, 0});  // one lattice for all samples
         RandomStream path_random = path_stream(shading, surface);
         LightPoints points = shading.points;
-        points.part = even_order(surface.sample, points.parts);
+        points.part = surface.sample;
         const SampledLight sampled = compute_sampled_light(lighting, task, surface, points, random,
                                                            start_beyond(shading, surface), path_random, &lobes.shares);
         light[LightPart::direct] = sampled.direct;

@@ -1,10 +1,10 @@
-// Evenly spread points, and the order in which halves of them are even too.
+// Evenly spread points.
 
 #include "render/lattice.h"
 
 #include <gtest/gtest.h>
 
-#include <array>
+#include <algorithm>
 #include <vector>
 
 namespace aleph {
@@ -27,31 +27,6 @@ TEST(Lattice, PointsAreEven) {
         for (std::size_t i = 1; i < ys.size(); ++i) EXPECT_LT(ys[i] - ys[i - 1], 3.0f / static_cast<float>(n));
     }
     EXPECT_LT(lattice_point(0, 1, {0.49999997f, 0.99999997f}).x, 1.0f);
-}
-
-TEST(Lattice, PartsOfALatticeAreEvenFromTheFirstOnes) {
-    for (int n = 1; n <= 130; ++n) {
-        std::vector<int> times(static_cast<std::size_t>(n), 0);
-        for (int i = 0; i < n; ++i) {
-            const int place = even_order(i, n);
-            ASSERT_TRUE(place >= 0 && place < n) << n;
-            ++times[place];
-        }
-        EXPECT_EQ(std::ranges::count(times, 1), n) << n;
-        // Of the first 2^k points, a quarter is in each quarter: of powers of two exactly one in each stratum.
-        for (int count = 8; count <= n; count *= 2) {
-            std::array<int, 4> quarters{};
-            std::vector<int> strata(static_cast<std::size_t>(count), 0);
-            for (int i = 0; i < count; ++i) {
-                ++quarters[4 * even_order(i, n) / n];
-                ++strata[count * even_order(i, n) / n];
-            }
-            for (const int found : quarters) EXPECT_EQ(found, count / 4) << n << ' ' << count;
-            if ((n & (n - 1)) == 0) {
-                EXPECT_EQ(std::ranges::count(strata, 1), count) << n;
-            }
-        }
-    }
 }
 
 }  // namespace
