@@ -19,6 +19,26 @@ void report(std::ostream& errors, const std::string& message) {
     errors << "aleph: error: " << printable(message, 4000) << "\n" << std::flush;
 }
 
+/// Whether a text reads as an option rather than as a value. Negative numbers are values.
+bool is_option(const CLI::App& app, const std::string& text) {
+    return text.starts_with("--") || (text.starts_with("-") && app.get_option_no_throw(text) != nullptr);
+}
+
+/// CLI11 takes whatever follows an option for its value, so that a forgotten file name would make a file "--aovs".
+/// @throws CLI::ValidationError naming the option
+void refuse_options_as_values(const CLI::App& app) {
+    for (const CLI::Option* option : app.get_options()) {
+        if (option->get_positional()) continue;
+        for (const std::string& value : option->results()) {
+            if (!is_option(app, value)) continue;
+            throw CLI::ValidationError(option->get_name(),
+                                       fmt::format("a value is missing before {} (a file of that name is ./{})",
+                                                   printable(value), printable(value)));
+        }
+    }
+    for (const CLI::App* subcommand : app.get_subcommands()) refuse_options_as_values(*subcommand);
+}
+
 /// What to do next after wrong usage; the end of the message.
 std::string where_to_look(const CLI::App& app) {
     const auto chosen = app.get_subcommands();
@@ -100,6 +120,7 @@ int run_command(const Command& command, std::ostream& errors) {
 int run_program(CLI::App& app, const Command& command, int argc, const char* const* argv, std::ostream& errors) {
     try {
         app.parse(argc, argv);
+        refuse_options_as_values(app);
     } catch (const CLI::Success& e) {  // --help, --version
         return app.exit(e);
     } catch (const CLI::ParseError& e) {

@@ -9,7 +9,7 @@
 #include "render/cli/frame_list.h"
 #include "render/cli/options.h"
 #include "scenes/studies/error_report.h"
-#include "scenes/studies/study_frame.h"
+#include "scenes/studies/judged_frame.h"
 #include "scenes/studies/study_options.h"
 
 namespace aleph {
@@ -28,25 +28,10 @@ struct ErrorOptions {
     bool no_ladder = false, no_defaults = false, markdown = false;
 };
 
-/// Settings that every rendering shares: those of the scene and of --set, with the reference's filter.
-RenderSettings common_settings(const Scene& scene, const ErrorOptions& options) {
-    const RenderSettings settings = scene_settings(scene, options.study.scene, options.study.size, options.sets);
-    return has_setting("filter") ? with_choice(settings, "filter", "box") : settings;
-}
-
 JudgedFrame prepare(const Scene& scene, const RenderSettings& settings, int number, const ErrorOptions& options) {
-    JudgedFrame frame{.scene = scene,
-                      .settings = settings,
-                      .number = number,
-                      .name = fmt::format("{} {}", scene_name(options.study.scene), number),
-                      .multiples = parse_values(options.errors, "--errors"),
-                      .repeats = options.repeats};
-    Sequence viewer = make_vision_sequence(scene, settings, Guide::saliency, settings.perception.vision);
-    FrameVision vision = compute_vision(viewer, number);
-    frame.threshold = std::move(vision.threshold);
-    frame.map_seconds = vision.seconds;
-    frame.reference = load_or_render_reference_picture(scene, settings, number, options.study.scene, options.reference,
-                                                       options.study.quiet);
+    JudgedFrame frame = make_judged_frame(scene, settings, number, options.study.scene, options.reference,
+                                          parse_values(options.errors, "--errors"), options.study.quiet);
+    frame.repeats = options.repeats;
     return frame;
 }
 
@@ -108,7 +93,7 @@ void run_ladder(ErrorStudy& study, const ErrorOptions& options, const StudyTable
 
 void run_errors(const ErrorOptions& options) {
     const Scene scene = load_scene(options.study.scene);
-    const RenderSettings settings = common_settings(scene, options);
+    const RenderSettings settings = judged_settings(scene, options.study.scene, options.study.size, options.sets);
     std::vector<ErrorStudy> studies;
     for (const int number : parse_frame_list(options.frames)) {
         JudgedFrame frame = prepare(scene, settings, number, options);

@@ -66,7 +66,10 @@ double ErrorRun::percent_beyond(double thresholds) const {
 }
 
 ErrorRun judge(const JudgedFrame& frame, const std::string& name, const RenderSettings& settings, double asked) {
-    TimedFrame timed = render_timed(frame.scene, settings, frame.number, frame.repeats);
+    return judge(frame, name, render_timed(frame.scene, settings, frame.number, frame.repeats), asked);
+}
+
+ErrorRun judge(const JudgedFrame& frame, const std::string& name, TimedFrame timed, double asked) {
     const ChannelImage reference =
         with_exposure(frame.reference, std::get<double>(timed.picture.metadata.at("exposureFactor")));
     ErrorRun run{name, std::move(timed.cost),

@@ -37,6 +37,8 @@ struct JudgedFrame {
 
 /// @param asked  thresholds, with which the program's own estimate is checked
 ErrorRun judge(const JudgedFrame& frame, const std::string& name, const RenderSettings& settings, double asked = 1.0);
+/// The same of a frame that is rendered already.
+ErrorRun judge(const JudgedFrame& frame, const std::string& name, TimedFrame timed, double asked = 1.0);
 
 /// Fixed settings: uniform sampling without a guide.
 struct Ladder {

@@ -35,8 +35,7 @@ FrameCost find_cost(const FrameOutput& output, double processor, double clock) {
     return cost;
 }
 
-TimedFrame render_once(const Scene& scene, const RenderSettings& settings, std::int64_t frame) {
-    Sequence sequence(scene, settings);
+TimedFrame render_once(Sequence& sequence, const RenderSettings& settings, std::int64_t frame) {
     const double start = processor_seconds();
     StageClock clock;
     const FrameOutput output = sequence.render(frame);
@@ -53,9 +52,18 @@ TimedFrame render_once(const Scene& scene, const RenderSettings& settings, std::
 
 TimedFrame render_timed(const Scene& scene, const RenderSettings& settings, std::int64_t frame, int repeats) {
     std::vector<TimedFrame> frames;
-    for (int i = 0; i < std::max(1, repeats); ++i) frames.push_back(render_once(scene, settings, frame));
+    for (int i = 0; i < std::max(1, repeats); ++i) {
+        Sequence sequence(scene, settings);
+        frames.push_back(render_once(sequence, settings, frame));
+    }
     std::ranges::sort(frames, {}, [](const TimedFrame& timed) { return timed.cost.seconds(); });
     return std::move(frames[frames.size() / 2]);
+}
+
+std::array<TimedFrame, 2> render_timed_twice(const Scene& scene, const RenderSettings& settings, std::int64_t frame) {
+    Sequence sequence(scene, settings);
+    TimedFrame first = render_once(sequence, settings, frame);
+    return {std::move(first), render_once(sequence, settings, frame)};
 }
 
 }  // namespace aleph

@@ -58,7 +58,8 @@ struct Program {
     CLI::App app{"test"};
     double number = 0.25;
     int whole = 3;
-    std::string frames;
+    std::string frames, file;
+    bool flag = false;
     Command command;
     std::ostringstream errors;
 
@@ -67,6 +68,8 @@ struct Program {
         add_value(*go, "--number", number, "a number");
         add_value(*go, "-w,--whole", whole, "a whole number");
         go->add_option("--frames", frames, "frames");
+        go->add_option("-o,--output", file, "a file");
+        go->add_flag("-q,--quiet", flag, "say nothing");
         app.require_subcommand(0, 1);
         go->callback([this] { command = [] { return 0; }; });
     }
@@ -105,6 +108,18 @@ TEST(Options, BadUsageIsOneLineAndExitCode2) {
         EXPECT_EQ(std::count(message.begin(), message.end(), '\n'), 1) << message;
         EXPECT_NE(message.find("--help"), std::string::npos) << message;
     }
+}
+
+TEST(Options, AnOptionIsNoValueOfAnother) {
+    for (const char* taken : {"--quiet", "-q", "--other", "--"}) {
+        Program program;
+        EXPECT_EQ(program.run({"go", "--output", taken}), 2) << taken;
+        EXPECT_NE(program.errors.str().find("--output: "), std::string::npos) << program.errors.str();
+    }
+    Program program;
+    EXPECT_EQ(program.run({"go", "-q", "-o", "./--quiet"}), 0);
+    EXPECT_EQ(program.file, "./--quiet");
+    EXPECT_EQ(program.run({"go", "-o", "-x.png"}), 0) << program.errors.str();
 }
 
 TEST(Options, ErrorsBecomeExitCodes) {
