@@ -18,13 +18,22 @@ namespace {
 struct ContactOptions {
     std::vector<std::string> scenes;
     StudyOptions study{.size = "320x240", .picture = "contact.png", .gather = 256, .spp = 4};
+    std::vector<std::string> sets;
+    double error = 0.0;
     int columns = 4, width = 320;
 };
 
-Panel make_panel(const std::string& text, const StudyOptions& study) {
+RenderSettings contact_settings(const Scene& scene, const std::string& file, const ContactOptions& options) {
+    if (!(options.error > 0.0)) return with_settings(study_settings(scene, file, options.study), options.sets);
+    std::vector<std::string> sets = {fmt::format("error={}", options.error)};
+    sets.insert(sets.end(), options.sets.begin(), options.sets.end());
+    return scene_settings(scene, file, options.study.size, sets);
+}
+
+Panel make_panel(const std::string& text, const ContactOptions& options) {
     const FrameOfScene wanted = parse_frame_of_scene(text);
     const Scene scene = load_scene(wanted.file);
-    Sequence sequence(scene, study_settings(scene, wanted.file, study));
+    Sequence sequence(scene, contact_settings(scene, wanted.file, options));
     const FrameRange range = sequence.range();
     const std::int64_t frame = wanted.frame.value_or(range.first + (range.last - range.first) / 2);
     std::string caption = scene_name(wanted.file);
@@ -36,7 +45,7 @@ void run_contact(const ContactOptions& options) {
     std::vector<Panel> panels;
     Progress progress("contact", static_cast<double>(options.scenes.size()), progress_look(options.study.quiet));
     for (const std::string& text : options.scenes) {
-        panels.push_back(make_panel(text, options.study));
+        panels.push_back(make_panel(text, options));
         progress.update(static_cast<double>(panels.size()), panels.back().caption);
     }
     write_sheet(options.study.picture, panels, std::min(options.columns, static_cast<int>(panels.size())),
@@ -53,6 +62,9 @@ int main(int argc, char** argv) {
         ->required();
     aleph::add_study_options(app, options.study);
     aleph::add_quiet_option(app, options.study);
+    aleph::add_value(app, "--error", options.error,
+                     "visible error that every picture asks for, in place of --gather and --spp; 0: none");
+    aleph::add_set_option(app, options.sets);
     aleph::add_value(app, "--columns", options.columns, "pictures per row");
     aleph::add_value(app, "--width", options.width, "width of each picture in pixels");
     return aleph::run_study(app, options.study, argc, argv, [&] { aleph::run_contact(options); });
