@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # Makes the pictures of this folder's READMEs anew: every frame asks for an error of one visible threshold, by the
-# stricter model of vision, as a picture is looked at for longer than a frame of a film.
+# stricter model of vision, as a picture is looked at for longer than a frame of a film. Single frames need no light of
+# key moments.
 #   bash scenes/pictures.sh [scene ...]     takes minutes; some ten for all scenes on two processors
 set -euo pipefail
 cd "$(dirname "$0")/.."
@@ -14,7 +15,7 @@ contact() {
   shift 3
   for frame in "$@"; do frames+=("scenes/$name/scene.json@$frame"); done
   echo "$name"
-  build/study_contact "${frames[@]}" --size "$size" --width "${size%x*}" --columns "$columns" --error 1 --set vision=castle \
+  build/study_contact "${frames[@]}" --size "$size" --width "${size%x*}" --columns "$columns" --error 1 --set vision=castle --set light_step=0 \
     -o "scenes/$name/$name.jpg" -q
 }
 

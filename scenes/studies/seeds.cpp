@@ -46,11 +46,12 @@ ThresholdFigures find_differences(const FramePair& frame, double thresholds) {
     return summarize(measure_error(frame.difference, scaled(*frame.maps.find("threshold.Y"), thresholds)));
 }
 
-/// At rest and moving together.
-ThresholdFigures find_flicker(const FramePair& now, const FramePair& next, double thresholds) {
+/// Changes of the difference, at rest and moving together.
+/// @param threshold  channel of the maps
+ThresholdFigures find_changes(const FramePair& now, const FramePair& next, const char* threshold, double thresholds) {
     auto maps = make_flicker_maps(now.maps);
     if (!maps) throw InputError("", "--frames", "the maps of these frames have no motion");
-    maps->threshold = scaled(std::move(maps->threshold), thresholds);
+    maps->threshold = scaled(*now.maps.find(threshold), thresholds);
     FlickerSum sum = measure_flicker(now.difference, next.difference, *maps, *next.maps.find("objectId.X"));
     sum.rest.add(sum.moving);
     return summarize(sum.rest);
@@ -120,9 +121,9 @@ void run_seeds(const SeedsOptions& options) {
     fmt::print("{}, {}, {}; percent of the pixels beyond {:g} thresholds of {}\n\n", options.study.scene,
                options.study.size, asked ? "error " + options.error : std::string("settings of the scene"), thresholds,
                std::get<std::string>(setting_map(settings).at("vision")));
-    const StudyTable table(
-        {"frame", "difference", "of one", "99 %", "worst", "flicker", "of one", "99 %", "worst", "samples", "seconds"},
-        0, options.markdown);
+    const StudyTable table({"frame", "difference", "of one", "99 %", "worst", "flicker", "of one", "99 %", "worst",
+                            "change", "samples", "seconds"},
+                           0, options.markdown);
     for (std::size_t i = 0; i < frames.size(); ++i) {
         std::vector<std::string> cells = {fmt::format("{}", list[i])};
         const auto add = [&](const std::vector<std::string>& more) {
@@ -130,10 +131,13 @@ void run_seeds(const SeedsOptions& options) {
         };
         add(cells_of(find_differences(frames[i], thresholds), find_differences(frames[i], of_one * thresholds)));
         if (i + 1 < frames.size()) {
-            add(cells_of(find_flicker(frames[i], frames[i + 1], thresholds),
-                         find_flicker(frames[i], frames[i + 1], of_one * thresholds)));
+            const auto changes = [&](const char* threshold, double of) {
+                return find_changes(frames[i], frames[i + 1], threshold, of);
+            };
+            add(cells_of(changes("threshold.flicker", thresholds), changes("threshold.flicker", of_one * thresholds)));
+            add({fmt::format("{:.3f}", changes("threshold.Y", thresholds).percent_beyond())});
         } else {
-            add({"-", "-", "-", "-"});
+            add({"-", "-", "-", "-", "-"});
         }
         add({fmt::format("{:.1f}", frames[i].mean_samples), fmt::format("{:.2f}", frames[i].seconds)});
         table.add(cells);
@@ -147,7 +151,8 @@ int main(int argc, char** argv) {
     CLI::App app{
         "Renders consecutive frames twice, with two seeds, and prints the share of pixels whose difference is beyond "
         "the threshold, and whose difference changes by more than the threshold of flicker until the next frame, at "
-        "the same point of the surface. Columns \"of one\" compare with sqrt 2 thresholds: the noise of one picture."};
+        "the same point of the surface; column \"change\" compares that with the threshold itself. Columns \"of one\" "
+        "compare with sqrt 2 thresholds: the noise of one picture."};
     aleph::SeedsOptions options;
     aleph::add_scene_option(app, options.study);
     app.add_option("--frames", options.frames, "consecutive frames")->capture_default_str();
