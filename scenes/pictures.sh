@@ -2,7 +2,7 @@
 # Makes the pictures of this folder's READMEs anew: every frame asks for an error of one visible threshold, by the
 # stricter model of vision, as a picture is looked at for longer than a frame of a film. Single frames need no light of
 # key moments.
-#   bash scenes/pictures.sh [scene ...]     takes minutes; some ten for all scenes on two processors
+#   bash scenes/pictures.sh [scene ...]     takes minutes; without names all but antique-room
 set -euo pipefail
 cd "$(dirname "$0")/.."
 bash scenes/setup.sh
@@ -24,12 +24,12 @@ picture() {
     pool) contact pool 400x300 2 5 14 28 80 ;;
     pool-still) contact pool-still 400x300 2 9 13 30 89 ;;
     art-gallery) contact art-gallery 400x300 2 70 205 395 620 ;;
-    antique-room) contact antique-room 400x300 2 15 100 ;;
+    antique-room) contact antique-room 400x300 2 15 100 ;;  # a quarter of an hour or more
     cornell) contact cornell 320x320 3 0 15 30 ;;
     room) contact room 512x512 1 0 ;;
     *) echo "pictures.sh: there is no picture of $1" >&2; exit 2 ;;
   esac
 }
 
-[ $# -gt 0 ] || set -- pool pool-still art-gallery antique-room cornell room
+[ $# -gt 0 ] || set -- pool pool-still art-gallery cornell room
 for name in "$@"; do picture "$name"; done
