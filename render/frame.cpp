@@ -1,13 +1,13 @@
 #include "render/frame.h"
 
 #include <algorithm>
-#include <chrono>
 #include <mutex>
 
 #include "engine/base/parallel.h"
 #include "render/bounce_levels.h"
 #include "render/bounce_places.h"
 #include "render/frame_irradiance.h"
+#include "render/measure.h"
 #include "render/mirror_places.h"
 #include "render/pending_samples.h"
 #include "render/progressive.h"
@@ -25,10 +25,6 @@ constexpr int progressive_light_samples = 2;  // of direct light, per pixel samp
 constexpr int slice_samples = 1 << 17;        // that may wait for light at a time: more only for the sake of threads
 constexpr std::size_t slice_ranges = 64 * task_ranges;
 
-double seconds_since(std::chrono::steady_clock::time_point start) {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
-
 class FrameShading {
   public:
     FrameShading(const IndirectContext& context, const SampleHits& centers, const SampleOptions& options,
@@ -40,7 +36,7 @@ class FrameShading {
           indirect_(context.settings.bounces > 0 && context.settings.path_depth > 1),
           cached_(!by_paths_ && indirect_ && context.settings.accuracy > 0.0 && options.light_lasts),
           cache_(make_cache(context.lighting.shading)),
-          known_(context, cached_ ? &cache_ : nullptr),
+          known_(context_, cached_ ? &cache_ : nullptr),
           direct_(context.max_radius),
           pixels_(context.view.width, context.view.height),
           place_(make_sample_place(context.settings, options.lens, options.blended, context.frame, 0)) {
@@ -59,7 +55,9 @@ class FrameShading {
             cast_first_ = cast_sample(context_.lighting.rays, context_.view, place_, &out_.counts.rays.primary);
             first_ = &cast_first_;
         }
+        if (options_.risk != nullptr) context_.carried = &checked_.emplace(context_, *options_.risk, *first_);
         fill_fewer_bounces(*first_);
+        if (checked_) checked_->check(cache_, context_, out_);
         fill_cache(cache_, context_, *first_, out_);
         fill_mirror_places(cache_, context_, *first_, out_);
         cache_.finish();
@@ -265,6 +263,7 @@ class FrameShading {
     ShadedFrame& out_;
     bool by_paths_, indirect_, cached_;
     IrradianceCache cache_;
+    std::optional<CheckedLight> checked_;
     FrameIrradiance known_;
     std::optional<IrradianceCache> fewer_bounces_;
     DirectGrid direct_;
@@ -286,13 +285,12 @@ ShadedFrame shade_frame(const IndirectContext& context, const SampleHits& center
     ShadedFrame out;
     out.records = out.invalid_samples = Image<float>(context.view.width, context.view.height);
     FrameShading shading(context, centers, options, out);
-    const auto fill_start = std::chrono::steady_clock::now();
+    StageClock clock;
     shading.fill();
-    out.fill_seconds = seconds_since(fill_start);
-    const auto shade_start = std::chrono::steady_clock::now();
+    clock.add_to(out.fill_seconds);
     shading.shade(exposure);
     shading.resolve(exposure);
-    out.shade_seconds = seconds_since(shade_start);
+    clock.add_to(out.shade_seconds);
     return out;
 }
 

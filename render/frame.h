@@ -3,6 +3,7 @@
 
 #include "render/cache_fill.h"
 #include "render/error_budget.h"
+#include "render/moment_check.h"
 #include "render/sample_shading.h"
 
 namespace aleph {
@@ -15,7 +16,8 @@ struct SampleOptions {
     /// The scene at a sample's time, valid until the next call; empty: the shutter opens for no time.
     /// @param time_class  of the pixel (shutter.h)
     std::function<SampleMoment(int sample, int time_class)> at_sample;
-    bool light_lasts = true;  ///< while the shutter is open; otherwise indirect light is found by paths then
+    bool light_lasts = true;           ///< while the shutter is open; otherwise indirect light is found by paths then
+    const MomentRisk* risk = nullptr;  ///< of carried light; null: it need not be checked
     /// What the samples may err by; null: not known, which Sampling::uniform alone allows.
     const VisibleLimits* limits = nullptr;
 };

@@ -6,19 +6,19 @@ namespace aleph {
 
 FrameIrradiance::FrameIrradiance(const IndirectContext& context, const IrradianceCache* cache)
     : KnownIrradiance(count_bounces(context.settings)),
-      carried_(context.carried),
-      cache_(cache),
-      reach_(static_cast<float>(context.settings.shade_reach)) {}
+      context_(context),
+      cache_(cache) {}
 
 std::optional<Rgb> FrameIrradiance::find(const ViewedSurface& surface, const Hit& hit, float accuracy,
                                          RayTask& task) const {
-    if (carried_ != nullptr) {
+    if (context_.carried != nullptr) {
         PixelSurface place{surface};
         place.hit = hit;
-        if (const std::optional<Rgb> found = carried_->find(place, accuracy, task)) return found;
+        if (const std::optional<Rgb> found = context_.carried->find(place, accuracy, task)) return found;
     }
     if (cache_ == nullptr) return std::nullopt;
-    return cache_->interpolate({surface.point.position, surface.point.normal, accuracy * reach_, &task});
+    const auto reach = static_cast<float>(context_.settings.shade_reach);
+    return cache_->interpolate({surface.point.position, surface.point.normal, accuracy * reach, &task});
 }
 
 }  // namespace aleph

@@ -8,6 +8,7 @@ namespace aleph {
 
 class FrameIrradiance final : public KnownIrradiance {
   public:
+    /// Keeps a reference to the context.
     /// @param context  carried light comes first
     /// @param cache    of the frame, filled; null: none
     FrameIrradiance(const IndirectContext& context, const IrradianceCache* cache);
@@ -15,9 +16,8 @@ class FrameIrradiance final : public KnownIrradiance {
     std::optional<Rgb> find(const ViewedSurface& surface, const Hit& hit, float accuracy, RayTask& task) const override;
 
   private:
-    const CarriedLight* carried_;
+    const IndirectContext& context_;
     const IrradianceCache* cache_;
-    float reach_;  ///< RenderSettings::shade_reach
 };
 
 }  // namespace aleph

@@ -55,6 +55,13 @@ Image<Outline> find_visible_outlines(const SequenceState& s, const SampleHits& c
     return outlines;
 }
 
+/// Of the light of key moments; nothing if the frame is one itself, or if nothing but the camera changes.
+std::optional<MomentRisk> find_risk(const SequenceState& s, std::int64_t frame) {
+    const std::vector<const ShadingScene*> moments = s.shot_light->scenes_around(frame);
+    if (moments.empty()) return std::nullopt;
+    return find_moment_risk(*s.shading, s.pose_plan, moments);
+}
+
 /// Fills the cache, shades the picture and adds their times and counts to the frame's statistics.
 void shade(const IndirectContext& context, const SampleHits& centers, double exposure, const SampleOptions& options,
            FrameOutput& out) {
@@ -142,6 +149,9 @@ FrameOutput Sequence::render(std::int64_t frame, const FrameRequest& request) {
         const VisibleLimits limits{out.threshold, out.perception.aleph, out.alpha, out.indirect_luminance,
                                    outlines,      s.scene.viewing};
         if (!out.threshold.empty()) options.limits = &limits;
+        std::optional<MomentRisk> risk;
+        if (carried != nullptr) risk = find_risk(s, frame);
+        if (risk) options.risk = &*risk;
         const LightingContext lighting = s.lighting();
         const IndirectContext context{.lighting = lighting,
                                       .view = out.view,

@@ -103,4 +103,14 @@ std::unique_ptr<CarriedLight> ShotLight::at(std::int64_t frame, std::vector<Mome
     return light;
 }
 
+std::vector<const ShadingScene*> ShotLight::scenes_around(std::int64_t frame) const {
+    const MomentPair pair = moments_around(frame);
+    std::vector<const ShadingScene*> scenes;
+    if (still_ || pair.before == frame || pair.after == frame) return scenes;
+    for (const auto& [moment, light] : lights_) {
+        if (moment >= pair.before && moment <= pair.after) scenes.push_back(&light->at->shading);
+    }
+    return scenes;
+}
+
 }  // namespace aleph

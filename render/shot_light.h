@@ -37,6 +37,10 @@ class ShotLight {
     /// The moment with whose light a key moment begins: itself, unless only the camera moves.
     std::int64_t find_base(std::int64_t moment) const;
 
+    /// The scene at the key moments whose light `at` gave for this frame; nothing if nothing but the camera changes, or
+    /// if the frame is a key moment.
+    std::vector<const ShadingScene*> scenes_around(std::int64_t frame) const;
+
     /// The light that a frame reads. Computes the key moments around the frame, unless they are kept from before.
     /// @param filled  the moments that were computed are added
     std::unique_ptr<CarriedLight> at(std::int64_t frame, std::vector<MomentStatistics>& filled);
