@@ -62,7 +62,12 @@ void add_maps(ChannelImage& file, const FrameOutput& output) {
     add(file, "invalid.Y", output.shaded.invalid_samples);
 }
 
-std::string define_motion(MotionSource source) {
+std::string define_motion(const FrameOutput& output, MotionSource source) {
+    if (output.motion_from_picture) {
+        return "forward.u/.v: position in frame N+1 minus position in frame N, pixels, x right, y up; from the "
+               "picture's "
+               "file";
+    }
     const char* what = source == MotionSource::model ? "of the surface point under the pixel's centre"
                                                      : "of what looks most like the pixel's neighbourhood";
     return fmt::format(
@@ -106,7 +111,7 @@ ChannelImage make_frame_image(const FrameOutput& output, bool maps, const Scene&
         file.metadata["seed"] = static_cast<double>(settings.seed);
         file.metadata["worldToCamera"] = format_camera(output.view);
     }
-    file.metadata["motion:definition"] = define_motion(settings.motion);
+    file.metadata["motion:definition"] = define_motion(output, settings.motion);
     for (const auto& [key, value] : setting_map(settings)) {
         const std::string text = std::visit([](const auto& v) { return fmt::format("{}", v); }, value);
         file.metadata["aleph:" + key] = text;
