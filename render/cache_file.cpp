@@ -101,13 +101,16 @@ class Reader {
 
 }  // namespace
 
-CacheFingerprint make_cache_fingerprint(const Scene& scene, const RenderSettings& settings, int camera) {
+CacheFingerprint make_cache_fingerprint(const Scene& scene, const RenderSettings& settings,
+                                        const std::vector<CameraShot>& shots) {
     CacheFingerprint fingerprint;
     const std::filesystem::path program = "/proc/self/exe";
     const Bytes bytes = read_regular_file(program, "this program", "");
     fingerprint.build =
         fmt::format("{} {}", ALEPH_VERSION, hash_bytes({reinterpret_cast<const char*>(bytes.data()), bytes.size()}));
-    fingerprint.scene = fmt::format("{} camera {}", hash_scene(scene), camera);
+    fingerprint.scene = hash_scene(scene);
+    for (const CameraShot& shot : shots)
+        fingerprint.scene += fmt::format(" camera {} from {}", shot.camera, shot.first);
     for (const auto& [key, value] : setting_map(settings)) {
         if (!reading_settings.contains(key)) fingerprint.settings[key] = value;
     }

@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/pose/pose.h"
 #include "render/irradiance_cache.h"
 #include "render/settings.h"
 
@@ -22,13 +23,14 @@ using MomentRecords = std::map<std::int64_t, std::vector<IrradianceRecord>>;
 /// What records depend on.
 struct CacheFingerprint {
     std::string build;    ///< version and SHA-1 of the program file
-    std::string scene;    ///< hash_scene, and the camera
+    std::string scene;    ///< hash_scene, and the cameras
     SettingMap settings;  ///< those that count
 };
 
 /// @param scene   with its cages at the levels that are rendered
-/// @param camera  index into ScenePose::cameras
-CacheFingerprint make_cache_fingerprint(const Scene& scene, const RenderSettings& settings, int camera);
+/// @param shots   list_camera_shots
+CacheFingerprint make_cache_fingerprint(const Scene& scene, const RenderSettings& settings,
+                                        const std::vector<CameraShot>& shots);
 
 /// Replaces the file, whole or not at all.
 /// @throws OutputError

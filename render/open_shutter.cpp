@@ -2,11 +2,11 @@
 
 namespace aleph {
 
-SampleMoment OpenShutter::move_to(double seconds, int width, int height) {
+SampleMoment OpenShutter::move_to(double seconds, int camera, int width, int height) {
     if (posed_) {
-        update_posed_view(scene_, plan_, seconds, camera_, *posed_);
+        update_posed_view(scene_, plan_, seconds, camera, *posed_);
     } else {
-        posed_ = make_posed_view(scene_, seconds, camera_, width, height);
+        posed_ = make_posed_view(scene_, seconds, camera, width, height);
     }
     rays_.update_moving(posed_->pose, compute_anchor(posed_->view));
     if (shading_) {

@@ -13,11 +13,11 @@ class OpenShutter {
   public:
     /// Keeps references to all of them but `rays`, whose mesh structures it shares.
     /// @param camera  index into ScenePose::cameras
-    OpenShutter(const Scene& scene, const PosePlan& plan, const TextureSet& textures, const RayScene& rays, int camera)
-        : scene_(scene), plan_(plan), textures_(textures), camera_(camera), rays_(rays.share_meshes()) {}
+    OpenShutter(const Scene& scene, const PosePlan& plan, const TextureSet& textures, const RayScene& rays)
+        : scene_(scene), plan_(plan), textures_(textures), rays_(rays.share_meshes()) {}
 
     /// The scene at a time, valid until the next call.
-    SampleMoment move_to(double seconds, int width, int height);
+    SampleMoment move_to(double seconds, int camera, int width, int height);
 
     std::uint64_t rays_traced() const { return rays_.rays_traced(); }
 
@@ -25,7 +25,6 @@ class OpenShutter {
     const Scene& scene_;
     const PosePlan& plan_;
     const TextureSet& textures_;
-    int camera_;
     RayScene rays_;
     std::optional<PosedView> posed_;
     std::optional<ShadingScene> shading_;

@@ -39,11 +39,11 @@ void fill_geometry_maps(const ShadingScene& shading, const SampleHits& centers, 
 
 /// The scene at each sample's time while the shutter is open.
 std::function<SampleMoment(int, int)> open_shutter(SequenceState& s, const ShutterInterval& shutter,
-                                                   std::uint32_t frame) {
-    const double shift = RandomStream({s.settings.seed ^ shutter_seed_mask, frame, 0, 0}).next();
-    return [&s, shutter, shift](int sample, int pixel_class) {
+                                                   std::int64_t frame) {
+    const double shift = RandomStream({s.settings.seed ^ shutter_seed_mask, s.noise_key(frame), 0, 0}).next();
+    return [&s, frame, shutter, shift](int sample, int pixel_class) {
         const double at = place_in_shutter(shutter, sample, pixel_class, shift);
-        return s.look_at(at);
+        return s.look_at(frame, at);
     };
 }
 
@@ -81,8 +81,8 @@ void shade(const IndirectContext& context, const SampleHits& centers, double exp
 Sequence::Sequence(Scene scene, const RenderSettings& settings, const std::string& camera) : camera_(camera) {
     validate(settings);
     validate(scene);
-    const int camera_index = find_camera(scene, camera);
-    state_ = std::make_unique<SequenceState>(std::move(scene), settings, camera_index);
+    const std::vector<CameraShot> shots = list_camera_shots(scene, camera);
+    state_ = std::make_unique<SequenceState>(std::move(scene), settings, shots);
     SequenceState& s = *state_;
     if (s.scene.exposure) {
         s.exposure = *s.scene.exposure;
@@ -90,7 +90,7 @@ Sequence::Sequence(Scene scene, const RenderSettings& settings, const std::strin
     }
     const int height = std::max(1, exposure_columns * settings.height / settings.width);
     const double seconds = s.scene.frame_rate.seconds_of(s.range.first);
-    const PosedView posed = make_posed_view(s.scene, seconds, s.camera, exposure_columns, height);
+    const PosedView posed = make_posed_view(s.scene, seconds, s.camera(s.range.first), exposure_columns, height);
     s.rays.update(posed.pose, compute_anchor(posed.view));
     RayCounts counts;
     s.exposure = compute_exposure(s.estimate_view(s.rays, posed, EstimateKind::direct, std::nullopt, counts));
@@ -138,7 +138,7 @@ FrameOutput Sequence::render(std::int64_t frame, const FrameRequest& request) {
     std::unique_ptr<CarriedLight> carried;
     if (request.frame) {
         s.move_to_frame(s.now, frame);
-        const CameraValues& camera = s.now->pose.cameras[s.camera];
+        const CameraValues& camera = s.now->pose.cameras[s.camera(frame)];
         options.lens = find_lens(s.scene, camera);
         shutter = s.find_open_shutter(frame);
         if (shutter) options.light_lasts = !s.light_breaks.changes(shutter->open, shutter->close);
@@ -153,7 +153,7 @@ FrameOutput Sequence::render(std::int64_t frame, const FrameRequest& request) {
         const std::uint32_t random_frame = s.noise_key(frame);
         options.blended = s.blended;
         options.record_maps = request.maps;
-        if (shutter) options.at_sample = open_shutter(s, *shutter, random_frame);
+        if (shutter) options.at_sample = open_shutter(s, *shutter, frame);
         const Image<Outline> outlines = find_visible_outlines(s, centers, out);
         const VisibleLimits limits{out.threshold, out.perception.aleph, out.alpha, out.indirect_luminance,
                                    outlines,      s.scene.viewing};

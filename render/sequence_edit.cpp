@@ -27,8 +27,8 @@ void Sequence::edit(const std::function<void(Scene&)>& change) {
     Scene scene = old.scene;
     change(scene);
     validate(scene);
-    const int camera = find_camera(scene, camera_);
-    auto made = std::make_unique<SequenceState>(std::move(scene), old.settings, camera);
+    const std::vector<CameraShot> shots = list_camera_shots(scene, camera_);
+    auto made = std::make_unique<SequenceState>(std::move(scene), old.settings, shots);
     made->exposure = made->scene.exposure.value_or(old.exposure);
     made->before_edit = old.rendered ? std::move(old.now) : std::move(old.before_edit);
     state_ = std::move(made);

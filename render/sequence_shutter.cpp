@@ -7,6 +7,18 @@
 
 namespace aleph {
 
+namespace {
+
+/// Of a camera, by its index in ScenePose::cameras.
+glm::dvec2 read_shutter(const Scene& scene, int camera) {
+    for (const Node& node : scene.nodes) {
+        if (node.camera != no_index && camera-- == 0) return scene.cameras[node.camera].shutter;
+    }
+    return glm::dvec2(0.0);
+}
+
+}  // namespace
+
 Lens find_lens(const Scene& scene, const CameraValues& camera) {
     if (!(camera.aperture > 0.0)) return {};
     if (!(camera.focus_distance > 0.0)) {
@@ -16,28 +28,33 @@ Lens find_lens(const Scene& scene, const CameraValues& camera) {
     return {camera.aperture, camera.focus_distance};
 }
 
-/// Of the camera at a frame, if something can change while it is open.
-std::optional<ShutterInterval> SequenceState::find_open_shutter(std::int64_t frame) const {
-    return can_change() ? find_shutter(scene, shutter, frame) : std::nullopt;
+/// Of a frame's camera.
+glm::dvec2 SequenceState::shutter(std::int64_t frame) const {
+    return read_shutter(scene, camera(frame));
 }
 
-/// The scene while the shutter is open, valid until the next call.
+/// Of the camera at a frame, if something can change while it is open.
+std::optional<ShutterInterval> SequenceState::find_open_shutter(std::int64_t frame) const {
+    return can_change() ? find_shutter(scene, shutter(frame), frame) : std::nullopt;
+}
+
+/// The scene while the shutter of a frame is open, valid until the next call.
 /// @param at  frames
-SampleMoment SequenceState::look_at(double at) {
-    if (!open) open = std::make_unique<OpenShutter>(scene, pose_plan, textures, rays, camera);
-    return open->move_to(at / scene.frame_rate.per_second(), settings.width, settings.height);
+SampleMoment SequenceState::look_at(std::int64_t frame, double at) {
+    if (!open) open = std::make_unique<OpenShutter>(scene, pose_plan, textures, rays);
+    return open->move_to(at / scene.frame_rate.per_second(), camera(frame), settings.width, settings.height);
 }
 
 /// Blurs the sharp estimate by shutter and lens, if they are open. Motion remains that of the shutter's centre.
 void SequenceState::blur_frame_estimate(std::int64_t frame, const SampleHits& centers, const EstimateNodes* nodes,
                                         FrameOutput& out) {
-    const Lens lens = find_lens(scene, now->pose.cameras[camera]);
+    const Lens lens = find_lens(scene, now->pose.cameras[camera(frame)]);
     const std::optional<ShutterInterval> interval = find_open_shutter(frame);
     if (!interval && !(lens.radius > 0.0)) return;
     const SharpEstimate sharp{*shading, out.view, centers, out.estimate, nodes, settings.estimate, exposure};
     const auto look = [&](double place) -> SampleMoment {
         if (!interval) return {lighting(), out.view};
-        return look_at(interval->open + (interval->close - interval->open) * place);
+        return look_at(frame, interval->open + (interval->close - interval->open) * place);
     };
     Image<Rgb> blurred = blur_estimate(sharp, lens, look, out.statistics.counts.rays);
     sanitize_estimate(blurred);

@@ -17,25 +17,30 @@ namespace aleph {
 
 namespace {
 
+/// A change of cameras begins a shot.
+Scene add_camera_cuts(Scene scene, const std::vector<CameraShot>& shots) {
+    for (std::size_t i = 1; i < shots.size(); ++i) scene.cuts.push_back(shots[i].first);
+    std::ranges::sort(scene.cuts);
+    const auto repeated = std::ranges::unique(scene.cuts);
+    scene.cuts.erase(repeated.begin(), repeated.end());
+    return scene;
+}
+
 /// The scene with its subdivision cages at the levels that the picture needs.
-Scene refine_cages(Scene scene, int camera, const RenderSettings& settings) {
+Scene refine_cages(Scene scene, const std::vector<CameraShot>& shots, const RenderSettings& settings) {
     if (scene.cages.empty()) return scene;
     std::vector<int> levels(scene.cages.size(), settings.subdivision_level);
-    if (settings.subdivision_level < 0) levels = choose_cage_levels(scene, camera, settings.width, settings.height);
+    for (const CameraShot& shot : shots) {
+        if (settings.subdivision_level >= 0) break;
+        const std::vector<int> needed = choose_cage_levels(scene, shot.camera, settings.width, settings.height);
+        std::ranges::transform(levels, needed, levels.begin(), [](int a, int b) { return std::max(a, b); });
+    }
     const std::unique_ptr<Scene> refined = make_scene_at_levels(scene, levels);
     return refined ? std::move(*refined) : std::move(scene);
 }
 
 bool is_cut(const Scene& scene, std::int64_t frame) {
     return std::find(scene.cuts.begin(), scene.cuts.end(), frame) != scene.cuts.end();
-}
-
-/// Of a camera, by its index in ScenePose::cameras.
-glm::dvec2 read_shutter(const Scene& scene, int camera) {
-    for (const Node& node : scene.nodes) {
-        if (node.camera != no_index && camera-- == 0) return scene.cameras[node.camera].shutter;
-    }
-    return glm::dvec2(0.0);
 }
 
 /// Motion to the next frame; from the previous one at the scene's last frame; none across a cut.
@@ -47,18 +52,16 @@ OtherFrame find_other_frame(const Scene& scene, const FrameRange& range, std::in
 
 }  // namespace
 
-SequenceState::SequenceState(Scene given, const RenderSettings& chosen, int camera_index)
-    : scene(refine_cages(std::move(given), camera_index, chosen)),
+SequenceState::SequenceState(Scene given, const RenderSettings& chosen, const std::vector<CameraShot>& camera_shots)
+    : scene(refine_cages(add_camera_cuts(std::move(given), camera_shots), camera_shots, chosen)),
       settings(chosen),
-      camera(camera_index),
-      shutter(read_shutter(scene, camera)),
+      shots(camera_shots),
       range(frame_range(scene)),
       textures(make_texture_set(scene)),
       pose_plan(make_pose_plan(scene)),
-      is_camera_still(std::ranges::find(pose_plan.cameras, camera) == pose_plan.cameras.end()),
       rays(scene, pose_plan),
       blended(has_blended(scene)),
-      light_breaks(scene, pose_plan, shutter) {
+      light_breaks(scene, pose_plan, shutter(range.first)) {
     if (!reads_moments()) return;
     const auto find_breaks = [this](std::int64_t first, std::int64_t last) { return light_breaks.find(first, last); };
     shot_light.emplace(KeyMoments{range, scene.cuts, settings.light_step, find_breaks}, settings,
@@ -68,11 +71,11 @@ SequenceState::SequenceState(Scene given, const RenderSettings& chosen, int came
 /// Takes `posed` to a frame. Its first call poses the whole scene, later calls only what can move.
 void SequenceState::move_to_frame(std::optional<PosedView>& posed, std::int64_t frame) const {
     const double seconds =
-        can_change() ? find_shutter_center(scene, shutter, frame) : scene.frame_rate.seconds_of(frame);
+        can_change() ? find_shutter_center(scene, shutter(frame), frame) : scene.frame_rate.seconds_of(frame);
     if (posed) {
-        update_posed_view(scene, pose_plan, seconds, camera, *posed);
+        update_posed_view(scene, pose_plan, seconds, camera(frame), *posed);
     } else {
-        posed = make_posed_view(scene, seconds, camera, settings.width, settings.height);
+        posed = make_posed_view(scene, seconds, camera(frame), settings.width, settings.height);
     }
 }
 
@@ -271,7 +274,7 @@ MomentSource SequenceState::key_moments() {
     const auto cast = [this](const KeyView& view, RayCounts& counts) {
         if (!other_rays) other_rays = std::make_unique<RayScene>(rays.share_meshes());
         other_rays->update_moving(view.posed.pose, view.shading.anchor);
-        const Lens lens = find_lens(scene, view.posed.pose.cameras[camera]);
+        const Lens lens = find_lens(scene, view.posed.pose.cameras[camera(view.frame)]);
         const SamplePlace place = make_sample_place(settings, lens, blended, noise_key(view.frame), 0);
         return cast_sample(*other_rays, view.posed.view, place, &counts.primary);
     };
@@ -280,7 +283,7 @@ MomentSource SequenceState::key_moments() {
 
 /// Of the scene, its settings and this program; made when it is first asked for.
 const CacheFingerprint& SequenceState::fingerprint() {
-    if (!cache_fingerprint) cache_fingerprint = make_cache_fingerprint(scene, settings, camera);
+    if (!cache_fingerprint) cache_fingerprint = make_cache_fingerprint(scene, settings, shots);
     return *cache_fingerprint;
 }
 

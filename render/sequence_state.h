@@ -1,6 +1,7 @@
 #pragma once
 // What a Sequence keeps between frames, and the stages of a frame before its picture is shaded.
 
+#include <algorithm>
 #include <memory>
 #include <optional>
 
@@ -21,7 +22,8 @@ namespace aleph {
 Lens find_lens(const Scene& scene, const CameraValues& camera);
 
 struct SequenceState {
-    SequenceState(Scene given, const RenderSettings& chosen, int camera_index);
+    /// @param shots  list_camera_shots(given, name)
+    SequenceState(Scene given, const RenderSettings& chosen, const std::vector<CameraShot>& shots);
 
     void move_to_frame(std::optional<PosedView>& posed, std::int64_t frame) const;
     Image<Rgb> estimate_view(const RayScene& view_rays, const PosedView& posed, EstimateKind kind,
@@ -32,7 +34,7 @@ struct SequenceState {
     std::optional<EstimateNodes> compute_frame_estimate(std::int64_t frame, const SampleHits& centers, bool maps,
                                                         FrameOutput& out);
     std::optional<ShutterInterval> find_open_shutter(std::int64_t frame) const;
-    SampleMoment look_at(double at);
+    SampleMoment look_at(std::int64_t frame, double at);
     void blur_frame_estimate(std::int64_t frame, const SampleHits& centers, const EstimateNodes* nodes,
                              FrameOutput& out);
     std::size_t update_rays_and_shading();
@@ -54,24 +56,27 @@ struct SequenceState {
     /// Whether something obeys the visible threshold.
     bool needs_perception() const { return is_guided() || settings.sampling != Sampling::uniform; }
     bool estimates_indirect_light() const { return settings.bounces > 0 && settings.estimate == EstimateKind::direct; }
-    /// Key of a frame's random numbers: the same for all frames if the camera never moves, so that their noise is too,
+    /// Key of a frame's random numbers: the same for all frames if its camera never moves, so that their noise is too,
     /// where nothing else does.
     std::uint32_t noise_key(std::int64_t frame) const {
-        return is_camera_still ? 0u : static_cast<std::uint32_t>(frame);
+        return is_still(camera(frame)) ? 0u : static_cast<std::uint32_t>(frame);
     }
-    bool can_change() const { return is_world_animated(scene) || !pose_plan.cameras.empty(); }
+    bool can_change() const { return is_world_animated(scene) || !pose_plan.cameras.empty() || shots.size() > 1; }
+    /// Index into ScenePose::cameras of the one that looks.
+    int camera(std::int64_t frame) const { return camera_at(shots, frame); }
+    /// Whether a camera has the same view at all times.
+    bool is_still(int camera) const { return std::ranges::find(pose_plan.cameras, camera) == pose_plan.cameras.end(); }
+    glm::dvec2 shutter(std::int64_t frame) const;
     std::uint64_t rays_traced() const {
         return rays.rays_traced() + (other_rays ? other_rays->rays_traced() : 0) + (open ? open->rays_traced() : 0);
     }
 
     const Scene scene;
     const RenderSettings settings;
-    const int camera;
-    const glm::dvec2 shutter;  ///< of the camera
+    const std::vector<CameraShot> shots;
     const FrameRange range;
     TextureSet textures;
     PosePlan pose_plan;
-    const bool is_camera_still;
     RayScene rays;
     // Kept from frame to frame and updated, which gives the same results as making them anew.
     std::optional<PosedView> now, other;

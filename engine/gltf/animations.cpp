@@ -1,6 +1,7 @@
 // glTF reader: animations: each channel's keys go to the property that it moves.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <map>
 
@@ -8,6 +9,7 @@
 #include "engine/gltf/reader.h"
 #include "engine/gltf/tracks.h"
 #include "engine/gltf/validate/pointer.h"
+#include "engine/json/close_names.h"
 
 namespace aleph {
 
@@ -172,14 +174,32 @@ bool moves_nothing(const nlohmann::json& target) {
     return !target.contains("node") && !(target["path"] == "pointer" && has_pointer);
 }
 
+std::string animation_name(const GltfReader& reader, std::size_t i) {
+    const std::string& name = reader.source.model.animations[i].name;
+    return name.empty() ? fmt::format("animation {}", i) : name;
+}
+
+void require_animations(const GltfReader& reader, const std::vector<std::string>& names) {
+    std::vector<std::string> known;
+    for (std::size_t i = 0; i < reader.source.model.animations.size(); ++i) known.push_back(animation_name(reader, i));
+    for (const std::string& name : names) {
+        if (std::ranges::find(known, name) != known.end()) continue;
+        throw InputError(reader.source.file, "",
+                         fmt::format("there is no animation \"{}\"{}", printable(name),
+                                     known.empty() ? "; the file has none" : suggestion(name, known)));
+    }
+}
+
 }  // namespace
 
-void read_animations(GltfReader& reader) {
+void read_animations(GltfReader& reader, const std::vector<std::string>* names) {
+    if (names != nullptr) require_animations(reader, *names);
     // All animations play together. Where two move one property they were made to play one at a time: only the first
     // does.
     std::map<std::string, std::size_t> moved_by;
     const std::vector<tinygltf::Animation>& animations = reader.source.model.animations;
     for (std::size_t i = 0; i < animations.size(); ++i) {
+        if (names != nullptr && std::ranges::find(*names, animation_name(reader, i)) == names->end()) continue;
         const nlohmann::json& raw = reader.source.document["animations"][i];
         const std::string place = fmt::format("/animations/{}", i);
         std::size_t without_node = 0, left_out = 0, first_mover = 0;
@@ -201,8 +221,8 @@ void read_animations(GltfReader& reader) {
         }
         if (left_out > 0) {
             const auto name = [&](std::size_t k) {
-                return animations[k].name.empty() ? fmt::format("animation {}", k)
-                                                  : fmt::format("\"{}\"", printable(animations[k].name));
+                const std::string text = printable(animation_name(reader, k));
+                return animations[k].name.empty() ? text : fmt::format("\"{}\"", text);
             };
             reader.warn(place,
                         fmt::format("{} of the {} channels of {} are left out: {} moves the same and comes first",

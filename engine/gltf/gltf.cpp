@@ -8,7 +8,7 @@
 namespace aleph {
 
 void append_gltf(const std::filesystem::path& file, Scene& scene, int parent_node, int include_index,
-                 const LoadLimits& limits) {
+                 const LoadLimits& limits, const std::vector<std::string>* animations) {
     const GltfSource source = load_gltf_source(file, limits);
     GltfReader reader(source);
     reader.part.warnings = source.warnings;
@@ -17,7 +17,7 @@ void append_gltf(const std::filesystem::path& file, Scene& scene, int parent_nod
     read_cameras_and_lights(reader);
     read_nodes(reader);
     read_skins(reader);
-    read_animations(reader);
+    read_animations(reader, animations);
     warn_of_invisible_meshes(reader);
     append_part(scene, std::move(reader.part), parent_node, include_index);
 }

@@ -41,7 +41,8 @@ void read_meshes(GltfReader& reader);
 void read_cameras_and_lights(GltfReader& reader);
 void read_nodes(GltfReader& reader);
 void read_skins(GltfReader& reader);
-void read_animations(GltfReader& reader);
+/// @param names  of the animations that are read; null: all
+void read_animations(GltfReader& reader, const std::vector<std::string>* names);
 /// Warns of a scene without a mesh, and of nodes that always shrink their meshes to a point.
 void warn_of_invisible_meshes(GltfReader& reader);
 

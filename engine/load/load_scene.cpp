@@ -18,6 +18,7 @@
 #include "engine/load/environment_picture.h"
 #include "engine/load/flat_warnings.h"
 #include "engine/load/framing_camera.h"
+#include "engine/load/load_includes.h"
 #include "engine/load/mesh_warnings.h"
 #include "engine/load/warnings.h"
 #include "engine/pose/pose.h"
@@ -104,14 +105,19 @@ Scene load_scene_file(const fs::path& path, const std::string& file, const LoadL
     }
     load_images(text, folder, file);
     make_environment_linear(scene);
-    for (std::size_t i = 0; i < scene.includes.size(); ++i) {
-        append_asset(folder / scene.includes[i].path, scene, scene.includes[i].node, static_cast<int>(i), limits);
-    }
+    load_includes(scene, folder, text.include_places, limits);
     if (!scene.camera.empty()) {
         try {
             find_camera(scene, scene.camera);
         } catch (const InputError& error) {
             throw InputError(file, "/camera", error.reason());
+        }
+    }
+    for (std::size_t i = 0; i < scene.camera_keys.size(); ++i) {
+        try {
+            find_camera(scene, scene.camera_keys[i].camera);
+        } catch (const InputError& error) {
+            throw InputError(file, fmt::format("/camera/keys/{}", i), error.reason());
         }
     }
     return std::move(scene);
@@ -135,7 +141,7 @@ Scene load_asset_file(const fs::path& path, const std::string& file, const LoadL
     Scene scene;
     scene.file = file;
     scene.name = path.stem().string();
-    scene.includes.push_back({path.filename().string(), no_index});
+    scene.includes.emplace_back().path = path.filename().string();
     set_timing(append_asset(path, scene, no_index, 0, limits), scene);
     const bool has_camera =
         std::any_of(scene.nodes.begin(), scene.nodes.end(), [](const Node& node) { return node.camera != no_index; });

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "engine/base/errors.h"
+#include "engine/pose/pose.h"
 #include "engine/scene/operations.h"
 #include "engine/scene/visit.h"
 #include "engine/surface/cage_checks.h"
@@ -91,6 +92,16 @@ void validate_shot(const Scene& scene) {
     environment.require(scene.environment.has_value(), "a picture of the surroundings needs `environment`, its factor");
     environment.require(!scene.images[scene.environment_image].floats.empty(),
                         "the picture of the surroundings has no floating-point pixels");
+}
+
+void validate_camera_keys(const Scene& scene) {
+    for (std::size_t i = 0; i < scene.camera_keys.size(); ++i) {
+        const Element at(scene, "camera key", i, scene.camera_keys[i].camera);
+        at.require(i == 0 || scene.camera_keys[i].frame > scene.camera_keys[i - 1].frame, "frames have to ascend");
+        find_camera(scene, scene.camera_keys[i].camera);
+    }
+    const Element both(scene, "camera", 0, scene.camera);
+    both.require(scene.camera.empty() || scene.camera_keys.empty(), "either a camera or camera keys can be set");
 }
 
 void validate_nodes(const Scene& scene) {
@@ -222,6 +233,7 @@ void validate_mesh(const Scene& scene, int index) {
 void validate(const Scene& scene) {
     validate_shot(scene);
     validate_nodes(scene);
+    validate_camera_keys(scene);
     validate_materials(scene);
     validate_lights_and_cameras(scene);
     validate_motion_sources(scene);

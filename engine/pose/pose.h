@@ -94,9 +94,24 @@ ScenePose pose(const Scene& scene, double seconds);
 FrameRange frame_range(const Scene& scene);
 
 /// Index into ScenePose::cameras (the same at every time) by node or camera name; an empty name takes the scene's
-/// choice, then the first.
+/// choice (the first of its camera keys), then the first.
 /// @throws InputError if there is none of that name, listing those that exist, or no camera at all
 int find_camera(const Scene& scene, const std::string& name);
+
+/// The camera that looks from a frame on.
+struct CameraShot {
+    std::int64_t first = 0;  ///< frame; the first shot holds before it too
+    int camera = 0;          ///< index into ScenePose::cameras
+
+    bool operator==(const CameraShot&) const = default;
+};
+
+/// The scene's camera keys, without those that change nothing; one shot if a camera is named or there are no keys.
+/// @throws InputError as find_camera
+std::vector<CameraShot> list_camera_shots(const Scene& scene, const std::string& name);
+
+/// The camera of the shot that a frame belongs to.
+int camera_at(const std::vector<CameraShot>& shots, std::int64_t frame);
 
 /// True if anything that a ScenePose holds can differ between two times, apart from cameras.
 bool is_world_animated(const Scene& scene);

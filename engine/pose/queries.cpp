@@ -67,6 +67,10 @@ FrameRange frame_range(const Scene& scene) {
     for (const Light& light : scene.lights) visit_tracks(light, visit);
     for (const Camera& camera : scene.cameras) visit_tracks(camera, visit);
     visit_environment(scene, visit);
+    for (const CameraKey& key : scene.camera_keys) {
+        earliest = std::min(earliest, scene.frame_rate.seconds_of(key.frame));
+        latest = std::max(latest, scene.frame_rate.seconds_of(key.frame));
+    }
     if (!(earliest <= latest)) return {};
 
     // A key within rounding of a frame is on it: single-precision times are off by up to 6e-8 of themselves.
@@ -81,7 +85,8 @@ FrameRange frame_range(const Scene& scene) {
 }
 
 int find_camera(const Scene& scene, const std::string& name) {
-    const std::string& wanted = name.empty() ? scene.camera : name;
+    const std::string& chosen = scene.camera_keys.empty() ? scene.camera : scene.camera_keys.front().camera;
+    const std::string& wanted = name.empty() ? chosen : name;
     std::vector<const Node*> holders;
     for (const Node& node : scene.nodes)
         if (node.camera != no_index) holders.push_back(&node);
@@ -104,6 +109,22 @@ int find_camera(const Scene& scene, const std::string& name) {
     }
     throw InputError(scene.file, "camera",
                      fmt::format("there is no camera '{}'; there is {}", printable(wanted), known));
+}
+
+std::vector<CameraShot> list_camera_shots(const Scene& scene, const std::string& name) {
+    std::vector<CameraShot> shots{{0, find_camera(scene, name)}};
+    if (!name.empty()) return shots;
+    for (const CameraKey& key : scene.camera_keys) {
+        const int camera = find_camera(scene, key.camera);
+        if (camera != shots.back().camera) shots.push_back({key.frame, camera});
+    }
+    return shots;
+}
+
+int camera_at(const std::vector<CameraShot>& shots, std::int64_t frame) {
+    int camera = shots.front().camera;
+    for (std::size_t i = 1; i < shots.size() && shots[i].first <= frame; ++i) camera = shots[i].camera;
+    return camera;
 }
 
 bool is_world_animated(const Scene& scene) {

@@ -71,4 +71,24 @@ void append_part(Scene& scene, Scene&& part, int parent_node, int include) {
     append(scene.warnings, part.warnings);
 }
 
+bool can_be_copied(const Scene& scene, int begin, int end) {
+    for (int i = begin; i < end; ++i) {
+        for (const int mesh : scene.nodes[i].meshes) {
+            if (scene.meshes[mesh].skin != no_index || !scene.meshes[mesh].targets.empty()) return false;
+        }
+    }
+    return true;
+}
+
+void append_copy(Scene& scene, int begin, int end, int parent_node, int include) {
+    const int offset = static_cast<int>(scene.nodes.size()) - begin;
+    scene.nodes.reserve(scene.nodes.size() + static_cast<std::size_t>(end - begin));
+    for (int i = begin; i < end; ++i) {
+        Node copy = scene.nodes[i];
+        copy.parent = copy.parent >= begin ? copy.parent + offset : parent_node;
+        copy.include = include;
+        scene.nodes.push_back(std::move(copy));
+    }
+}
+
 }  // namespace aleph

@@ -11,4 +11,13 @@ namespace aleph {
 /// @param include  index of the include that the part comes from
 void append_part(Scene& scene, Scene&& part, int parent_node, int include);
 
+/// Shows what an include brought a second time: copies of its nodes that share its meshes, lights and cameras.
+/// @param begin, end   its nodes
+/// @param parent_node  of the copies' roots
+/// @param include      index of the include that the copies come from
+void append_copy(Scene& scene, int begin, int end, int parent_node, int include);
+
+/// Whether append_copy can show these nodes: a mesh with a skin or morph targets stands under one node only.
+bool can_be_copied(const Scene& scene, int begin, int end);
+
 }  // namespace aleph

@@ -103,8 +103,14 @@ struct Camera {
 
 /// A .gltf, .glb or .abc file whose content hangs below a node. Its elements follow the scene's own.
 struct Include {
+    enum class Up : std::uint8_t { x, y, z };
     std::string path;  ///< relative to the scene file
     int node = no_index;
+    /// glTF animations that play, by name ("animation 2" if it has none); unset: all.
+    std::optional<std::vector<std::string>> animations{};
+    std::map<std::string, std::string> materials{};  ///< of the file by name, to the scene's own that take their place
+    double scale = 1.0;                              ///< metres per unit of the file
+    Up up = Up::y;                                   ///< the file's axis that points up
 
     bool operator==(const Include&) const = default;
 };
@@ -112,6 +118,14 @@ struct Include {
 /// A render setting as it was written; render/settings.h knows the keys and their types.
 using SettingValue = std::variant<bool, double, std::string>;
 using SettingMap = std::map<std::string, SettingValue>;
+
+/// From this frame on, the picture is seen by another camera.
+struct CameraKey {
+    std::int64_t frame = 0;
+    std::string camera;  ///< name of a camera or of its node
+
+    bool operator==(const CameraKey&) const = default;
+};
 
 struct FrameRange {
     std::int64_t first = 0;
@@ -133,6 +147,8 @@ struct Scene {
     Track<glm::dquat> environment_rotation{glm::dquat(1.0, 0.0, 0.0, 0.0)};  ///< picture to world
     std::optional<AxisRotation> environment_axis_rotation;                   ///< in place of `environment_rotation`
     std::string camera;  ///< name of the camera or of its node; empty: the first
+    /// In place of `camera`, frames ascending; before the first key its camera looks. A change of cameras is a cut.
+    std::vector<CameraKey> camera_keys;
 
     std::vector<Node> nodes;  ///< a parent stands before its children
     std::vector<Mesh> meshes;

@@ -158,15 +158,21 @@ class NodeReader {
 
     /// Gives the node the source's meshes and light. @return whether the source has any
     bool share(const JsonRef& at, int source, int index) {
-        if (with_include_.contains(source)) {
-            at.fail("an instance cannot show an include: include the file again");
+        const std::size_t includes = scene_.includes.size();
+        for (std::size_t i = 0; with_include_.contains(source) && i < includes; ++i) {
+            if (scene_.includes[i].node != source) continue;
+            reader_.charge(include_bytes, at, "too many includes are shown again");
+            scene_.includes.push_back(scene_.includes[i]);
+            scene_.includes.back().node = index;
+            reader_.result.include_places.push_back(at.pointer());
+            with_include_.insert(index);
         }
         const Node& from = scene_.nodes[source];
         Node& to = scene_.nodes[index];
         reader_.charge(from.meshes.size() * sizeof(int), at, "too many meshes are shared");
         to.meshes.insert(to.meshes.end(), from.meshes.begin(), from.meshes.end());
         if (to.light == no_index) to.light = from.light;
-        return !from.meshes.empty() || from.light != no_index;
+        return !from.meshes.empty() || from.light != no_index || scene_.includes.size() > includes;
     }
 
     int add_node(Node node) {
@@ -179,6 +185,7 @@ class NodeReader {
     }
 
     static constexpr std::size_t node_bytes = sizeof(Node) + 600;  // with values of tracks and names to look up
+    static constexpr std::size_t include_bytes = 4096;
     static constexpr std::size_t max_ancestors_seen = 10'000'000;
 
     SceneReader& reader_;
@@ -188,6 +195,31 @@ class NodeReader {
     std::vector<std::vector<int>> children_;  ///< by node
     std::unordered_set<int> with_include_;
 };
+
+Include read_include(const JsonRef& at) {
+    Include include;
+    const bool plain = at.json().is_string();
+    const std::optional<JsonRef> file = plain ? std::optional<JsonRef>() : at.find("file");
+    const JsonRef& path = file ? *file : at;
+    if (const std::string fault = path_fault(path.string()); !fault.empty()) path.fail(fault);
+    include.path = path.string();
+    if (plain) return include;
+    if (const auto animation = at.find("animation")) {
+        include.animations.emplace();
+        if (animation->json().is_string()) include.animations->push_back(animation->string());
+        for (std::size_t i = 0; animation->json().is_array() && i < animation->array_size(); ++i) {
+            include.animations->push_back((*animation)[i].string());
+        }
+    }
+    if (const auto materials = at.find("materials")) {
+        for (const auto& entry : materials->json().items()) {
+            include.materials[entry.key()] = materials->require(entry.key()).string();
+        }
+    }
+    if (const auto scale = at.find("scale")) include.scale = scale->number_above(0.0);
+    if (const auto up = at.find("up")) include.up = static_cast<Include::Up>(up->string().front() - 'x');
+    return include;
+}
 
 }  // namespace
 
@@ -201,17 +233,17 @@ void read_includes(SceneReader& reader, const JsonRef& parent, int node) {
     const auto include = parent.find("include");
     if (!include) return;
     const auto add = [&](const JsonRef& at) {
-        if (const std::string fault = path_fault(at.string()); !fault.empty()) at.fail(fault);
-        reader.scene.includes.push_back({at.string(), node});
+        reader.scene.includes.push_back(read_include(at));
+        reader.scene.includes.back().node = node;
         reader.result.include_places.push_back(at.pointer());
     };
-    if (include->json().is_string()) {
+    if (!include->json().is_array()) {
         add(*include);
         return;
     }
     for (std::size_t i = 0; i < include->array_size(); ++i) {
-        const JsonRef path = (*include)[i];
-        add(path);
+        const JsonRef entry = (*include)[i];
+        add(entry);
     }
 }
 

@@ -46,6 +46,7 @@ Scene without_includes(const Scene& scene, const std::string& file) {
     own.environment_rotation = scene.environment_rotation;
     own.environment_axis_rotation = scene.environment_axis_rotation;
     own.camera = scene.camera;
+    own.camera_keys = scene.camera_keys;
     own.nodes = own_part("node", scene.nodes, file);
     own.meshes = own_part("mesh", scene.meshes, file);
     own.point_caches = own_part("points", scene.point_caches, file);

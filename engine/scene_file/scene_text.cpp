@@ -30,9 +30,23 @@ std::int64_t read_frame(const JsonRef& list, std::size_t i) {
     return frame.integer(-1000000000, 1000000000);
 }
 
+/// A name, or keys of frames and names. Whether the cameras exist is known when the includes are read.
+void read_camera_choice(Scene& scene, const JsonRef& at) {
+    if (at.json().is_string()) {
+        scene.camera = at.string();
+        return;
+    }
+    const JsonRef keys = at.require("keys");
+    for (std::size_t i = 0; i < keys.array_size(); ++i) {
+        const JsonRef key = keys[i], name = key[1];
+        scene.camera_keys.push_back({read_frame(key, 0), name.string()});
+        if (i > 0 && scene.camera_keys[i].frame <= scene.camera_keys[i - 1].frame) key.fail("key times have to ascend");
+    }
+}
+
 void read_header(Scene& scene, const JsonRef& root) {
     scene.name = root.find_string("name").value_or("");
-    scene.camera = root.find_string("camera").value_or("");
+    if (const auto camera = root.find("camera")) read_camera_choice(scene, *camera);
     if (const auto fps = root.find("fps")) scene.frame_rate = read_frame_rate(*fps);
     if (const auto frames = root.find("frames")) {
         scene.range = FrameRange{read_frame(*frames, 0), read_frame(*frames, 1)};

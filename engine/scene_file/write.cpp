@@ -101,6 +101,7 @@ class Writer {
         }
         if (scene_.exposure) out_["exposure"] = *scene_.exposure;
         if (!scene_.camera.empty()) out_["camera"] = scene_.camera;
+        for (const CameraKey& key : scene_.camera_keys) out_["camera"]["keys"].push_back({key.frame, key.camera});
         if (scene_.environment) {
             at_.place = "environment";
             validate(*scene_.environment, at_.file, at_.place);
@@ -203,9 +204,22 @@ class Writer {
     void write_includes(ordered_json& out, int node) const {
         ordered_json paths = ordered_json::array();
         for (const Include& include : scene_.includes) {
-            if (include.node == node) paths.push_back(include.path);
+            if (include.node == node) paths.push_back(write_include(include));
         }
         if (!paths.empty()) out["include"] = paths.size() == 1 ? paths.front() : paths;
+    }
+
+    static ordered_json write_include(const Include& include) {
+        Include plain;
+        plain.path = include.path;
+        plain.node = include.node;
+        if (include == plain) return include.path;
+        ordered_json out{{"file", include.path}};
+        if (include.animations) out["animation"] = *include.animations;
+        if (!include.materials.empty()) out["materials"] = include.materials;
+        if (include.scale != 1.0) out["scale"] = include.scale;
+        if (include.up != Include::Up::y) out["up"] = std::string(1, "xyz"[static_cast<int>(include.up)]);
+        return out;
     }
 
     const Scene& scene_;

@@ -153,8 +153,12 @@ void describe_view(ordered_json& out, const Scene& scene, const RenderSettings& 
     try {
         const Sequence sequence(scene, settings, camera);
         const ScenePose posed = pose(scene, 0.0);
-        const int index = find_camera(scene, camera);
-        out["camera"] = scene.nodes[posed.cameras[index].node].name;
+        const std::vector<CameraShot> shots = list_camera_shots(scene, camera);
+        const auto name = [&](const CameraShot& shot) { return scene.nodes[posed.cameras[shot.camera].node].name; };
+        out["camera"] = name(shots.front());
+        for (std::size_t i = 1; i < shots.size(); ++i) {
+            out["camera_changes"].push_back({{"frame", shots[i].first}, {"camera", name(shots[i])}});
+        }
         out["exposure"] = {{"factor", sequence.exposure()}, {"from", scene.exposure ? "given" : "first frame"}};
     } catch (const InputError& error) {
         if (!camera.empty()) throw;

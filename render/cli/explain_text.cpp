@@ -164,7 +164,11 @@ std::string explain_text(const ordered_json& explained, std::size_t max_objects)
     text += "units     metres, seconds, degrees; y up\n";
     text += frames_text(explained["frames"]);
     if (explained["camera"].is_string()) {
-        text += fmt::format("camera    {}\n", text_of(explained["camera"]));
+        text += fmt::format("camera    {}", text_of(explained["camera"]));
+        for (const ordered_json& change : explained.value("camera_changes", ordered_json::array())) {
+            text += fmt::format("; from frame {} {}", change["frame"].get<std::int64_t>(), text_of(change["camera"]));
+        }
+        text += '\n';
         const ordered_json& exposure = explained["exposure"];
         text += fmt::format("exposure  {:.6g}, {}\n", exposure["factor"].get<double>(),
                             exposure["from"] == "given" ? "as the scene says" : "from its first frame");

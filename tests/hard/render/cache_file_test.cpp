@@ -82,7 +82,7 @@ TEST(CacheFile, IC22_OtherScenesSettingsAndBuildsAreRefused) {
     changed.nodes[1].translation = glm::dvec3(0.0, 1.5, -2.9);
     EXPECT_THAT(refusal(folder / "light", changed, settings), testing::HasSubstr("another scene"));
 
-    CacheFingerprint fingerprint = make_cache_fingerprint(scene, settings, 0);
+    CacheFingerprint fingerprint = make_cache_fingerprint(scene, settings, {{0, 0}});
     fingerprint.build += "x";
     write_cache_file(folder / "light", fingerprint, {});
     EXPECT_THAT(refusal(folder / "light", scene, settings), testing::HasSubstr("another build"));

@@ -81,6 +81,60 @@ TEST(Sequence, MovesWithItsScene) {
     EXPECT_EQ(second.scene().nodes.size(), 4u);
 }
 
+/// make_moving_scene with a second camera, from frame 10 on.
+Scene make_scene_with_two_cameras() {
+    Scene scene = make_moving_scene();
+    scene.cameras.emplace_back().fov = 0.4;
+    Node close;
+    close.name = "close";
+    close.camera = 1;
+    close.translation.values = {{0.5, 1.0, 3.0}, {0.0, 1.0, 3.0}};
+    scene.nodes.push_back(close);
+    scene.range = FrameRange{0, 30};
+    scene.camera_keys = {{0, "eye"}, {4, "eye"}, {10, "close"}};
+    return scene;
+}
+
+TEST(SequenceCameras, EachLooksFromItsFrameOn) {
+    RenderSettings settings = quick_settings(40, 30);
+    Scene scene = make_scene_with_two_cameras();
+    scene.exposure = 1.0;
+    Sequence both(scene, settings), eye(scene, settings, "eye"), close(scene, settings, "close");
+    for (const int frame : {-3, 0, 9, 10, 25}) {
+        const FrameOutput out = both.render(frame, {.frame = true, .maps = true, .progress = {}});
+        const FrameOutput expected =
+            (frame < 10 ? eye : close).render(frame, {.frame = true, .maps = true, .progress = {}});
+        EXPECT_TRUE(out.depth.pixels == expected.depth.pixels) << frame;
+        const bool is_last_of_shot = frame == 9;
+        EXPECT_EQ(std::ranges::count(out.motion.validity.pixels, MotionValidity::valid) == 0, is_last_of_shot);
+        EXPECT_GT(std::ranges::count(expected.motion.validity.pixels, MotionValidity::valid), 0) << "not a cut";
+    }
+    EXPECT_FALSE(both.render(9).shaded.color.pixels == both.render(10).shaded.color.pixels);
+    EXPECT_EQ(both.scene().cuts, std::vector<std::int64_t>{10}) << "frame 4 changes nothing";
+    EXPECT_TRUE(close.scene().cuts.empty());
+}
+
+TEST(SequenceCameras, FramesDoNotDependOnTheirOrder) {
+    const RenderSettings settings = quick_settings(40, 30);
+    Scene scene = make_scene_with_two_cameras();
+    scene.nodes[1].translation = glm::dvec3(0.0, 0.5, 0.0);  // only cameras differ
+    Sequence forward(scene, settings);
+    const Image<Rgb> before = forward.render(8).shaded.color, after = forward.render(12).shaded.color;
+    Sequence backward(scene, settings);
+    EXPECT_TRUE(backward.render(12).shaded.color.pixels == after.pixels);
+    EXPECT_TRUE(backward.render(8).shaded.color.pixels == before.pixels);
+}
+
+TEST(SequenceCameras, KeysAscendAndNameCameras) {
+    const auto refuse = [](std::vector<CameraKey> keys) {
+        Scene scene = make_scene_with_two_cameras();
+        scene.camera_keys = std::move(keys);
+        EXPECT_THROW(Sequence(scene, quick_settings(8, 6)), InputError);
+    };
+    refuse({{0, "eye"}, {0, "close"}});
+    refuse({{0, "eye"}, {3, "floor"}});
+}
+
 const auto maps_only = FrameRequest{.frame = false, .maps = true, .progress = {}};
 
 /// Whether no surface has motion.

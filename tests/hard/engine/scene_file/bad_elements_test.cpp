@@ -147,8 +147,6 @@ TEST(BadSceneFile, Nodes) {
         scene(R"("nodes": [{"name": "a"}, {"instance": "a"}])", "/nodes/1/instance", "meshes or a light"),
         scene(R"("nodes": [{"name": "a", "shape": {"type": "box"}, "children": [{"children": [{"instance": "a"}]}]}])",
               "/nodes/0/children/0/children/0/instance", "hold itself"),
-        scene(R"("nodes": [{"name": "a", "include": "a.glb"}, {"instance": "a"}])", "/nodes/1/instance",
-              "include the file"),
         node("\"inherits\": 0", "/inherits", "true or false"),
         node("\"visible\": \"sometimes\"", "/visible", "\"always\""),
         node("\"operations\": {}", "/operations", "a list of operations"),

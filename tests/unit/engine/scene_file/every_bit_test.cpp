@@ -102,7 +102,11 @@ Scene make_full_scene(Numbers& n) {
         scene.environment_axis_rotation = AxisRotation{glm::normalize(glm::dvec3(n.unit(), n.unit(), 1.0)),
                                                        n.track([&] { return 100.0 * n.unit(); })};
     }
-    scene.camera = "camera 1";
+    if (n.below(2) == 0) {
+        scene.camera = "camera 1";
+    } else {
+        scene.camera_keys = {{-1000000000, "camera 1"}, {7, "camera 0"}};
+    }
     scene.settings = {
         {"accuracy", n.unit()}, {"spp", 4.0}, {"neutral_opponent", false}, {"guide", std::string("none")}};
     for (const char* name : {"z", "a/b~c", "3"}) {
@@ -217,6 +221,11 @@ Scene make_full_scene(Numbers& n) {
         scene.nodes.push_back(node);
     }
     scene.includes = {{"x/a.glb", 3}, {"../b.gltf", 3}, {"c.glb", 17}, {"d.glb", no_index}};
+    scene.includes[1].animations = {"walk", "animation 2"};
+    scene.includes[1].up = Include::Up::z;
+    scene.includes[2].animations.emplace();
+    scene.includes[2].materials = {{"wood", "material 0"}, {"", "material 1"}};
+    scene.includes[2].scale = n.positive();
     return scene;
 }
 

@@ -9,6 +9,8 @@
 #include <string>
 #include <vector>
 
+#include "engine/base/errors.h"
+#include "engine/pose/pose.h"
 #include "engine/scene_file/tracks.h"
 #include "tests/unit/engine/scene_file/short_text.h"
 #include "tests/unit/engine/scene_file/written_again.h"
@@ -149,6 +151,25 @@ TEST(SceneJson, IncludesAreNamedInOrder) {
     EXPECT_EQ(text.scene.includes, (std::vector<Include>{{"a.gltf", 1}, {"../lib/b.glb", 1}, {"z.glb", no_index}}));
     EXPECT_EQ(text.include_places, (std::vector<std::string>{"/nodes/1/include/0", "/nodes/1/include/1", "/include"}));
     EXPECT_EQ(again(text.scene), text.scene);
+}
+
+TEST(SceneJson, CamerasTakeTurns) {
+    const auto read_keys = [](const char* keys) { return read(std::string(R"(, "camera": {"keys": )") + keys + "}"); };
+    EXPECT_EQ(read_keys(R"([[-2, "wide"], [40, "close"]])").camera_keys,
+              (std::vector<CameraKey>{{-2, "wide"}, {40, "close"}}));
+    EXPECT_EQ(frame_range(read_keys(R"([[-2, "wide"], [40, "close"]])")), (FrameRange{-2, 40}));
+    for (const auto& [keys, message] : std::vector<std::pair<const char*, const char*>>{
+             {R"([[0, "a"], [0, "b"]])", "/camera/keys/1: key times have to ascend"},
+             {R"([[0.5, "a"]])", "/camera"},
+             {"[]", "/camera"},
+             {R"([[0, "a", 1]])", "/camera"}}) {
+        try {
+            read_keys(keys);
+            ADD_FAILURE() << keys;
+        } catch (const InputError& error) {
+            EXPECT_NE(std::string(error.what()).find(message), std::string::npos) << error.what();
+        }
+    }
 }
 
 }  // namespace

@@ -1,0 +1,106 @@
+#include "engine/load/load_includes.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <numbers>
+
+#include "engine/alembic/alembic.h"
+#include "engine/base/errors.h"
+#include "engine/gltf/gltf.h"
+#include "engine/json/close_names.h"
+#include "engine/scene/append.h"
+
+namespace aleph {
+
+namespace {
+
+/// What an include appended.
+struct Included {
+    int begin = 0, end = 0;  ///< nodes
+};
+
+bool is_same_content(const Include& a, const Include& b) {
+    return a.path == b.path && a.animations == b.animations && a.materials == b.materials && a.scale == b.scale &&
+           a.up == b.up;
+}
+
+/// A node that turns and scales the file's content, if it has to be.
+int add_axes_node(Scene& scene, int index) {
+    const Include& include = scene.includes[index];
+    if (include.scale == 1.0 && include.up == Include::Up::y) return include.node;
+    constexpr double quarter = std::numbers::pi / 2.0;
+    Node node;
+    node.name = include.path;
+    node.parent = include.node;
+    node.include = index;
+    node.scale = glm::dvec3(include.scale);
+    if (include.up == Include::Up::x) node.rotation = glm::angleAxis(quarter, glm::dvec3(0.0, 0.0, 1.0));
+    if (include.up == Include::Up::z) node.rotation = glm::angleAxis(-quarter, glm::dvec3(1.0, 0.0, 0.0));
+    scene.nodes.push_back(std::move(node));
+    return static_cast<int>(scene.nodes.size()) - 1;
+}
+
+template <class Accept>
+int find_material(const Scene& scene, const std::string& name, const std::string& place, const Accept& accept) {
+    std::vector<std::string> known;
+    for (int i = 0; i < std::ssize(scene.materials); ++i) {
+        if (!accept(scene.materials[i])) continue;
+        if (scene.materials[i].name == name) return i;
+        known.push_back(scene.materials[i].name);
+    }
+    throw InputError(scene.file, place,
+                     fmt::format("there is no material \"{}\"{}", printable(name),
+                                 known.empty() ? "; there are none" : suggestion(name, known)));
+}
+
+/// Replaces materials of the file by the scene's own.
+void replace_materials(Scene& scene, int index, const std::string& place) {
+    for (const auto& [theirs, ours] : scene.includes[index].materials) {
+        const std::string pair = fmt::format("{}/materials/{}", place, printable(theirs));
+        const int replaced = find_material(scene, theirs, pair, [&](const Material& m) { return m.include == index; });
+        const int used = find_material(scene, ours, pair, [](const Material& m) { return m.include == no_index; });
+        for (Mesh& mesh : scene.meshes) {
+            if (mesh.include == index && mesh.material == replaced) mesh.material = used;
+        }
+    }
+}
+
+void append_file(Scene& scene, int index, const std::filesystem::path& path, const std::string& place,
+                 const LoadLimits& limits) {
+    const Include include = scene.includes[index];
+    const int parent = add_axes_node(scene, index);
+    if (path.extension() != ".abc" && path.extension() != ".ABC") {
+        append_gltf(path, scene, parent, index, limits, include.animations ? &*include.animations : nullptr);
+    } else {
+        if (include.animations) {
+            throw InputError(scene.file, place + "/animation", "an Alembic archive has no animations to choose from");
+        }
+        append_alembic(path, scene, parent, index);
+    }
+    replace_materials(scene, index, place);
+}
+
+}  // namespace
+
+void load_includes(Scene& scene, const std::filesystem::path& folder, const std::vector<std::string>& places,
+                   const LoadLimits& limits) {
+    std::vector<Included> included;
+    for (int i = 0; i < std::ssize(scene.includes); ++i) {
+        const Include& include = scene.includes[i];
+        const int begin = static_cast<int>(scene.nodes.size());
+        int same = 0;
+        while (same < i && !(is_same_content(scene.includes[same], include) &&
+                             can_be_copied(scene, included[same].begin, included[same].end))) {
+            ++same;
+        }
+        if (same < i) {
+            append_copy(scene, included[same].begin, included[same].end, include.node, i);
+        } else {
+            append_file(scene, i, folder / include.path, places[i], limits);
+        }
+        included.push_back({begin, static_cast<int>(scene.nodes.size())});
+    }
+}
+
+}  // namespace aleph
