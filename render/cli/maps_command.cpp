@@ -63,6 +63,9 @@ constexpr const char* maps_footer =
     "  aleph maps --images 'shot/frame.####.png' --fps 24 -o maps/\n"
     "  aleph compare guided.exr dense.exr --threshold maps.exr      which differences would a viewer see?";
 
+/// Keeps the files of maps apart from the pictures in the same folder.
+constexpr const char* maps_suffix = "-maps";
+
 FrameRequest maps_request() {
     return {.frame = false, .maps = true, .progress = {}};
 }
@@ -89,12 +92,12 @@ void refuse_what_needs_a_scene(const MapsOptions& options) {
     }
 }
 
-/// "frame.####.exr" to "frame-maps": beside the pictures, but never over them.
+/// "frame.####.exr" to "frame-maps".
 std::string name_of_maps(const std::filesystem::path& pattern) {
     std::string name = pattern.stem().string();
     name.erase(std::min(name.find_first_of("#%"), name.size()));
     while (!name.empty() && std::string_view("._-").find(name.back()) != std::string_view::npos) name.pop_back();
-    return (name.empty() ? "frame" : name) + "-maps";
+    return (name.empty() ? "frame" : name) + maps_suffix;
 }
 
 /// What the first picture says of the shot: our own frames and those of most programs carry their rate.
@@ -225,7 +228,9 @@ void add_maps_command(CLI::App& app, Command& command) {
             if (!options->images.empty()) {
                 write_image_maps(*options);
             } else {
-                render_frames(prepare_scene(options->common), options->common, maps_request());
+                PreparedScene prepared = prepare_scene(options->common);
+                prepared.name += maps_suffix;
+                render_frames(std::move(prepared), options->common, maps_request());
             }
             return exit_done;
         };

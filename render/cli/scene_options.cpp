@@ -127,12 +127,15 @@ void add_scene_options(CLI::App& app, SceneOptions& options) {
         ->type_name("N");
     app.add_option(
            "-o,--output", options.output,
-           "output files: name.####.exr, .png or .hdr (#### is the frame number), or a folder; HDR keeps 8 bits "
-           "per channel beside the pixel's brightest; default: SCENE.####.exr in the current folder")
+           "output files: name.####.exr, .png or .hdr (#### is the frame number), or a folder; missing folders are "
+           "made; HDR keeps 8 bits per channel beside the pixel's brightest; default: SCENE.####.exr, or "
+           "SCENE-maps.####.exr, in the current folder")
         ->type_name("PATTERN");
     app.add_option("--camera", options.camera, "name of a camera or of its node; default: the scene's choice")
         ->type_name("NAME");
-    app.add_option("--stats", options.stats, "write counts and times of every frame as JSON")->type_name("FILE.json");
+    app.add_option("--stats", options.stats,
+                   "write counts and times of every frame as JSON; the file is complete after every frame")
+        ->type_name("FILE.json");
     add_load_limits(app, options.limits);
     add_value(app, "-t,--threads", options.threads, "number of threads; 0: all processors");
     app.add_flag("-q,--quiet", options.quiet, "print no progress and no warnings");
