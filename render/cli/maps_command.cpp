@@ -125,6 +125,7 @@ struct PreparedImages {
 
 /// Finds and checks everything that can be known before a map is computed.
 PreparedImages prepare_images(const MapsOptions& options) {
+    check_threads(options.common.threads);
     refuse_what_needs_a_scene(options);
     const std::string& pattern = options.images.front();
     PreparedImages images;

@@ -3,11 +3,15 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <charconv>
 #include <filesystem>
 #include <iostream>
+#include <iterator>
+#include <map>
 
 #include "engine/base/errors.h"
+#include "engine/json/close_names.h"
 #include "engine/load/load_scene.h"
 #include "engine/pose/pose.h"
 #include "render/cli/frame_list.h"
@@ -31,6 +35,28 @@ FrameRate parse_fps(const std::string& text) {
     throw InputError("--fps", printable(text), "expected frames per second, such as 30 or 30000/1001");
 }
 
+namespace {
+
+/// What --set takes beside the settings of the table.
+constexpr const char* scene_numbers[] = {"exposure", "viewing.pixels_per_degree", "viewing.display_white",
+                                         "viewing.persistence"};
+
+/// @throws InputError (--set)
+void refuse_unknown_settings(const SettingMap& settings) {
+    std::vector<std::string> known;
+    for (const Setting& setting : setting_table()) known.push_back(setting.key);
+    known.insert(known.end(), std::begin(scene_numbers), std::end(scene_numbers));
+    for (const auto& [key, value] : settings) {
+        if (std::ranges::find(known, key) != known.end()) continue;
+        const std::string close = close_suggestion(key, known);
+        throw InputError("--set", printable(key),
+                         fmt::format("there is no such setting{} known are {}", close.empty() ? ";" : close,
+                                     fmt::join(known, ", ")));
+    }
+}
+
+}  // namespace
+
 void set_scene_numbers(Scene& scene, SettingMap& settings) {
     const auto take = [&](const std::string& key, auto&& apply) {
         const auto found = settings.find(key);
@@ -49,6 +75,7 @@ void set_scene_numbers(Scene& scene, SettingMap& settings) {
         if (v > 1.0) throw InputError("--set", "viewing.persistence", "expected a number above 0, at most 1");
         scene.viewing.persistence = v;
     });
+    refuse_unknown_settings(settings);
 }
 
 namespace {
@@ -91,16 +118,30 @@ std::string setting_help(const Setting& setting) {
     return setting.help;
 }
 
-/// --KEY for a setting of the table.
-void add_setting_option(CLI::App& app, const Setting& setting, SettingMap& into) {
+/// --KEY for a setting of the table; read_settings reads it.
+void add_setting_option(CLI::App& app, const Setting& setting) {
+    const std::string help = setting_help(setting);
     const SettingValue value = setting.get(RenderSettings());
-    app.add_option_function<std::string>(
-           option_name(setting.key),
-           [&into, key = setting.key](const std::string& text) { parse_setting(key + "=" + text, into); },
-           setting_help(setting))
+    app.add_option(option_name(setting.key), help)
         ->type_name(value_name(setting))
         ->default_str(std::visit([](const auto& v) { return fmt::format("{}", v); }, value))
         ->group("Settings (a scene file's \"settings\" have the same names, with _ in place of -)");
+}
+
+/// The settings of --KEY and --set in the order given, so that the last one counts.
+/// @throws InputError (--set)
+SettingMap read_settings(const CLI::App& app) {
+    std::map<const CLI::Option*, std::size_t> seen;
+    SettingMap settings;
+    for (const CLI::Option* option : app.parse_order()) {
+        const std::string name = option->get_name();
+        const auto setting =
+            std::ranges::find(setting_table(), name, [](const Setting& s) { return option_name(s.key); });
+        if (setting == setting_table().end() && name != "--set") continue;
+        const std::string& value = option->results().at(seen[option]++);
+        parse_setting(name == "--set" ? value : setting->key + "=" + value, settings);
+    }
+    return settings;
 }
 
 }  // namespace
@@ -137,21 +178,26 @@ void add_scene_options(CLI::App& app, SceneOptions& options) {
                    "write counts and times of every frame as JSON; the file is complete after every frame")
         ->type_name("FILE.json");
     add_load_limits(app, options.limits);
-    add_value(app, "-t,--threads", options.threads, "number of threads; 0: all processors");
+    add_value(app, "-t,--threads", options.threads, "number of threads, 0 to 4096; 0: all processors");
     app.add_flag("-q,--quiet", options.quiet, "print no progress and no warnings");
-    for (const Setting& setting : setting_table()) add_setting_option(app, setting, options.settings);
+    for (const Setting& setting : setting_table()) add_setting_option(app, setting);
     app.add_option_function<std::vector<std::string>>(
-           "--set",
-           [&options](const std::vector<std::string>& texts) {
-               for (const std::string& text : texts) parse_setting(text, options.settings);
-           },
+           "--set", [](const std::vector<std::string>&) {},  // read_settings reads it
            "a setting by its key in scene files; also exposure, viewing.pixels_per_degree (pixels), "
            "viewing.display_white (cd/m2) and viewing.persistence (at most 1), numbers above 0")
         ->type_name("KEY=VALUE")
         ->allow_extra_args(false);
+    app.parse_complete_callback([&app, &options] { options.settings = read_settings(app); });
+}
+
+void check_threads(int threads) {
+    constexpr int max_threads = 4096;
+    if (threads >= 0 && threads <= max_threads) return;
+    throw InputError("", "--threads", fmt::format("{}: expected 0 (all processors) to {}", threads, max_threads));
 }
 
 PreparedScene prepare_scene(const SceneOptions& options) {
+    check_threads(options.threads);
     PreparedScene prepared;
     prepared.scene = load_scene(options.scene, options.limits);
     Scene& scene = prepared.scene;
