@@ -95,5 +95,23 @@ is grep -q '"frame": 0,' twice.json
 silent aleph render first.json "${quick[@]}" -q --frames 0 --spp 9 --set spp=8 -o twice.exr --stats twice.json
 is grep -q '"spp": 8,' twice.json
 
+# Values that were probably meant otherwise: one warning each.
+# scene NAME NODE [MORE]: a lit scene of one node.
+scene() {
+  printf '{"aleph": 1, "frames": [0, 20], "environment": [1, 1, 1], %s "nodes": [{"name": "n", %s}]}\n' "${3:-}" "$2" >"$1.json"
+}
+scene radians '"camera": {"fov": 0.7}'
+answers 0 'looks like radians' aleph explain radians.json
+scene turned '"rotation": {"axis": [1, 0, 0], "degrees": -1.5708}'
+answers 0 'look like radians' aleph explain turned.json
+scene jumps '"camera": {}, "translation": {"interpolation": "step", "keys": [[0, [0, 0, 5]], [10, [3, 0, 5]]]}'
+answers 0 'step keys move it at frame 10, which is not in "cuts"' aleph explain jumps.json
+scene cut '"camera": {}' '"cuts": [50],'
+answers 0 'the cut at frame 50 lies outside the frames 0 to 20' aleph explain cut.json
+scene nothing '"shape": {"type": "box"}, "scale": 0'
+answers 0 'the scale is 0' aleph explain nothing.json
+answers 0 'warning: frame 100 lies outside the shot, which has the frames 0 to 59' \
+  aleph render first.json "${quick[@]}" --frames 0,100 -o outside/
+
 echo "$((checks - failures)) of $checks answers are right"
 [ "$failures" = 0 ]

@@ -1,5 +1,7 @@
 // `aleph maps`: the maps of a scene's frames, or of frames without a scene.
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <iostream>
 #include <set>
@@ -181,6 +183,24 @@ void check_frames(const PreparedImages& images, const std::string& output) {
     }
 }
 
+/// Pixels of the pictures that were no numbers.
+struct ReplacedPixels {
+    std::uint64_t pixels = 0;
+    std::int64_t first_frame = 0;
+
+    void add(const FrameStatistics& frame) {
+        if (pixels == 0) first_frame = frame.frame;
+        pixels += frame.sanitized.replaced;
+    }
+    void warn() const {
+        if (pixels == 0) return;
+        std::cerr << fmt::format(
+            "aleph: warning: {} pixels of the pictures, the first in frame {}, are NaN or infinite; they count as the "
+            "median of their neighbours\n",
+            pixels, first_frame);
+    }
+};
+
 void write_image_maps(const MapsOptions& options) {
     const PreparedImages images = prepare_images(options);
     check_frames(images, options.common.output);
@@ -188,9 +208,15 @@ void write_image_maps(const MapsOptions& options) {
     prepare_frames_output(prepared, options.common, true);
     const ThreadLimit limit(options.common.threads);
     ImageSequence sequence(prepared.scene, images.files, prepared.settings);
-    const auto make = [&](int frame, const FrameRequest&) { return sequence.compute_maps(frame); };
+    ReplacedPixels replaced;
+    const auto make = [&](int frame, const FrameRequest&) {
+        FrameOutput maps = sequence.compute_maps(frame);
+        replaced.add(maps.statistics);
+        return maps;
+    };
     write_frames({prepared.scene, prepared.settings, *prepared.scene.exposure, prepared.frames, prepared.name, make},
                  options.common, maps_request());
+    if (!options.common.quiet) replaced.warn();
 }
 
 }  // namespace

@@ -190,6 +190,19 @@ void add_scene_options(CLI::App& app, SceneOptions& options) {
     app.parse_complete_callback([&app, &options] { options.settings = read_settings(app); });
 }
 
+namespace {
+
+/// Every value is that of its first or last key there, so that nothing moves.
+void warn_of_frames_outside(const std::vector<int>& frames, const FrameRange& range) {
+    const auto is_outside = [&](int frame) { return frame < range.first || frame > range.last; };
+    const auto found = std::ranges::find_if(frames, is_outside);
+    if (found == frames.end()) return;
+    std::cerr << fmt::format("aleph: warning: frame {} lies outside the shot, which has the frames {} to {}\n", *found,
+                             range.first, range.last);
+}
+
+}  // namespace
+
 void check_threads(int threads) {
     constexpr int max_threads = 4096;
     if (threads >= 0 && threads <= max_threads) return;
@@ -211,14 +224,15 @@ PreparedScene prepare_scene(const SceneOptions& options) {
             std::cerr << "aleph: warning: " << printable(warning, 400) << "\n";
         }
     }
+    const FrameRange range = frame_range(scene);
     if (options.frames.empty()) {
-        const FrameRange range = frame_range(scene);
         if (range.last - range.first >= 10000000) {
             throw InputError(options.scene, "frames", "more than 10 million frames; choose some with --frames");
         }
         for (std::int64_t f = range.first; f <= range.last; ++f) prepared.frames.push_back(static_cast<int>(f));
     } else {
         prepared.frames = parse_frame_list(options.frames);
+        if (!options.quiet) warn_of_frames_outside(prepared.frames, range);
     }
     prepared.name = std::filesystem::path(options.scene).stem().string();
     if (prepared.name == "scene") {
