@@ -113,5 +113,17 @@ answers 0 'the scale is 0' aleph explain nothing.json
 answers 0 'warning: frame 100 lies outside the shot, which has the frames 0 to 59' \
   aleph render first.json "${quick[@]}" --frames 0,100 -o outside/
 
+# Keys and values of other formats; commas.
+scene key '"position": [0, 0, 1]'
+answers 2 '/nodes/0/position: unknown key "position"; a node'"'"'s place is "translation"' aleph explain key.json
+scene key '"rotation": [0, 90, 0]'
+answers 2 '"operations": [{"rotate_z": 0}, {"rotate_y": 90}, {"rotate_x": 0}]' aleph explain key.json
+scene key '"light": {"type": "area"}'
+answers 2 'a "shape" and a "material" that has "emission"' aleph explain key.json
+scene key '"camera": {}' '"settings": {"sampling": "progressive"},'
+answers 2 'write "error": 1' aleph explain key.json
+printf '{"aleph": 1,\n "fps": 30\n "frames": [0, 1]}\n' >key.json
+answers 2 'line 2, column 11: not valid JSON: a comma is missing here' aleph explain key.json
+
 echo "$((checks - failures)) of $checks answers are right"
 [ "$failures" = 0 ]
