@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <glm/gtc/matrix_transform.hpp>
+#include <glm/gtc/type_ptr.hpp>
 #include <numeric>
 
 #include "engine/base/errors.h"
@@ -62,7 +65,12 @@ void add_maps(ChannelImage& file, const FrameOutput& output) {
     add(file, "invalid.Y", output.shaded.invalid_samples);
 }
 
-std::string define_motion(MotionSource source) {
+std::string define_motion(const FrameOutput& output, MotionSource source) {
+    if (output.motion_from_picture) {
+        return "forward.u/.v: position in frame N+1 minus position in frame N, pixels, x right, y up; from the "
+               "picture's "
+               "file";
+    }
     const char* what = source == MotionSource::model ? "of the surface point under the pixel's centre"
                                                      : "of what looks most like the pixel's neighbourhood";
     return fmt::format(
@@ -71,13 +79,31 @@ std::string define_motion(MotionSource source) {
         what);
 }
 
-std::string format_camera(const CameraView& view) {
-    std::string text;
-    for (int row = 0; row < 3; ++row) {
-        for (int column = 0; column < 3; ++column) text += fmt::format("{} ", view.axes[row][column]);
-        text += fmt::format("{} ", -glm::dot(view.axes[row], view.position));
-    }
-    return text + "0 0 0 1";
+/// OpenEXR's standard attribute: to camera axes with z forward (left-handed), m.
+glm::dmat4 world_to_camera(const CameraView& view) {
+    const glm::dmat3 turn = glm::transpose(view.axes);
+    const glm::dmat4 right_handed = glm::translate(glm::dmat4(turn), -view.position);
+    return glm::scale(glm::dmat4(1.0), {1.0, 1.0, -1.0}) * right_handed;
+}
+
+/// OpenEXR's standard attribute: after division by w, x and y are 0 to 1 over the picture, y down.
+glm::dmat4 world_to_ndc(const CameraView& view) {
+    const glm::dvec2 size(view.width, view.height), middle = 0.5 * size + view.axis_offset;
+    glm::dmat4 project(0.0);  // columns: what x, y, z and 1 of camera axes add
+    project[0] = {view.pixels_per_unit / size.x, 0.0, 0.0, 0.0};
+    project[1] = {0.0, -view.pixels_per_unit / size.y, 0.0, 0.0};
+    const glm::dvec4 offset(middle / size, 0.0, 1.0);
+    project[view.orthographic ? 3 : 2] = offset;
+    project[view.orthographic ? 2 : 3].z = 1.0;
+    return project * world_to_camera(view);
+}
+
+/// The columns of a matrix for column vectors are the rows of one for row vectors.
+Matrix44f to_attribute(const glm::dmat4& matrix) {
+    Matrix44f attribute;
+    std::transform(glm::value_ptr(matrix), glm::value_ptr(matrix) + 16, attribute.begin(),
+                   [](double value) { return static_cast<float>(value); });
+    return attribute;
 }
 
 }  // namespace
@@ -104,9 +130,10 @@ ChannelImage make_frame_image(const FrameOutput& output, bool maps, const Scene&
         const double taken = std::accumulate(samples.pixels.begin(), samples.pixels.end(), 0.0);
         file.metadata["samplesPerPixel"] = samples.empty() ? 0.0 : taken / static_cast<double>(samples.size());
         file.metadata["seed"] = static_cast<double>(settings.seed);
-        file.metadata["worldToCamera"] = format_camera(output.view);
+        file.metadata["worldToCamera"] = to_attribute(world_to_camera(output.view));
+        file.metadata["worldToNDC"] = to_attribute(world_to_ndc(output.view));
     }
-    file.metadata["motion:definition"] = define_motion(settings.motion);
+    file.metadata["motion:definition"] = define_motion(output, settings.motion);
     for (const auto& [key, value] : setting_map(settings)) {
         const std::string text = std::visit([](const auto& v) { return fmt::format("{}", v); }, value);
         file.metadata["aleph:" + key] = text;

@@ -60,7 +60,8 @@ struct FrameOutput {
     Image<Hit> hits;      ///< through the pixel centres
     Image<Rgb> estimate;  ///< sanitized
     MotionField motion;
-    Image<float> velocity;  ///< deg/s
+    bool motion_from_picture = false;  ///< as another program wrote it, not computed
+    Image<float> velocity;             ///< deg/s
     PerceptionMaps perception;
     Image<float> indirect_luminance;  ///< of the estimate (compute_estimate); may be empty
     Image<float> tolerance;           ///< relative error of indirect light that is not seen (compute_tolerance)

@@ -23,47 +23,32 @@ std::string display_name(const std::filesystem::path& path) {
 struct LoadedFrame {
     Image<Rgb> estimate;
     SanitizeCounts sanitized;
-    CensusPyramid census;
+    CensusPyramid census;               ///< empty if motion is known
+    std::optional<MotionField> motion;  ///< of the file
+    Image<float> depth;
 };
+
+[[noreturn]] void refuse_missing(const FrameFiles& files, std::int64_t frame) {
+    throw InputError("", "--images",
+                     files.empty() ? std::string("there are no frames")
+                                   : fmt::format("frame {} is not there; the frames found lie from {} to {}", frame,
+                                                 files.begin()->first, files.rbegin()->first));
+}
+
+bool is_cut(const std::vector<std::int64_t>& cuts, std::int64_t frame) {
+    return std::ranges::find(cuts, frame) != cuts.end();
+}
 
 }  // namespace
 
-Image<Rgb> load_linear_frame(const std::filesystem::path& path) {
-    const ChannelImage file = read_image(path);
-    const Image<float>* channels[3] = {file.find("R"), file.find("G"), file.find("B")};
-    const Image<float>* const grey = file.find("Y");
-    for (const Image<float>*& channel : channels) {
-        if (channel == nullptr) channel = grey;
-        if (channel == nullptr) throw InputError(display_name(path), "", "a frame needs channels R, G and B, or Y");
-    }
-    Image<Rgb> frame(channels[0]->width, channels[0]->height);
-    for (std::size_t i = 0; i < frame.size(); ++i) {
-        for (int c = 0; c < 3; ++c) frame.pixels[i][c] = channels[c]->pixels[i];
-    }
-    if (!file.metadata.contains("encoding")) return frame;
-    const Image<float>* const alpha = file.find("A");
-    for (std::size_t i = 0; i < frame.size(); ++i) {
-        Rgb& pixel = frame.pixels[i];
-        for (int c = 0; c < 3; ++c) pixel[c] = srgb_to_linear(pixel[c]);
-        if (alpha != nullptr) pixel *= alpha->pixels[i];
-    }
-    return frame;
-}
-
 OtherFrame find_other_frame(const FrameFiles& files, const std::vector<std::int64_t>& cuts, std::int64_t frame) {
     const auto own = files.find(frame);
-    if (own == files.end()) {
-        throw InputError("", "--images",
-                         files.empty() ? std::string("there are no frames")
-                                       : fmt::format("frame {} is not there; the frames found lie from {} to {}", frame,
-                                                     files.begin()->first, files.rbegin()->first));
-    }
-    const auto is_cut = [&](std::int64_t number) { return std::find(cuts.begin(), cuts.end(), number) != cuts.end(); };
+    if (own == files.end()) refuse_missing(files, frame);
     const bool backward = std::next(own) == files.end();
     if (backward && own == files.begin()) return OtherFrame::none;
     const auto other = backward ? std::prev(own) : std::next(own);
     const auto& [first, second] = backward ? std::pair(other, own) : std::pair(own, other);
-    if (is_cut(second->first)) return OtherFrame::none;
+    if (is_cut(cuts, second->first)) return OtherFrame::none;
     if (second->first != first->first + 1) {
         const std::int64_t from = first->first + 1, to = second->first - 1;
         throw InputError(
@@ -80,18 +65,23 @@ struct ImageSequence::State {
     Scene shot;
     FrameFiles files;
     RenderSettings settings;
+    PictureLayers layers;
     std::map<std::int64_t, LoadedFrame> loaded;  ///< at most the two frames used last
     int width = 0, height = 0;
     std::string first_read;
+    bool motion_in_files = false;
 
     const LoadedFrame& load(std::int64_t frame) {
         const auto found = loaded.find(frame);
         if (found != loaded.end()) return found->second;
         const std::filesystem::path& path = files.at(frame);
+        PictureFrame picture = read_picture_frame(path, layers);
         LoadedFrame made;
-        made.estimate = load_linear_frame(path);
+        made.estimate = std::move(picture.color);
+        made.depth = std::move(picture.depth);
         if (first_read.empty()) {
             first_read = display_name(path);
+            motion_in_files = picture.motion.has_value();
             width = made.estimate.width;
             height = made.estimate.height;
         } else if (made.estimate.width != width || made.estimate.height != height) {
@@ -99,20 +89,38 @@ struct ImageSequence::State {
                              fmt::format("this frame has {}x{} pixels, {} has {}x{}; all frames must have one size",
                                          made.estimate.width, made.estimate.height, first_read, width, height));
         }
+        if (motion_in_files && !picture.motion) {
+            throw InputError(
+                display_name(path), "",
+                fmt::format("this frame has no motion, {} has; --motion-layer none compares pictures instead",
+                            first_read));
+        }
+        if (motion_in_files) made.motion = std::move(picture.motion);
         const auto exposure = static_cast<float>(shot.exposure.value_or(1.0));
         for (Rgb& pixel : made.estimate.pixels) pixel *= exposure;
         made.sanitized = sanitize_estimate(made.estimate);
-        made.census = make_census_pyramid(made.estimate);
+        if (!motion_in_files) made.census = make_census_pyramid(made.estimate);
         return loaded.emplace(frame, std::move(made)).first->second;
+    }
+
+    MotionField find_motion(std::int64_t frame, const LoadedFrame& now) {
+        if (now.motion && !is_cut(shot.cuts, frame + 1)) return *now.motion;
+        if (now.motion) return compute_image_motion(make_census_pyramid(now.estimate), {}, OtherFrame::none);
+        const OtherFrame which = find_other_frame(files, shot.cuts, frame);
+        const std::int64_t other_number = other_frame_number(frame, which);
+        std::erase_if(loaded, [&](const auto& entry) { return entry.first != frame && entry.first != other_number; });
+        const LoadedFrame* const other = which == OtherFrame::none ? nullptr : &load(other_number);
+        return compute_image_motion(now.census, other != nullptr ? other->census : CensusPyramid(), which);
     }
 };
 
-ImageSequence::ImageSequence(Scene shot, FrameFiles files, const RenderSettings& settings) {
+ImageSequence::ImageSequence(Scene shot, FrameFiles files, const RenderSettings& settings, PictureLayers layers) {
     validate(settings);
     state_ = std::make_unique<State>();
     state_->shot = std::move(shot);
     state_->files = std::move(files);
     state_->settings = settings;
+    state_->layers = std::move(layers);
 }
 
 ImageSequence::~ImageSequence() = default;
@@ -125,16 +133,14 @@ FrameOutput ImageSequence::compute_maps(std::int64_t frame) {
     FrameStatistics& stats = out.statistics;
     stats.frame = frame;
 
-    const OtherFrame which = find_other_frame(s.files, s.shot.cuts, frame);
-    const std::int64_t other_number = other_frame_number(frame, which);
-    std::erase_if(s.loaded, [&](const auto& entry) { return entry.first != frame && entry.first != other_number; });
+    if (!s.files.contains(frame)) refuse_missing(s.files, frame);
     const LoadedFrame& now = s.load(frame);
-    const LoadedFrame* const other = which == OtherFrame::none ? nullptr : &s.load(other_number);
     out.estimate = now.estimate;
+    out.depth = now.depth;
     note_estimate(out, now.sanitized, s.shot.viewing);
     clock.add_to(stats.seconds.estimate);
-
-    out.motion = compute_image_motion(now.census, other != nullptr ? other->census : CensusPyramid(), which);
+    out.motion = s.find_motion(frame, now);
+    out.motion_from_picture = now.motion.has_value();
     compute_frame_vision(out, s.shot, s.settings, true, clock);
     stats.peak_memory_mib = peak_memory_mib();
     total.add_to(stats.seconds.total);

@@ -1,5 +1,6 @@
 #pragma once
-// Maps of existing pictures, without a scene: picture -> image-based motion -> saliency, Aleph map -> accuracy.
+// Maps of existing pictures, without a scene: picture -> motion, from the file or from a comparison with the next
+// picture -> saliency, Aleph map -> accuracy.
 
 #include <cstdint>
 #include <filesystem>
@@ -9,15 +10,10 @@
 #include "engine/scene/scene.h"
 #include "motion/other_frame.h"
 #include "render/frame_output.h"
+#include "render/picture_frame.h"
 #include "render/settings.h"
 
 namespace aleph {
-
-/// A picture from a file as linear RGB. EXR and HDR: the values as they are, taken as Rec.709; alpha is ignored,
-/// because colour is already multiplied by it. PNG and JPEG: decoded from sRGB and multiplied by alpha. A picture that
-/// has only the channel Y is grey.
-/// @throws InputError
-Image<Rgb> load_linear_frame(const std::filesystem::path& path);
 
 /// The file of each frame, by frame number.
 using FrameFiles = std::map<std::int64_t, std::filesystem::path>;
@@ -32,13 +28,17 @@ OtherFrame find_other_frame(const FrameFiles& files, const std::vector<std::int6
 class ImageSequence {
   public:
     /// @param shot  a scene without objects: frame rate, viewing conditions, exposure (1 if not set) and cuts are used
+    /// @param layers  of the pictures. If the first frame that is read has motion, all frames take theirs from their
+    /// files
     /// @throws InputError: settings out of range
-    ImageSequence(Scene shot, FrameFiles files, const RenderSettings& settings);
+    ImageSequence(Scene shot, FrameFiles files, const RenderSettings& settings, PictureLayers layers = {});
     ~ImageSequence();
     ImageSequence(ImageSequence&&) noexcept;
 
-    /// Fills estimate (the picture, exposed and sanitized), motion, velocity, perception, alpha, threshold, statistics.
-    /// @throws InputError: a frame that is missing or unreadable, or of another size than the first one read
+    /// Fills estimate (the picture, exposed and sanitized), motion, depth if the file has it, velocity, perception,
+    /// alpha, threshold, statistics.
+    /// @throws InputError: a frame that is missing or unreadable, of another size than the first one read, or without
+    /// motion where the first one has it
     FrameOutput compute_maps(std::int64_t frame);
 
   private:

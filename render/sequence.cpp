@@ -5,6 +5,7 @@
 
 #include "engine/base/errors.h"
 #include "engine/base/parallel.h"
+#include "engine/load/validate_scene.h"
 #include "render/estimate.h"
 #include "render/frame.h"
 #include "render/sequence_state.h"
@@ -77,8 +78,9 @@ void shade(const IndirectContext& context, const SampleHits& centers, double exp
 
 }  // namespace
 
-Sequence::Sequence(Scene scene, const RenderSettings& settings, const std::string& camera) {
+Sequence::Sequence(Scene scene, const RenderSettings& settings, const std::string& camera) : camera_(camera) {
     validate(settings);
+    validate(scene);
     const int camera_index = find_camera(scene, camera);
     state_ = std::make_unique<SequenceState>(std::move(scene), settings, camera_index);
     SequenceState& s = *state_;
@@ -96,18 +98,24 @@ Sequence::Sequence(Scene scene, const RenderSettings& settings, const std::strin
 
 Sequence::~Sequence() = default;
 Sequence::Sequence(Sequence&&) noexcept = default;
+
+SequenceState& Sequence::state() const {
+    if (state_ == nullptr) throw InputError("", "Sequence", "this sequence has been moved from");
+    return *state_;
+}
+
 const Scene& Sequence::scene() const {
-    return state_->scene;
+    return state().scene;
 }
 double Sequence::exposure() const {
-    return state_->exposure;
+    return state().exposure;
 }
 FrameRange Sequence::range() const {
-    return state_->range;
+    return state().range;
 }
 
 void Sequence::load_light(const std::filesystem::path& path) {
-    SequenceState& s = *state_;
+    SequenceState& s = state();
     if (!s.shot_light) {
         throw InputError(path.string(), "",
                          "a cache file needs key moments: the integrator cache, a light_step and an accuracy above 0");
@@ -116,13 +124,13 @@ void Sequence::load_light(const std::filesystem::path& path) {
 }
 
 void Sequence::save_light(const std::filesystem::path& path) {
-    SequenceState& s = *state_;
+    SequenceState& s = state();
     ALEPH_CHECK(s.shot_light && s.shot_light->records(), "save_light before load_light");
     write_cache_file(path, s.fingerprint(), *s.shot_light->records());
 }
 
 FrameOutput Sequence::render(std::int64_t frame, const FrameRequest& request) {
-    SequenceState& s = *state_;
+    SequenceState& s = state();
     FrameOutput out;
     FrameStatistics& stats = out.statistics;
     SampleOptions options;
@@ -139,7 +147,8 @@ FrameOutput Sequence::render(std::int64_t frame, const FrameRequest& request) {
 
     const std::uint64_t traced_before = s.rays_traced(), invalid_before = s.rays.invalid_rays();
     StageClock total;
-    const SampleHits centers = s.look(frame, s.needs_perception() || request.maps, request.maps, out);
+    const SampleHits centers =
+        s.look(frame, s.needs_perception() || request.maps, request.maps, out, s.before_edit.has_value());
     if (request.frame) {
         const std::uint32_t random_frame = s.noise_key(frame);
         options.blended = s.blended;
@@ -165,6 +174,8 @@ FrameOutput Sequence::render(std::int64_t frame, const FrameRequest& request) {
     }
     if (request.maps) fill_geometry_maps(*s.shading, centers, out);
     out.hits = centers.hits;
+    s.rendered = true;
+    s.forget_pose_before_edit();
     stats.traced_rays = s.rays_traced() - traced_before;
     stats.invalid_rays = s.rays.invalid_rays() - invalid_before;
     stats.peak_memory_mib = peak_memory_mib();

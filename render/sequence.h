@@ -3,6 +3,7 @@
 // pose(N), pose(N+1) -> first hits -> quick estimate -> motion field -> saliency, Aleph map -> accuracy -> picture.
 
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <string>
 
@@ -20,13 +21,24 @@ class Sequence {
   public:
     /// Owns the scene from here on; std::move saves a copy.
     /// @param camera  name of a camera or of its node; empty: the scene's choice
-    /// @throws InputError: settings out of range, no such camera, or a cage that cannot be subdivided
+    /// @throws InputError: settings out of range, a scene that `validate` refuses (engine/load/validate_scene.h), no
+    /// such camera, or a cage that cannot be subdivided
     Sequence(Scene scene, const RenderSettings& settings, const std::string& camera = "");
     ~Sequence();
     Sequence(Sequence&&) noexcept;
 
-    /// @throws InputError if the camera has an aperture without a focus distance
+    /// @throws InputError if the camera has an aperture without a focus distance, or if this has been moved from
     FrameOutput render(std::int64_t frame, const FrameRequest& request = {});
+
+    /// Changes the scene between frames, as a simulation does that knows one step at a time. Costs as much as making a
+    /// new sequence; exposure and settings stay. What the scene's own tracks animate needs no edit.
+    ///
+    /// The next frame's motion leads from the frame rendered last to this one, as in the last frame of a shot: the
+    /// change of transforms, cameras and deforming points, whatever frame numbers they have. Where nodes, meshes,
+    /// triangles or cameras were added or removed, and across a cut, the frame has no motion. Frames after it have that
+    /// of the scene's tracks again. Points of a rigid mesh that are changed have the motion of its transform only.
+    /// @throws InputError as the constructor does, and what `change` throws; this is then as it was before
+    void edit(const std::function<void(Scene&)>& change);
 
     /// Takes the light of key moments from a file that save_light wrote, if there is one. Frames have the same bytes
     /// with and without it. To be called before the first frame.
@@ -46,6 +58,9 @@ class Sequence {
     FrameRange range() const;
 
   private:
+    SequenceState& state() const;
+
+    std::string camera_;  ///< as given
     std::unique_ptr<SequenceState> state_;
 };
 

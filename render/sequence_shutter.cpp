@@ -1,10 +1,20 @@
 // What shutter and lens do to the stages before the picture.
 
+#include "engine/base/errors.h"
 #include "perception/sanitize.h"
 #include "render/blurred_estimate.h"
 #include "render/sequence_state.h"
 
 namespace aleph {
+
+Lens find_lens(const Scene& scene, const CameraValues& camera) {
+    if (!(camera.aperture > 0.0)) return {};
+    if (!(camera.focus_distance > 0.0)) {
+        throw InputError(scene.file, "camera of node " + printable(scene.nodes[camera.node].name),
+                         "with an aperture, its focus distance has to be above 0");
+    }
+    return {camera.aperture, camera.focus_distance};
+}
 
 /// Of the camera at a frame, if something can change while it is open.
 std::optional<ShutterInterval> SequenceState::find_open_shutter(std::int64_t frame) const {

@@ -47,15 +47,6 @@ OtherFrame find_other_frame(const Scene& scene, const FrameRange& range, std::in
 
 }  // namespace
 
-Lens find_lens(const Scene& scene, const CameraValues& camera) {
-    if (!(camera.aperture > 0.0)) return {};
-    if (!(camera.focus_distance > 0.0)) {
-        throw InputError(scene.file, "camera of node " + printable(scene.nodes[camera.node].name),
-                         "with an aperture, its focus distance has to be above 0");
-    }
-    return {camera.aperture, camera.focus_distance};
-}
-
 SequenceState::SequenceState(Scene given, const RenderSettings& chosen, int camera_index)
     : scene(refine_cages(std::move(given), camera_index, chosen)),
       settings(chosen),
@@ -168,6 +159,11 @@ std::size_t SequenceState::update_rays_and_shading() {
 
 /// Brings other_rays to `other`.
 void SequenceState::update_other_rays() {
+    if (other_is_before_edit) {
+        other_rays = std::make_unique<RayScene>(scene, make_plan_of_all());
+        other_rays->update(other->pose, compute_anchor(other->view));
+        return;
+    }
     if (!other_rays) other_rays = std::make_unique<RayScene>(rays.share_meshes());
     other_rays->update_moving(other->pose, compute_anchor(other->view));
 }
@@ -202,8 +198,8 @@ void SequenceState::compute_motion(const SampleHits& centers, OtherFrame which, 
 /// rays, shading and lights are those of the frame.
 /// @param maps  every map
 /// @return hits through the pixel centres
-SampleHits SequenceState::look(std::int64_t frame, bool perceive, bool maps, FrameOutput& out) {
-    const OtherFrame which = perceive ? find_other_frame(scene, range, frame) : OtherFrame::none;
+SampleHits SequenceState::look(std::int64_t frame, bool perceive, bool maps, FrameOutput& out, bool edited) {
+    OtherFrame which = perceive ? find_other_frame(scene, range, frame) : OtherFrame::none;
     FrameStatistics& stats = out.statistics;
     stats.frame = frame;
     StageClock clock;
@@ -213,7 +209,11 @@ SampleHits SequenceState::look(std::int64_t frame, bool perceive, bool maps, Fra
     }
     clock.add_to(stats.seconds.estimate);
     move_to_frame(now, frame);
-    if (which != OtherFrame::none) move_to_frame(other, other_frame_number(frame, which));
+    if (edited && perceive) {
+        which = take_pose_before_edit(frame);
+    } else if (which != OtherFrame::none) {
+        move_to_frame(other, other_frame_number(frame, which));
+    }
     out.view = now->view;
     clock.add_to(stats.seconds.pose);
 

@@ -37,8 +37,11 @@ struct SequenceState {
                              FrameOutput& out);
     std::size_t update_rays_and_shading();
     void update_other_rays();
+    OtherFrame take_pose_before_edit(std::int64_t frame);
+    void forget_pose_before_edit();
+    PosePlan make_plan_of_all() const;
     void compute_motion(const SampleHits& centers, OtherFrame which, bool maps, StageClock& clock, FrameOutput& out);
-    SampleHits look(std::int64_t frame, bool perceive, bool maps, FrameOutput& out);
+    SampleHits look(std::int64_t frame, bool perceive, bool maps, FrameOutput& out, bool edited = false);
     void copy_now(KeyPose& pose) const;
     MomentSource key_moments();
     bool reads_moments() const;
@@ -72,8 +75,11 @@ struct SequenceState {
     RayScene rays;
     // Kept from frame to frame and updated, which gives the same results as making them anew.
     std::optional<PosedView> now, other;
-    std::optional<ShadingScene> shading;  ///< of `now`
-    LightSet lights;                      ///< of `now`
+    bool rendered = false;                 ///< a frame, which is `now`
+    std::optional<PosedView> before_edit;  ///< the frame rendered last before the scene was changed in code
+    bool other_is_before_edit = false;     ///< `other` is that frame
+    std::optional<ShadingScene> shading;   ///< of `now`
+    LightSet lights;                       ///< of `now`
     std::optional<ModelMotion> model_motion;
     std::unique_ptr<RayScene> other_rays;  ///< for visibility in the other frame, or its quick estimate
     bool blended = false;                  ///< blended surfaces are in the scene

@@ -9,6 +9,7 @@
 #include <OpenEXR/ImfIO.h>
 #include <OpenEXR/ImfInputFile.h>
 #include <OpenEXR/ImfIntAttribute.h>
+#include <OpenEXR/ImfMatrixAttribute.h>
 #include <OpenEXR/ImfOutputFile.h>
 #include <OpenEXR/ImfRationalAttribute.h>
 #include <OpenEXR/ImfStandardAttributes.h>
@@ -132,6 +133,10 @@ void insert_attribute(Imf::Header& header, const std::string& name, const Metada
         header.insert(name, Imf::StringAttribute(*text));
     } else if (const auto* number = std::get_if<double>(&value)) {
         header.insert(name, Imf::DoubleAttribute(*number));
+    } else if (const auto* matrix = std::get_if<Matrix44f>(&value)) {
+        Imath::M44f m;
+        std::ranges::copy(*matrix, m.getValue());
+        header.insert(name, Imf::M44fAttribute(m));
     } else {
         const auto& [numerator, denominator] = std::get<std::array<int, 2>>(value);
         if (denominator <= 0) throw InputError("", fmt::format("metadata '{}'", name), "needs a denominator above 0");
@@ -152,6 +157,10 @@ std::map<std::string, MetadataValue> read_attributes(const Imf::Header& header) 
             metadata[it.name()] = static_cast<double>(single->value());
         } else if (const auto* integer = dynamic_cast<const Imf::IntAttribute*>(&attribute)) {
             metadata[it.name()] = static_cast<double>(integer->value());
+        } else if (const auto* m = dynamic_cast<const Imf::M44fAttribute*>(&attribute)) {
+            Matrix44f matrix;
+            std::copy_n(m->value().getValue(), matrix.size(), matrix.begin());
+            metadata[it.name()] = matrix;
         } else if (const auto* ratio = dynamic_cast<const Imf::RationalAttribute*>(&attribute)) {
             if (ratio->value().d <= static_cast<unsigned>(std::numeric_limits<int>::max())) {
                 metadata[it.name()] = std::array{ratio->value().n, static_cast<int>(ratio->value().d)};

@@ -20,8 +20,11 @@ struct Channel {
     Image<float> values;
 };
 
-/// Text, a number, or a fraction (numerator, denominator) such as framesPerSecond.
-using MetadataValue = std::variant<std::string, double, std::array<int, 2>>;
+/// Row by row, for row vectors, as OpenEXR stores it (m44f).
+using Matrix44f = std::array<float, 16>;
+
+/// Text, a number, a fraction (numerator, denominator) such as framesPerSecond, or a matrix.
+using MetadataValue = std::variant<std::string, double, std::array<int, 2>, Matrix44f>;
 
 struct ChannelImage {
     std::vector<Channel> channels;  ///< all of one size
@@ -39,8 +42,8 @@ void write_exr(const std::filesystem::path& path, const ChannelImage& image);
 /// @throws OutputError naming the file
 void write_png(const std::filesystem::path& path, const Image<Rgb>& linear);
 
-/// Writes a Radiance picture (RGBE). Each pixel has one exponent and 8 bits per channel, so that a value is off by up to
-/// 1/256 of the pixel's largest channel: a small channel beside a large one becomes 0. Values below 0 and NaN are
+/// Writes a Radiance picture (RGBE). Each pixel has one exponent and 8 bits per channel, so that a value is off by up
+/// to 1/256 of the pixel's largest channel: a small channel beside a large one becomes 0. Values below 0 and NaN are
 /// written as 0, those above 1.7e38 as that.
 /// @return how many values were below 0, NaN or too large
 /// @throws OutputError naming the file

@@ -15,6 +15,7 @@
 #include "render/cli/scene_options.h"
 #include "render/cli/write_frames.h"
 #include "render/image_sequence.h"
+#include "render/picture_frame.h"
 #include "render/setting_table.h"
 
 namespace aleph {
@@ -26,6 +27,7 @@ struct MapsOptions {
     std::vector<std::string> images;
     std::string cuts;
     std::optional<double> exposure;
+    PictureLayers layers;
 };
 
 constexpr const char* maps_footer =
@@ -57,12 +59,13 @@ constexpr const char* maps_footer =
     "\n"
     "With --images, framesPerSecond, whiteLuminance, pixelsPerDegree and displayPersistence come from the first EXR\n"
     "file if it has them. --fps and --set viewing.KEY=N override them; KEY is display_white, pixels_per_degree or\n"
-    "persistence. Motion is found by comparison: it is unreliable without detail in the\n"
-    "picture, and beyond 53 pixels a frame.\n"
+    "persistence. Motion and depth come from the files that hold them. Else motion is found by comparison: it is\n"
+    "unreliable without detail in the picture, and beyond 53 pixels a frame.\n"
     "\n"
     "Examples:\n"
     "  aleph maps scenes/pool/scene.json --frames 20 -o maps.exr\n"
     "  aleph maps --images 'shot/frame.####.png' --fps 24 -o maps/\n"
+    "  aleph maps --images 'blender.####.exr' --layer ViewLayer.Combined -o maps/\n"
     "  aleph compare guided.exr dense.exr --threshold maps.exr      which differences would a viewer see?";
 
 /// Keeps the files of maps apart from the pictures in the same folder.
@@ -123,6 +126,7 @@ void read_shot(Scene& shot, const ChannelImage& first) {
 struct PreparedImages {
     PreparedScene prepared;  ///< a scene without objects: what is known of the shot
     FrameFiles files;
+    bool with_motion = false;  ///< in the files
 };
 
 /// Finds and checks everything that can be known before a map is computed.
@@ -138,6 +142,7 @@ PreparedImages prepare_images(const MapsOptions& options) {
     shot.exposure = 1.0;
     const ChannelImage first = read_image(images.files.begin()->second);
     read_shot(shot, first);
+    images.with_motion = read_picture_frame(images.files.begin()->second, options.layers).motion.has_value();
     if (!options.common.fps.empty()) shot.frame_rate = parse_fps(options.common.fps);
     SettingMap given = options.common.settings;
     set_scene_numbers(shot, given);
@@ -174,7 +179,7 @@ void check_frames(const PreparedImages& images, const std::string& output) {
     for (const auto& [number, file] : images.files) names.insert(file.filename());
     const std::filesystem::path folder = images.files.begin()->second.parent_path();
     for (const int frame : prepared.frames) {
-        find_other_frame(images.files, prepared.scene.cuts, frame);
+        if (!images.with_motion) find_other_frame(images.files, prepared.scene.cuts, frame);
         const std::filesystem::path path = output_path(output, prepared.name, frame);
         std::error_code ignored;
         if (names.contains(path.filename()) && std::filesystem::equivalent(folder / path.filename(), path, ignored)) {
@@ -207,7 +212,7 @@ void write_image_maps(const MapsOptions& options) {
     const PreparedScene& prepared = images.prepared;
     prepare_frames_output(prepared, options.common, true);
     const ThreadLimit limit(options.common.threads);
-    ImageSequence sequence(prepared.scene, images.files, prepared.settings);
+    ImageSequence sequence(prepared.scene, images.files, prepared.settings, options.layers);
     ReplacedPixels replaced;
     const auto make = [&](int frame, const FrameRequest&) {
         FrameOutput maps = sequence.compute_maps(frame);
@@ -230,9 +235,24 @@ void add_maps_command(CLI::App& app, Command& command) {
     const std::string group = "Frames without a scene";
     maps->add_option("--images", options->images,
                      "pictures in place of a scene, such as 'frame.####.exr' or 'frame.%04d.png', in quotes: EXR "
-                     "(linear Rec.709) or PNG (sRGB), numbered without gaps; motion is found by comparing them")
+                     "(linear Rec.709) or PNG (sRGB), numbered without gaps; motion comes from the files that hold it, "
+                     "or from comparing them")
         ->type_name("PATTERN")
         ->group(group);
+    const auto add_layer = [&](const char* option, std::string& layer, const char* help) {
+        maps->add_option(option, layer, help)->type_name("NAME")->group(group);
+    };
+    add_layer("--layer", options->layers.color,
+              "layer of an EXR file that holds the picture, such as ViewLayer.Combined; default: R, G and B outside of "
+              "layers, else the only layer with colour, else the only one called Combined");
+    add_layer(
+        "--motion-layer", options->layers.motion,
+        "layer that holds motion to the next frame: channels u and v (pixels, u right, v up), or X, Y, Z and W as "
+        "Blender's Vector pass (Z and W: this frame's position minus the next one's); none: compare pictures; "
+        "default: forward, else the only layer called Vector");
+    add_layer("--depth-layer", options->layers.depth,
+              "layer whose channel Z is depth, which is copied; 1e10 and beyond without motion is background; none: no "
+              "depth; default: Z outside of layers, else the only layer called Depth");
     maps->add_option("--cuts", options->cuts, "frames that begin a new shot: no motion from the frame before")
         ->type_name("LIST")
         ->group(group);

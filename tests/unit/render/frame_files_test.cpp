@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <glm/gtc/matrix_transform.hpp>
 #include <nlohmann/json.hpp>
 
 #include "engine/load/load_scene.h"
@@ -163,6 +164,43 @@ TEST(FrameFiles, NothingIsPerceivedWithoutAGuideOrMaps) {
     EXPECT_TRUE(out.velocity.empty());
     EXPECT_EQ(out.statistics.seconds.perception, 0.0);
     for (const float alpha : out.alpha.pixels) EXPECT_EQ(alpha, static_cast<float>(rendered.settings.accuracy));
+}
+
+/// Row vector times matrix, divided by w.
+glm::dvec3 apply(const Matrix44f& m, const glm::dvec3& point) {
+    double sum[4];
+    for (int column = 0; column < 4; ++column) {
+        sum[column] = point.x * m[column] + point.y * m[4 + column] + point.z * m[8 + column] + m[12 + column];
+    }
+    return glm::dvec3(sum[0], sum[1], sum[2]) / sum[3];
+}
+
+/// OpenEXR's definitions: z forward; x and y from 0 to 1 over the picture, y down.
+TEST(FrameFiles, CameraMatricesAreThoseOfTheStandard) {
+    const ScratchFolder folder;
+    for (const bool orthographic : {false, true}) {
+        FrameOutput output;
+        output.estimate = Image<Rgb>(8, 4);
+        output.view = {.width = 8,
+                       .height = 4,
+                       .orthographic = orthographic,
+                       .position = {3.0, -1.0, 2.0},
+                       .axes = glm::dmat3(glm::rotate(glm::dmat4(1.0), 0.7, glm::dvec3(1.0, 2.0, -0.5))),
+                       .pixels_per_unit = 5.0,
+                       .axis_offset = {0.5, -0.25}};
+        write_exr(folder / "f.exr", make_frame_image(output, true, Scene(), RenderSettings(), 1.0));
+        const ChannelImage file = read_image(folder / "f.exr");
+        const auto& to_view = std::get<Matrix44f>(file.metadata.at("worldToCamera"));
+        const auto& to_ndc = std::get<Matrix44f>(file.metadata.at("worldToNDC"));
+        for (const glm::dvec3 place : {glm::dvec3(0.4, 0.3, -2.0), {-1.0, 0.2, -5.0}, {0.0, -0.7, -1.0}}) {
+            const glm::dvec3 point = output.view.position + output.view.axes * place;
+            EXPECT_LT(glm::length(apply(to_view, point) - place * glm::dvec3(1.0, 1.0, -1.0)), 1e-6);
+            const glm::dvec2 pixel = project_camera_point(output.view, place);
+            const glm::dvec3 ndc = apply(to_ndc, point);
+            EXPECT_NEAR(ndc.x, pixel.x / 8.0, 1e-6);
+            EXPECT_NEAR(ndc.y, pixel.y / 4.0, 1e-6);
+        }
+    }
 }
 
 }  // namespace

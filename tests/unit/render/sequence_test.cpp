@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <memory>
 
+#include "engine/base/errors.h"
 #include "tests/support/quick_settings.h"
 #include "tests/support/render_scenes.h"
 
@@ -78,6 +79,91 @@ TEST(Sequence, MovesWithItsScene) {
     Sequence second(std::move(first));
     EXPECT_TRUE(render_two(second)[1].pixels == expected[1].pixels);
     EXPECT_EQ(second.scene().nodes.size(), 4u);
+}
+
+const auto maps_only = FrameRequest{.frame = false, .maps = true, .progress = {}};
+
+/// Whether no surface has motion.
+bool is_without_motion(const MotionField& motion) {
+    return std::ranges::none_of(motion.validity.pixels, [](MotionValidity v) { return v == MotionValidity::valid; });
+}
+
+/// A simulation that sets each step's place finds the motion that keys give in the last frame of a shot.
+TEST(SequenceEdit, MotionLeadsFromTheFrameRenderedLast) {
+    const RenderSettings settings = quick_settings(40, 30);
+    Scene keyed = make_moving_scene();
+    keyed.nodes[3].translation.values = {{0.0, 1.0, 5.0}, {1.0, 1.5, 5.0}};  // the camera moves too
+    const auto place_at = [&](Scene& scene, int frame) {
+        for (const int node : {1, 3}) {
+            scene.nodes[node].translation = evaluate(keyed.nodes[node].translation, keyed.frame_rate.seconds_of(frame));
+        }
+    };
+    Scene still = keyed;
+    place_at(still, 6);
+    Sequence stepped(still, settings);
+    stepped.render(6, maps_only);
+    stepped.edit([&](Scene& scene) { place_at(scene, 7); });
+    const MotionField after = stepped.render(7, maps_only).motion;
+
+    keyed.range = FrameRange{0, 7};
+    const MotionField expected = Sequence(keyed, settings).render(7, maps_only).motion;
+    for (std::size_t i = 0; i < after.displacement.size(); ++i) {
+        // The box stands still within each step, so that its rays are traced in other coordinates.
+        EXPECT_LT(glm::length(after.displacement.pixels[i] - expected.displacement.pixels[i]), 1e-5) << i;
+    }
+    EXPECT_TRUE(after.validity.pixels == expected.validity.pixels);
+    EXPECT_GT(std::ranges::count(after.validity.pixels, MotionValidity::hidden), 0) << "behind the moving box";
+
+    const MotionField again = stepped.render(7, maps_only).motion;
+    for (const glm::dvec2& way : again.displacement.pixels) ASSERT_EQ(way, glm::dvec2(0.0)) << "no edit since";
+}
+
+TEST(SequenceEdit, ThePictureIsThatOfANewSequence) {
+    RenderSettings settings = quick_settings(40, 30);
+    settings.perception.guide = Guide::none;  // the map depends on motion
+    Sequence edited(make_moving_scene(), settings);
+    edited.render(0);
+    const double exposure = edited.exposure();
+    const auto paint = [](Scene& scene) { scene.materials[0].base_color = glm::dvec3(0.2, 0.6, 0.1); };
+    edited.edit(paint);
+    EXPECT_EQ(edited.exposure(), exposure);
+    Scene painted = make_moving_scene();
+    paint(painted);
+    painted.exposure = exposure;
+    EXPECT_TRUE(edited.render(4).shaded.color.pixels == Sequence(painted, settings).render(4).shaded.color.pixels);
+}
+
+TEST(SequenceEdit, NothingMovesFromFramesWithOtherElements) {
+    Sequence sequence(make_moving_scene(), quick_settings(40, 30));
+    sequence.render(3, maps_only);
+    sequence.edit([](Scene& scene) { add_mesh(scene, make_box(glm::dvec3(0.3), 0), {0.5, 0.4, 1.0}); });
+    EXPECT_TRUE(is_without_motion(sequence.render(4, maps_only).motion));
+    EXPECT_FALSE(is_without_motion(sequence.render(5, maps_only).motion)) << "no edit since";
+    sequence.edit([](Scene& scene) { scene.cuts = {6}; });
+    EXPECT_TRUE(is_without_motion(sequence.render(6, maps_only).motion)) << "a cut";
+}
+
+TEST(SequenceEdit, ABadEditChangesNothing) {
+    Sequence sequence(make_moving_scene(), quick_settings(40, 30));
+    const Image<Rgb> before = sequence.render(2).shaded.color;
+    EXPECT_THROW(sequence.edit([](Scene& scene) { scene.nodes[1].meshes = {999}; }), InputError);
+    EXPECT_THROW(sequence.edit([](Scene& scene) { scene.nodes[3].camera = no_index; }), InputError) << "no camera";
+    EXPECT_TRUE(sequence.render(2).shaded.color.pixels == before.pixels);
+}
+
+TEST(Sequence, RefusesAScenesFaults) {
+    Scene scene = make_moving_scene();
+    scene.nodes[1].meshes = {999};
+    EXPECT_THROW(Sequence(scene, quick_settings(8, 6)), InputError);
+}
+
+TEST(Sequence, MovedFromIsAnErrorAndNoCrash) {
+    Sequence first(make_moving_scene(), quick_settings(8, 6));
+    Sequence second = std::move(first);
+    EXPECT_NO_THROW(second.render(0));
+    EXPECT_THROW(first.render(0), InputError);
+    EXPECT_THROW(first.scene(), InputError);
+    EXPECT_THROW(first.edit([](Scene&) {}), InputError);
 }
 
 }  // namespace

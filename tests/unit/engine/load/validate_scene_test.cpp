@@ -1,0 +1,195 @@
+// Scenes made in code: what does not fit is named.
+
+#include "engine/load/validate_scene.h"
+
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <limits>
+
+#include "engine/base/errors.h"
+#include "engine/surface/shapes.h"
+
+namespace aleph {
+namespace {
+
+constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
+
+/// One of everything that can refer to something else.
+Scene make_full_scene() {
+    Scene scene;
+    Shape quad;
+    scene.materials.resize(1);
+    scene.images.resize(1);
+    scene.images[0].floats = Image<glm::vec4>(2, 1);
+    scene.meshes = {make_shape_mesh(quad, 0, "rigid"), make_shape_mesh(quad, 0, "skinned"),
+                    make_shape_mesh(quad, 0, "cached")};
+    Mesh& skinned = scene.meshes[1];
+    skinned.skin = 0;
+    skinned.joints_per_vertex = 1;
+    skinned.joint_weights.resize(skinned.positions.size(), {0, 1.0f});
+    skinned.targets.resize(1);
+    skinned.targets[0].positions.resize(skinned.positions.size());
+    skinned.target_weights = {Track<double>(0.5)};
+    scene.meshes[2].points = 0;
+    scene.point_caches.resize(1);
+    scene.point_caches[0].positions = {scene.meshes[2].positions, scene.meshes[2].positions};
+    scene.skins.resize(1);
+    scene.skins[0].joints = {0};
+    scene.skins[0].inverse_binds = {glm::dmat4(1.0)};
+    scene.lights.resize(1);
+    scene.cameras.resize(1);
+    scene.nodes.resize(2);
+    scene.nodes[0].name = "ball";
+    scene.nodes[0].meshes = {0, 1, 2};
+    scene.nodes[0].light = 0;
+    scene.nodes[1].name = "eye";
+    scene.nodes[1].parent = 0;
+    scene.nodes[1].camera = 0;
+    scene.environment = glm::dvec3(1.0);
+    scene.environment_image = 0;
+    return scene;
+}
+
+struct Fault {
+    std::string message;
+    std::function<void(Scene&)> make;
+};
+
+void expect_refused(const Fault& fault) {
+    Scene scene = make_full_scene();
+    fault.make(scene);
+    try {
+        validate(scene);
+        ADD_FAILURE() << "accepted: " << fault.message;
+    } catch (const InputError& error) {
+        EXPECT_EQ(error.what(), fault.message);
+    }
+}
+
+TEST(ValidateScene, AcceptsWhatFits) {
+    EXPECT_NO_THROW(validate(make_full_scene()));
+    EXPECT_NO_THROW(validate(Scene()));
+}
+
+TEST(ValidateScene, IndicesNameElements) {
+    for (const Fault& fault : std::vector<Fault>{
+             {R"(node 0 "ball": refers to mesh 999, but there are only 3)",
+              [](Scene& s) { s.nodes[0].meshes = {999}; }},
+             {R"(node 0 "ball": refers to mesh -1, but there are only 3)", [](Scene& s) { s.nodes[0].meshes = {-1}; }},
+             {R"(node 1 "eye": refers to parent 7, but there are only 2)", [](Scene& s) { s.nodes[1].parent = 7; }},
+             {R"(node 0 "ball": its parent has to stand before it)", [](Scene& s) { s.nodes[0].parent = 1; }},
+             {R"(node 1 "eye": refers to camera 1, but there is only 1)", [](Scene& s) { s.nodes[1].camera = 1; }},
+             {R"(node 0 "ball": refers to light -2, but there is only 1)", [](Scene& s) { s.nodes[0].light = -2; }},
+             {R"(material 0: refers to image 3, but there is only 1)",
+              [](Scene& s) { s.materials[0].emission_texture.image = 3; }},
+             {R"(material 0: base_color_texture: texture coordinates 0 and 1 exist, not 2)",
+              [](Scene& s) { s.materials[0].base_color_texture.uv_set = 2; }},
+             {R"(mesh 0 "rigid": refers to material 5, but there is only 1)",
+              [](Scene& s) { s.meshes[0].material = 5; }},
+             {R"(mesh 0 "rigid": a triangle has vertex 400, but there are 4)",
+              [](Scene& s) { s.meshes[0].triangles[0].y = 400; }},
+             {R"(mesh 0 "rigid": refers to cage 0, but there are none)", [](Scene& s) { s.meshes[0].cage = 0; }},
+             {R"(mesh 1 "skinned": refers to skin 2, but there is only 1)", [](Scene& s) { s.meshes[1].skin = 2; }},
+             {R"(mesh 1 "skinned": refers to joint 1, but there is only 1)",
+              [](Scene& s) { s.meshes[1].joint_weights[2].joint = 1; }},
+             {R"(mesh 2 "cached": refers to point cache 1, but there is only 1)",
+              [](Scene& s) { s.meshes[2].points = 1; }},
+             {R"(mesh 2 "cached": a vertex uses point 9, but the cache has 4)",
+              [](Scene& s) {
+                  s.meshes[2].vertex_points = {0, 1, 2, 9};
+              }},
+             {R"(skin 0: refers to node 2, but there are only 2)", [](Scene& s) { s.skins[0].joints[0] = 2; }},
+             {R"(environment 0: refers to image 1, but there is only 1)", [](Scene& s) { s.environment_image = 1; }}}) {
+        expect_refused(fault);
+    }
+}
+
+TEST(ValidateScene, NumbersAreFiniteAndInRange) {
+    for (const Fault& fault : std::vector<Fault>{
+             {R"(node 0 "ball": the axis of its rotation has length 2; it has to be a unit vector)",
+              [](Scene& s) {
+                  s.nodes[0].axis_rotation = AxisRotation{{0.0, 2.0, 0.0}, 0.0};
+              }},
+             {R"(node 0 "ball": the axis of its rotation has length 0; it has to be a unit vector)",
+              [](Scene& s) {
+                  s.nodes[0].axis_rotation = AxisRotation{{0.0, 0.0, 0.0}, 0.0};
+              }},
+             {R"(frame rate: both numbers have to be above 0)", [](Scene& s) { s.frame_rate.denominator = 0; }},
+             {R"(range: its last frame is before its first)",
+              [](Scene& s) {
+                  s.range = FrameRange{3, 2};
+              }},
+             {R"(exposure: has to be above 0)", [](Scene& s) { s.exposure = not_a_number; }},
+             {R"(viewing: pixels per degree have to be above 0)",
+              [](Scene& s) { s.viewing.pixels_per_degree = -31.0; }},
+             {R"(camera 0: its near plane has to be above 0)", [](Scene& s) { s.cameras[0].near_plane = 0.0; }},
+             {R"(camera 0: its shutter has to close when it opens or later)",
+              [](Scene& s) {
+                  s.cameras[0].shutter = {0.5, 0.0};
+              }},
+             {R"(mesh 0 "rigid": a position is not finite)",
+              [](Scene& s) { s.meshes[0].positions[1].z = std::numeric_limits<float>::infinity(); }},
+             {R"(point cache 0: a point is not finite)",
+              [](Scene& s) { s.point_caches[0].positions[1][0].x = std::numeric_limits<float>::quiet_NaN(); }}}) {
+        expect_refused(fault);
+    }
+}
+
+TEST(ValidateScene, ArraysFitEachOther) {
+    for (const Fault& fault : std::vector<Fault>{
+             {R"(mesh 0 "rigid": needs as many normals as positions, or none)",
+              [](Scene& s) { s.meshes[0].normals.resize(3); }},
+             {R"(mesh 0 "rigid": needs as many texture coordinates as positions, or none)",
+              [](Scene& s) { s.meshes[0].uv[1].resize(1); }},
+             {R"(mesh 1 "skinned": needs one weight track for each morph target)",
+              [](Scene& s) { s.meshes[1].target_weights.clear(); }},
+             {R"(mesh 1 "skinned": needs joints_per_vertex weights for each vertex)",
+              [](Scene& s) { s.meshes[1].joint_weights.pop_back(); }},
+             {R"(mesh 1 "skinned": a morph target needs as many displacements as the mesh has positions, or none)",
+              [](Scene& s) { s.meshes[1].targets[0].positions.pop_back(); }},
+             {R"(point cache 0: its samples have different numbers of points)",
+              [](Scene& s) { s.point_caches[0].positions[1].pop_back(); }},
+             {R"(point cache 0: has no samples)", [](Scene& s) { s.point_caches[0].positions.clear(); }},
+             {R"(skin 0: needs one inverse bind matrix for each joint)",
+              [](Scene& s) { s.skins[0].inverse_binds.clear(); }},
+             {R"(environment 0: the picture of the surroundings has no floating-point pixels)",
+              [](Scene& s) { s.images[0].floats = {}; }}}) {
+        expect_refused(fault);
+    }
+}
+
+/// The reasons are those of the readers.
+TEST(ValidateScene, TracksHaveKeysAndFiniteValues) {
+    const auto reason_of = [](const std::function<void(Scene&)>& make) {
+        Scene scene = make_full_scene();
+        make(scene);
+        try {
+            validate(scene);
+        } catch (const InputError& error) {
+            return std::string(error.what());
+        }
+        return std::string("accepted");
+    };
+    const std::vector<std::pair<std::string, std::function<void(Scene&)>>> faults{
+        {R"(node 0 "ball": )", [](Scene& s) { s.nodes[0].translation.values.clear(); }},
+        {R"(node 0 "ball": )", [](Scene& s) { s.nodes[0].translation = glm::dvec3(0.0, not_a_number, 0.0); }},
+        {R"(node 0 "ball": )", [](Scene& s) { s.nodes[0].rotation = glm::dquat(0.0, 0.0, 0.0, 0.0); }},
+        {R"(node 1 "eye": )", [](Scene& s) { s.nodes[1].matrix = glm::dmat4(0.0); }},
+        {R"(node 1 "eye": )",
+         [](Scene& s) {
+             s.nodes[1].operations = OperationStack{{OperationStack::Kind::translate}, {}, {1.0, 2.0}};
+         }},
+        {R"(material 0: )",
+         [](Scene& s) {
+             s.materials[0].roughness.values = {0.1, not_a_number};
+         }},
+        {R"(light 0: )", [](Scene& s) { s.lights[0].intensity.values.clear(); }},
+        {R"(camera 0: )", [](Scene& s) { s.cameras[0].fov = not_a_number; }},
+        {R"(mesh 0 "rigid": )", [](Scene& s) { s.meshes[0].present.values.clear(); }},
+        {R"(environment 0: )", [](Scene& s) { s.environment->values.clear(); }}};
+    for (const auto& [place, make] : faults) EXPECT_EQ(reason_of(make).find(place), 0u) << reason_of(make);
+}
+
+}  // namespace
+}  // namespace aleph
