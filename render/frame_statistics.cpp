@@ -6,6 +6,7 @@
 
 #include "engine/base/parallel.h"
 #include "render/frame_files.h"
+#include "render/setting_table.h"
 
 namespace aleph {
 
@@ -35,6 +36,13 @@ Json error_json(const std::optional<ErrorShares>& error) {
     Json causes = Json::object();
     for (std::size_t i = 0; i < cause_count; ++i) causes[cause_names()[i]] = error->by_cause[i];
     return {{"asked", error->asked}, {"share_beyond", error->beyond}, {"by_cause", causes}};
+}
+
+/// Whole numbers without a decimal point.
+Json setting_json(const Setting& setting, const RenderSettings& settings) {
+    const SettingValue value = setting.get(settings);
+    if (setting.type == SettingType::whole_number) return static_cast<std::int64_t>(std::get<double>(value));
+    return std::visit([](const auto& v) { return Json(v); }, value);
 }
 
 Json frame_json(const FrameStatistics& f) {
@@ -94,9 +102,7 @@ std::string format_statistics(const std::vector<FrameStatistics>& frames, const 
     json["scene"] = scene.file;
     json["frames"] = Json::array();
     for (const FrameStatistics& frame : frames) json["frames"].push_back(frame_json(frame));
-    for (const auto& [key, value] : setting_map(settings)) {
-        std::visit([&, k = key](const auto& v) { json["settings"][k] = v; }, value);
-    }
+    for (const Setting& setting : setting_table()) json["settings"][setting.key] = setting_json(setting, settings);
     json["exposure"] = exposure;
     json["threads"] = thread_count();
     char host[256] = "";

@@ -42,6 +42,13 @@ golden() {
   return "$code"
 }
 
+newcomer() {
+  local code=0
+  bash "$here/newcomer.sh" "$build/aleph" || code=$?
+  record "$build" newcomer "$code"
+  return "$code"
+}
+
 # Nothing can be tested without these.
 needed() {
   part "$@" || { printf '\n%s failed\n0 passed, 1 failed\n' "$1"; exit 1; }
@@ -60,6 +67,7 @@ needed "configure" configure
 needed "build" cmake --build "$build" --parallel "$jobs"
 checked "$build" "tests" run_tests "$build"
 checked "$build" "golden images" golden
+checked "$build" "newcomer" newcomer
 if [ "${1:-}" != quick ]; then
   checked "$root/build-address" "address sanitizer" bash "$here/sanitizers.sh" address
   checked "$root/build-thread" "thread sanitizer" bash "$here/sanitizers.sh" thread

@@ -81,6 +81,17 @@ void flush_to_disk(const fs::path& file, const fs::path& named) {
     if (::fsync(fd.get()) != 0) fail(named, "cannot flush to disk", errno);
 }
 
+fs::path temporary_path(const fs::path& target) {
+    return target.parent_path() / fmt::format(".{}.{}.part", target.filename().string(), ::getpid());
+}
+
+void create_folder_of(const fs::path& path) {
+    if (!path.has_parent_path()) return;
+    std::error_code error;
+    fs::create_directories(path.parent_path(), error);
+    if (error) fail(path, "cannot create its folder", error.value());
+}
+
 }  // namespace
 
 void write_bytes(const fs::path& file, std::string_view bytes, const fs::path& named) {
@@ -105,8 +116,7 @@ void write_bytes(const fs::path& file, std::string_view bytes, const fs::path& n
 
 void write_atomically(const fs::path& path, const std::function<void(const fs::path& temporary)>& write) {
     const fs::path target = checked_target(path);
-    const fs::path temporary =
-        target.parent_path() / fmt::format(".{}.{}.part", target.filename().string(), ::getpid());
+    const fs::path temporary = temporary_path(target);
     try {
         write(temporary);
         flush_to_disk(temporary, path);
@@ -119,6 +129,14 @@ void write_atomically(const fs::path& path, const std::function<void(const fs::p
     const FileDescriptor folder(
         ::open(target.has_parent_path() ? target.parent_path().c_str() : ".", O_RDONLY | O_DIRECTORY | O_CLOEXEC));
     if (folder.get() >= 0) ::fsync(folder.get());
+}
+
+void try_output(const fs::path& path) {
+    create_folder_of(path);
+    const fs::path temporary = temporary_path(checked_target(path));
+    const FileDescriptor file(::open(temporary.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0666));
+    if (file.get() < 0) fail(path, "cannot create a file in this folder", errno);
+    ::unlink(temporary.c_str());
 }
 
 void write_file(const fs::path& path, std::string_view bytes) {

@@ -14,6 +14,11 @@ namespace aleph {
 void write_atomically(const std::filesystem::path& path,
                       const std::function<void(const std::filesystem::path& temporary)>& write);
 
+/// Refuses now what write_atomically would refuse later: creates the folder of `path`, with its parents, if it is
+/// missing, creates the temporary file and removes it.
+/// @throws OutputError naming `path`
+void try_output(const std::filesystem::path& path);
+
 /// Writes the bytes to `path`, whole or not at all.
 /// @throws OutputError naming `path`
 void write_file(const std::filesystem::path& path, std::string_view bytes);

@@ -58,9 +58,14 @@ std::vector<std::string> close_names(std::string_view name, const std::vector<st
     return names;
 }
 
-std::string suggestion(std::string_view name, const std::vector<std::string>& known) {
+std::string close_suggestion(std::string_view name, const std::vector<std::string>& known) {
     const std::vector<std::string> close = close_names(name, known);
-    if (!close.empty()) return fmt::format("; did you mean {}?", join(close));
+    return close.empty() ? "" : fmt::format("; did you mean {}?", join(close));
+}
+
+std::string suggestion(std::string_view name, const std::vector<std::string>& known) {
+    const std::string close = close_suggestion(name, known);
+    if (!close.empty()) return close;
     if (known.empty() || known.size() > max_listed) return "";
     return fmt::format("; there is {}", join(known));
 }

@@ -11,7 +11,10 @@ namespace aleph {
 /// two letters; regardless of case), or of which one contains the other. Nearest first, then in the order given.
 std::vector<std::string> close_names(std::string_view name, const std::vector<std::string>& known);
 
-/// `; did you mean "a" or "b"?`. Where no name is close, `; there is "a" or "b"` with up to six names, else nothing.
+/// `; did you mean "a" or "b"?`, or nothing where no name is close.
+std::string close_suggestion(std::string_view name, const std::vector<std::string>& known);
+
+/// The same. Where no name is close, `; there is "a" or "b"` with up to six names, else nothing.
 std::string suggestion(std::string_view name, const std::vector<std::string>& known);
 
 }  // namespace aleph

@@ -8,6 +8,7 @@
 #include "engine/base/errors.h"
 #include "engine/json/memory.h"
 #include "engine/json/scan.h"
+#include "engine/json/syntax_error.h"
 
 namespace aleph {
 
@@ -26,14 +27,6 @@ std::string line_and_column(std::string_view text, std::size_t offset) {
         }
     }
     return fmt::format("line {}, column {}", line, column);
-}
-
-/// The part after the place of "[json.exception.parse_error.101] parse error at line 1, column 5: syntax error ...".
-std::string parser_reason(const std::string& what) {
-    const auto column = what.find(", column ");
-    const auto colon = what.find(": ", column == std::string::npos ? 0 : column);
-    const std::string reason = colon == std::string::npos ? what : what.substr(colon + 2);
-    return "not valid JSON: " + printable(reason, 300);
 }
 
 /// Builds the value. nlohmann's own builder silently keeps the last of two equal keys.
@@ -61,11 +54,12 @@ class Builder {
         return true;
     }
 
-    bool parse_error(std::size_t position, const std::string&, const json::exception& error) {
+    bool parse_error(std::size_t position, const std::string& token, const json::exception& error) {
         if (error.id == 406) {
             throw InputError(file_, line_and_column(text_, position - 1), "this number is too large for a double");
         }
-        throw InputError(file_, line_and_column(text_, position == 0 ? 0 : position - 1), parser_reason(error.what()));
+        const SyntaxError found = explain_syntax_error(text_, position, token, error.what());
+        throw InputError(file_, line_and_column(text_, found.offset), found.reason);
     }
 
     JsonText take() { return std::move(result_); }

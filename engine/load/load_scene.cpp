@@ -20,6 +20,7 @@
 #include "engine/load/framing_camera.h"
 #include "engine/load/load_includes.h"
 #include "engine/load/mesh_warnings.h"
+#include "engine/load/unlikely_values.h"
 #include "engine/load/warnings.h"
 #include "engine/pose/pose.h"
 #include "engine/scene_file/scene_text.h"
@@ -170,6 +171,8 @@ Scene load_scene(const std::filesystem::path& path, const LoadLimits& limits) {
     add_rotation_warnings(scene);
     add_mesh_warnings(scene);
     add_flat_warnings(scene);
+    add_radian_warnings(scene);
+    add_cut_warnings(scene);
     add_missing_light(scene);
     return scene;
 }

@@ -2,6 +2,7 @@
 
 #include "engine/base/errors.h"
 #include "engine/json/schema.h"
+#include "engine/scene_file/advice.h"
 
 namespace aleph {
 
@@ -21,7 +22,7 @@ const nlohmann::json& scene_schema() {
 void check_scene_schema(const nlohmann::json& document, const std::string& file) {
     static const JsonSchema schema(scene_schema());
     if (const auto mismatch = schema.find_mismatch(document)) {
-        throw InputError(file, mismatch->pointer, mismatch->reason);
+        throw InputError(file, mismatch->pointer, advise(*mismatch, document));
     }
 }
 

@@ -1,5 +1,7 @@
 // `aleph maps`: the maps of a scene's frames, or of frames without a scene.
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <iostream>
 #include <set>
@@ -66,6 +68,9 @@ constexpr const char* maps_footer =
     "  aleph maps --images 'blender.####.exr' --layer ViewLayer.Combined -o maps/\n"
     "  aleph compare guided.exr dense.exr --threshold maps.exr      which differences would a viewer see?";
 
+/// Keeps the files of maps apart from the pictures in the same folder.
+constexpr const char* maps_suffix = "-maps";
+
 FrameRequest maps_request() {
     return {.frame = false, .maps = true, .progress = {}};
 }
@@ -92,12 +97,12 @@ void refuse_what_needs_a_scene(const MapsOptions& options) {
     }
 }
 
-/// "frame.####.exr" to "frame-maps": beside the pictures, but never over them.
+/// "frame.####.exr" to "frame-maps".
 std::string name_of_maps(const std::filesystem::path& pattern) {
     std::string name = pattern.stem().string();
     name.erase(std::min(name.find_first_of("#%"), name.size()));
     while (!name.empty() && std::string_view("._-").find(name.back()) != std::string_view::npos) name.pop_back();
-    return (name.empty() ? "frame" : name) + "-maps";
+    return (name.empty() ? "frame" : name) + maps_suffix;
 }
 
 /// What the first picture says of the shot: our own frames and those of most programs carry their rate.
@@ -126,6 +131,7 @@ struct PreparedImages {
 
 /// Finds and checks everything that can be known before a map is computed.
 PreparedImages prepare_images(const MapsOptions& options) {
+    check_threads(options.common.threads);
     refuse_what_needs_a_scene(options);
     const std::string& pattern = options.images.front();
     PreparedImages images;
@@ -182,6 +188,24 @@ void check_frames(const PreparedImages& images, const std::string& output) {
     }
 }
 
+/// Pixels of the pictures that were no numbers.
+struct ReplacedPixels {
+    std::uint64_t pixels = 0;
+    std::int64_t first_frame = 0;
+
+    void add(const FrameStatistics& frame) {
+        if (pixels == 0) first_frame = frame.frame;
+        pixels += frame.sanitized.replaced;
+    }
+    void warn() const {
+        if (pixels == 0) return;
+        std::cerr << fmt::format(
+            "aleph: warning: {} pixels of the pictures, the first in frame {}, are NaN or infinite; they count as the "
+            "median of their neighbours\n",
+            pixels, first_frame);
+    }
+};
+
 void write_image_maps(const MapsOptions& options) {
     const PreparedImages images = prepare_images(options);
     check_frames(images, options.common.output);
@@ -189,9 +213,15 @@ void write_image_maps(const MapsOptions& options) {
     prepare_frames_output(prepared, options.common, true);
     const ThreadLimit limit(options.common.threads);
     ImageSequence sequence(prepared.scene, images.files, prepared.settings, options.layers);
-    const auto make = [&](int frame, const FrameRequest&) { return sequence.compute_maps(frame); };
+    ReplacedPixels replaced;
+    const auto make = [&](int frame, const FrameRequest&) {
+        FrameOutput maps = sequence.compute_maps(frame);
+        replaced.add(maps.statistics);
+        return maps;
+    };
     write_frames({prepared.scene, prepared.settings, *prepared.scene.exposure, prepared.frames, prepared.name, make},
                  options.common, maps_request());
+    if (!options.common.quiet) replaced.warn();
 }
 
 }  // namespace
@@ -245,7 +275,9 @@ void add_maps_command(CLI::App& app, Command& command) {
             if (!options->images.empty()) {
                 write_image_maps(*options);
             } else {
-                render_frames(prepare_scene(options->common), options->common, maps_request());
+                PreparedScene prepared = prepare_scene(options->common);
+                prepared.name += maps_suffix;
+                render_frames(std::move(prepared), options->common, maps_request());
             }
             return exit_done;
         };

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <cstdint>
@@ -9,6 +10,7 @@
 #include <ostream>
 
 #include "engine/base/errors.h"
+#include "engine/json/close_names.h"
 
 namespace aleph {
 
@@ -48,6 +50,41 @@ std::string where_to_look(const CLI::App& app) {
         names += (names.empty() ? "" : ", ") + subcommand->get_name();
     }
     return fmt::format("commands: {}; aleph --help describes them", names);
+}
+
+/// The subcommand that was given, else the program.
+const CLI::App& chosen_app(const CLI::App& app) {
+    const auto chosen = app.get_subcommands();
+    return chosen.empty() ? app : *chosen.front();
+}
+
+/// What is wrong with the first argument that no option takes, and what may have been meant.
+std::string describe_unexpected(const CLI::App& app) {
+    const CLI::App& chosen = chosen_app(app);
+    const std::vector<std::string> arguments = app.remaining(true);
+    const auto option = std::ranges::find_if(arguments, [](const auto& text) { return text.starts_with("-"); });
+    std::vector<std::string> known;
+    if (option != arguments.end()) {
+        const std::string name = option->substr(0, option->find('='));
+        for (const CLI::Option* each : chosen.get_options()) {
+            for (const std::string& long_name : each->get_lnames()) known.push_back("--" + long_name);
+        }
+        return fmt::format("there is no option {}{}", printable(name), close_suggestion(name, known));
+    }
+    const std::string text = arguments.empty() ? "" : arguments.front();
+    if (&chosen != &app) return fmt::format("'{}' is one argument too many", printable(text));
+    for (const CLI::App* each : app.get_subcommands([](const CLI::App*) { return true; })) {
+        known.push_back(each->get_name());
+    }
+    return fmt::format("there is no command {}{}", printable(text), close_suggestion(text, known));
+}
+
+/// Lets the last value count of an option that is given several times.
+void let_last_value_count(CLI::App& app) {
+    for (CLI::Option* option : app.get_options()) {
+        if (!option->get_positional() && option->get_expected_max() == 1) option->take_last();
+    }
+    for (CLI::App* subcommand : app.get_subcommands([](CLI::App*) { return true; })) let_last_value_count(*subcommand);
 }
 
 template <class T>
@@ -118,19 +155,24 @@ int run_command(const Command& command, std::ostream& errors) {
 }
 
 int run_program(CLI::App& app, const Command& command, int argc, const char* const* argv, std::ostream& errors) {
+    const auto refuse = [&](const std::string& reason) {
+        report(errors, fmt::format("{} ({})", reason, where_to_look(app)));
+        return exit_bad_input;
+    };
+    let_last_value_count(app);
     try {
         app.parse(argc, argv);
         refuse_options_as_values(app);
     } catch (const CLI::Success& e) {  // --help, --version
         return app.exit(e);
+    } catch (const CLI::ExtrasError&) {
+        return refuse(describe_unexpected(app));
     } catch (const CLI::ParseError& e) {
-        report(errors, fmt::format("{} ({})", e.what(), where_to_look(app)));
-        return exit_bad_input;
+        return refuse(e.what());
+    } catch (const InputError& e) {
+        return refuse(e.what());
     }
-    if (!command) {
-        report(errors, fmt::format("a command is missing ({})", where_to_look(app)));
-        return exit_bad_input;
-    }
+    if (!command) return refuse("a command is missing");
     return run_command(command, errors);
 }
 

@@ -2,8 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <optional>
 #include <system_error>
 
+#include "engine/base/atomic_file.h"
 #include "engine/base/errors.h"
 #include "render/cli/frame_pattern.h"
 
@@ -13,17 +15,45 @@ namespace {
 
 namespace fs = std::filesystem;
 
+[[noreturn]] void refuse(const std::string& pattern, const std::string& reason) {
+    throw InputError("", "--output", fmt::format("'{}': {}", printable(pattern, 400), reason));
+}
+
+std::optional<OutputFormat> find_format(const fs::path& path) {
+    std::string extension = path.extension().string();
+    for (char& c : extension) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+    if (extension == ".exr") return OutputFormat::exr;
+    if (extension == ".png") return OutputFormat::png;
+    if (extension == ".hdr") return OutputFormat::hdr;
+    return std::nullopt;
+}
+
+bool is_folder(const fs::path& path) {
+    std::error_code ignored;
+    if (!path.has_filename() || path.filename() == "." || path.filename() == "..") return true;
+    if (fs::is_directory(path, ignored)) return true;
+    return !path.has_extension() && path.filename().string().find_first_of("#%") == std::string::npos;
+}
+
 /// The pattern with its file name.
 fs::path full_pattern(const std::string& pattern, const std::string& scene_name) {
+    if (pattern == "-") refuse(pattern, "frames are not written to standard output; name a file or a folder");
     const fs::path path(pattern);
-    std::error_code ignored;
-    const bool folder = !path.has_filename() || path.filename() == "." || path.filename() == ".." ||
-                        fs::is_directory(path, ignored) ||
-                        (!path.has_extension() && path.filename().string().find_first_of("#%") == std::string::npos);
-    return folder ? path / (scene_name + ".####.exr") : path;
+    if (is_folder(path)) return path / (scene_name + ".####.exr");
+    find_number_field(path.filename().string(), "--output");  // its reasons come before the extension's
+    if (find_format(path)) return path;
+    const std::string extension = path.extension().string();
+    refuse(pattern, fmt::format("{}; possible are .exr, .png and .hdr, or a folder, which ends in '/'",
+                                extension.find_first_of("#%") == std::string::npos && !extension.empty()
+                                    ? fmt::format("the extension {} is not known", printable(extension))
+                                    : "the name has no extension"));
 }
 
 }  // namespace
+
+OutputFormat output_format(const fs::path& path) {
+    return find_format(path).value_or(OutputFormat::exr);
+}
 
 fs::path output_path(const std::string& pattern, const std::string& scene_name, int frame) {
     const fs::path path = full_pattern(pattern, scene_name);
@@ -32,26 +62,12 @@ fs::path output_path(const std::string& pattern, const std::string& scene_name, 
     return path.parent_path() / name;
 }
 
-void prepare_output(const std::string& pattern, const std::string& scene_name, std::size_t frame_count) {
+void prepare_output(const std::string& pattern, const std::string& scene_name, const std::vector<int>& frames) {
     const fs::path path = full_pattern(pattern, scene_name);
-    if (!find_number_field(path.filename().string(), "--output") && frame_count > 1) {
-        throw InputError("", "--output",
-                         fmt::format("'{}': {} frames need a number in the name, as in name.####.exr",
-                                     printable(pattern), frame_count));
+    if (!find_number_field(path.filename().string(), "--output") && frames.size() > 1) {
+        refuse(pattern, fmt::format("{} frames need a number in the name, as in name.####.exr", frames.size()));
     }
-    const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
-    std::error_code error;
-    if (fs::is_directory(folder, error)) return;
-    const fs::path parent = folder.has_parent_path() ? folder.parent_path() : fs::path(".");
-    if (!fs::is_directory(parent, error)) {
-        throw OutputError(printable(path.string(), 4096),
-                          fmt::format("the folder '{}' does not exist", printable(parent.string(), 4096)));
-    }
-    fs::create_directory(folder, error);
-    if (error) {
-        throw OutputError(printable(folder.string(), 4096),
-                          fmt::format("cannot create this folder: {}", error.message()));
-    }
+    for (const int frame : frames) try_output(output_path(pattern, scene_name, frame));
 }
 
 }  // namespace aleph

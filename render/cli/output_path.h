@@ -4,19 +4,26 @@
 #include <cstddef>
 #include <filesystem>
 #include <string>
+#include <vector>
 
 namespace aleph {
+
+enum class OutputFormat { exr, png, hdr };
 
 /// The file of one frame. A pattern is a file name with one run of '#', or one %d or %0Nd, in the last part of the
 /// path. A minus sign counts as a digit (frame -3 in #### is -003). A folder means `folder/<scene>.####.exr`, and an
 /// empty pattern the current folder. A pattern is a folder if it ends in '/', is an existing folder, or has no
 /// extension.
-/// @throws InputError (place "--output") if there are several places for the number, or a '%' without d or 0Nd
+/// @throws InputError (place "--output") if there are several places for the number, a '%' without d or 0Nd, or an
+/// extension other than .exr, .png and .hdr (in any case); also for "-"
 std::filesystem::path output_path(const std::string& pattern, const std::string& scene_name, int frame);
 
+/// The format that the extension of an output_path means.
+OutputFormat output_format(const std::filesystem::path& path);
+
 /// Called before anything is computed. Refuses a pattern without a number for several frames. Creates the folder of the
-/// files if its parent exists.
-/// @throws InputError (place "--output"), OutputError naming the missing folder
-void prepare_output(const std::string& pattern, const std::string& scene_name, std::size_t frame_count);
+/// files, with its parents, and tries every file (try_output).
+/// @throws InputError (place "--output"), OutputError
+void prepare_output(const std::string& pattern, const std::string& scene_name, const std::vector<int>& frames);
 
 }  // namespace aleph

@@ -3,11 +3,15 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <charconv>
 #include <filesystem>
 #include <iostream>
+#include <iterator>
+#include <map>
 
 #include "engine/base/errors.h"
+#include "engine/json/close_names.h"
 #include "engine/load/load_scene.h"
 #include "engine/pose/pose.h"
 #include "render/cli/frame_list.h"
@@ -31,6 +35,28 @@ FrameRate parse_fps(const std::string& text) {
     throw InputError("--fps", printable(text), "expected frames per second, such as 30 or 30000/1001");
 }
 
+namespace {
+
+/// What --set takes beside the settings of the table.
+constexpr const char* scene_numbers[] = {"exposure", "viewing.pixels_per_degree", "viewing.display_white",
+                                         "viewing.persistence"};
+
+/// @throws InputError (--set)
+void refuse_unknown_settings(const SettingMap& settings) {
+    std::vector<std::string> known;
+    for (const Setting& setting : setting_table()) known.push_back(setting.key);
+    known.insert(known.end(), std::begin(scene_numbers), std::end(scene_numbers));
+    for (const auto& [key, value] : settings) {
+        if (std::ranges::find(known, key) != known.end()) continue;
+        const std::string close = close_suggestion(key, known);
+        throw InputError("--set", printable(key),
+                         fmt::format("there is no such setting{} known are {}", close.empty() ? ";" : close,
+                                     fmt::join(known, ", ")));
+    }
+}
+
+}  // namespace
+
 void set_scene_numbers(Scene& scene, SettingMap& settings) {
     const auto take = [&](const std::string& key, auto&& apply) {
         const auto found = settings.find(key);
@@ -49,6 +75,7 @@ void set_scene_numbers(Scene& scene, SettingMap& settings) {
         if (v > 1.0) throw InputError("--set", "viewing.persistence", "expected a number above 0, at most 1");
         scene.viewing.persistence = v;
     });
+    refuse_unknown_settings(settings);
 }
 
 namespace {
@@ -91,16 +118,30 @@ std::string setting_help(const Setting& setting) {
     return setting.help;
 }
 
-/// --KEY for a setting of the table.
-void add_setting_option(CLI::App& app, const Setting& setting, SettingMap& into) {
+/// --KEY for a setting of the table; read_settings reads it.
+void add_setting_option(CLI::App& app, const Setting& setting) {
+    const std::string help = setting_help(setting);
     const SettingValue value = setting.get(RenderSettings());
-    app.add_option_function<std::string>(
-           option_name(setting.key),
-           [&into, key = setting.key](const std::string& text) { parse_setting(key + "=" + text, into); },
-           setting_help(setting))
+    app.add_option(option_name(setting.key), help)
         ->type_name(value_name(setting))
         ->default_str(std::visit([](const auto& v) { return fmt::format("{}", v); }, value))
         ->group("Settings (a scene file's \"settings\" have the same names, with _ in place of -)");
+}
+
+/// The settings of --KEY and --set in the order given, so that the last one counts.
+/// @throws InputError (--set)
+SettingMap read_settings(const CLI::App& app) {
+    std::map<const CLI::Option*, std::size_t> seen;
+    SettingMap settings;
+    for (const CLI::Option* option : app.parse_order()) {
+        const std::string name = option->get_name();
+        const auto setting =
+            std::ranges::find(setting_table(), name, [](const Setting& s) { return option_name(s.key); });
+        if (setting == setting_table().end() && name != "--set") continue;
+        const std::string& value = option->results().at(seen[option]++);
+        parse_setting(name == "--set" ? value : setting->key + "=" + value, settings);
+    }
+    return settings;
 }
 
 }  // namespace
@@ -127,28 +168,49 @@ void add_scene_options(CLI::App& app, SceneOptions& options) {
         ->type_name("N");
     app.add_option(
            "-o,--output", options.output,
-           "output files: name.####.exr, .png or .hdr (#### is the frame number), or a folder; HDR keeps 8 bits "
-           "per channel beside the pixel's brightest; default: SCENE.####.exr in the current folder")
+           "output files: name.####.exr, .png or .hdr (#### is the frame number), or a folder; missing folders are "
+           "made; HDR keeps 8 bits per channel beside the pixel's brightest; default: SCENE.####.exr, or "
+           "SCENE-maps.####.exr, in the current folder")
         ->type_name("PATTERN");
     app.add_option("--camera", options.camera, "name of a camera or of its node; default: the scene's choice")
         ->type_name("NAME");
-    app.add_option("--stats", options.stats, "write counts and times of every frame as JSON")->type_name("FILE.json");
+    app.add_option("--stats", options.stats,
+                   "write counts and times of every frame as JSON; the file is complete after every frame")
+        ->type_name("FILE.json");
     add_load_limits(app, options.limits);
-    add_value(app, "-t,--threads", options.threads, "number of threads; 0: all processors");
+    add_value(app, "-t,--threads", options.threads, "number of threads, 0 to 4096; 0: all processors");
     app.add_flag("-q,--quiet", options.quiet, "print no progress and no warnings");
-    for (const Setting& setting : setting_table()) add_setting_option(app, setting, options.settings);
+    for (const Setting& setting : setting_table()) add_setting_option(app, setting);
     app.add_option_function<std::vector<std::string>>(
-           "--set",
-           [&options](const std::vector<std::string>& texts) {
-               for (const std::string& text : texts) parse_setting(text, options.settings);
-           },
+           "--set", [](const std::vector<std::string>&) {},  // read_settings reads it
            "a setting by its key in scene files; also exposure, viewing.pixels_per_degree (pixels), "
            "viewing.display_white (cd/m2) and viewing.persistence (at most 1), numbers above 0")
         ->type_name("KEY=VALUE")
         ->allow_extra_args(false);
+    app.parse_complete_callback([&app, &options] { options.settings = read_settings(app); });
+}
+
+namespace {
+
+/// Every value is that of its first or last key there, so that nothing moves.
+void warn_of_frames_outside(const std::vector<int>& frames, const FrameRange& range) {
+    const auto is_outside = [&](int frame) { return frame < range.first || frame > range.last; };
+    const auto found = std::ranges::find_if(frames, is_outside);
+    if (found == frames.end()) return;
+    std::cerr << fmt::format("aleph: warning: frame {} lies outside the shot, which has the frames {} to {}\n", *found,
+                             range.first, range.last);
+}
+
+}  // namespace
+
+void check_threads(int threads) {
+    constexpr int max_threads = 4096;
+    if (threads >= 0 && threads <= max_threads) return;
+    throw InputError("", "--threads", fmt::format("{}: expected 0 (all processors) to {}", threads, max_threads));
 }
 
 PreparedScene prepare_scene(const SceneOptions& options) {
+    check_threads(options.threads);
     PreparedScene prepared;
     prepared.scene = load_scene(options.scene, options.limits);
     Scene& scene = prepared.scene;
@@ -162,14 +224,15 @@ PreparedScene prepare_scene(const SceneOptions& options) {
             std::cerr << "aleph: warning: " << printable(warning, 400) << "\n";
         }
     }
+    const FrameRange range = frame_range(scene);
     if (options.frames.empty()) {
-        const FrameRange range = frame_range(scene);
         if (range.last - range.first >= 10000000) {
             throw InputError(options.scene, "frames", "more than 10 million frames; choose some with --frames");
         }
         for (std::int64_t f = range.first; f <= range.last; ++f) prepared.frames.push_back(static_cast<int>(f));
     } else {
         prepared.frames = parse_frame_list(options.frames);
+        if (!options.quiet) warn_of_frames_outside(prepared.frames, range);
     }
     prepared.name = std::filesystem::path(options.scene).stem().string();
     if (prepared.name == "scene") {

@@ -22,6 +22,9 @@ struct SceneOptions {
 /// Adds the scene argument and the options that `render` and `maps` share: one per setting, --set for any.
 void add_scene_options(CLI::App& app, SceneOptions& options);
 
+/// @throws InputError (--threads) for a number outside 0 to 4096
+void check_threads(int threads);
+
 /// Adds --load-memory.
 void add_load_limits(CLI::App& app, LoadLimits& limits);
 

@@ -15,14 +15,6 @@ namespace aleph {
 
 namespace {
 
-/// The pattern's ending decides: .png is PNG, .hdr is Radiance, everything else EXR.
-bool is_png(const std::filesystem::path& path) {
-    return path.extension() == ".png";
-}
-bool is_hdr(const std::filesystem::path& path) {
-    return path.extension() == ".hdr";
-}
-
 void warn_of_changed_values(std::size_t count) {
     if (count == 0) return;
     std::cerr << fmt::format(
@@ -61,12 +53,16 @@ void print_error(const FrameStatistics& frame) {
 std::size_t write_frame(const std::filesystem::path& path, const FrameJob& job, FrameOutput& output, bool maps) {
     StageClock clock;
     std::size_t changed = 0;
-    if (is_png(path)) {
-        write_png(path, output.shaded.color);
-    } else if (is_hdr(path)) {
-        changed = write_hdr(path, output.shaded.color);
-    } else {
-        write_exr(path, make_frame_image(output, maps, job.scene, job.settings, job.exposure));
+    switch (output_format(path)) {
+        case OutputFormat::png:
+            write_png(path, output.shaded.color);
+            break;
+        case OutputFormat::hdr:
+            changed = write_hdr(path, output.shaded.color);
+            break;
+        case OutputFormat::exr:
+            write_exr(path, make_frame_image(output, maps, job.scene, job.settings, job.exposure));
+            break;
     }
     StageSeconds& seconds = output.statistics.seconds;
     clock.add_to(seconds.write);
@@ -74,45 +70,60 @@ std::size_t write_frame(const std::filesystem::path& path, const FrameJob& job, 
     return changed;
 }
 
+/// Says at the end which files there are now.
+void print_files(const FrameJob& job, const SceneOptions& options) {
+    const auto file = [&](int frame) { return printable(output_path(options.output, job.name, frame).string(), 400); };
+    std::string text = fmt::format("aleph: wrote {}", file(job.frames.front()));
+    if (job.frames.size() > 1) text += fmt::format(" to {} ({} frames)", file(job.frames.back()), job.frames.size());
+    if (!options.stats.empty()) text += fmt::format(", statistics in {}", printable(options.stats, 400));
+    std::cerr << text << "\n";
+}
+
 }  // namespace
 
 void prepare_frames_output(const PreparedScene& prepared, const SceneOptions& options, bool maps) {
-    prepare_output(options.output, prepared.name, prepared.frames.size());
-    if (!maps) return;
     const std::filesystem::path path = output_path(options.output, prepared.name, prepared.frames.front());
-    if (is_png(path) || is_hdr(path)) {
+    if (maps && output_format(path) != OutputFormat::exr) {
         throw InputError("--output", printable(options.output),
                          "PNG and HDR cannot hold the channels of maps; write .exr");
     }
+    prepare_output(options.output, prepared.name, prepared.frames);
+    if (!options.stats.empty()) try_output(options.stats);
 }
 
 void write_frames(const FrameJob& job, const SceneOptions& options, const FrameRequest& request) {
     std::vector<FrameStatistics> statistics;
     std::size_t changed = 0;
-    Progress progress(request.frame ? "render" : "maps", static_cast<double>(job.frames.size()),
-                      progress_look(options.quiet));
-    for (const int frame : job.frames) {
-        const auto done = static_cast<double>(statistics.size());
-        FrameRequest with_progress = request;
-        with_progress.progress = [&](double fraction, const char* stage) {
-            progress.update(done + fraction, fmt::format("frame {}: {}", frame, stage));
-        };
-        FrameOutput output = job.make(frame, with_progress);
-        changed += write_frame(output_path(options.output, job.name, frame), job, output, request.maps);
-        if (statistics.empty() && !options.quiet) warn_of_units(output.statistics);
-        statistics.push_back(output.statistics);
-        if (!options.quiet && job.settings.error > 0.0) print_error(output.statistics);
-        progress.update(done + 1.0, fmt::format("frame {}", frame));
+    {
+        Progress progress(request.frame ? "render" : "maps", static_cast<double>(job.frames.size()),
+                          progress_look(options.quiet));
+        for (const int frame : job.frames) {
+            const auto done = static_cast<double>(statistics.size());
+            FrameRequest with_progress = request;
+            with_progress.progress = [&](double fraction, const char* stage) {
+                progress.update(done + fraction, fmt::format("frame {}: {}", frame, stage));
+            };
+            FrameOutput output = job.make(frame, with_progress);
+            changed += write_frame(output_path(options.output, job.name, frame), job, output, request.maps);
+            if (statistics.empty() && !options.quiet) warn_of_units(output.statistics);
+            statistics.push_back(output.statistics);
+            // After every frame, so that the statistics of finished frames outlive a program that is ended.
+            if (!options.stats.empty()) {
+                write_file(options.stats, format_statistics(statistics, job.scene, job.settings, job.exposure));
+            }
+            if (!options.quiet && job.settings.error > 0.0) print_error(output.statistics);
+            progress.update(done + 1.0, fmt::format("frame {}", frame));
+        }
     }
-    if (!options.quiet) warn_of_changed_values(changed);
-    if (!options.stats.empty()) {
-        write_file(options.stats, format_statistics(statistics, job.scene, job.settings, job.exposure));
-    }
+    if (options.quiet) return;
+    warn_of_changed_values(changed);
+    print_files(job, options);
 }
 
 void render_frames(PreparedScene prepared, const SceneOptions& options, const FrameRequest& request,
                    const std::string& cache) {
     prepare_frames_output(prepared, options, request.maps);
+    if (!cache.empty()) try_output(cache);
     const ThreadLimit limit(options.threads);
     Sequence sequence(std::move(prepared.scene), prepared.settings, options.camera);
     if (!cache.empty()) sequence.load_light(cache);

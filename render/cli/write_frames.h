@@ -20,12 +20,13 @@ struct FrameJob {
     std::function<FrameOutput(int frame, const FrameRequest& request)> make;
 };
 
-/// Checks --output and makes its folder; called before anything is computed.
+/// Checks and tries --output and --stats, and makes their folders; called before anything is computed.
 /// @param maps  the files have channels of maps, which PNG and HDR cannot hold
 /// @throws InputError (--output), OutputError
 void prepare_frames_output(const PreparedScene& prepared, const SceneOptions& options, bool maps);
 
-/// Makes every frame and writes it, then writes the statistics (--stats).
+/// Makes every frame and writes it. The statistics (--stats) are written anew after every frame. Prints at the end, on
+/// standard error, which files were written.
 void write_frames(const FrameJob& job, const SceneOptions& options, const FrameRequest& request);
 
 /// Renders the frames of a scene, or their maps, and writes them. The files have the channels of what is requested.

@@ -123,6 +123,11 @@ TEST(FrameFiles, StatisticsAddUp) {
         format_statistics({rendered.output.statistics}, rendered.scene, rendered.settings, rendered.exposure));
     const auto& frame = json.at("frames").at(0);
     EXPECT_EQ(frame.at("frame"), 10);
+    for (const char* whole : {"spp", "gather", "seed"})
+        EXPECT_TRUE(json["settings"][whole].is_number_integer()) << whole;
+    for (const char* counts : {"rays", "cache"}) {
+        for (const auto& [name, count] : frame.at(counts).items()) EXPECT_TRUE(count.is_number_integer()) << name;
+    }
     const auto& rays = frame.at("rays");
     std::uint64_t sum = 0;
     for (const char* kind : {"primary", "shadow", "gather", "glossy", "specular", "path"}) {

@@ -24,16 +24,37 @@ TEST(BadSceneFile, Syntax) {
         {"", "line 1, column 1", "JSON"},
         {"  \n ", "line 2, column 2", "unexpected end"},
         {"{", "line 1, column 2", "unexpected end"},
-        {"{\"aleph\": 1,}", "line 1, column 13", "JSON"},
+        {"{\"aleph\": 1,}", "line 1, column 12", "this comma is one too many"},
+        {"{\"aleph\": 1, \"frames\": [0, 1 ,\n]}", "line 1, column 30", "this comma is one too many"},
+        {"{\"aleph\": 1, \"nodes\": [{} {}]}", "line 1, column 26", "a comma is missing here"},
+        {"{\"aleph\": 1, \"frames\": [0 1]}", "line 1, column 26", "a comma is missing here"},
+        {"{\"aleph\": 1, \"a\": [true  false]}", "line 1, column 24", "a comma is missing here"},
+        {"{\"aleph\": 1, \"a\": [0, 1}", "line 1, column 24", "JSON: syntax error"},
         {"{\"aleph\": 1}}", "line 1, column 13", "JSON"},
-        {"{\n  \"aleph\": 1\n  \"nodes\": []\n}", "line 3, column 9", "JSON"},
-        {"{\"aleph\": 01}", "line 1, column 12", "JSON"},
+        {"{\n  \"aleph\": 1\n  \"nodes\": []\n}", "line 2, column 13", "a comma is missing here"},
+        {"{\"aleph\": 01}", "line 1, column 12", "JSON: syntax error"},
         {"{\"aleph\": NaN}", "line 1, column 11", "JSON"},
         {"{\"aleph\": 1 /* never closed", "line 1, column 28", "comment"},
         {"{\"ä\": nul}", "line 1, column 10", "JSON"},
         {"{\"aleph\": 1, \"name\": \"\xff\"}", "line 1, column 23", "UTF-8"},
         {std::string("{\"aleph\": 1\0}", 13), "line 1, column 12", "JSON"},
         {"\x89PNG\r\n", "line 1, column 1", "JSON"},
+    });
+}
+
+TEST(BadSceneFile, KeysOfOtherFormatsNameTheirOwn) {
+    expect_all_refused({
+        scene(R"("nodes": [{"position": [0, 0, 1]}])", "/nodes/0/position", "\"translation\": [x, y, z]"),
+        scene(R"("nodes": [{"children": [{"rotate": [0, 90, 0]}]}])", "/nodes/0/children/0/rotate",
+              "\"axis\": [0, 1, 0], \"degrees\": 90"),
+        scene(R"("nodes": [{"rotation": [0, 90, 0]}])", "/nodes/0/rotation", "{\"rotate_y\": 90}"),
+        scene(R"("nodes": [{"light": {"type": "area"}}])", "/nodes/0/light/type",
+              "a \"material\" that has \"emission\""),
+        scene(R"("nodes": [{"camera": {"look_at": [0, 0, 0]}}])", "/nodes/0/camera/look_at", "-z of its node"),
+        scene(R"("nodes": [{"shape": {"type": "cube"}}])", "/nodes/0/shape/type", "a cube is a \"box\""),
+        scene(R"("settings": {"sampling": "progressive"})", "/settings/sampling", "write \"error\": 1"),
+        scene(R"("objects": [])", "/objects", "listed in \"nodes\""),
+        scene(R"("materials": {"a": {"colour": [1, 1, 1]}})", "/materials/a/colour", "a material is \"base_color\""),
     });
 }
 

@@ -15,8 +15,8 @@
 #include "engine/image/image_file.h"
 #include "render/cli/options.h"
 #include "tests/support/german_locale.h"
-#include "tests/support/scratch_folder.h"
 #include "tests/support/paths.h"
+#include "tests/support/scratch_folder.h"
 
 namespace aleph {
 namespace {
@@ -136,6 +136,21 @@ TEST(CommandLine, CompareNeverPassesNan) {
     }
 }
 
+TEST(CommandLine, MapsOfPicturesWithNanWarnOnce) {
+    const ScratchFolder folder;
+    ChannelImage image = grey_image(40, 30, 0.5f);
+    write_exr(folder / "f.0001.exr", image);
+    image.channels[0].values(7, 8) = std::numeric_limits<float>::quiet_NaN();
+    write_exr(folder / "f.0002.exr", image);
+    write_exr(folder / "f.0003.exr", image);
+    const std::string pattern = folder / "f.####.exr";
+    const Outcome outcome = run_aleph({"maps", "--images", pattern, "-o", folder / "maps/"});
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
+    EXPECT_NE(outcome.err.find("warning: 2 pixels of the pictures, the first in frame 2, are NaN"), std::string::npos)
+        << outcome.err;
+    EXPECT_EQ(run_aleph({"maps", "--images", pattern, "-q", "-o", folder / "maps/"}).err, "");
+}
+
 TEST(CommandLine, CompareOfOtherShapesIsExitCode2) {
     const ScratchFolder folder;
     write_exr(folder / "a.exr", grey_image(4, 4, 0.5f));
@@ -176,8 +191,8 @@ TEST(CommandLine, OU03_WhatHdrFilesCannotHoldIsCounted) {
         {"translation": [0, 0, 5], "camera": {"fov": 40}},
         {"shape": {"type": "quad", "size": [100, 100]},
          "material": {"base_color": [0, 0, 0], "emission": [1e18, 1, 1], "emission_strength": 1e10}}]})";
-    const std::vector<std::string> render{"render",  folder / "bright.json", "--size", "8x6", "--spp", "1", "-o",
-                                          folder / "f.####.hdr"};
+    const std::vector<std::string> render{"render", folder / "bright.json", "--size", "8x6", "--spp", "1",
+                                          "-o",     folder / "f.####.hdr"};
     const Outcome said = run_aleph(render);
     EXPECT_EQ(said.code, 0) << said.err;
     EXPECT_NE(said.err.find("warning: 96 values were"), std::string::npos) << said.err;
@@ -212,8 +227,8 @@ TEST(CommandLine, OU05_FullDiskIsExitCode1AndLeavesNothing) {
 TEST(CommandLine, OU05_ResultsThatCannotBePrintedAreAnError) {
     if (!std::filesystem::exists("/dev/full")) GTEST_SKIP() << "there is no /dev/full here";
     const TwoPictures files(0.0f);
-    const std::string command =
-        std::string("'") + program_path("aleph") + "' compare '" + files.a + "' '" + files.a + "' >/dev/full 2>/dev/null";
+    const std::string command = std::string("'") + program_path("aleph") + "' compare '" + files.a + "' '" + files.a +
+                                "' >/dev/full 2>/dev/null";
     EXPECT_EQ(WEXITSTATUS(::system(command.c_str())), 1);
 }
 

@@ -1,5 +1,6 @@
 // Options, progress and exit codes, without starting the program.
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <stdlib.h>
 
@@ -11,6 +12,7 @@
 #include "render/cli/commands.h"
 #include "render/cli/progress.h"
 #include "render/cli/scene_options.h"
+#include "render/setting_table.h"
 #include "tests/support/scratch_folder.h"
 
 namespace aleph {
@@ -107,6 +109,55 @@ TEST(Options, BadUsageIsOneLineAndExitCode2) {
         EXPECT_TRUE(message.starts_with("aleph: error: ")) << message;
         EXPECT_EQ(std::count(message.begin(), message.end(), '\n'), 1) << message;
         EXPECT_NE(message.find("--help"), std::string::npos) << message;
+    }
+}
+
+TEST(Options, OfSeveralValuesTheLastCounts) {
+    Program program;
+    EXPECT_EQ(program.run({"go", "--number", "1", "-w", "5", "--number", "2", "--whole", "6"}), 0);
+    EXPECT_EQ(program.number, 2.0);
+    EXPECT_EQ(program.whole, 6);
+}
+
+TEST(Options, UnknownOnesNameTheNearest) {
+    for (const auto& [argument, part] : {std::pair{"--numbr", "--numbr; did you mean \"--number\"?"},
+                                         {"--frame=3", "--frame; did you mean \"--frames\"?"},
+                                         {"--colour", "no option --colour (aleph go --help"},
+                                         {"extra", "'extra' is one argument too many"}}) {
+        Program program;
+        EXPECT_EQ(program.run({"go", argument}), 2);
+        EXPECT_NE(program.errors.str().find(part), std::string::npos) << program.errors.str();
+    }
+    Program program;
+    EXPECT_EQ(program.run({"goo"}), 2);
+    EXPECT_NE(program.errors.str().find("no command goo; did you mean \"go\"?"), std::string::npos);
+}
+
+TEST(Options, HelpShowsTheDefaultAndTheRangeOfEverySetting) {
+    for (const auto add : {add_render_command, add_maps_command}) {
+        CLI::App app{"test"};
+        Command command;
+        add(app, command);
+        const std::string help = app.get_subcommands([](CLI::App*) { return true; }).front()->help();
+        for (const Setting& setting : setting_table()) {
+            std::string option = "  --" + setting.key + " ";
+            std::replace(option.begin(), option.end(), '_', '-');
+            const std::size_t at = help.find(option);
+            ASSERT_NE(at, std::string::npos) << option;
+            const std::string text = help.substr(at, help.find("\n  --", at) - at);
+            const SettingValue value = setting.get(RenderSettings());
+            EXPECT_NE(text.find(std::visit([](const auto& v) { return fmt::format("={}", v); }, value)),
+                      std::string::npos)
+                << text;
+            for (const std::string& choice : setting.choices) EXPECT_NE(text.find(choice), std::string::npos) << text;
+            if (setting.type == SettingType::number || setting.type == SettingType::whole_number) {
+                EXPECT_NE(text.find(fmt::format(" to {}", setting.type == SettingType::number
+                                                              ? fmt::format("{:g}", setting.max)
+                                                              : fmt::format("{:.0f}", setting.max))),
+                          std::string::npos)
+                    << text;
+            }
+        }
     }
 }
 

@@ -112,30 +112,54 @@ TEST(OutputPath, RefusesPatternsWithTwoMeanings) {
     }
 }
 
-TEST(OutputPath, PrepareMakesTheLastFolderOnly) {
-    const ScratchFolder folder;
-    prepare_output((folder / "out").string(), "pool", 10);
-    EXPECT_TRUE(std::filesystem::is_directory(folder / "out"));
-    prepare_output((folder / "shots/a.####.exr").string(), "pool", 10);
-    EXPECT_TRUE(std::filesystem::is_directory(folder / "shots"));
-    EXPECT_FALSE(std::filesystem::exists(folder / "shots/a.0001.exr"));
+/// The message that refuses a pattern; empty if it is taken.
+std::string refused_pattern(const std::string& pattern) {
     try {
-        prepare_output((folder / "no/such/a.####.exr").string(), "pool", 10);
-        FAIL();
-    } catch (const OutputError& e) {
-        EXPECT_NE(std::string(e.what()).find("'" + (folder / "no").string() + "' does not exist"), std::string::npos)
-            << e.what();
+        output_path(pattern, "pool", 1);
+        return "";
+    } catch (const InputError& e) {
+        return e.what();
     }
-    EXPECT_FALSE(std::filesystem::exists(folder / "no"));
+}
+
+TEST(OutputPath, RefusesOtherFormatsAndStandardOutput) {
+    for (const char* pattern : {"x.jpg", "x.tif", "out.with.dots", "a.####.jpeg", "shots/v1.2", "a.####", "a_%04d"}) {
+        EXPECT_NE(refused_pattern(pattern).find("possible are .exr, .png and .hdr, or a folder"), std::string::npos)
+            << pattern;
+    }
+    EXPECT_NE(refused_pattern("x.jpg").find("the extension .jpg is not known"), std::string::npos);
+    EXPECT_NE(refused_pattern("-").find("standard output"), std::string::npos);
+    for (const char* pattern : {"x.EXR", "x.Png", "./-", "out.with.dots/", "shots.v1/x.hdr"}) {
+        EXPECT_EQ(refused_pattern(pattern), "") << pattern;
+    }
+    EXPECT_EQ(output_format("x.EXR"), OutputFormat::exr);
+    EXPECT_EQ(output_format("x.Png"), OutputFormat::png);
+    EXPECT_EQ(output_format("x.hdr"), OutputFormat::hdr);
+}
+
+TEST(OutputPath, PrepareMakesFoldersAndTriesFiles) {
+    const ScratchFolder folder;
+    const auto prepare = [&](const std::string& pattern) {
+        prepare_output((folder / pattern).string(), "pool", {1, 2});
+    };
+    prepare("out");
+    prepare("new/deep/a.####.exr");
+    EXPECT_TRUE(std::filesystem::is_empty(folder / "out"));
+    EXPECT_TRUE(std::filesystem::is_empty(folder / "new/deep"));
     std::ofstream(folder / "file") << "x";
-    EXPECT_THROW(prepare_output((folder / "file/a.####.exr").string(), "pool", 1), OutputError);
+    EXPECT_THROW(prepare("file/a.####.exr"), OutputError);
+    EXPECT_THROW(prepare(std::string(250, 'n') + ".####.exr"), OutputError);
+    std::filesystem::create_directory(folder / "out/a.0002.exr");
+    EXPECT_THROW(prepare("out/a.####.exr"), OutputError) << "the last frame's name is a folder's";
+    if (std::filesystem::exists("/proc/self")) {
+        EXPECT_THROW(prepare_output("/proc/a.exr", "pool", {1}), OutputError) << "nobody can write there";
+    }
 }
 
 TEST(OutputPath, SeveralFramesNeedANumber) {
     const ScratchFolder folder;
-    EXPECT_NO_THROW(prepare_output((folder / "a.exr").string(), "pool", 1));
-    EXPECT_THROW(prepare_output((folder / "a.exr").string(), "pool", 2), InputError);
+    EXPECT_NO_THROW(prepare_output((folder / "a.exr").string(), "pool", {1}));
+    EXPECT_THROW(prepare_output((folder / "a.exr").string(), "pool", {1, 2}), InputError);
 }
-
 }  // namespace
 }  // namespace aleph

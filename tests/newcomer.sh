@@ -1,0 +1,129 @@
+#!/usr/bin/env bash
+# What people try with the command line on their first days, and what it has to answer. Under 20 seconds.
+#   tests/newcomer.sh [PROGRAM]     PROGRAM: build/aleph
+set -uo pipefail
+
+root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
+program=$(realpath "${1:-$root/build/aleph}")
+folder=$(mktemp -d)
+trap 'rm -rf "$folder"' EXIT
+cd "$folder" || exit 1
+failures=0 checks=0
+quick=(--size 16x12 --spp 1 --gather 4)
+
+aleph() { "$program" "$@"; }
+
+fail() {
+  printf 'FAILED: %s\n' "$1"
+  sed 's/^/  /' output
+  failures=$((failures + 1))
+}
+
+# answers CODE PART COMMAND...: the exit code, and a part of what is printed.
+answers() {
+  local code=$1 part=$2 got=0
+  shift 2
+  checks=$((checks + 1))
+  "$@" >output 2>&1 || got=$?
+  if [ "$got" != "$code" ] || ! grep -qF -- "$part" output; then fail "expected $code and '$part', got $got: $*"; fi
+}
+
+# silent COMMAND...: works without a word.
+silent() {
+  checks=$((checks + 1))
+  "$@" >output 2>&1 && [ ! -s output ] || fail "expected success without a word: $*"
+}
+
+# is COMMAND...: a condition.
+is() {
+  checks=$((checks + 1))
+  : >output
+  "$@" >output 2>&1 || fail "$*"
+}
+
+cat >first.json <<'JSON'
+{"aleph": 1, "fps": 30, "frames": [0, 59],
+ "nodes": [
+  {"name": "floor", "rotation": {"axis": [1, 0, 0], "degrees": -90}, "shape": {"type": "quad", "size": [6, 6]}},
+  {"name": "ball", "translation": {"keys": [[0, [-1, 0.5, 0]], [59, [1, 0.5, 0]]]}, "shape": {"type": "sphere", "radius": 0.5}},
+  {"name": "lamp", "translation": [0, 3, 0], "rotation": {"axis": [1, 0, 0], "degrees": 90},
+   "shape": {"type": "quad", "size": [1, 1]}, "material": {"base_color": [0, 0, 0], "emission": [12, 11, 10]}},
+  {"name": "eye", "translation": [0, 1.2, 5], "camera": {"fov": 40}}]}
+JSON
+
+# Output files.
+for name in x.jpg x.tif out.with.dots 'frame.####'; do
+  answers 2 "possible are .exr, .png and .hdr, or a folder" aleph render first.json --frames 0 "${quick[@]}" -o "$name"
+done
+answers 2 "standard output" aleph render first.json --frames 0 "${quick[@]}" -o -
+is [ "$(ls)" = "$(printf 'first.json\noutput')" ]
+silent aleph render first.json --frames 0-1 "${quick[@]}" -q -o both/
+silent aleph maps first.json --frames 0 "${quick[@]}" -q -o both/
+is [ "$(ls both | tr '\n' ' ')" = "first-maps.0000.exr first.0000.exr first.0001.exr " ]
+answers 0 "wrote new/deep/first.0000.exr to new/deep/first.0001.exr (2 frames), statistics in stats/all.json" \
+  aleph render first.json --frames 0-1 "${quick[@]}" -o new/deep/ --stats stats/all.json
+is grep -q '"spp": 1,' stats/all.json
+answers 1 "File name too long" aleph render first.json --frames 0 "${quick[@]}" -o "$(printf 'n%.0s' {1..260}).exr"
+# Nobody can write to /proc. That is found before the first frame of a long render.
+answers 1 "/proc/x.exr" aleph render first.json --frames 0 --size 4000x3000 -o /proc/x.exr
+answers 1 "/proc/s.json" aleph render first.json --frames 0 --size 4000x3000 -o x.exr --stats /proc/s.json
+
+# Statistics of finished frames outlive the program.
+aleph render first.json --size 64x48 --spp 4 -q -o killed/ --stats killed.json &
+render=$!
+for _ in {1..200}; do
+  [ -e killed.json ] && break
+  sleep 0.05
+done
+kill -KILL "$render" 2>/dev/null
+wait "$render" 2>/dev/null
+is [ "$(tail -1 killed.json)" = "}" ]
+is grep -q '"frame": 0' killed.json
+
+# Options.
+answers 2 'there is no option --frame; did you mean "--frames"?' aleph render first.json --frame 0
+answers 2 'did you mean "--spp"?' aleph render first.json --sapp 4
+answers 2 'there is no command rendr; did you mean "render"?' aleph rendr first.json
+answers 2 'did you mean "exposure"?' aleph render first.json --set exposre=2
+answers 2 'viewing.display_white' aleph render first.json --set white=2
+answers 2 'expected KEY=VALUE' aleph render first.json --set exposure
+answers 2 'expected 0 (all processors) to 4096' aleph render first.json -t -1
+answers 2 'expected 0 (all processors) to 4096' aleph maps --images 'x.####.png' -t 4097
+silent aleph render first.json "${quick[@]}" -t 0 -q --frames 7 --frames 0 --spp 9 --set spp=8 --spp 2 -o twice.exr --stats twice.json
+is grep -q '"spp": 2,' twice.json
+is grep -q '"frame": 0,' twice.json
+silent aleph render first.json "${quick[@]}" -q --frames 0 --spp 9 --set spp=8 -o twice.exr --stats twice.json
+is grep -q '"spp": 8,' twice.json
+
+# Values that were probably meant otherwise: one warning each.
+# scene NAME NODE [MORE]: a lit scene of one node.
+scene() {
+  printf '{"aleph": 1, "frames": [0, 20], "environment": [1, 1, 1], %s "nodes": [{"name": "n", %s}]}\n' "${3:-}" "$2" >"$1.json"
+}
+scene radians '"camera": {"fov": 0.7}'
+answers 0 'looks like radians' aleph explain radians.json
+scene turned '"rotation": {"axis": [1, 0, 0], "degrees": -1.5708}'
+answers 0 'look like radians' aleph explain turned.json
+scene jumps '"camera": {}, "translation": {"interpolation": "step", "keys": [[0, [0, 0, 5]], [10, [3, 0, 5]]]}'
+answers 0 'step keys move it at frame 10, which is not in "cuts"' aleph explain jumps.json
+scene cut '"camera": {}' '"cuts": [50],'
+answers 0 'the cut at frame 50 lies outside the frames 0 to 20' aleph explain cut.json
+scene nothing '"shape": {"type": "box"}, "scale": 0'
+answers 0 'the scale is 0' aleph explain nothing.json
+answers 0 'warning: frame 100 lies outside the shot, which has the frames 0 to 59' \
+  aleph render first.json "${quick[@]}" --frames 0,100 -o outside/
+
+# Keys and values of other formats; commas.
+scene key '"position": [0, 0, 1]'
+answers 2 '/nodes/0/position: unknown key "position"; a node'"'"'s place is "translation"' aleph explain key.json
+scene key '"rotation": [0, 90, 0]'
+answers 2 '"operations": [{"rotate_z": 0}, {"rotate_y": 90}, {"rotate_x": 0}]' aleph explain key.json
+scene key '"light": {"type": "area"}'
+answers 2 'a "shape" and a "material" that has "emission"' aleph explain key.json
+scene key '"camera": {}' '"settings": {"sampling": "progressive"},'
+answers 2 'write "error": 1' aleph explain key.json
+printf '{"aleph": 1,\n "fps": 30\n "frames": [0, 1]}\n' >key.json
+answers 2 'line 2, column 11: not valid JSON: a comma is missing here' aleph explain key.json
+
+echo "$((checks - failures)) of $checks answers are right"
+[ "$failures" = 0 ]
