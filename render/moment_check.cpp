@@ -1,6 +1,9 @@
 #include "render/moment_check.h"
 
 #include <algorithm>
+#include <cmath>
+
+#include "render/gather_at.h"
 
 namespace aleph {
 
@@ -10,8 +13,8 @@ constexpr int tile_pixels = 8;   // between probes where something moves
 constexpr int coarse_tiles = 4;  // between probes elsewhere
 /// A mover is near where it may hide so much of the hemisphere, relative to the accuracy.
 constexpr float near_form_factor = 0.25f;
-/// In units of the accuracy. Either value may err by about half of it.
-constexpr float same_light = 1.0f;
+constexpr float interpolated_error = 1.5f;  // of a probe that another's record covers, over the accuracy
+constexpr float noise_deviations = 2.5f;    // of a probe, by which it may differ although nothing happened
 constexpr std::uint8_t still_bit = 1, moving_bit = 2;
 
 /// Around the vertices of an instance; relative to `anchor`.
@@ -103,14 +106,18 @@ void CheckedLight::reject(const Probe& probe) {
 }
 
 bool CheckedLight::differs(const IrradianceCache& cache, const IndirectContext& context, const Probe& probe,
-                           RayTask& task) const {
+                           bool gathered, RayTask& task) const {
     const PixelSurface surface = *find_surface(context, sample_, probe.x, probe.y);
     const float accuracy = context.accuracy(probe.x, probe.y);
-    const std::optional<Rgb> own = cache.interpolate({surface.point.position, surface.point.normal, accuracy, &task});
-    const std::optional<Rgb> theirs = moments_.find(surface, accuracy, task);
+    const CacheQuery query{surface.point.position, surface.point.normal, accuracy, &task};
+    const std::optional<Rgb> own = cache.interpolate(query), theirs = moments_.find(surface, accuracy, task);
     if (!own || !theirs) return false;
+    const std::optional<float> ray_variance = cache.expected_ray_variance(query);
+    const int rays = choose_rays(context.settings, accuracy, ray_variance);
+    const float noise = std::sqrt(ray_variance.value_or(0.0f) / static_cast<float>(rays));
     const float a = luminance(*own), b = luminance(*theirs);
-    return std::abs(a - b) > same_light * accuracy * 0.5f * (a + b);
+    const float error = (gathered ? 1.0f : interpolated_error) * accuracy;
+    return std::abs(a - b) > std::hypot(error, noise_deviations * noise) * 0.5f * (a + b);
 }
 
 void CheckedLight::check(IrradianceCache& cache, const IndirectContext& context, FrameTally& frame) {
@@ -130,7 +137,7 @@ void CheckedLight::check(IrradianceCache& cache, const IndirectContext& context,
     RayTask task(context.lighting.rays);
     std::ranges::fill(rejected_.pixels, std::uint8_t{0});
     for (int i = 0; i < count; ++i) {
-        if (tally.records(i, 0) > 0.0f && differs(cache, context, probes_[i], task)) reject(probes_[i]);
+        if (differs(cache, context, probes_[i], tally.records(i, 0) > 0.0f, task)) reject(probes_[i]);
     }
     for (int i = 0; i < count; ++i) {
         frame.records(probes_[i].x, probes_[i].y) += tally.records(i, 0);
