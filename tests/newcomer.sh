@@ -135,5 +135,11 @@ answers 0 '/ball' bash -c 'grep -a "" both/first-maps.0000.exr'
 scene refused '"shape": {"type": "box"}'
 answers 0 'rendering is refused: camera: the scene has no camera' aleph explain refused.json
 
+# Two sequences: one line for each frame, and a summary.
+silent aleph render first.json --frames 0-1 "${quick[@]}" --seed 5 -q -o other/
+answers 1 'frames differ; the largest difference is in frame' aleph compare 'both/first.####.exr' other/
+is [ "$(grep -cE '^ *[01] ' output)" = 2 ]
+answers 0 'same' aleph compare 'both/first.####.exr' new/deep/
+
 echo "$((checks - failures)) of $checks answers are right"
 [ "$failures" = 0 ]
