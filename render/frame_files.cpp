@@ -8,6 +8,10 @@
 #include <numeric>
 
 #include "engine/base/errors.h"
+#include "engine/pose/pose.h"
+#include "render/channel_table.h"
+#include "render/cryptomatte.h"
+#include "render/node_paths.h"
 
 namespace aleph {
 
@@ -30,7 +34,39 @@ void add_color(ChannelImage& file, const std::string& prefix, const Image<Rgb>& 
     }
 }
 
-void add_maps(ChannelImage& file, const FrameOutput& output) {
+/// The object at each pixel's centre, with a coverage of 1.
+void add_cryptomatte(ChannelImage& file, const Image<Hit>& hits, const Scene& scene) {
+    if (hits.empty()) return;
+    constexpr const char* layer = "CryptoObject";
+    const std::vector<std::string> paths = node_paths(scene);
+    std::vector<std::string> shown;
+    std::vector<float> ids;
+    for (const Instance& instance : list_instances(scene)) {
+        const std::string& path = paths[instance.node];
+        if (shown.empty() || shown.back() != path) shown.push_back(path);
+        ids.push_back(cryptomatte_id(path));
+    }
+    const auto at = [layer](const char* part) { return std::string(layer) + "00." + part; };
+    add(file, at("r"), pick(hits, [&](const Hit& hit) { return hit.instance == no_index ? 0.0f : ids[hit.instance]; }));
+    add(file, at("g"), pick(hits, [](const Hit& hit) { return hit.instance == no_index ? 0.0f : 1.0f; }));
+    for (const char* part : {"b", "a"}) add(file, at(part), Image<float>(hits.width, hits.height));
+    const std::string prefix = cryptomatte_prefix(layer);
+    file.metadata[prefix + "name"] = std::string(layer);
+    file.metadata[prefix + "hash"] = std::string("MurmurHash3_32");
+    file.metadata[prefix + "conversion"] = std::string("uint32_to_float32");
+    file.metadata[prefix + "manifest"] = cryptomatte_manifest(shown);
+}
+
+/// What each channel holds, as the attribute channel:NAME.
+void add_descriptions(ChannelImage& file) {
+    for (const ChannelInfo& info : channel_table()) {
+        for (const std::string& name : info.names) {
+            if (file.find(name) != nullptr) file.metadata["channel:" + name] = describe_channel(info);
+        }
+    }
+}
+
+void add_maps(ChannelImage& file, const FrameOutput& output, const Scene& scene) {
     const MotionField& motion = output.motion;
     add(file, "forward.u", pick(motion.displacement, [](const glm::dvec2& d) { return d.x; }));
     // 0 - y: a still pixel is +0 in the file.
@@ -54,6 +90,7 @@ void add_maps(ChannelImage& file, const FrameOutput& output) {
         add(file, std::string("N.") + "XYZ"[c], pick(output.normal, [c](const glm::vec3& n) { return n[c]; }));
     }
     add(file, "objectId.X", pick(output.hits, [](const Hit& hit) { return hit.instance; }));
+    add_cryptomatte(file, output.hits, scene);
     add(file, "samples.Y", output.shaded.samples);
     add(file, "error.Y", output.shaded.errors.total);
     for (std::size_t cause = 0; cause < cause_count; ++cause) {
@@ -116,7 +153,8 @@ ChannelImage make_frame_image(const FrameOutput& output, bool maps, const Scene&
         add(file, "A", output.shaded.coverage);
         add(file, "variance.Y", output.shaded.variance);
     }
-    if (maps) add_maps(file, output);
+    if (maps) add_maps(file, output, scene);
+    add_descriptions(file);
     file.metadata["software"] = "aleph " ALEPH_VERSION;
     file.metadata["framesPerSecond"] = std::array<int, 2>{static_cast<int>(scene.frame_rate.numerator),
                                                           static_cast<int>(scene.frame_rate.denominator)};

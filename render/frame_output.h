@@ -57,9 +57,9 @@ struct FrameRequest {
 struct FrameOutput {
     ShadedFrame shaded;  ///< filled if `frame`
     CameraView view;
-    Image<Hit> hits;      ///< through the pixel centres
-    Image<Rgb> estimate;  ///< sanitized
-    MotionField motion;
+    Image<Hit> hits;                   ///< through the pixel centres
+    Image<Rgb> estimate;               ///< sanitized
+    MotionField motion;                ///< pixels, x right, y down; the channel forward.v is positive upwards
     bool motion_from_picture = false;  ///< as another program wrote it, not computed
     Image<float> velocity;             ///< deg/s
     PerceptionMaps perception;

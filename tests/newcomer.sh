@@ -125,5 +125,21 @@ answers 2 'write "error": 1' aleph explain key.json
 printf '{"aleph": 1,\n "fps": 30\n "frames": [0, 1]}\n' >key.json
 answers 2 'line 2, column 11: not valid JSON: a comma is missing here' aleph explain key.json
 
+# What the scene holds, and which object a pixel shows.
+answers 0 '1 light (1 of area)' aleph explain first.json
+answers 0 'lamp: 2 triangles of' aleph explain first.json
+answers 0 '"object_ids": [' aleph explain first.json --json
+answers 0 'v positive upwards' bash -c 'grep -a "" both/first-maps.0000.exr'
+answers 0 'uint32_to_float32' bash -c 'grep -a "" both/first-maps.0000.exr'
+answers 0 '/ball' bash -c 'grep -a "" both/first-maps.0000.exr'
+scene refused '"shape": {"type": "box"}'
+answers 0 'rendering is refused: camera: the scene has no camera' aleph explain refused.json
+
+# Two sequences: one line for each frame, and a summary.
+silent aleph render first.json --frames 0-1 "${quick[@]}" --seed 5 -q -o other/
+answers 1 'frames differ; the largest difference is in frame' aleph compare 'both/first.####.exr' other/
+is [ "$(grep -cE '^ *[01] ' output)" = 2 ]
+answers 0 'same' aleph compare 'both/first.####.exr' new/deep/
+
 echo "$((checks - failures)) of $checks answers are right"
 [ "$failures" = 0 ]

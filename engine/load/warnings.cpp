@@ -53,6 +53,11 @@ void add_rotation_warnings(Scene& scene) {
         add_rotation_warnings(scene.environment_rotation, "environment_rotation", scene.warnings);
 }
 
+bool gives_light(const Material& material) {
+    return !material.unlit && is_positive_somewhere(material.emission) &&
+           is_positive_somewhere(material.emission_strength);
+}
+
 bool has_light(const Scene& scene) {
     if (scene.environment && is_positive_somewhere(*scene.environment)) return true;
     return std::any_of(scene.nodes.begin(), scene.nodes.end(), [&](const Node& node) {
@@ -60,8 +65,7 @@ bool has_light(const Scene& scene) {
         return std::any_of(node.meshes.begin(), node.meshes.end(), [&](int mesh) {
             const int material = scene.meshes[mesh].material;
             if (material == no_index) return false;
-            const Material& m = scene.materials[material];
-            return !m.unlit && is_positive_somewhere(m.emission) && is_positive_somewhere(m.emission_strength);
+            return gives_light(scene.materials[material]);
         });
     });
 }

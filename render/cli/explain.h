@@ -12,9 +12,6 @@
 
 namespace aleph {
 
-/// "/group/child" per node: the names from the root down. Nodes with equal paths get "#2", "#3", ... in node order.
-std::vector<std::string> node_paths(const Scene& scene);
-
 /// The keyed properties of a node and its meshes, of a material, a light, a camera or the environment: name as in scene
 /// files, kind of sampling, number of keys, first and last time, interpolation, and `constant` if all keys are equal.
 nlohmann::ordered_json list_tracks(const Scene& scene, const Node& node);

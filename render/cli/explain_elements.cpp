@@ -5,9 +5,11 @@
 #include <algorithm>
 #include <numbers>
 
+#include "engine/load/warnings.h"
 #include "engine/scene/points.h"
 #include "engine/scene_file/fields.h"
 #include "render/cli/explain.h"
+#include "render/node_paths.h"
 
 namespace aleph {
 
@@ -41,10 +43,6 @@ ordered_json to_json(const Bounds& bounds) {
     return {{"min", to_json(bounds.low)}, {"max", to_json(bounds.high)}};
 }
 
-std::string name_or_number(const std::string& name, const char* kind, std::size_t index) {
-    return name.empty() ? fmt::format("{} {}", kind, index) : name;
-}
-
 const char* how_it_deforms(const Scene& scene, const Mesh& mesh) {
     if (mesh.skin != no_index) return mesh.targets.empty() ? "skin" : "morph targets, skin";
     if (!mesh.targets.empty()) return "morph targets";
@@ -54,9 +52,16 @@ const char* how_it_deforms(const Scene& scene, const Mesh& mesh) {
     return nullptr;
 }
 
+bool is_area_light(const Scene& scene, const Node& node) {
+    return std::ranges::any_of(node.meshes, [&](int mesh) {
+        const int material = scene.meshes[mesh].material;
+        return material != no_index && gives_light(scene.materials[material]);
+    });
+}
+
 ordered_json describe_node(const Scene& scene, std::size_t index, const std::string& path) {
     const Node& node = scene.nodes[index];
-    ordered_json out = {{"path", path}};
+    ordered_json out = {{"path", path}, {"name", node.name}};
     int depth = 0;
     for (int parent = node.parent; parent != no_index; parent = scene.nodes[parent].parent) ++depth;
     out["depth"] = depth;
@@ -81,6 +86,7 @@ ordered_json describe_node(const Scene& scene, std::size_t index, const std::str
         if (!deforms.empty()) out["deforms"] = deforms;
         if (node.meshes.size() > 1) out["meshes"] = node.meshes.size();
     }
+    if (is_area_light(scene, node)) out["area_light"] = true;
     if (node.light != no_index) {
         const Light& light = scene.lights[node.light];
         constexpr const char* kinds[] = {"point", "directional", "spot"};

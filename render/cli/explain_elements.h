@@ -13,11 +13,11 @@ nlohmann::ordered_json to_json(const glm::dvec3& v);
 /// null where empty
 nlohmann::ordered_json to_json(const Bounds& bounds);
 
-/// "kind 3" for an element without a name.
-std::string name_or_number(const std::string& name, const char* kind, std::size_t index);
-
 /// What deforms a mesh; null if nothing does.
 const char* how_it_deforms(const Scene& scene, const Mesh& mesh);
+
+/// Whether a mesh of the node has a material that gives light at some time.
+bool is_area_light(const Scene& scene, const Node& node);
 
 nlohmann::ordered_json describe_node(const Scene& scene, std::size_t index, const std::string& path);
 nlohmann::ordered_json describe_materials(const Scene& scene);

@@ -12,7 +12,9 @@
 #include "render/cli/explain.h"
 #include "render/cli/explain_elements.h"
 #include "render/cli/world_bounds.h"
+#include "render/node_paths.h"
 #include "render/sequence.h"
+#include "render/sequence_state.h"
 
 namespace aleph {
 
@@ -37,7 +39,8 @@ ordered_json describe_frames(const Scene& scene) {
 }
 
 ordered_json count_elements(const Scene& scene) {
-    std::size_t triangles = 0, instanced = 0, vertices = 0, instances = 0, animated = 0, deforming = 0, hidden = 0;
+    std::size_t triangles = 0, instanced = 0, vertices = 0, instances = 0, animated = 0, deforming = 0, hidden = 0,
+                lights = 0, area_lights = 0;
     for (const Mesh& mesh : scene.meshes) {
         triangles += mesh.triangles.size();
         vertices += mesh.positions.size();
@@ -45,6 +48,8 @@ ordered_json count_elements(const Scene& scene) {
     }
     for (const Node& node : scene.nodes) {
         instances += node.meshes.size();
+        if (is_area_light(scene, node)) ++area_lights;
+        if (node.light != no_index) ++lights;
         for (const int mesh : node.meshes) instanced += scene.meshes[mesh].triangles.size();
         if (!list_tracks(scene, node).empty()) ++animated;
         if (node.visible.key_count() == 1 && key_value(node.visible, 0) == 0.0) ++hidden;
@@ -61,7 +66,8 @@ ordered_json count_elements(const Scene& scene) {
             {"instanced_triangles", instanced},
             {"materials", scene.materials.size()},
             {"images", scene.images.size()},
-            {"lights", scene.lights.size()},
+            {"lights", lights + area_lights},
+            {"area_lights", area_lights},
             {"cameras", scene.cameras.size()},
             {"skins", scene.skins.size()},
             {"includes", scene.includes.size()}};
@@ -148,11 +154,11 @@ ordered_json list_unused(const Scene& scene, const Use& use) {
     return out;
 }
 
-/// Camera and exposure; null and a warning for a scene without a camera.
+/// Camera and exposure, and a warning for what rendering would refuse; a null camera for a scene without one.
 void describe_view(ordered_json& out, const Scene& scene, const RenderSettings& settings, const std::string& camera) {
     try {
         const Sequence sequence(scene, settings, camera);
-        const ScenePose posed = pose(scene, 0.0);
+        const ScenePose posed = pose(scene, scene.frame_rate.seconds_of(frame_range(scene).first));
         const std::vector<CameraShot> shots = list_camera_shots(scene, camera);
         const auto name = [&](const CameraShot& shot) { return scene.nodes[posed.cameras[shot.camera].node].name; };
         out["camera"] = name(shots.front());
@@ -160,28 +166,32 @@ void describe_view(ordered_json& out, const Scene& scene, const RenderSettings& 
             out["camera_changes"].push_back({{"frame", shots[i].first}, {"camera", name(shots[i])}});
         }
         out["exposure"] = {{"factor", sequence.exposure()}, {"from", scene.exposure ? "given" : "first frame"}};
+        for (const CameraShot& shot : shots) find_lens(scene, posed.cameras[shot.camera]);
     } catch (const InputError& error) {
         if (!camera.empty()) throw;
-        out["camera"] = nullptr;
-        out["warnings"].push_back(error.reason());
+        if (!out.contains("camera")) out["camera"] = nullptr;
+        const std::string place = error.place().empty() ? "" : error.place() + ": ";
+        out["warnings"].push_back("rendering is refused: " + place + error.reason());
     }
+}
+
+/// Nodes with all nodes below them, although those of included files come last in the scene.
+std::vector<std::size_t> tree_order(const Scene& scene) {
+    std::vector<std::vector<std::size_t>> children(scene.nodes.size());
+    std::vector<std::size_t> order, waiting;
+    for (std::size_t i = scene.nodes.size(); i-- > 0;) {
+        const int parent = scene.nodes[i].parent;
+        (parent == no_index ? waiting : children[parent]).push_back(i);
+    }
+    while (!waiting.empty()) {
+        order.push_back(waiting.back());
+        waiting.pop_back();
+        waiting.insert(waiting.end(), children[order.back()].begin(), children[order.back()].end());
+    }
+    return order;
 }
 
 }  // namespace
-
-std::vector<std::string> node_paths(const Scene& scene) {
-    std::vector<std::string> paths;
-    std::map<std::string, int> times;
-    paths.reserve(scene.nodes.size());
-    for (std::size_t i = 0; i < scene.nodes.size(); ++i) {
-        const Node& node = scene.nodes[i];
-        std::string path = node.parent == no_index ? "" : paths[node.parent];
-        path.append("/").append(name_or_number(node.name, "node", i));
-        const int count = ++times[path];
-        paths.push_back(count == 1 ? path : fmt::format("{}#{}", path, count));
-    }
-    return paths;
-}
 
 ordered_json explain_scene(const Scene& scene, const RenderSettings& settings, const std::string& camera) {
     ordered_json out = {{"file", scene.file}, {"name", scene.name}};
@@ -194,7 +204,13 @@ ordered_json explain_scene(const Scene& scene, const RenderSettings& settings, c
     out["bounds"] = describe_bounds(scene);
     const std::vector<std::string> paths = node_paths(scene);
     ordered_json objects = ordered_json::array();
-    for (std::size_t i = 0; i < scene.nodes.size(); ++i) objects.push_back(describe_node(scene, i, paths[i]));
+    std::vector<ordered_json> ids(scene.nodes.size(), ordered_json::array());
+    const std::vector<Instance> instances = list_instances(scene);
+    for (std::size_t id = 0; id < instances.size(); ++id) ids[instances[id].node].push_back(id);
+    for (const std::size_t i : tree_order(scene)) {
+        objects.push_back(describe_node(scene, i, paths[i]));
+        if (!ids[i].empty()) objects.back()["object_ids"] = ids[i];
+    }
     ordered_json materials = describe_materials(scene);
     out["time_samplings"] = collect_samplings(objects, materials, out["environment"]);
     out["objects"] = std::move(objects);

@@ -77,6 +77,7 @@ std::string object_text(const ordered_json& object) {
                 : fmt::format("orthographic camera, {:.4g} m high", 2.0 * camera["half_height"].get<double>()));
         if (!camera["animated"].empty()) parts.push_back(fmt::format("animated {}", tracks_text(camera["animated"])));
     }
+    if (object.contains("area_light")) parts.push_back("area light");
     if (object.contains("light")) {
         parts.push_back(fmt::format("{} light", text_of(object["light"]["kind"])));
         if (!object["light"]["animated"].empty())
@@ -144,6 +145,13 @@ std::string environment_text(const ordered_json& environment) {
     return text + '\n';
 }
 
+/// "2 lights (1 of area)".
+std::string lights_text(const ordered_json& counts) {
+    std::string text = counted(counts["lights"], "light", "lights");
+    if (counts["area_lights"] != 0) text += fmt::format(" ({} of area)", grouped(counts["area_lights"]));
+    return text;
+}
+
 std::string counts_text(const ordered_json& counts) {
     return fmt::format(
         "holds     {} ({} animated, {} hidden), {} in {}; {} in {}\n          {}, {}, {}, {}, {}, {}\n",
@@ -154,7 +162,7 @@ std::string counts_text(const ordered_json& counts) {
         counted(counts["deforming_meshes"], "deforming mesh", "deforming meshes"),
         counted(counts["subdivision_cages"], "subdivision cage", "subdivision cages"),
         counted(counts["materials"], "material", "materials"), counted(counts["images"], "image", "images"),
-        counted(counts["lights"], "light", "lights"), counted(counts["cameras"], "camera", "cameras"));
+        lights_text(counts), counted(counts["cameras"], "camera", "cameras"));
 }
 
 }  // namespace

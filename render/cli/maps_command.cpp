@@ -11,6 +11,7 @@
 #include "render/cli/commands.h"
 #include "render/cli/frame_list.h"
 #include "render/cli/frame_pattern.h"
+#include "render/cli/maps_help.h"
 #include "render/cli/output_path.h"
 #include "render/cli/scene_options.h"
 #include "render/cli/write_frames.h"
@@ -29,44 +30,6 @@ struct MapsOptions {
     std::optional<double> exposure;
     PictureLayers layers;
 };
-
-constexpr const char* maps_footer =
-    "EXR channels (render: only of `aleph render`; scene: not with --images):\n"
-    "  forward.u forward.v      motion to frame N+1, in a shot's last frame from N-1; pixels, u right, v up\n"
-    "  motion.valid             1 valid, 0 background, -1 behind the camera, -2 leaves the picture,\n"
-    "                           -3 no counterpart, -4 hidden in frame N+1\n"
-    "  velocity.image           speed on the image, degrees per second\n"
-    "  velocity.retinal         speed on the retina, degrees per second\n"
-    "  saliency.Y               how likely viewers look here, 0 to 1 (--guide saliency)\n"
-    "  conspicuity.intensity conspicuity.color conspicuity.orientation conspicuity.motion\n"
-    "                           parts of saliency (--guide saliency)\n"
-    "  aleph.Y                  contrast elevation, 1 to 250.6\n"
-    "  alpha.acc                ambient accuracy, 0 to 1\n"
-    "  threshold.Y              luminance difference that goes unseen, cd/m2\n"
-    "  threshold.flicker        the same if it is new in every frame, cd/m2\n"
-    "  estimate.R estimate.G estimate.B\n"
-    "                           quick estimate, or the picture of --images; linear Rec.709\n"
-    "  Z                        planar depth, m; 1e30 for background (scene)\n"
-    "  N.X N.Y N.Z              normal in the world, towards the viewer (scene)\n"
-    "  objectId.X               number of the instance, -1 for background (scene)\n"
-    "  R G B A                  the picture and its coverage (render)\n"
-    "  samples.Y records.Y invalid.Y\n"
-    "                           samples, irradiance values, samples thrown away (render)\n"
-    "  error.Y error.edges error.blur error.direct error.gloss error.indirect\n"
-    "                           estimated error and its parts by cause, in visible thresholds (render)\n"
-    "  cache.count cache.radius\n"
-    "                           records that indirect light is from, how far they may be used, m (render)\n"
-    "\n"
-    "With --images, framesPerSecond, whiteLuminance, pixelsPerDegree and displayPersistence come from the first EXR\n"
-    "file if it has them. --fps and --set viewing.KEY=N override them; KEY is display_white, pixels_per_degree or\n"
-    "persistence. Motion and depth come from the files that hold them. Else motion is found by comparison: it is\n"
-    "unreliable without detail in the picture, and beyond 53 pixels a frame.\n"
-    "\n"
-    "Examples:\n"
-    "  aleph maps scenes/pool/scene.json --frames 20 -o maps.exr\n"
-    "  aleph maps --images 'shot/frame.####.png' --fps 24 -o maps/\n"
-    "  aleph maps --images 'blender.####.exr' --layer ViewLayer.Combined -o maps/\n"
-    "  aleph compare guided.exr dense.exr --threshold maps.exr      which differences would a viewer see?";
 
 /// Keeps the files of maps apart from the pictures in the same folder.
 constexpr const char* maps_suffix = "-maps";
@@ -262,7 +225,7 @@ void add_maps_command(CLI::App& app, Command& command) {
             "factor on the pictures' values, so that white is 1 (default: 1)")
         ->type_name("NUMBER")
         ->group(group);
-    maps->footer(maps_footer);
+    maps->footer(maps_footer());
     maps->callback([options, &command] {
         if (options->images.empty()) {
             if (options->common.scene.empty()) {

@@ -1,12 +1,14 @@
 // The EXR channels of a frame, the table in render/README.md and `aleph maps --help` name the same channels.
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <gtest/gtest.h>
 
 #include <fstream>
-#include <regex>
 #include <set>
 #include <sstream>
 
+#include "render/channel_table.h"
 #include "render/cli/commands.h"
 #include "render/frame_files.h"
 #include "tests/support/paths.h"
@@ -39,26 +41,34 @@ std::set<std::string> written_channels() {
     return names;
 }
 
-/// The names in the first column of the table under "EXR channels".
-std::set<std::string> documented_channels() {
+/// The rows of the table under "EXR channels".
+std::vector<std::string> documented_rows() {
     std::ifstream file(source_folder() / "render" / "README.md");
-    std::set<std::string> names;
+    std::vector<std::string> rows;
     bool inside = false;
     for (std::string line; std::getline(file, line);) {
         if (line.starts_with("## ")) inside = line == "## EXR channels";
-        if (!inside || !line.starts_with("| `")) continue;
-        const std::string column = line.substr(0, line.find(" | "));
-        const std::regex name("`([^`]+)`");
-        for (std::sregex_iterator match(column.begin(), column.end(), name), end; match != end; ++match) {
-            names.insert((*match)[1]);
-        }
+        if (inside && line.starts_with("| `")) rows.push_back(line);
     }
-    return names;
+    return rows;
+}
+
+/// The rows that channel_table makes.
+std::vector<std::string> expected_rows() {
+    std::vector<std::string> rows;
+    for (const ChannelInfo& info : channel_table()) {
+        rows.push_back(fmt::format("| `{}` | {} | {} | {} |", fmt::join(info.names, "` `"), info.content, info.range,
+                                   info.background));
+    }
+    return rows;
 }
 
 TEST(Channels, TheReadmeListsEveryChannelAndNoOther) {
-    EXPECT_EQ(written_channels().size(), 38u);
-    EXPECT_EQ(documented_channels(), written_channels());
+    EXPECT_EQ(written_channels().size(), 42u);
+    std::set<std::string> known;
+    for (const ChannelInfo& info : channel_table()) known.insert(info.names.begin(), info.names.end());
+    EXPECT_EQ(known, written_channels());
+    EXPECT_EQ(documented_rows(), expected_rows());
 }
 
 TEST(Channels, TheHelpOfMapsListsEveryChannel) {
@@ -69,9 +79,18 @@ TEST(Channels, TheHelpOfMapsListsEveryChannel) {
     std::istringstream help(app.get_subcommand("maps")->help());
     for (std::string word; help >> word;) words.insert(word);
     for (const std::string& name : written_channels()) {
-        if (name == "variance.Y") continue;  // the path tracer's
         EXPECT_TRUE(words.contains(name)) << name;
     }
+}
+
+TEST(Channels, FilesDescribeTheirOwn) {
+    FrameOutput output;
+    make_one_pixel(output.threshold, output.motion.displacement);
+    const ChannelImage file = make_frame_image(output, true, Scene(), RenderSettings(), 1.0);
+    const auto text = [&](const char* key) { return std::get<std::string>(file.metadata.at(key)); };
+    EXPECT_NE(text("channel:threshold.Y").find("cd/m2, above 0"), std::string::npos);
+    EXPECT_NE(text("channel:forward.v").find("v positive upwards"), std::string::npos);
+    EXPECT_FALSE(file.metadata.contains("channel:Z"));
 }
 
 }  // namespace

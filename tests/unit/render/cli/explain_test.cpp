@@ -1,6 +1,7 @@
 // `aleph explain` on scenes whose description is known.
 
 #include "render/cli/explain.h"
+#include "render/node_paths.h"
 
 #include <gtest/gtest.h>
 
@@ -241,6 +242,45 @@ TEST(Explain, TexturesAndKeysOfEveryPropertyOfAMaterial) {
     EXPECT_NE(explain_text(explain(scene), 0).find("  paint: sheen_color (2 uniform keys"), std::string::npos);
 }
 
+TEST(Explain, AreaLightsAreLights) {
+    Scene scene = make_scene();
+    EXPECT_EQ(explain(scene)["counts"]["lights"], 1);
+    scene.materials[0].emission = glm::dvec3(1.0);
+    const ordered_json explained = explain(scene);
+    EXPECT_EQ(explained["counts"]["lights"], 4) << "three nodes show the mesh";
+    EXPECT_EQ(explained["counts"]["area_lights"], 3);
+    EXPECT_EQ(explained["objects"][1]["area_light"], true);
+    const std::string text = explain_text(explained, 0);
+    EXPECT_NE(text.find("4 lights (3 of area)"), std::string::npos) << text;
+    EXPECT_NE(text.find("area light"), std::string::npos);
+}
+
+TEST(Explain, ObjectsHaveTheirNamesAndNumbersAndStandBelowTheirParents) {
+    Scene scene = make_scene();
+    Node late;  // as an included file's nodes, which come last
+    late.name = "late";
+    late.parent = 1;
+    late.meshes = {0};
+    scene.nodes.push_back(late);
+    const ordered_json objects = explain(scene)["objects"];
+    EXPECT_EQ(objects[1]["name"], "box");
+    EXPECT_EQ(objects[1]["object_ids"], ordered_json::array({0}));
+    EXPECT_EQ(objects[2]["path"], "/carrier/box/late");
+    EXPECT_EQ(objects[2]["object_ids"], ordered_json::array({3}));
+    EXPECT_FALSE(objects[0].contains("object_ids"));
+}
+
+TEST(Explain, SaysWhatRenderingWouldRefuse) {
+    Scene scene = make_scene();
+    scene.cameras[0].aperture = 0.1;
+    scene.cameras[0].focus_distance = 0.0;
+    const ordered_json explained = explain(scene);
+    EXPECT_EQ(explained["camera"], "eye");
+    ASSERT_EQ(explained["warnings"].size(), 1u);
+    const std::string warning = explained["warnings"][0];
+    EXPECT_NE(warning.find("rendering is refused: camera of node eye"), std::string::npos) << warning;
+}
+
 TEST(Explain, ASceneWithoutACamera) {
     Scene scene = make_scene();
     scene.nodes[4].camera = no_index;
@@ -248,21 +288,6 @@ TEST(Explain, ASceneWithoutACamera) {
     EXPECT_TRUE(explained["camera"].is_null());
     EXPECT_EQ(explained["warnings"].size(), 1u);
     EXPECT_NE(explain_text(explained, 0).find("objects"), std::string::npos);
-}
-
-TEST(Explain, ListsEveryMissingFile) {
-    const ScratchFolder folder;
-    const auto write = [&](const char* name, const char* text) { std::ofstream(folder.path() / name) << text; };
-    write("inner.gltf", R"({"asset": {"version": "2.0"}, "buffers": [{"byteLength": 4, "uri": "gone.bin"}]})");
-    write("scene.json", R"({"images": {"a": "gone.png", "b": "too.png"}, "environment_image": "sky.exr",
-        "aleph": 1, "nodes": [{"name": "n", "include": "inner.gltf"}, {"name": "m", "include": "gone.glb"}]})");
-    const std::vector<MissingFile> missing = list_missing_files(folder.path() / "scene.json");
-    std::vector<std::string> paths;
-    for (const MissingFile& item : missing) paths.push_back(item.path);
-    const std::vector<std::string> expected = {"gone.png", "too.png", "sky.exr", "gone.bin", "gone.glb"};
-    EXPECT_EQ(paths, expected);
-    EXPECT_THROW(load_scene(folder.path() / "scene.json"), InputError);
-    EXPECT_TRUE(list_missing_files(folder.path() / "nothing.json").empty());
 }
 
 }  // namespace
