@@ -13,8 +13,8 @@ constexpr int tile_pixels = 8;   // between probes where something moves
 constexpr int coarse_tiles = 4;  // between probes elsewhere
 /// A mover is near where it may hide so much of the hemisphere, relative to the accuracy.
 constexpr float near_form_factor = 0.25f;
-constexpr float interpolated_error = 1.5f;  // of a probe that another's record covers, over the accuracy
-constexpr float noise_deviations = 2.5f;    // of a probe, by which it may differ although nothing happened
+constexpr float interpolated_error = 1.0f;  // of a probe that another's record covers, over the accuracy
+constexpr float noise_deviations = 1.5f;    // of a probe, by which it may differ although nothing happened
 constexpr std::uint8_t still_bit = 1, moving_bit = 2;
 
 /// Around the vertices of an instance; relative to `anchor`.
