@@ -87,6 +87,8 @@ answers 2 'there is no command rendr; did you mean "render"?' aleph rendr first.
 answers 2 'did you mean "exposure"?' aleph render first.json --set exposre=2
 answers 2 'viewing.display_white' aleph render first.json --set white=2
 answers 2 'expected KEY=VALUE' aleph render first.json --set exposure
+silent aleph maps first.json --frames 3 "${quick[@]}" -q -o preview.####.png
+is [ -s preview.0003.png ]
 answers 2 'expected 0 (all processors) to 4096' aleph render first.json -t -1
 answers 2 'expected 0 (all processors) to 4096' aleph maps --images 'x.####.png' -t 4097
 silent aleph render first.json "${quick[@]}" -t 0 -q --frames 7 --frames 0 --spp 9 --set spp=8 --spp 2 -o twice.exr --stats twice.json

@@ -173,7 +173,7 @@ void write_image_maps(const MapsOptions& options) {
     const PreparedImages images = prepare_images(options);
     check_frames(images, options.common.output);
     const PreparedScene& prepared = images.prepared;
-    prepare_frames_output(prepared, options.common, true);
+    prepare_frames_output(prepared, options.common, maps_request());
     const ThreadLimit limit(options.common.threads);
     ImageSequence sequence(prepared.scene, images.files, prepared.settings, options.layers);
     ReplacedPixels replaced;

@@ -9,6 +9,7 @@
 #include "render/cli/output_path.h"
 #include "render/cli/progress.h"
 #include "render/frame_files.h"
+#include "render/map_preview.h"
 #include "render/measure.h"
 
 namespace aleph {
@@ -55,7 +56,11 @@ std::size_t write_frame(const std::filesystem::path& path, const FrameJob& job, 
     std::size_t changed = 0;
     switch (output_format(path)) {
         case OutputFormat::png:
-            write_png(path, output.shaded.color);
+            if (output.shaded.color.empty()) {
+                write_map_preview(path, output);
+            } else {
+                write_png(path, output.shaded.color);
+            }
             break;
         case OutputFormat::hdr:
             changed = write_hdr(path, output.shaded.color);
@@ -81,11 +86,15 @@ void print_files(const FrameJob& job, const SceneOptions& options) {
 
 }  // namespace
 
-void prepare_frames_output(const PreparedScene& prepared, const SceneOptions& options, bool maps) {
+void prepare_frames_output(const PreparedScene& prepared, const SceneOptions& options, const FrameRequest& request) {
     const std::filesystem::path path = output_path(options.output, prepared.name, prepared.frames.front());
-    if (maps && output_format(path) != OutputFormat::exr) {
-        throw InputError("--output", printable(options.output),
-                         "PNG and HDR cannot hold the channels of maps; write .exr");
+    const OutputFormat format = output_format(path);
+    const bool preview = format == OutputFormat::png && !request.frame;
+    if (request.maps && format != OutputFormat::exr && !preview) {
+        throw InputError(
+            "--output", printable(options.output),
+            fmt::format("{} cannot hold the channels of maps; write .exr{}",
+                        format == OutputFormat::png ? "PNG" : "HDR", request.frame ? "" : ", or .png to look at them"));
     }
     prepare_output(options.output, prepared.name, prepared.frames);
     if (!options.stats.empty()) try_output(options.stats);
@@ -122,7 +131,7 @@ void write_frames(const FrameJob& job, const SceneOptions& options, const FrameR
 
 void render_frames(PreparedScene prepared, const SceneOptions& options, const FrameRequest& request,
                    const std::string& cache) {
-    prepare_frames_output(prepared, options, request.maps);
+    prepare_frames_output(prepared, options, request);
     if (!cache.empty()) try_output(cache);
     const ThreadLimit limit(options.threads);
     Sequence sequence(std::move(prepared.scene), prepared.settings, options.camera);

@@ -23,7 +23,7 @@ struct FrameJob {
 /// Checks and tries --output and --stats, and makes their folders; called before anything is computed.
 /// @param maps  the files have channels of maps, which PNG and HDR cannot hold
 /// @throws InputError (--output), OutputError
-void prepare_frames_output(const PreparedScene& prepared, const SceneOptions& options, bool maps);
+void prepare_frames_output(const PreparedScene& prepared, const SceneOptions& options, const FrameRequest& request);
 
 /// Makes every frame and writes it. The statistics (--stats) are written anew after every frame. Prints at the end, on
 /// standard error, which files were written.

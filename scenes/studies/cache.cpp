@@ -12,7 +12,7 @@
 #include "render/cli/options.h"
 #include "scenes/studies/cached_light.h"
 #include "scenes/studies/reference_light.h"
-#include "scenes/studies/sheet.h"
+#include "render/sheet.h"
 #include "scenes/studies/study_options.h"
 #include "scenes/studies/study_table.h"
 

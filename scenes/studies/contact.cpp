@@ -8,7 +8,7 @@
 #include "render/cli/options.h"
 #include "render/cli/progress.h"
 #include "render/sequence.h"
-#include "scenes/studies/sheet.h"
+#include "render/sheet.h"
 #include "scenes/studies/study_options.h"
 
 namespace aleph {

@@ -11,7 +11,7 @@
 #include "motion/image_motion.h"
 #include "render/cli/options.h"
 #include "render/sequence.h"
-#include "scenes/studies/sheet.h"
+#include "render/sheet.h"
 #include "scenes/studies/study_options.h"
 
 namespace aleph {

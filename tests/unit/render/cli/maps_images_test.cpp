@@ -191,5 +191,36 @@ TEST(MapsImages, SameBytesForAnyThreadsOrderAndCompany) {
     EXPECT_EQ(alone, bytes_of_frame_2({"--frames", "3,1,2"}));
 }
 
+/// The picture as it is, and five maps with their scales; more light where the map has more.
+TEST(MapsImages, APngShowsTheMapsToPeople) {
+    const Frames frames(1, 2);
+    const std::string out = (frames.folder / "preview.####.png").string();
+    ASSERT_EQ(run_maps({"--images", frames.pattern(), "-o", out}).code, 0);
+    const ChannelImage preview = read_image(frames.folder / "preview.0001.png");
+    constexpr int caption = 26;
+    const Image<float>& red = preview.channels[0].values;
+    EXPECT_EQ(red.width, 3 * width);
+    EXPECT_EQ(red.height, 2 * (height + caption));
+    const Image<Rgb> shown = picture(1);
+    for (int y = 0; y < height; y += 9) {
+        for (int x = 0; x < width; x += 7) {
+            const float expected = linear_to_srgb(std::clamp(shown(x, y)[0], 0.0f, 1.0f));
+            EXPECT_NEAR((*preview.find("R"))(x, y + caption), expected, 0.6 / 255.0);
+        }
+    }
+    ASSERT_EQ(run_maps({"--images", frames.pattern(), "-o", frames.out()}).code, 0);
+    const Image<float> threshold = *frames.maps(1).find("threshold.Y");
+    const auto by_value = [](const Image<float>& image) {
+        return std::minmax_element(image.pixels.begin(), image.pixels.end());
+    };
+    const auto [low, high] = by_value(threshold);
+    const auto brightness = [&](std::size_t i) {
+        const int x = static_cast<int>(i) % width + width, y = static_cast<int>(i) / width + height + 2 * caption;
+        return (*preview.find("R"))(x, y) + (*preview.find("G"))(x, y) + (*preview.find("B"))(x, y);
+    };
+    EXPECT_GT(brightness(static_cast<std::size_t>(high - threshold.pixels.begin())),
+              brightness(static_cast<std::size_t>(low - threshold.pixels.begin())));
+}
+
 }  // namespace
 }  // namespace aleph

@@ -14,6 +14,7 @@ namespace aleph {
 struct Panel {
     std::string caption;
     Image<Rgb> display;
+    std::string low{}, high{};  ///< of the colour scale that stands beside the caption; empty: none
 };
 
 Panel color_panel(const std::string& caption, const Image<Rgb>& linear);
@@ -24,7 +25,7 @@ struct MapRange {
     bool logarithmic = false;
 };
 
-/// A map in a perceptually uniform colour scale.
+/// A map in a perceptually uniform colour scale, which is drawn with the ends of the range.
 Panel map_panel(const std::string& caption, const Image<float>& map, const MapRange& range);
 
 /// The pixels at which irradiance was computed, as dots of 2x2 pixels, so that they survive scaling.

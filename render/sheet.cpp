@@ -1,7 +1,8 @@
-#include "scenes/studies/sheet.h"
+#include "render/sheet.h"
 
 #include <OpenImageIO/imagebuf.h>
 #include <OpenImageIO/imagebufalgo.h>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
@@ -13,7 +14,7 @@ namespace aleph {
 
 namespace {
 
-constexpr int caption_height = 26;
+constexpr int caption_height = 26, scale_width = 60, scale_height = 11, scale_text = 34;
 constexpr const char* caption_font = "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf";
 
 OIIO::ImageBuf make_buffer(int width, int height, int channels) {
@@ -40,6 +41,33 @@ float scale_position(double value, const MapRange& range) {
     return static_cast<float>(std::isfinite(position) ? std::clamp(position, 0.0, 1.0) : 0.0);
 }
 
+OIIO::ImageBuf color_scale(const OIIO::ImageBuf& positions) {
+    return OIIO::ImageBufAlgo::color_map(positions, 0, "inferno");
+}
+
+void draw_text(OIIO::ImageBuf& sheet, int x, int y, const std::string& text, int size,
+               OIIO::ImageBufAlgo::TextAlignX align) {
+    // Without the font the sheet has no captions.
+    OIIO::ImageBufAlgo::render_text(sheet, x, y, text, size, caption_font, {0.92f, 0.92f, 0.90f}, align);
+    static_cast<void>(sheet.geterror());
+}
+
+/// Low end, colours, high end, in the right part of a caption. @param right,top  of the caption
+void draw_scale(OIIO::ImageBuf& sheet, const Panel& panel, int right, int top) {
+    if (panel.low.empty()) return;
+    OIIO::ImageBuf positions = make_buffer(scale_width, scale_height, 1);
+    for (int y = 0; y < scale_height; ++y) {
+        for (int x = 0; x < scale_width; ++x) {
+            const float position = static_cast<float>(x) / (scale_width - 1);
+            positions.setpixel(x, y, &position);
+        }
+    }
+    const int bar_right = right - 8 - scale_text, bar_left = bar_right - scale_width;
+    OIIO::ImageBufAlgo::paste(sheet, bar_left, top + 8, 0, 0, color_scale(positions));
+    draw_text(sheet, bar_left - 5, top + 18, panel.low, 12, OIIO::ImageBufAlgo::TextAlignX::Right);
+    draw_text(sheet, bar_right + 5, top + 18, panel.high, 12, OIIO::ImageBufAlgo::TextAlignX::Left);
+}
+
 /// Draws a panel with its caption above it. @param left,top  of the caption
 void draw_panel(OIIO::ImageBuf& sheet, const Panel& panel, int left, int top, int width, int height) {
     const Image<Rgb>& display = panel.display;
@@ -48,9 +76,8 @@ void draw_panel(OIIO::ImageBuf& sheet, const Panel& panel, int left, int top, in
                     display.pixels.data());
     const OIIO::ImageBuf scaled = OIIO::ImageBufAlgo::resize(full, "triangle", 0.0f, OIIO::ROI(0, width, 0, height));
     OIIO::ImageBufAlgo::paste(sheet, left, top + caption_height, 0, 0, scaled);
-    // Without the font the sheet has no captions.
-    OIIO::ImageBufAlgo::render_text(sheet, left + 8, top + 19, panel.caption, 15, caption_font, {0.92f, 0.92f, 0.90f});
-    static_cast<void>(sheet.geterror());
+    draw_text(sheet, left + 8, top + 19, panel.caption, 15, OIIO::ImageBufAlgo::TextAlignX::Left);
+    draw_scale(sheet, panel, left + width, top);
 }
 
 }  // namespace
@@ -73,7 +100,7 @@ Panel map_panel(const std::string& caption, const Image<float>& map, const MapRa
             positions.setpixel(x, y, &position);
         }
     }
-    return {caption, to_image(OIIO::ImageBufAlgo::color_map(positions, 0, "inferno"))};
+    return {caption, to_image(color_scale(positions)), fmt::format("{:g}", range.low), fmt::format("{:g}", range.high)};
 }
 
 Panel records_panel(const std::string& caption, const Image<float>& records) {
