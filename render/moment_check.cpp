@@ -13,8 +13,7 @@ constexpr int tile_pixels = 8;   // between probes where something moves
 constexpr int coarse_tiles = 4;  // between probes elsewhere
 /// A mover is near where it may hide so much of the hemisphere, relative to the accuracy.
 constexpr float near_form_factor = 0.25f;
-constexpr float interpolated_error = 1.0f;  // of a probe that another's record covers, over the accuracy
-constexpr float noise_deviations = 1.5f;    // of a probe, by which it may differ although nothing happened
+constexpr float noise_deviations = 1.5f;  // of a probe, by which it may differ although nothing happened
 constexpr std::uint8_t still_bit = 1, moving_bit = 2;
 
 /// Around the vertices of an instance; relative to `anchor`.
@@ -106,7 +105,7 @@ void CheckedLight::reject(const Probe& probe) {
 }
 
 bool CheckedLight::differs(const IrradianceCache& cache, const IndirectContext& context, const Probe& probe,
-                           bool gathered, RayTask& task) const {
+                           RayTask& task) const {
     const PixelSurface surface = *find_surface(context, sample_, probe.x, probe.y);
     const float accuracy = context.accuracy(probe.x, probe.y);
     const CacheQuery query{surface.point.position, surface.point.normal, accuracy, &task};
@@ -116,8 +115,7 @@ bool CheckedLight::differs(const IrradianceCache& cache, const IndirectContext& 
     const int rays = choose_rays(context.settings, accuracy, ray_variance);
     const float noise = std::sqrt(ray_variance.value_or(0.0f) / static_cast<float>(rays));
     const float a = luminance(*own), b = luminance(*theirs);
-    const float error = (gathered ? 1.0f : interpolated_error) * accuracy;
-    return std::abs(a - b) > std::hypot(error, noise_deviations * noise) * 0.5f * (a + b);
+    return std::abs(a - b) > std::hypot(accuracy, noise_deviations * noise) * 0.5f * (a + b);
 }
 
 void CheckedLight::check(IrradianceCache& cache, const IndirectContext& context, FrameTally& frame) {
@@ -137,7 +135,8 @@ void CheckedLight::check(IrradianceCache& cache, const IndirectContext& context,
     RayTask task(context.lighting.rays);
     std::ranges::fill(rejected_.pixels, std::uint8_t{0});
     for (int i = 0; i < count; ++i) {
-        if (differs(cache, context, probes_[i], tally.records(i, 0) > 0.0f, task)) reject(probes_[i]);
+        // Probes that another's record covers tell nothing new.
+        if (tally.records(i, 0) > 0.0f && differs(cache, context, probes_[i], task)) reject(probes_[i]);
     }
     for (int i = 0; i < count; ++i) {
         frame.records(probes_[i].x, probes_[i].y) += tally.records(i, 0);

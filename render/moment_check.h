@@ -50,8 +50,7 @@ class CheckedLight final : public CarriedLight {
     };
     void add_probes(const IndirectContext& context, int tile_x, int tile_y);
     void reject(const Probe& probe);
-    bool differs(const IrradianceCache& cache, const IndirectContext& context, const Probe& probe, bool gathered,
-                 RayTask& task) const;
+    bool differs(const IrradianceCache& cache, const IndirectContext& context, const Probe& probe, RayTask& task) const;
 
     const CarriedLight& moments_;
     const MomentRisk& risk_;
