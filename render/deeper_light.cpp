@@ -20,6 +20,7 @@ Rgb sample_irradiance(const LightingContext& context, RayTask& task, const Surfa
     const SurfacePoint met = make_surface_point(context.shading, hit, direction);
     PathState state;
     state.left = left;
+    state.turned = true;
     state.emission = EmissionWeight::none;
     return std::numbers::pi_v<float> *
            scatter_light(context, task, view_surface(context.shading, met, -direction, {}), state, random);

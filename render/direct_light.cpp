@@ -22,8 +22,13 @@ class ShadowBatch {
   public:
     ShadowBatch(const LightingContext& context, RayTask& task, Rgb& sum) : context_(context), task_(task), sum_(sum) {}
 
-    void add(const Ray& ray, const Rgb& contribution) {
+    /// @param pdf  LightSample::pdf
+    void add(const Ray& ray, float pdf, const Rgb& contribution) {
         if (contribution == Rgb(0.0f)) return;
+        if (!context_.shading.needs_shadow_ray(pdf)) {
+            sum_ += contribution;
+            return;
+        }
         if (context_.shading.has_sheets) {
             sum_ += contribution * find_transmittance(context_, task_, ray);
             return;
@@ -109,9 +114,9 @@ class ChosenLights {
         const LightSample sample = sample_seen_light(context_.shading, context_.lights, seen_.at(pick.light), receiver_,
                                                      {pick.rest, u.y}, light_share);
         if (sample.incoming == Rgb(0.0f) || !lit_.is_reached(sample.direction)) return;
-        shadows.add(make_shadow_ray(lit_, sample), scatter_towards(lit_, sample.direction, sample.pdf, shares_) *
-                                                       sample.incoming /
-                                                       (pick.probability * static_cast<float>(count)));
+        shadows.add(make_shadow_ray(lit_, sample), sample.pdf,
+                    scatter_towards(lit_, sample.direction, sample.pdf, shares_) * sample.incoming /
+                        (pick.probability * static_cast<float>(count)));
     }
 
     const LightCut& cut() const { return cut_; }
@@ -158,7 +163,7 @@ Rgb sample_lights(const LightingContext& context, RayTask& task, const LitSurfac
             const LightSample sample = sample_seen_light(context.shading, context.lights, seen, receiver,
                                                          points.at(i, shift), pattern.light_share(points.count));
             if (!lit.is_reached(sample.direction)) continue;
-            shadows.add(make_shadow_ray(lit, sample),
+            shadows.add(make_shadow_ray(lit, sample), sample.pdf,
                         scatter_towards(lit, sample.direction, sample.pdf, pattern.shares) * sample.incoming /
                             static_cast<float>(points.count));
         }

@@ -49,7 +49,8 @@ Image<float> compute_sampling_tolerance(const VisibleLimits& limits, const Rende
             if (settings.sampling == Sampling::threshold && !limits.indirect_luminance.empty()) {
                 const double cached = error_deviations * error_per_accuracy * limits.accuracy(x, y) *
                                       static_cast<double>(limits.indirect_luminance(x, y));
-                const double fixed = settings.error > 0.0 ? left_out_share + error_deviations * gloss_share : 0.0;
+                const double shares = settings.error > 0.0 ? left_out_share + error_deviations * gloss_share : 0.0;
+                const double fixed = shares + limits.left_out / error;
                 left = std::max(left * (1.0 - fixed) - cached, least_share * left);
             }
             tolerance(x, y) = static_cast<float>(left / exposure);

@@ -19,6 +19,7 @@ struct VisibleLimits {
     const Image<float>& indirect_luminance;  ///< of the quick estimate, exposure applied; empty: none is cached
     const Image<Outline>& outlines;
     ViewingConditions viewing;
+    double left_out = 0.0;  ///< visible thresholds that what the effects plan leaves out may add up to
 };
 
 /// Shares of the error that is asked for, for errors that samples do not lower: a bound of what lights that are left

@@ -11,6 +11,7 @@
 #include "motion/motion_field.h"
 #include "perception/perception.h"
 #include "perception/sanitize.h"
+#include "render/effects_plan.h"
 #include "render/shaded_frame.h"
 
 namespace aleph {
@@ -41,6 +42,8 @@ struct FrameStatistics {
     double median_luminance = 0.0;  ///< of the estimate, cd/m2; thresholds of vision hold from 1e-3 to 1e4
     std::size_t instances_touched = 0;
     std::optional<ErrorShares> error;  ///< where the visible threshold is known, and pixels have several samples
+    EffectsPlan plan;
+    double plan_seconds = 0.0;  ///< that planning took, part of other stages
     double peak_memory_mib = 0.0;
     /// Key moments that were computed for this frame, not counted above: those it needs that no frame before it did.
     std::vector<MomentStatistics> moments;

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "engine/base/parallel.h"
+#include "render/effects_json.h"
 #include "render/frame_files.h"
 #include "render/setting_table.h"
 
@@ -76,6 +77,8 @@ Json frame_json(const FrameStatistics& f) {
         {"estimate",
          {{"replaced", f.sanitized.replaced}, {"clamped", f.sanitized.clamped}, {"median_cd_m2", f.median_luminance}}},
         {"saliency_fallback", f.saliency_fallback},
+        {"plan", to_json(f.plan)},
+        {"plan_seconds", f.plan_seconds},
         {"instances_updated", f.instances_touched},
         {"peak_memory_mib", f.peak_memory_mib}};
 }

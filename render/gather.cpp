@@ -22,6 +22,7 @@ Rgb follow_lobes(const LightingContext& context, RayTask& task, const LitSurface
     if (sample.lobe == Lobe::diffuse) return Rgb(0.0f);
     PathState state;
     state.left = {bounces, depth};
+    state.turned = true;
     state.emission = EmissionWeight::none;
     return follow_sample(context, task, lit, sample, state, random);
 }
@@ -53,6 +54,20 @@ struct Lighting {
     }
 };
 
+/// @param passed  share of the light that comes through
+void add_arrived(const ShadowSample& sample, const Rgb& passed, const GatherOptions& options, GatherScratch& scratch) {
+    const Rgb arrives = sample.deeper + (passed == Rgb(0.0f) ? passed : sample.unshadowed * passed);
+    scratch.light[sample.ray] += sample.scale * arrives;
+    if (sample.grid != 0 && options.found != nullptr) options.found->push_back({sample.grid, arrives});
+}
+
+/// Adds light, or its shadow ray to those that are to be cast.
+void add_scattered(const Lighting& lighting, const ScatteredLight& scattered, const ShadowSample& sample) {
+    if (!scattered.shadowed) return add_arrived(sample, Rgb(1.0f), lighting.options, lighting.scratch);
+    lighting.scratch.shadow_rays.push_back(scattered.shadow_ray);
+    lighting.scratch.shadow_samples.push_back(sample);
+}
+
 /// Adds a sample of direct light, light of further bounces, and that of longer paths by other lobes than Lambert's.
 void light_hit(const Lighting& lighting, std::size_t i) {
     GatherScratch& scratch = lighting.scratch;
@@ -61,7 +76,8 @@ void light_hit(const Lighting& lighting, std::size_t i) {
     const SurfacePoint met = make_surface_point(shading, scratch.hits[i], direction);
     const RayFootprint footprint =
         make_cone_footprint(met, direction, scratch.hits[i].distance, lighting.solid_angle(i));
-    const ViewedSurface surface = view_surface(shading, met, -direction, footprint);
+    ViewedSurface surface = view_surface(shading, met, -direction, footprint);
+    if (shading.skipped.contains(Effect::caustics)) remove_specular(surface.material);
     const LitSurface lit(surface);
     LobeShares shares{};
     const int depth = lighting.options.depth;
@@ -76,9 +92,7 @@ void light_hit(const Lighting& lighting, std::size_t i) {
         scratch.light[i] += deeper * lit.below_sheen;
     }
     const ScatteredLight scattered = choose_light(lighting.context, lit, shares, lighting.light_numbers(i));
-    if (scattered.radiance == Rgb(0.0f)) return;
-    scratch.shadow_rays.push_back(scattered.shadow_ray);
-    scratch.shadow_samples.push_back({scattered.radiance, Rgb(1.0f), Rgb(0.0f), static_cast<int>(i)});
+    add_scattered(lighting, scattered, {scattered.radiance, Rgb(1.0f), Rgb(0.0f), static_cast<int>(i)});
 }
 
 /// Albedo and cell of the direct grid of a plain Lambert surface.
@@ -129,8 +143,7 @@ void light_plain_hit(const Lighting& lighting, const PlainHit& noted) {
         }
         return;
     }
-    scratch.shadow_rays.push_back(scattered.shadow_ray);
-    scratch.shadow_samples.push_back({scattered.radiance, noted.scale, deeper, noted.ray, noted.grid});
+    add_scattered(lighting, scattered, {scattered.radiance, noted.scale, deeper, noted.ray, noted.grid});
 }
 
 /// All plain hits. What is read of the meshes is fetched ahead.
@@ -181,9 +194,7 @@ void add_unshadowed(const LightingContext& context, RayTask& task, const GatherO
         const ShadowSample& sample = scratch.shadow_samples[s];
         const Rgb passed = context.shading.has_sheets ? find_transmittance(context, task, scratch.shadow_rays[s])
                                                       : Rgb(scratch.blocked[s] ? 0.0f : 1.0f);
-        const Rgb arrives = sample.deeper + (passed == Rgb(0.0f) ? passed : sample.unshadowed * passed);
-        scratch.light[sample.ray] += sample.scale * arrives;
-        if (sample.grid != 0 && options.found != nullptr) options.found->push_back({sample.grid, arrives});
+        add_arrived(sample, passed, options, scratch);
     }
 }
 

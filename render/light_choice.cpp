@@ -49,7 +49,8 @@ ScatteredLight choose_light(const LightingContext& context, const LitSurface& li
     const LightSample sample = sample_light(context.shading, context.lights, pick.light, receiver, numbers.point);
     if (sample.incoming == Rgb(0.0f) || !lit.is_reached(sample.direction)) return {};
     return {make_shadow_ray(lit, sample),
-            scatter_towards(lit, sample.direction, sample.pdf, shares) * sample.incoming / pick.probability};
+            scatter_towards(lit, sample.direction, sample.pdf, shares) * sample.incoming / pick.probability,
+            context.shading.needs_shadow_ray(sample.pdf)};
 }
 
 ScatteredLight choose_lambert_light(const LightingContext& context, const SurfacePlace& place,
@@ -62,7 +63,8 @@ ScatteredLight choose_lambert_light(const LightingContext& context, const Surfac
     const float cosine = glm::dot(place.normal, sample.direction);
     if (!(cosine > 0.0f && glm::dot(place.geometric, sample.direction) > 0.0f)) return {};
     return {{receiver.position, sample.direction, 0.0f, sample.distance},
-            sample.incoming * (cosine / (std::numbers::pi_v<float> * pick.probability))};
+            sample.incoming * (cosine / (std::numbers::pi_v<float> * pick.probability)),
+            context.shading.needs_shadow_ray(sample.pdf)};
 }
 
 ScatteredLight choose_light(const LightingContext& context, const LitSurface& lit, const LobeShares& shares,

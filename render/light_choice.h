@@ -18,6 +18,7 @@ struct LightingContext {
 struct ScatteredLight {
     Ray shadow_ray;
     Rgb radiance{0.0f};
+    bool shadowed = true;  ///< false: nothing stands between, and the ray need not be cast
 };
 
 /// Independent numbers in [0,1), from which a light is sampled.

@@ -214,6 +214,21 @@ LightSample sample_surroundings(const ShadingScene& shading, const Receiver& rec
     return sample;
 }
 
+/// @param i  into ScenePose::lights
+void add_punctual(const ShadingScene& shading, std::size_t i, LightSet& lights) {
+    const LightValues& light = shading.pose->lights[i];
+    if (light.intensity == Rgb(0.0f)) return;
+    lights.punctual.push_back({light.kind, glm::vec3(light.position - shading.anchor), glm::vec3(light.direction),
+                               light.intensity, static_cast<float>(light.range), versine(light.inner_cone),
+                               versine(light.outer_cone)});
+}
+
+/// What is computed from all lights.
+void finish(const ShadingScene& shading, LightSet& lights) {
+    lights.bounds = make_light_bounds(shading, lights);
+    lights.tree = make_light_tree(make_light_nodes(shading, lights));
+}
+
 }  // namespace
 
 float pdf_environment(const ShadingScene& shading, const Receiver& receiver, const glm::vec3& direction) {
@@ -241,17 +256,32 @@ LightSet make_light_set(const ShadingScene& shading) {
         lights.emitter_of_instance[i] = static_cast<int>(lights.emitters.size());
         lights.emitters.push_back(std::move(emitter));
     }
-    for (const LightValues& light : shading.pose->lights) {
-        if (light.intensity == Rgb(0.0f)) continue;
-        lights.punctual.push_back({light.kind, glm::vec3(light.position - shading.anchor), glm::vec3(light.direction),
-                                   light.intensity, static_cast<float>(light.range), versine(light.inner_cone),
-                                   versine(light.outer_cone)});
-    }
+    for (std::size_t i = 0; i < shading.pose->lights.size(); ++i) add_punctual(shading, i, lights);
     lights.has_environment =
         shading.environment != Rgb(0.0f) && (shading.environment_map == nullptr || !shading.environment_map->black);
-    lights.bounds = make_light_bounds(shading, lights);
-    lights.tree = make_light_tree(make_light_nodes(shading, lights));
+    finish(shading, lights);
     return lights;
+}
+
+void remove_all_lights(LightSet& lights) {
+    const std::size_t instances = lights.emitter_of_instance.size();
+    lights = {};
+    lights.emitter_of_instance.assign(instances, no_index);
+}
+
+void remove_lights(const ShadingScene& shading, const std::vector<int>& instances, const std::vector<int>& punctual,
+                   LightSet& lights) {
+    for (const int instance : instances) lights.emitter_of_instance[instance] = left_out_emitter;
+    const auto is_left = [&](int i) { return lights.emitter_of_instance[i] == left_out_emitter; };
+    std::erase_if(lights.emitters, [&](const Emitter& emitter) { return is_left(emitter.instance); });
+    for (std::size_t i = 0; i < lights.emitters.size(); ++i) {
+        lights.emitter_of_instance[lights.emitters[i].instance] = static_cast<int>(i);
+    }
+    lights.punctual.clear();
+    for (std::size_t i = 0; i < shading.pose->lights.size(); ++i) {
+        if (std::ranges::find(punctual, static_cast<int>(i)) == punctual.end()) add_punctual(shading, i, lights);
+    }
+    finish(shading, lights);
 }
 
 SeenLight see_light(const LightSet& lights, int light, const glm::vec3& position) {

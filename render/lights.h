@@ -70,6 +70,17 @@ struct LightSet {
 
 LightSet make_light_set(const ShadingScene& shading);
 
+/// In LightSet::emitter_of_instance, of an emitter that is no light: rays that meet it find all of its emission.
+inline constexpr int left_out_emitter = -2;
+
+/// No light, whatever shines.
+void remove_all_lights(LightSet& lights);
+
+/// Leaves lights out, the others keep their order.
+/// @param instances, punctual  into ShadingScene::instances and ScenePose::lights
+void remove_lights(const ShadingScene& shading, const std::vector<int>& instances, const std::vector<int>& punctual,
+                   LightSet& lights);
+
 struct LightSample {
     glm::vec3 direction{0.0f};  ///< unit, towards the light
     float distance = 0.0f;      ///< m, to just before the light; infinite for directional light and environment

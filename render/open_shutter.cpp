@@ -2,7 +2,7 @@
 
 namespace aleph {
 
-SampleMoment OpenShutter::move_to(double seconds, int camera, int width, int height) {
+SampleMoment OpenShutter::move_to(double seconds, int camera, int width, int height, const EffectSet& skipped) {
     if (posed_) {
         update_posed_view(scene_, plan_, seconds, camera, *posed_);
     } else {
@@ -14,7 +14,9 @@ SampleMoment OpenShutter::move_to(double seconds, int camera, int width, int hei
     } else {
         shading_ = make_shading_scene(scene_, posed_->pose, rays_, textures_);
     }
+    shading_->skipped = skipped;
     lights_ = make_light_set(*shading_);
+    if (skipped.contains(Effect::direct_light)) remove_all_lights(lights_);
     return {{*shading_, lights_, rays_}, posed_->view};
 }
 

@@ -17,7 +17,8 @@ class OpenShutter {
         : scene_(scene), plan_(plan), textures_(textures), rays_(rays.share_meshes()) {}
 
     /// The scene at a time, valid until the next call.
-    SampleMoment move_to(double seconds, int camera, int width, int height);
+    /// @param skipped  effects that its shading leaves out
+    SampleMoment move_to(double seconds, int camera, int width, int height, const EffectSet& skipped);
 
     std::uint64_t rays_traced() const { return rays_.rays_traced(); }
 

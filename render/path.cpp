@@ -72,6 +72,7 @@ Rgb met_emission(const LightingContext& context, const PathState& state, const V
     const Rgb& emission = surface.material.emission;
     if (emission == Rgb(0.0f) || state.emission == EmissionWeight::none) return Rgb(0.0f);
     const int emitter = context.lights.emitter_of_instance[instance];
+    if (emitter == left_out_emitter) return emission;
     if (emitter == no_index) return state.emission == EmissionWeight::full ? emission : Rgb(0.0f);  // unlit
     float light_pdf = 0.0f;
     if (state.emission == EmissionWeight::weighted) {
@@ -91,6 +92,7 @@ class Path {
     /// Adds the light of the surface and of everything beyond.
     void scatter_at(ViewedSurface& surface) {
         while (state_.left.depth > 0) {
+            if (state_.turned && context_.shading.skipped.contains(Effect::caustics)) remove_specular(surface.material);
             const bool known = add_known(surface);
             if (!survive()) return;
             --state_.left.depth;
@@ -116,7 +118,10 @@ class Path {
             state_.pdf = sample.pdf;
             state_.from = {lit.point.ray_origin(), lit.point.normal};
         }
-        if (sample.lobe == Lobe::diffuse) --state_.left.bounces;
+        if (sample.lobe == Lobe::diffuse) {
+            --state_.left.bounces;
+            state_.turned = true;
+        }
         if (sample.passes && lit.material.volume) state_.media.pass({lit.point, lit.material, glm::vec3(0.0f)});
         const Ray ray{lit.ray_origin(sample.direction), sample.direction};
         count_ray(task_.counts, sample);
@@ -161,7 +166,8 @@ class Path {
 
     void add_light(const ScatteredLight& direct, float share) {
         if (direct.radiance == Rgb(0.0f)) return;
-        Rgb arrives = direct.radiance * find_transmittance(context_, task_, direct.shadow_ray);
+        Rgb arrives = direct.radiance;
+        if (direct.shadowed) arrives *= find_transmittance(context_, task_, direct.shadow_ray);
         if (const Rgb attenuation = state_.media.attenuation_inside(); attenuation != Rgb(0.0f)) {
             arrives *= glm::exp(-attenuation * direct.shadow_ray.far);
         }

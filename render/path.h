@@ -30,6 +30,7 @@ struct PathState {
     Receiver from;           ///< where it turned
     int roulette_after = 4;  ///< surfaces that scatter before Russian roulette may end the path
     float survival = 1.0f;   ///< chance to survive it, times the path's weight; at most 1
+    bool turned = false;     ///< at a Lambert layer
     Media media;
     /// Used at surfaces that the path meets while the bounces that are left are those that it holds; null: nothing is
     /// known, and all light is found without bias.

@@ -7,6 +7,7 @@
 #include "engine/base/parallel.h"
 #include "engine/load/validate_scene.h"
 #include "render/estimate.h"
+#include "render/forbidden_effects.h"
 #include "render/frame.h"
 #include "render/sequence_state.h"
 #include "render/shutter.h"
@@ -76,13 +77,23 @@ void shade(const IndirectContext& context, const SampleHits& centers, double exp
     if (!out.shaded.errors.total.empty()) stats.error = out.shaded.error_shares;
 }
 
+/// The exposure that the scene has with all of its effects, so that pictures without some of them can be compared.
+double find_full_exposure(const Scene& scene, RenderSettings settings, const std::string& camera) {
+    settings.forbid = {};
+    return Sequence(scene, settings, camera).exposure();
+}
+
 }  // namespace
 
 Sequence::Sequence(Scene scene, const RenderSettings& settings, const std::string& camera) : camera_(camera) {
     validate(settings);
     validate(scene);
     const std::vector<CameraShot> shots = list_camera_shots(scene, camera);
-    state_ = std::make_unique<SequenceState>(std::move(scene), settings, shots);
+    if (!settings.forbid.empty()) {
+        if (!scene.exposure) scene.exposure = find_full_exposure(scene, settings, camera);
+        remove_forbidden(settings.forbid, scene);
+    }
+    state_ = std::make_unique<SequenceState>(std::move(scene), without_forbidden(settings), shots);
     SequenceState& s = *state_;
     if (s.scene.exposure) {
         s.exposure = *s.scene.exposure;
@@ -129,34 +140,52 @@ void Sequence::save_light(const std::filesystem::path& path) {
     write_cache_file(path, s.fingerprint(), *s.shot_light->records());
 }
 
+EffectsPlan Sequence::plan(std::int64_t frame) {
+    SequenceState& s = state();
+    FrameOutput out;
+    FramePlan plan;
+    s.look(frame, s.needs_perception(), false, out, plan, s.before_edit.has_value());
+    s.finish_plan(out, plan);
+    return plan.effects;
+}
+
 FrameOutput Sequence::render(std::int64_t frame, const FrameRequest& request) {
     SequenceState& s = state();
     FrameOutput out;
     FrameStatistics& stats = out.statistics;
     SampleOptions options;
     std::optional<ShutterInterval> shutter;
-    std::unique_ptr<CarriedLight> carried;
-    if (request.frame) {
-        s.move_to_frame(s.now, frame);
-        const CameraValues& camera = s.now->pose.cameras[s.camera(frame)];
-        options.lens = find_lens(s.scene, camera);
-        shutter = s.find_open_shutter(frame);
-        if (shutter) options.light_lasts = !s.light_breaks.changes(shutter->open, shutter->close);
-        if (options.light_lasts && s.shot_light) carried = s.shot_light->at(frame, stats.moments);
-    }
-
-    const std::uint64_t traced_before = s.rays_traced(), invalid_before = s.rays.invalid_rays();
+    FramePlan plan;
+    TracedRays before = s.traced();
     StageClock total;
     const SampleHits centers =
-        s.look(frame, s.needs_perception() || request.maps, request.maps, out, s.before_edit.has_value());
+        s.look(frame, s.needs_perception() || request.maps, request.maps, out, plan, s.before_edit.has_value());
+    s.finish_plan(out, plan);
     if (request.frame) {
+        if (!plan.skips(Effect::depth_of_field)) {
+            options.lens = find_lens(s.scene, s.now->pose.cameras[s.camera(frame)]);
+        }
+        if (!plan.skips(Effect::motion_blur)) shutter = s.find_open_shutter(frame);
+        if (shutter) options.light_lasts = !s.light_breaks.changes(shutter->open, shutter->close);
+        total.add_to(stats.seconds.total);
+        const TracedRays by_frame = s.traced() - before;
+        std::unique_ptr<CarriedLight> carried;
+        if (options.light_lasts) carried = s.carry_light(frame, plan, stats.moments);
+        before = s.traced() - by_frame;
+        total = {};
+        s.leave_out(plan.effects);
         const std::uint32_t random_frame = s.noise_key(frame);
         options.blended = s.blended;
         options.record_maps = request.maps;
         if (shutter) options.at_sample = open_shutter(s, *shutter, frame);
         const Image<Outline> outlines = find_visible_outlines(s, centers, out);
-        const VisibleLimits limits{out.threshold, out.perception.aleph, out.alpha, out.indirect_luminance,
-                                   outlines,      s.scene.viewing};
+        const VisibleLimits limits{out.threshold,
+                                   out.perception.aleph,
+                                   out.alpha,
+                                   out.indirect_luminance,
+                                   outlines,
+                                   s.scene.viewing,
+                                   plan.effects.left_out_thresholds()};
         if (!out.threshold.empty()) options.limits = &limits;
         std::optional<MomentRisk> risk;
         if (carried != nullptr) risk = find_risk(s, frame);
@@ -164,7 +193,7 @@ FrameOutput Sequence::render(std::int64_t frame, const FrameRequest& request) {
         const LightingContext lighting = s.lighting();
         const IndirectContext context{.lighting = lighting,
                                       .view = out.view,
-                                      .settings = s.settings,
+                                      .settings = plan.settings,
                                       .accuracy = out.alpha,
                                       .frame = random_frame,
                                       .max_radius = scene_radius(*s.shading),
@@ -176,8 +205,11 @@ FrameOutput Sequence::render(std::int64_t frame, const FrameRequest& request) {
     out.hits = centers.hits;
     s.rendered = true;
     s.forget_pose_before_edit();
-    stats.traced_rays = s.rays_traced() - traced_before;
-    stats.invalid_rays = s.rays.invalid_rays() - invalid_before;
+    const TracedRays traced = s.traced() - before;
+    stats.traced_rays = traced.all;
+    stats.invalid_rays = traced.invalid;
+    stats.plan = plan.effects;
+    stats.plan_seconds = plan.seconds;
     stats.peak_memory_mib = peak_memory_mib();
     total.add_to(stats.seconds.total);
     return out;

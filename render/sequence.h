@@ -30,6 +30,10 @@ class Sequence {
     /// @throws InputError if the camera has an aperture without a focus distance, or if this has been moved from
     FrameOutput render(std::int64_t frame, const FrameRequest& request = {});
 
+    /// The effects plan of a frame, as `render` makes it for its picture: costs as much as the stages before shading.
+    /// @throws InputError as `render`
+    EffectsPlan plan(std::int64_t frame);
+
     /// Changes the scene between frames, as a simulation does that knows one step at a time. Costs as much as making a
     /// new sequence; exposure and settings stay. What the scene's own tracks animate needs no edit.
     ///

@@ -42,14 +42,18 @@ std::optional<ShutterInterval> SequenceState::find_open_shutter(std::int64_t fra
 /// @param at  frames
 SampleMoment SequenceState::look_at(std::int64_t frame, double at) {
     if (!open) open = std::make_unique<OpenShutter>(scene, pose_plan, textures, rays);
-    return open->move_to(at / scene.frame_rate.per_second(), camera(frame), settings.width, settings.height);
+    EffectSet skipped = shading->skipped;
+    if (!settings.forbid.contains(Effect::direct_light)) skipped.remove(Effect::direct_light);  // lamps are still seen
+    return open->move_to(at / scene.frame_rate.per_second(), camera(frame), settings.width, settings.height, skipped);
 }
 
 /// Blurs the sharp estimate by shutter and lens, if they are open. Motion remains that of the shutter's centre.
 void SequenceState::blur_frame_estimate(std::int64_t frame, const SampleHits& centers, const EstimateNodes* nodes,
-                                        FrameOutput& out) {
-    const Lens lens = find_lens(scene, now->pose.cameras[camera(frame)]);
-    const std::optional<ShutterInterval> interval = find_open_shutter(frame);
+                                        const FramePlan& plan, FrameOutput& out) {
+    Lens lens;
+    std::optional<ShutterInterval> interval;
+    if (!plan.skips(Effect::depth_of_field)) lens = find_lens(scene, now->pose.cameras[camera(frame)]);
+    if (!plan.skips(Effect::motion_blur)) interval = find_open_shutter(frame);
     if (!interval && !(lens.radius > 0.0)) return;
     const SharpEstimate sharp{*shading, out.view, centers, out.estimate, nodes, settings.estimate, exposure};
     const auto look = [&](double place) -> SampleMoment {

@@ -6,6 +6,7 @@
 #include "engine/pose/cage_level.h"
 #include "engine/rays/alpha_cutout.h"
 #include "motion/image_motion.h"
+#include "motion/still_motion.h"
 #include "perception/sanitize.h"
 #include "render/accuracy_map.h"
 #include "render/estimate.h"
@@ -61,17 +62,22 @@ SequenceState::SequenceState(Scene given, const RenderSettings& chosen, const st
       pose_plan(make_pose_plan(scene)),
       rays(scene, pose_plan),
       blended(has_blended(scene)),
-      light_breaks(scene, pose_plan, shutter(range.first)) {
+      light_breaks(scene, pose_plan, shutter(range.first)),
+      span_looker(scene, pose_plan) {
     if (!reads_moments()) return;
     const auto find_breaks = [this](std::int64_t first, std::int64_t last) { return light_breaks.find(first, last); };
     shot_light.emplace(KeyMoments{range, scene.cuts, settings.light_step, find_breaks}, settings,
                        !is_world_animated(scene), !can_change(), key_moments());
 }
 
+/// The moment that stands for a frame.
+double SequenceState::find_seconds(std::int64_t frame) const {
+    return can_change() ? find_shutter_center(scene, shutter(frame), frame) : scene.frame_rate.seconds_of(frame);
+}
+
 /// Takes `posed` to a frame. Its first call poses the whole scene, later calls only what can move.
 void SequenceState::move_to_frame(std::optional<PosedView>& posed, std::int64_t frame) const {
-    const double seconds =
-        can_change() ? find_shutter_center(scene, shutter(frame), frame) : scene.frame_rate.seconds_of(frame);
+    const double seconds = find_seconds(frame);
     if (posed) {
         update_posed_view(scene, pose_plan, seconds, camera(frame), *posed);
     } else {
@@ -83,8 +89,10 @@ void SequenceState::move_to_frame(std::optional<PosedView>& posed, std::int64_t 
 /// @param indirect  the view's frame, if its indirect light is wanted, after prepare_estimate of that frame
 Image<Rgb> SequenceState::estimate_view(const RayScene& view_rays, const PosedView& posed, EstimateKind kind,
                                         std::optional<std::int64_t> indirect, RayCounts& counts) {
-    const ShadingScene view_shading = make_shading_scene(scene, posed.pose, view_rays, textures);
-    const LightSet view_lights = make_light_set(view_shading);
+    ShadingScene view_shading = make_shading_scene(scene, posed.pose, view_rays, textures);
+    view_shading.skipped = settings.forbid;
+    LightSet view_lights = make_light_set(view_shading);
+    if (settings.forbid.contains(Effect::direct_light)) remove_all_lights(view_lights);
     const LightingContext view_lighting{view_shading, view_lights, view_rays};
     const SampleHits centers = cast_centers(view_rays, posed.view, &counts.primary);
     std::optional<EstimateNodes> nodes;
@@ -95,16 +103,14 @@ Image<Rgb> SequenceState::estimate_view(const RayScene& view_rays, const PosedVi
 /// Gathers the estimates of the key moments around a frame, unless they are kept. `now` is another frame afterwards.
 /// @param but  a moment that is looked at next, so that it need not be gathered here
 void SequenceState::prepare_estimate(std::int64_t frame, std::int64_t but, RayCounts& counts) {
-    if (!shot_light || !estimates_indirect_light()) return;
+    if (!shot_light) return;
     const MomentPair pair = shot_light->moments_around(frame);
     for (const std::int64_t moment : {pair.before, pair.after}) {
         if (estimate_moments.find(moment)) continue;
         for (const std::int64_t needed : {shot_light->find_base(moment), moment}) {
             if (needed == moment && moment == but) continue;
             if (estimate_moments.find(needed)) continue;
-            move_to_frame(now, needed);
-            update_rays_and_shading();
-            lights = make_light_set(*shading);
+            show(needed);
             find_estimate_nodes(needed, cast_centers(rays, now->view, &counts.primary), counts);
         }
     }
@@ -138,11 +144,11 @@ EstimateNodes SequenceState::find_estimate_nodes(std::int64_t frame, const Sampl
 
 /// @return the nodes of its indirect light, if it has any
 std::optional<EstimateNodes> SequenceState::compute_frame_estimate(std::int64_t frame, const SampleHits& centers,
-                                                                   bool maps, FrameOutput& out) {
+                                                                   const FramePlan& plan, FrameOutput& out) {
     RayCounts& counts = out.statistics.counts.rays;
     std::optional<EstimateNodes> nodes;
-    if (estimates_indirect_light()) nodes = find_estimate_nodes(frame, centers, counts);
-    const bool tolerance = needs_indirect_luminance(settings, maps);
+    if (estimates_indirect_light(plan.settings.bounces)) nodes = find_estimate_nodes(frame, centers, counts);
+    const bool tolerance = needs_indirect_luminance(settings, plan.maps);
     out.estimate = compute_estimate(lighting(), out.view, centers, settings.estimate, nodes ? &*nodes : nullptr,
                                     exposure, counts, tolerance ? &out.indirect_luminance : nullptr);
     note_estimate(out, sanitize_estimate(out.estimate), scene.viewing);
@@ -172,15 +178,19 @@ void SequenceState::update_other_rays() {
 }
 
 /// Motion from `now` to `other`.
-/// @param maps  also finds the pixels that are hidden in the other frame
-void SequenceState::compute_motion(const SampleHits& centers, OtherFrame which, bool maps, StageClock& clock,
-                                   FrameOutput& out) {
+/// With maps, it also finds the pixels that are hidden in the other frame.
+void SequenceState::compute_motion(const SampleHits& centers, OtherFrame which, const FramePlan& plan,
+                                   StageClock& clock, FrameOutput& out) {
     FrameStatistics& stats = out.statistics;
     const bool has_other = which != OtherFrame::none;
+    if (has_other && plan.skips(Effect::motion)) {
+        out.motion = make_still_motion(out.view, centers.hits);
+        return;
+    }
     if (settings.motion == MotionSource::model) {
         if (!model_motion) model_motion.emplace(scene, pose_plan);
         out.motion = model_motion->compute(*now, has_other ? *other : *now, centers.hits, which);
-        if (!has_other || !maps) return;
+        if (!has_other || !plan.maps) return;
         update_other_rays();
         stats.counts.rays.primary += mark_hidden(out.motion, scene, *other, centers.hits, *other_rays);
         return;
@@ -189,7 +199,7 @@ void SequenceState::compute_motion(const SampleHits& centers, OtherFrame which, 
     if (has_other) {
         update_other_rays();
         std::optional<std::int64_t> indirect;
-        if (estimates_indirect_light()) indirect = other_frame_number(stats.frame, which);
+        if (estimates_indirect_light(plan.settings.bounces)) indirect = other_frame_number(stats.frame, which);
         other_estimate = estimate_view(*other_rays, *other, settings.estimate, indirect, stats.counts.rays);
         sanitize_estimate(other_estimate);
     }
@@ -200,15 +210,22 @@ void SequenceState::compute_motion(const SampleHits& centers, OtherFrame which, 
 /// The stages before the picture: pose, first hits and, if asked for, estimate, motion, perception. Afterwards `now`,
 /// rays, shading and lights are those of the frame.
 /// @param maps  every map
+/// @param plan  set to the frame's plan
 /// @return hits through the pixel centres
-SampleHits SequenceState::look(std::int64_t frame, bool perceive, bool maps, FrameOutput& out, bool edited) {
+SampleHits SequenceState::look(std::int64_t frame, bool perceive, bool maps, FrameOutput& out, FramePlan& plan,
+                               bool edited) {
     OtherFrame which = perceive ? find_other_frame(scene, range, frame) : OtherFrame::none;
     FrameStatistics& stats = out.statistics;
     stats.frame = frame;
     StageClock clock;
-    if (perceive) prepare_estimate(frame, frame, stats.counts.rays);
-    if (which != OtherFrame::none && settings.motion == MotionSource::image) {
-        prepare_estimate(other_frame_number(frame, which), frame, stats.counts.rays);
+    move_to_frame(now, frame);
+    plan = begin_plan(frame, which, perceive, maps, edited);
+    clock.add_to(stats.seconds.pose);
+    if (perceive && estimates_indirect_light(plan.settings.bounces)) {
+        prepare_estimate(frame, frame, stats.counts.rays);
+        if (which != OtherFrame::none && settings.motion == MotionSource::image) {
+            prepare_estimate(other_frame_number(frame, which), frame, stats.counts.rays);
+        }
     }
     clock.add_to(stats.seconds.estimate);
     move_to_frame(now, frame);
@@ -222,75 +239,27 @@ SampleHits SequenceState::look(std::int64_t frame, bool perceive, bool maps, Fra
 
     stats.instances_touched = update_rays_and_shading();
     lights = make_light_set(*shading);
+    leave_out(plan.effects);
     clock.add_to(stats.seconds.update);
 
     SampleHits centers = cast_centers(rays, out.view, &stats.counts.rays.primary);
     clock.add_to(stats.seconds.first_hits);
 
     if (perceive) {
-        const std::optional<EstimateNodes> nodes = compute_frame_estimate(frame, centers, maps, out);
+        const std::optional<EstimateNodes> nodes = compute_frame_estimate(frame, centers, plan, out);
         clock.add_to(stats.seconds.estimate);
-        compute_motion(centers, which, maps, clock, out);
-        blur_frame_estimate(frame, centers, nodes ? &*nodes : nullptr, out);
+        compute_motion(centers, which, plan, clock, out);
+        blur_frame_estimate(frame, centers, nodes ? &*nodes : nullptr, plan, out);
         clock.add_to(stats.seconds.estimate);
-        compute_frame_vision(out, scene, settings, maps, clock);
+        RenderSettings vision = settings;
+        if (plan.skips(Effect::saliency) && vision.perception.guide == Guide::saliency)
+            vision.perception.guide = Guide::full;
+        compute_frame_vision(out, scene, vision, maps, clock);
     } else {
         out.perception.aleph = Image<float>(settings.width, settings.height, 1.0f);
         out.alpha = Image<float>(settings.width, settings.height, static_cast<float>(settings.accuracy));
     }
     return centers;
-}
-
-/// Copies the scene as it is now.
-void SequenceState::copy_now(KeyPose& pose) const {
-    pose.posed = *now;
-    pose.shading = make_shading_scene(scene, pose.posed.pose, rays, textures);
-}
-
-/// Key moments, taken from `now`, which is another frame afterwards.
-MomentSource SequenceState::key_moments() {
-    const auto light = [this](std::int64_t frame) {
-        move_to_frame(now, frame);
-        update_rays_and_shading();
-        lights = make_light_set(*shading);
-        return lighting();
-    };
-    const auto pose = [this, light](std::int64_t frame) {
-        light(frame);
-        const auto key = std::make_shared<KeyPose>();
-        copy_now(*key);
-        return key;
-    };
-    const auto look_at = [this](std::int64_t frame) {
-        FrameOutput out;
-        const auto view = std::make_shared<KeyView>();
-        look(frame, is_guided(), false, out);
-        view->frame = frame;
-        copy_now(*view);
-        view->accuracy = std::move(out.alpha);
-        view->rays = out.statistics.counts.rays;
-        return view;
-    };
-    const auto cast = [this](const KeyView& view, RayCounts& counts) {
-        if (!other_rays) other_rays = std::make_unique<RayScene>(rays.share_meshes());
-        other_rays->update_moving(view.posed.pose, view.shading.anchor);
-        const Lens lens = find_lens(scene, view.posed.pose.cameras[camera(view.frame)]);
-        const SamplePlace place = make_sample_place(settings, lens, blended, noise_key(view.frame), 0);
-        return cast_sample(*other_rays, view.posed.view, place, &counts.primary);
-    };
-    return {pose, look_at, cast, light};
-}
-
-/// Of the scene, its settings and this program; made when it is first asked for.
-const CacheFingerprint& SequenceState::fingerprint() {
-    if (!cache_fingerprint) cache_fingerprint = make_cache_fingerprint(scene, settings, shots);
-    return *cache_fingerprint;
-}
-
-/// Whether frames with a closed shutter read their indirect light from key moments.
-bool SequenceState::reads_moments() const {
-    return settings.integrator == Integrator::cache && settings.light_step > 0 && settings.bounces > 0 &&
-           settings.path_depth > 1 && settings.accuracy > 0.0;
 }
 
 }  // namespace aleph

@@ -12,6 +12,8 @@
 #include "render/light_breaks.h"
 #include "render/measure.h"
 #include "render/open_shutter.h"
+#include "render/pose_change.h"
+#include "render/sequence_plan.h"
 #include "render/settings.h"
 #include "render/shot_light.h"
 #include "render/shutter.h"
@@ -20,6 +22,12 @@ namespace aleph {
 
 /// @throws InputError if the camera has an aperture without a focus distance
 Lens find_lens(const Scene& scene, const CameraValues& camera);
+
+/// Counted where rays are traced.
+struct TracedRays {
+    std::uint64_t all = 0, invalid = 0;
+    TracedRays operator-(const TracedRays& o) const { return {all - o.all, invalid - o.invalid}; }
+};
 
 struct SequenceState {
     /// @param shots  list_camera_shots(given, name)
@@ -31,22 +39,32 @@ struct SequenceState {
     void prepare_estimate(std::int64_t frame, std::int64_t but, RayCounts& counts);
     std::unique_ptr<CarriedEstimate> carry_estimate(std::int64_t frame);
     EstimateNodes find_estimate_nodes(std::int64_t frame, const SampleHits& centers, RayCounts& counts);
-    std::optional<EstimateNodes> compute_frame_estimate(std::int64_t frame, const SampleHits& centers, bool maps,
-                                                        FrameOutput& out);
+    std::optional<EstimateNodes> compute_frame_estimate(std::int64_t frame, const SampleHits& centers,
+                                                        const FramePlan& plan, FrameOutput& out);
     std::optional<ShutterInterval> find_open_shutter(std::int64_t frame) const;
     SampleMoment look_at(std::int64_t frame, double at);
     void blur_frame_estimate(std::int64_t frame, const SampleHits& centers, const EstimateNodes* nodes,
-                             FrameOutput& out);
+                             const FramePlan& plan, FrameOutput& out);
     std::size_t update_rays_and_shading();
     void update_other_rays();
     OtherFrame take_pose_before_edit(std::int64_t frame);
     void forget_pose_before_edit();
     PosePlan make_plan_of_all() const;
-    void compute_motion(const SampleHits& centers, OtherFrame which, bool maps, StageClock& clock, FrameOutput& out);
-    SampleHits look(std::int64_t frame, bool perceive, bool maps, FrameOutput& out, bool edited = false);
+    void compute_motion(const SampleHits& centers, OtherFrame which, const FramePlan& plan, StageClock& clock,
+                        FrameOutput& out);
+    FramePlan begin_plan(std::int64_t frame, OtherFrame which, bool perceive, bool maps, bool edited);
+    EffectsPlan make_effects_plan(const FramePlan& plan, const std::optional<VisibleFrame>& visible) const;
+    void finish_plan(const FrameOutput& out, FramePlan& plan) const;
+    void leave_out(const EffectsPlan& effects);
+    double find_seconds(std::int64_t frame) const;
+    void show(std::int64_t frame);
+    SampleHits look(std::int64_t frame, bool perceive, bool maps, FrameOutput& out, FramePlan& plan,
+                    bool edited = false);
     void copy_now(KeyPose& pose) const;
     MomentSource key_moments();
     bool reads_moments() const;
+    std::unique_ptr<CarriedLight> carry_light(std::int64_t frame, const FramePlan& plan,
+                                              std::vector<MomentStatistics>& filled);
     const CacheFingerprint& fingerprint();
     LightingContext lighting() const { return {*shading, lights, rays}; }
     /// Paths do not follow the map.
@@ -55,7 +73,10 @@ struct SequenceState {
     }
     /// Whether something obeys the visible threshold.
     bool needs_perception() const { return is_guided() || settings.sampling != Sampling::uniform; }
-    bool estimates_indirect_light() const { return settings.bounces > 0 && settings.estimate == EstimateKind::direct; }
+    /// @param bounces  of the frame's settings
+    bool estimates_indirect_light(int bounces) const {
+        return bounces > 0 && settings.estimate == EstimateKind::direct;
+    }
     /// Key of a frame's random numbers: the same for all frames if its camera never moves, so that their noise is too,
     /// where nothing else does.
     std::uint32_t noise_key(std::int64_t frame) const {
@@ -67,8 +88,9 @@ struct SequenceState {
     /// Whether a camera has the same view at all times.
     bool is_still(int camera) const { return std::ranges::find(pose_plan.cameras, camera) == pose_plan.cameras.end(); }
     glm::dvec2 shutter(std::int64_t frame) const;
-    std::uint64_t rays_traced() const {
-        return rays.rays_traced() + (other_rays ? other_rays->rays_traced() : 0) + (open ? open->rays_traced() : 0);
+    TracedRays traced() const {
+        const std::uint64_t others = (other_rays ? other_rays->rays_traced() : 0) + (open ? open->rays_traced() : 0);
+        return {rays.rays_traced() + others, rays.invalid_rays()};
     }
 
     const Scene scene;
@@ -91,6 +113,8 @@ struct SequenceState {
 
     std::unique_ptr<OpenShutter> open;  ///< the scene while the shutter is open
     LightBreaks light_breaks;
+    std::optional<ShotFacts> shot_facts;  ///< once a frame was planned
+    SpanLooker span_looker;
     std::optional<ShotLight> shot_light;  ///< if frames read key moments
     EstimateMoments estimate_moments;
     std::optional<CacheFingerprint> cache_fingerprint;

@@ -1,18 +1,14 @@
 #include "render/setting_table.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
-#include <charconv>
-#include <cmath>
-#include <optional>
+
+#include "render/setting_check.h"
 
 namespace aleph {
 
 namespace {
-
-constexpr std::int64_t max_pixels = std::int64_t{1} << 28;
 
 Setting new_setting(std::string key, SettingType type, std::string help) {
     Setting setting;
@@ -70,28 +66,13 @@ Setting boolean_setting(std::string key, std::string help, bool PerceptionSettin
     return setting;
 }
 
-struct Size {
-    int width = 0, height = 0;
-};
-
-/// "640x480": two numbers of any range.
-std::optional<Size> parse_size_text(const std::string& text) {
-    Size size;
-    const char* const end = text.data() + text.size();
-    const auto [x, failure] = std::from_chars(text.data(), end, size.width);
-    if (failure != std::errc() || x == end || *x != 'x') return std::nullopt;
-    const auto [rest, failure_2] = std::from_chars(x + 1, end, size.height);
-    if (failure_2 != std::errc() || rest != end) return std::nullopt;
-    return size;
-}
-
 Setting size_setting() {
     Setting setting = with_unit(new_setting("size", SettingType::size, "picture size"), "pixels");
     setting.min = 1;
     setting.max = 65536;
     setting.get = [](const RenderSettings& s) { return SettingValue(fmt::format("{}x{}", s.width, s.height)); };
     setting.set = [](RenderSettings& s, const SettingValue& value) {
-        const Size size = parse_size_text(std::get<std::string>(value)).value_or(Size{});
+        const PictureSize size = parse_picture_size(std::get<std::string>(value)).value_or(PictureSize{});
         s.width = size.width;
         s.height = size.height;
     };
@@ -148,6 +129,28 @@ void add_perception(std::vector<Setting>& table) {
         {{"compress", Adapter::compress}, {"scale-add", Adapter::scale_add}, {"threshold", Adapter::threshold}})));
     table.push_back(
         without_scene(number_setting("adapter_k", "K of the adapter scale-add", &S::adapter_k, 1e-6, 1e12)));
+}
+
+/// A set of effects, by their names.
+Setting effects_setting(std::string key, std::string help, EffectSet RenderSettings::*field) {
+    Setting setting = new_setting(std::move(key), SettingType::names, std::move(help));
+    setting.choices.assign(effect_names().begin(), effect_names().end());
+    setting.get = [field](const RenderSettings& s) { return SettingValue(format_effects(s.*field)); };
+    setting.set = [field](RenderSettings& s, const SettingValue& value) {
+        std::string unknown;
+        s.*field = parse_effects(std::get<std::string>(value), unknown);
+    };
+    return setting;
+}
+
+/// Which effects are simulated.
+void add_effects(std::vector<Setting>& table) {
+    using S = RenderSettings;
+    table.push_back(choice_setting<EffectsPlanning>(
+        "plan", "whether effects that the scene does not call for, by more than a viewer could see, are left out",
+        [](S& s) -> EffectsPlanning& { return s.plan; }, {{"on", EffectsPlanning::on}, {"off", EffectsPlanning::off}}));
+    table.push_back(effects_setting("force", "effects that are simulated whatever the plan says", &S::force));
+    table.push_back(effects_setting("forbid", "effects that are left out whatever that changes", &S::forbid));
 }
 
 /// Settings of the light transport.
@@ -237,28 +240,8 @@ std::vector<Setting> make_table() {
         size_setting(), number_setting("seed", "seed of all random numbers", &RenderSettings::seed, 0, 4294967295.0)};
     add_perception(table);
     add_light(table);
+    add_effects(table);
     return table;
-}
-
-bool fits(const Setting& setting, const SettingValue& value) {
-    const double* const number = std::get_if<double>(&value);
-    const std::string* const text = std::get_if<std::string>(&value);
-    const auto in_range = [&](double v) { return v >= setting.min && v <= setting.max; };  // false for NaN
-    switch (setting.type) {
-        case SettingType::size: {
-            const auto size = text != nullptr ? parse_size_text(*text) : std::nullopt;
-            return size && in_range(size->width) && in_range(size->height);
-        }
-        case SettingType::whole_number:
-            return number != nullptr && in_range(*number) && *number == std::floor(*number);
-        case SettingType::number:
-            return number != nullptr && in_range(*number);
-        case SettingType::choice:
-            return text != nullptr && std::ranges::find(setting.choices, *text) != setting.choices.end();
-        case SettingType::boolean:
-            return std::holds_alternative<bool>(value);
-    }
-    return false;
 }
 
 }  // namespace
@@ -266,35 +249,6 @@ bool fits(const Setting& setting, const SettingValue& value) {
 const std::vector<Setting>& setting_table() {
     static const std::vector<Setting> table = make_table();
     return table;
-}
-
-std::string describe_values(const Setting& setting) {
-    switch (setting.type) {
-        case SettingType::size:
-            return fmt::format("WIDTHxHEIGHT in {}, each from {:.0f} to {:.0f}, such as 640x480", setting.unit,
-                               setting.min, setting.max);
-        case SettingType::whole_number:
-            return fmt::format("a whole number from {:.0f} to {:.0f}", setting.min, setting.max);
-        case SettingType::number:
-            return fmt::format("a number from {:g} to {:g}", setting.min, setting.max);
-        case SettingType::choice:
-            return fmt::format("{}{}", setting.choices.size() > 1 ? "one of " : "", fmt::join(setting.choices, ", "));
-        case SettingType::boolean:
-            return "true or false";
-    }
-    return {};
-}
-
-std::string find_mismatch(const Setting& setting, const SettingValue& value) {
-    const std::string* const text = std::get_if<std::string>(&value);
-    if (!fits(setting, value)) return "expected " + describe_values(setting);
-    if (setting.type == SettingType::size) {
-        const Size size = parse_size_text(*text).value_or(Size{});
-        if (std::int64_t{size.width} * size.height > max_pixels) {
-            return "more than 2^28 pixels; expected " + describe_values(setting);
-        }
-    }
-    return {};
 }
 
 }  // namespace aleph

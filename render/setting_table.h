@@ -10,7 +10,7 @@
 
 namespace aleph {
 
-enum class SettingType { size, whole_number, number, choice, boolean };
+enum class SettingType { size, whole_number, number, choice, names, boolean };
 
 /// One render setting.
 struct Setting {
@@ -19,7 +19,7 @@ struct Setting {
     std::string help;                  ///< one line, without values and unit
     std::string unit;                  ///< of numbers; empty: none
     double min = 0.0, max = 0.0;       ///< of numbers, and of both sides of a size; inclusive
-    std::vector<std::string> choices;  ///< of a choice
+    std::vector<std::string> choices;  ///< of a choice, and the names
     bool needs_scene = true;           ///< false: `aleph maps --images` takes it as well
 
     std::function<SettingValue(const RenderSettings&)> get;

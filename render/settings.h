@@ -7,6 +7,7 @@
 
 #include "engine/scene/scene.h"
 #include "perception/perception_settings.h"
+#include "render/effects.h"
 #include "render/pixel_filter.h"
 
 namespace aleph {
@@ -51,6 +52,9 @@ enum class VarianceTest {
     deviation,       ///< of the samples, as (6.12) is printed
 };
 
+/// Whether a frame's effects are planned (effects_plan.h).
+enum class EffectsPlanning { on, off };
+
 struct RenderSettings {
     int width = 640, height = 480;  ///< key "size": "640x480"
     std::uint32_t seed = 0;
@@ -75,6 +79,9 @@ struct RenderSettings {
     double min_radius_pixels = 12.0;  ///< least R of a record (irradiance_record.h), pixels
     int light_step = 10;              ///< frames between key moments of indirect light; 0: every frame computes its own
     int subdivision_level = -1;       ///< of every subdivision cage; -1: as fine as the pixels need (cage_level.h)
+    EffectsPlanning plan = EffectsPlanning::on;
+    EffectSet force;   ///< simulated whatever the plan says
+    EffectSet forbid;  ///< left out whatever that changes
 
     bool operator==(const RenderSettings&) const = default;
 };

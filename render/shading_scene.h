@@ -10,6 +10,7 @@
 
 #include "engine/pose/plan.h"
 #include "engine/rays/ray_scene.h"
+#include "render/effects.h"
 
 namespace aleph {
 
@@ -66,6 +67,13 @@ struct ShadingScene {
     bool has_sheets = false;                          ///< some material may pass light straight: shadows depend on it
     std::vector<int> emitting;                        ///< instances whose material emits at some time
     SceneBounds bounds;                               ///< of the visible instances
+    EffectSet skipped;                                ///< left out of shading
+    bool points_unshadowed = false;                   ///< nothing stands before lights without area
+
+    /// @param pdf  LightSample::pdf
+    bool needs_shadow_ray(float pdf) const {
+        return pdf > 0.0f ? !skipped.contains(Effect::area_shadows) : !points_unshadowed;
+    }
 
     std::optional<SceneBounds> still_bounds;  ///< of visible instances that updates do not change; set by the first one
 };

@@ -126,7 +126,28 @@ void add_glass(const MaterialValues& values, float transmission, float thickness
     surface.attenuation = find_attenuation(values);
 }
 
+void remove_gloss(SurfaceMaterial& material) {
+    material.f0 = Rgb(0.0f);
+    material.f90 = 0.0f;
+}
+
+/// Light that a lobe would have reflected is lost: the Lambert layer does not get it.
+void remove_lobes(const EffectSet& skipped, SurfaceMaterial& material) {
+    const bool glossy = skipped.contains(Effect::glossy_reflection),
+               mirror = skipped.contains(Effect::mirror_reflection);
+    if (material.is_mirror() ? mirror : glossy) remove_gloss(material);
+    if (material.is_coat_mirror() ? mirror : glossy) material.coat = 0.0f;
+    if (glossy) material.sheen = Rgb(0.0f);
+    if (skipped.contains(Effect::refraction)) material.glass = 0.0f;
+}
+
 }  // namespace
+
+void remove_specular(SurfaceMaterial& material) {
+    remove_gloss(material);
+    material.coat = material.glass = 0.0f;
+    material.sheen = Rgb(0.0f);
+}
 
 glm::vec3 keep_visible(const glm::vec3& normal, const glm::vec3& fallback, const glm::vec3& geometric,
                        const glm::vec3& view) {
@@ -181,6 +202,7 @@ SurfaceMaterial evaluate_material(const ShadingScene& shading, const SurfacePoin
         }
         if (entry.layered) add_layers(values, textures, look_up, surface);
         if (entry.emits && (point.front || entry.double_sided)) surface.emission = emission;
+        if (!shading.skipped.empty()) remove_lobes(shading.skipped, surface);
         return surface;
     };
     if (!textures.any) return finish(Lookup(shading, point));

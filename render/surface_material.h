@@ -69,6 +69,9 @@ struct ViewedSurface {
 SurfaceMaterial evaluate_material(const ShadingScene& shading, const SurfacePoint& point,
                                   const RayFootprint& footprint);
 
+/// Leaves the Lambert layer and emission alone.
+void remove_specular(SurfaceMaterial& material);
+
 /// Share of the rays that the surface stops: less than 1 where a mask or blending lets some pass (Blend::random).
 float surface_coverage(const ShadingScene& shading, const SurfacePoint& point, const RayFootprint& footprint);
 

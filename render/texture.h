@@ -23,9 +23,9 @@ enum class TextureSpace {
 struct Texture {
     const SceneImage* image = nullptr;  ///< must outlive the texture
     TextureSpace space = TextureSpace::linear;
-    int width = 0, height = 0;             ///< texels of level 0
-    std::vector<Image<glm::vec4>> coarse;  ///< level 1 and up
-    glm::vec3 largest{0.0f};               ///< of each colour channel, over all texels
+    int width = 0, height = 0;                ///< texels of level 0
+    std::vector<Image<glm::vec4>> coarse;     ///< level 1 and up
+    glm::vec3 smallest{0.0f}, largest{0.0f};  ///< of each colour channel, over all texels
 };
 
 /// A material's reference to a texture, ready for look-ups.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/vec4.hpp>
+#include <limits>
 
 #include "engine/base/parallel.h"
 #include "render/texture.h"
@@ -74,16 +75,19 @@ Image<glm::vec4> reduce(int width, int height, const Read& read) {
     return out;
 }
 
-/// Without values that are not numbers.
-glm::vec3 find_largest(const Texture& texture) {
-    glm::vec3 largest(0.0f);
+/// Of all texels, without values that are not numbers.
+void find_range(Texture& texture) {
+    glm::vec3 &smallest = texture.smallest, &largest = texture.largest;
+    smallest = glm::vec3(std::numeric_limits<float>::max());
     for (int y = 0; y < texture.height; ++y) {
         for (int x = 0; x < texture.width; ++x) {
             const glm::vec4 texel = read_texel(*texture.image, x, y, texture.space);
-            for (int c = 0; c < 3; ++c) largest[c] = std::max(largest[c], texel[c]);
+            for (int c = 0; c < 3; ++c) {
+                smallest[c] = std::min(smallest[c], texel[c]);
+                largest[c] = std::max(largest[c], texel[c]);
+            }
         }
     }
-    return largest;
 }
 
 }  // namespace
@@ -94,7 +98,7 @@ Texture make_texture(const SceneImage& image, TextureSpace space) {
     texture.space = space;
     texture.width = image.bytes.empty() ? image.floats.width : image.bytes.width;
     texture.height = image.bytes.empty() ? image.floats.height : image.bytes.height;
-    texture.largest = find_largest(texture);
+    find_range(texture);
     if (texture.width <= 1 && texture.height <= 1) return texture;
     texture.coarse.push_back(
         reduce(texture.width, texture.height, [&](int x, int y) { return read_texel(image, x, y, space); }));

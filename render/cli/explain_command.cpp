@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <iostream>
 #include <memory>
 
@@ -9,6 +10,7 @@
 #include "engine/load/load_scene.h"
 #include "render/cli/commands.h"
 #include "render/cli/explain.h"
+#include "render/cli/frame_list.h"
 #include "render/cli/scene_options.h"
 
 namespace aleph {
@@ -16,7 +18,8 @@ namespace aleph {
 namespace {
 
 struct ExplainOptions {
-    std::string scene, camera;
+    std::string scene, camera, frames;
+    SettingMap settings;  ///< from options and --set
     double at = 0.0;
     bool json = false, moment = false;
     LoadLimits limits;
@@ -42,13 +45,19 @@ std::string to_text(const nlohmann::ordered_json& value) {
 }
 
 int explain(const ExplainOptions& options) {
-    const Scene scene = load_or_list_missing(options.scene, options.limits);
+    Scene scene = load_or_list_missing(options.scene, options.limits);
     if (options.moment) {
         std::cout << to_text(explain_moment(scene, options.at));
     } else {
         RenderSettings settings;
         apply_settings(settings, scene.settings, options.scene);
-        const nlohmann::ordered_json explained = explain_scene(scene, settings, options.camera);
+        SettingMap given = options.settings;
+        set_scene_numbers(scene, given);
+        apply_settings(settings, given, "");
+        std::vector<int> frames =
+            options.frames.empty() ? choose_planned_frames(scene) : parse_frame_list(options.frames);
+        std::ranges::sort(frames);
+        const nlohmann::ordered_json explained = explain_scene(scene, settings, options.camera, frames);
         std::cout << (options.json ? to_text(explained) : explain_text(explained, options.objects));
     }
     std::cout.flush();
@@ -71,11 +80,20 @@ void add_explain_command(CLI::App& app, Command& command) {
     add_value(*explain_app, "--objects", options->objects, "number of objects that the text lists; 0: all");
     explain_app->add_option("--camera", options->camera, "name of a camera or of its node; default: the scene's choice")
         ->type_name("NAME");
+    explain_app
+        ->add_option(
+            "--frames", options->frames,
+            "frames whose effects plan is made, such as 1-10,20-40x2; default: all of a short shot, else some of it")
+        ->type_name("LIST");
     add_load_limits(*explain_app, options->limits);
+    add_setting_options(*explain_app, options->settings);
     explain_app->footer(
+        "The effects plan says which effects a frame is rendered with, why, and how much those that are left out can "
+        "change: --force and --forbid override it, --plan off simulates everything.\n"
         "If files that the scene names are missing, all of them are listed.\n\n"
         "Examples:\n"
         "  aleph explain scenes/pool/scene.json              objects, animation, counts, bounds, warnings\n"
+        "  aleph explain scenes/pool/scene.json --frames 20 --error 1   the plan of a frame at an error\n"
         "  aleph explain shot.abc --json > shot.json         the same and more, for programs\n"
         "  aleph explain shot.abc --at 0.5                   all objects at 0.5 s");
     explain_app->callback([options, at, &command] {

@@ -155,9 +155,10 @@ ordered_json list_unused(const Scene& scene, const Use& use) {
 }
 
 /// Camera and exposure, and a warning for what rendering would refuse; a null camera for a scene without one.
-void describe_view(ordered_json& out, const Scene& scene, const RenderSettings& settings, const std::string& camera) {
+void describe_view(ordered_json& out, const Scene& scene, const RenderSettings& settings, const std::string& camera,
+                   const std::vector<int>& frames) {
     try {
-        const Sequence sequence(scene, settings, camera);
+        Sequence sequence(scene, settings, camera);
         const ScenePose posed = pose(scene, scene.frame_rate.seconds_of(frame_range(scene).first));
         const std::vector<CameraShot> shots = list_camera_shots(scene, camera);
         const auto name = [&](const CameraShot& shot) { return scene.nodes[posed.cameras[shot.camera].node].name; };
@@ -167,6 +168,8 @@ void describe_view(ordered_json& out, const Scene& scene, const RenderSettings& 
         }
         out["exposure"] = {{"factor", sequence.exposure()}, {"from", scene.exposure ? "given" : "first frame"}};
         for (const CameraShot& shot : shots) find_lens(scene, posed.cameras[shot.camera]);
+        out["plan_frames"] = frames;
+        out["plan"] = explain_plan(sequence, frames);
     } catch (const InputError& error) {
         if (!camera.empty()) throw;
         if (!out.contains("camera")) out["camera"] = nullptr;
@@ -193,12 +196,13 @@ std::vector<std::size_t> tree_order(const Scene& scene) {
 
 }  // namespace
 
-ordered_json explain_scene(const Scene& scene, const RenderSettings& settings, const std::string& camera) {
+ordered_json explain_scene(const Scene& scene, const RenderSettings& settings, const std::string& camera,
+                           const std::vector<int>& frames) {
     ordered_json out = {{"file", scene.file}, {"name", scene.name}};
     out["units"] = {{"length", "m"}, {"time", "s"}, {"angle", "degrees"}, {"axes", "right-handed, y up"}};
     out["warnings"] = scene.warnings;
     out["frames"] = describe_frames(scene);
-    describe_view(out, scene, settings, camera);
+    describe_view(out, scene, settings, camera, frames);
     out["environment"] = describe_environment(scene);
     out["counts"] = count_elements(scene);
     out["bounds"] = describe_bounds(scene);

@@ -201,6 +201,7 @@ std::string explain_text(const ordered_json& explained, std::size_t max_objects)
                             text_of(sampling["sampling"]), counted(sampling["properties"], "property", "properties"));
         }
     }
+    if (explained.contains("plan")) text += plan_text(explained["plan"], explained["plan_frames"]);
     text += list_text("nothing uses", explained["unused"]);
     text += list_text("warnings", explained["warnings"]);
     return text;

@@ -96,6 +96,8 @@ std::string value_name(const Setting& setting) {
             return "NUMBER";
         case SettingType::choice:
             return fmt::format("{}", fmt::join(setting.choices, "|"));
+        case SettingType::names:
+            return "EFFECT,...";
         case SettingType::boolean:
             return "true|false";
     }
@@ -111,6 +113,8 @@ std::string setting_help(const Setting& setting) {
             return fmt::format("{} ({:.0f} to {:.0f}{})", setting.help, setting.min, setting.max, unit);
         case SettingType::number:
             return fmt::format("{} ({:g} to {:g}{})", setting.help, setting.min, setting.max, unit);
+        case SettingType::names:
+            return fmt::format("{}, of {}; may be repeated", setting.help, fmt::join(setting.choices, ", "));
         case SettingType::choice:
         case SettingType::boolean:
             break;
@@ -128,7 +132,14 @@ void add_setting_option(CLI::App& app, const Setting& setting) {
         ->group("Settings (a scene file's \"settings\" have the same names, with _ in place of -)");
 }
 
-/// The settings of --KEY and --set in the order given, so that the last one counts.
+/// "KEY=VALUE" of a list of names, with those that were given before.
+std::string join_names(const Setting& setting, const std::string& names, const SettingMap& before) {
+    const auto found = before.find(setting.key);
+    const std::string* const known = found == before.end() ? nullptr : std::get_if<std::string>(&found->second);
+    return setting.key + "=" + (known == nullptr ? names : *known + "," + names);
+}
+
+/// The settings of --KEY and --set in the order given, so that the last one counts; lists of names are joined.
 /// @throws InputError (--set)
 SettingMap read_settings(const CLI::App& app) {
     std::map<const CLI::Option*, std::size_t> seen;
@@ -139,7 +150,13 @@ SettingMap read_settings(const CLI::App& app) {
             std::ranges::find(setting_table(), name, [](const Setting& s) { return option_name(s.key); });
         if (setting == setting_table().end() && name != "--set") continue;
         const std::string& value = option->results().at(seen[option]++);
-        parse_setting(name == "--set" ? value : setting->key + "=" + value, settings);
+        if (name == "--set") {
+            parse_setting(value, settings);
+        } else if (setting->type == SettingType::names) {
+            parse_setting(join_names(*setting, value, settings), settings);
+        } else {
+            parse_setting(setting->key + "=" + value, settings);
+        }
     }
     return settings;
 }
@@ -157,6 +174,17 @@ void add_load_limits(CLI::App& app, LoadLimits& limits) {
            "memory that loading a scene's text may take, at least 16; raise it for a large scene file")
         ->type_name("MIB")
         ->default_str(fmt::format("{}", limits.memory >> 20));
+}
+
+void add_setting_options(CLI::App& app, SettingMap& settings) {
+    for (const Setting& setting : setting_table()) add_setting_option(app, setting);
+    app.add_option_function<std::vector<std::string>>(
+           "--set", [](const std::vector<std::string>&) {},  // read_settings reads it
+           "a setting by its key in scene files; also exposure, viewing.pixels_per_degree (pixels), "
+           "viewing.display_white (cd/m2) and viewing.persistence (at most 1), numbers above 0")
+        ->type_name("KEY=VALUE")
+        ->allow_extra_args(false);
+    app.parse_complete_callback([&app, &settings] { settings = read_settings(app); });
 }
 
 void add_scene_options(CLI::App& app, SceneOptions& options) {
@@ -180,14 +208,7 @@ void add_scene_options(CLI::App& app, SceneOptions& options) {
     add_load_limits(app, options.limits);
     add_value(app, "-t,--threads", options.threads, "number of threads, 0 to 4096; 0: all processors");
     app.add_flag("-q,--quiet", options.quiet, "print no progress and no warnings");
-    for (const Setting& setting : setting_table()) add_setting_option(app, setting);
-    app.add_option_function<std::vector<std::string>>(
-           "--set", [](const std::vector<std::string>&) {},  // read_settings reads it
-           "a setting by its key in scene files; also exposure, viewing.pixels_per_degree (pixels), "
-           "viewing.display_white (cd/m2) and viewing.persistence (at most 1), numbers above 0")
-        ->type_name("KEY=VALUE")
-        ->allow_extra_args(false);
-    app.parse_complete_callback([&app, &options] { options.settings = read_settings(app); });
+    add_setting_options(app, options.settings);
 }
 
 namespace {

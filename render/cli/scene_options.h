@@ -19,6 +19,10 @@ struct SceneOptions {
     bool quiet = false;
 };
 
+/// Adds --KEY for every setting of the table, and --set.
+/// @param settings  filled once the command line has been read
+void add_setting_options(CLI::App& app, SettingMap& settings);
+
 /// Adds the scene argument and the options that `render` and `maps` share: one per setting, --set for any.
 void add_scene_options(CLI::App& app, SceneOptions& options);
 

@@ -1,6 +1,7 @@
 // The table of settings, scene.schema.json and AUTHORING.md say the same about every render setting.
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -62,6 +63,13 @@ Json schema_of(const Setting& setting) {
         case SettingType::choice:
             schema["enum"] = setting.choices;
             break;
+        case SettingType::names: {
+            const std::string name = fmt::format("({})", fmt::join(setting.choices, "|"));
+            schema["title"] = "names separated by commas";
+            schema["type"] = "string";
+            schema["pattern"] = "^ *(" + name + " *(, *" + name + " *)*)?$";
+            break;
+        }
         case SettingType::boolean:
             schema["type"] = "boolean";
             break;
@@ -81,6 +89,8 @@ std::string values_on_page(const Setting& setting) {
             return fmt::format("number, {:g} to {:g}", setting.min, setting.max);
         case SettingType::boolean:
             return "`true`, `false`";
+        case SettingType::names:
+            return "names of effects, with commas";
         case SettingType::choice:
             break;
     }

@@ -14,16 +14,35 @@ namespace {
 
 /// A value other than the default for every key.
 const std::map<std::string, SettingValue>& other_values() {
-    static const std::map<std::string, SettingValue> values{
-        {"size", "320x200"},      {"seed", 4294967295.0},    {"guide", "full"},
-        {"estimate", "flat"},     {"motion", "image"},       {"vision", "castle"},
-        {"bands", "measured"},    {"grid", "center"},        {"neutral_opponent", true},
-        {"adapter", "scale-add"}, {"adapter_k", 50.0},       {"accuracy", 0.3},
-        {"gather", 64.0},         {"bounces", 0.0},          {"spp", 4.0},
-        {"sampling", "variance"}, {"integrator", "path"},    {"path_depth", 5.0},
-        {"light_samples", 7.0},   {"shade_reach", 1.1},      {"min_radius_pixels", 2.5},
-        {"error", 0.5},           {"filter", "box"},         {"variance_test", "deviation"},
-        {"light_step", 5.0},      {"subdivision_level", 3.0}};
+    static const std::map<std::string, SettingValue> values{{"size", "320x200"},
+                                                            {"seed", 4294967295.0},
+                                                            {"guide", "full"},
+                                                            {"estimate", "flat"},
+                                                            {"motion", "image"},
+                                                            {"vision", "castle"},
+                                                            {"bands", "measured"},
+                                                            {"grid", "center"},
+                                                            {"neutral_opponent", true},
+                                                            {"adapter", "scale-add"},
+                                                            {"adapter_k", 50.0},
+                                                            {"accuracy", 0.3},
+                                                            {"gather", 64.0},
+                                                            {"bounces", 0.0},
+                                                            {"spp", 4.0},
+                                                            {"sampling", "variance"},
+                                                            {"integrator", "path"},
+                                                            {"path_depth", 5.0},
+                                                            {"light_samples", 7.0},
+                                                            {"shade_reach", 1.1},
+                                                            {"min_radius_pixels", 2.5},
+                                                            {"error", 0.5},
+                                                            {"filter", "box"},
+                                                            {"variance_test", "deviation"},
+                                                            {"light_step", 5.0},
+                                                            {"subdivision_level", 3.0},
+                                                            {"plan", "off"},
+                                                            {"force", "caustics"},
+                                                            {"forbid", "direct_light,alpha"}};
     return values;
 }
 

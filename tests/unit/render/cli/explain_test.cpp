@@ -73,7 +73,7 @@ ordered_json explain(const Scene& scene) {
     RenderSettings settings;
     settings.width = 16;
     settings.height = 12;
-    return explain_scene(scene, settings, "");
+    return explain_scene(scene, settings, "", choose_planned_frames(scene));
 }
 
 TEST(Explain, PathsTellObjectsApart) {
