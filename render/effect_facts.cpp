@@ -115,6 +115,10 @@ bool is_in_view(const CameraView& view, const Bounds& box) {
     return std::max({left, right, above, below, behind}) < 8;
 }
 
+bool contains(const Bounds& box, const glm::dvec3& point) {
+    return glm::all(glm::lessThanEqual(box.low, point)) && glm::all(glm::lessThanEqual(point, box.high));
+}
+
 Bounds find_world_bounds(const MeshFacts& mesh, const PosedMesh& posed, const glm::dmat4& world) {
     Bounds own = mesh.bounds;
     if (!posed.positions.empty()) {
@@ -186,7 +190,8 @@ FrameFacts find_frame_facts(const Scene& scene, const ShotFacts& shot, const Tex
             named ? textures.materials[mesh.material] : textures.materials.back(), textures, known.color);
         object.in_view = all_in_view || is_in_view(view, object.bounds);
         if (!object.deforms) {
-            object.convex = known.convex;
+            // Seen from inside, a closed body sees itself.
+            object.convex = known.flat || (known.convex && !all_in_view && !contains(object.bounds, view.position));
             object.flat = known.flat;
             object.point = glm::dvec3(pose.world[node] * glm::dvec4(known.point, 1.0));
             object.normal =

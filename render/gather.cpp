@@ -92,6 +92,7 @@ void light_hit(const Lighting& lighting, std::size_t i) {
         scratch.light[i] += deeper * lit.below_sheen;
     }
     const ScatteredLight scattered = choose_light(lighting.context, lit, shares, lighting.light_numbers(i));
+    if (scattered.radiance == Rgb(0.0f)) return;
     add_scattered(lighting, scattered, {scattered.radiance, Rgb(1.0f), Rgb(0.0f), static_cast<int>(i)});
 }
 

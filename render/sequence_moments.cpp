@@ -4,13 +4,15 @@
 
 namespace aleph {
 
-/// Takes `now`, rays, shading and lights to a frame, for light that other frames read. What cannot change any picture
-/// is left out.
+/// Takes `now`, rays, shading and lights to a frame, for light that other frames read, whose plans may differ: only
+/// what is forbidden is left out.
 void SequenceState::show(std::int64_t frame) {
     move_to_frame(now, frame);
     update_rays_and_shading();
     lights = make_light_set(*shading);
-    leave_out(begin_plan(frame, OtherFrame::none, false, false, false).effects);
+    shading->skipped = settings.forbid;
+    shading->points_unshadowed = false;
+    if (settings.forbid.contains(Effect::direct_light)) remove_all_lights(lights);
 }
 
 /// Copies the scene as it is now.

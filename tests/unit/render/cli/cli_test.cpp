@@ -146,10 +146,11 @@ TEST(Options, HelpShowsTheDefaultAndTheRangeOfEverySetting) {
             ASSERT_NE(at, std::string::npos) << option;
             const std::string text = help.substr(at, help.find("\n  --", at) - at);
             const SettingValue value = setting.get(RenderSettings());
+            for (const std::string& choice : setting.choices) EXPECT_NE(text.find(choice), std::string::npos) << text;
+            if (value == SettingValue(std::string())) continue;  // an empty list of names
             EXPECT_NE(text.find(std::visit([](const auto& v) { return fmt::format("={}", v); }, value)),
                       std::string::npos)
                 << text;
-            for (const std::string& choice : setting.choices) EXPECT_NE(text.find(choice), std::string::npos) << text;
             if (setting.type == SettingType::number || setting.type == SettingType::whole_number) {
                 EXPECT_NE(text.find(fmt::format(" to {}", setting.type == SettingType::number
                                                               ? fmt::format("{:g}", setting.max)

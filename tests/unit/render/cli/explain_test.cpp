@@ -188,7 +188,7 @@ TEST(Explain, TextNamesWhatMovesEvenWhereTheTreeIsCut) {
 TEST(Explain, TheEnvironmentAndItsPicture) {
     Scene scene = make_scene();
     EXPECT_TRUE(explain(scene)["environment"].is_null());
-    EXPECT_EQ(explain_text(explain(scene), 0).find("environment"), std::string::npos);
+    EXPECT_EQ(explain_text(explain(scene), 0).find("light     environment"), std::string::npos);
 
     scene.environment = Track<glm::dvec3>(glm::dvec3(0.5, 1.0, 2.0));
     ordered_json explained = explain(scene);
