@@ -188,7 +188,7 @@ bool may_be_shadowed(const FrameFacts& facts, const LightFacts& light) {
         if (!receiver.material.scatters()) continue;
         if (!receiver.convex || receiver.material.alpha) return true;
         const bool near = light.kind == LightFacts::Kind::point && distance_to(receiver.bounds, light.center) == 0.0;
-        if (near || receiver.material.glass) return true;  // a lamp within a body
+        if (near || (receiver.material.glass && !receiver.flat)) return true;  // a lamp within a body
         for (const ObjectFacts& blocker : facts.objects) {
             const bool itself = &blocker == &receiver || (&blocker == lamp && lamp->convex);
             if (!itself && &receiver != lamp && may_block(light, receiver, blocker)) return true;

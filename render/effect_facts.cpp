@@ -55,11 +55,20 @@ void add_layers(const MaterialValues& values, const MaterialTextures& textures, 
     facts.glass = values.transmission > 0.0f && values.metallic < 1.0f;
 }
 
+/// Normal maps are not counted.
+bool has_texture(const MaterialTextures& textures) {
+    const auto uses = {&textures.base_color,  &textures.metallic_roughness, &textures.emission,
+                       &textures.specular,    &textures.specular_color,     &textures.transmission,
+                       &textures.thickness,   &textures.clearcoat,          &textures.clearcoat_roughness,
+                       &textures.sheen_color, &textures.sheen_roughness,    &textures.anisotropy};
+    return std::ranges::any_of(uses, [](const TextureUse* use) { return use->texture != no_index; });
+}
+
 /// @param color  largest vertex colour
 MaterialFacts find_material_facts(const Material* material, const MaterialValues& values,
                                   const MaterialTextures& textures, const TextureSet& set, float color) {
     MaterialFacts facts;
-    facts.textured = textures.any;
+    facts.textured = has_texture(textures);
     facts.maps_normals = textures.maps_normals;
     const float base = largest_channel(values.base_color * largest_texel(set, textures.base_color)) * color;
     if (material != nullptr) {
@@ -155,12 +164,13 @@ void add_lights(const Scene& scene, const ShotFacts& shot, const ScenePose& pose
 
 }  // namespace
 
-ShotFacts find_shot_facts(const Scene& scene, const TextureSet& textures) {
+ShotFacts find_shot_facts(const Scene& scene, const TextureSet& textures, const PosePlan& plan) {
     ShotFacts facts;
     facts.meshes.resize(scene.meshes.size());
     parallel_for(scene.meshes.size(), 1, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) facts.meshes[i] = find_mesh_facts(scene.meshes[i]);
     });
+    for (const Deformer& deformer : plan.deformers) facts.meshes[deformer.mesh].deforms = deformer.changes;
     facts.environment = 1.0f;
     if (textures.environment.empty()) return facts;
     facts.environment = 0.0f;
@@ -181,7 +191,7 @@ FrameFacts find_frame_facts(const Scene& scene, const ShotFacts& shot, const Tex
         ObjectFacts object;
         object.instance = static_cast<int>(i);
         object.mesh = m;
-        object.deforms = !pose.meshes[m].positions.empty();
+        object.deforms = known.deforms;
         object.bounds = find_world_bounds(known, pose.meshes[m], pose.world[node]);
         if (object.bounds.empty()) continue;
         const bool named = mesh.material != no_index;
@@ -189,7 +199,7 @@ FrameFacts find_frame_facts(const Scene& scene, const ShotFacts& shot, const Tex
             named ? &scene.materials[mesh.material] : nullptr, named ? pose.materials[mesh.material] : MaterialValues(),
             named ? textures.materials[mesh.material] : textures.materials.back(), textures, known.color);
         object.in_view = all_in_view || is_in_view(view, object.bounds);
-        if (!object.deforms) {
+        if (pose.meshes[m].positions.empty()) {
             // Seen from inside, a closed body sees itself.
             object.convex = known.flat || (known.convex && !all_in_view && !contains(object.bounds, view.position));
             object.flat = known.flat;

@@ -7,6 +7,7 @@
 
 #include "engine/base/bounds.h"
 #include "engine/pose/camera_view.h"
+#include "engine/pose/plan.h"
 #include "render/texture.h"
 
 namespace aleph {
@@ -30,9 +31,10 @@ struct MaterialFacts {
 
 /// A mesh in its own space.
 struct MeshFacts {
-    Bounds bounds;        ///< m
-    float color = 1.0f;   ///< largest vertex colour, at least 1
-    bool convex = false;  ///< closed or flat, and no point of its outside sees another
+    Bounds bounds;         ///< m
+    float color = 1.0f;    ///< largest vertex colour, at least 1
+    bool deforms = false;  ///< in different ways at different times
+    bool convex = false;   ///< closed or flat, and no point of its outside sees another
     bool flat = false;
     glm::dvec3 point{0.0}, normal{0.0};  ///< of the plane of a flat one
 };
@@ -43,12 +45,12 @@ struct ShotFacts {
     float environment = 0.0f;  ///< largest value of the environment's picture; 1 without a picture
 };
 
-ShotFacts find_shot_facts(const Scene& scene, const TextureSet& textures);
+ShotFacts find_shot_facts(const Scene& scene, const TextureSet& textures, const PosePlan& plan);
 
 /// An instance that is there.
 struct ObjectFacts {
     int instance = 0, mesh = 0;
-    bool deforms = false;  ///< is posed point by point
+    bool deforms = false;  ///< in different ways at different times
     MaterialFacts material;
     Bounds bounds;              ///< world, m
     double lit_radiance = 0.0;  ///< of its Lambert layer, lit by the lights alone, at most (bound_direct_light)

@@ -169,10 +169,13 @@ const char* decision_name(Decision decision) {
     return names[static_cast<int>(decision)];
 }
 
-EffectSet EffectsPlan::skipped() const {
+EffectSet EffectsPlan::left_out() const {
     EffectSet set;
     for (std::size_t i = 0; i < effect_count; ++i) {
-        if (effects[i].decision == Decision::skip) set.add(static_cast<Effect>(i));
+        const Effect effect = static_cast<Effect>(i);
+        const PlannedEffect& planned = effects[i];
+        const bool adds_nothing = planned.bound && planned.bound->luminance == 0.0 && effect != Effect::area_shadows;
+        if (planned.decision == Decision::skip && !adds_nothing) set.add(effect);
     }
     return set;
 }

@@ -40,7 +40,9 @@ struct EffectsPlan {
     const PlannedEffect& of(Effect effect) const { return effects[static_cast<std::size_t>(effect)]; }
     PlannedEffect& of(Effect effect) { return effects[static_cast<std::size_t>(effect)]; }
     bool skips(Effect effect) const { return of(effect).decision == Decision::skip; }
-    EffectSet skipped() const;
+    /// What shading has to leave out. Effects that are not there need not be: gloss that cannot be seen still lights
+    /// what is.
+    EffectSet left_out() const;
     /// Sum of the bounds of what the plan leaves out, visible thresholds.
     double left_out_thresholds() const;
 };

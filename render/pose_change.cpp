@@ -11,14 +11,12 @@ constexpr int looks = 9;
 }  // namespace
 
 bool world_differs(const PosePlan& plan, const ScenePose& a, const ScenePose& b) {
-    const auto node_differs = [&](int node) {
-        return a.world[node] != b.world[node] || a.visible[node] != b.visible[node];
-    };
     const auto instance_differs = [&](int i) {
-        const int mesh = a.instances[i].mesh;
-        return a.shown[i] != b.shown[i] || !(a.meshes[mesh] == b.meshes[mesh]);
+        const auto [node, mesh] = a.instances[i];
+        if (a.shown[i] != b.shown[i]) return true;
+        return a.shown[i] != 0 && (a.world[node] != b.world[node] || !(a.meshes[mesh] == b.meshes[mesh]));
     };
-    return std::ranges::any_of(plan.nodes, node_differs) || std::ranges::any_of(plan.instances, instance_differs) ||
+    return std::ranges::any_of(plan.instances, instance_differs) ||
            std::ranges::any_of(plan.materials, [&](int m) { return !(a.materials[m] == b.materials[m]); }) ||
            !(a.lights == b.lights) || a.environment != b.environment ||
            a.environment_rotation != b.environment_rotation;

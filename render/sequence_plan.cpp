@@ -93,7 +93,7 @@ double find_largest_circle(const CameraView& view, double radius, double focus, 
 FramePlan SequenceState::begin_plan(std::int64_t frame, OtherFrame which, bool perceive, bool maps, bool edited) {
     StageClock clock;
     FramePlan plan;
-    if (!shot_facts) shot_facts = find_shot_facts(scene, textures);
+    if (!shot_facts) shot_facts = find_shot_facts(scene, textures, pose_plan);
     const Lens lens = find_lens(scene, now->pose.cameras[camera(frame)]);
     const std::optional<ShutterInterval> interval = find_open_shutter(frame);
     plan.facts = find_frame_facts(scene, *shot_facts, textures, now->pose, now->view, interval || lens.radius > 0.0);
@@ -163,7 +163,7 @@ void SequenceState::finish_plan(const FrameOutput& out, FramePlan& plan) const {
 
 /// What the sequence's shading leaves out.
 void SequenceState::leave_out(const EffectsPlan& effects) {
-    shading->skipped = effects.skipped();
+    shading->skipped = effects.left_out();
     shading->points_unshadowed = effects.points_unshadowed;
     std::vector<int> instances, punctual;
     if (settings.forbid.contains(Effect::direct_light)) return remove_all_lights(lights);

@@ -1,0 +1,239 @@
+// What the effects plan leaves out changes no pixel by more than the bound it gives.
+
+#include <gtest/gtest.h>
+
+#include "render/effects_plan.h"
+#include "tests/support/keyed_track.h"
+#include "tests/support/planned_scenes.h"
+
+namespace aleph {
+namespace {
+
+constexpr double rounding = 1e-4;  // cd/m2, of 32-bit sums below 100 cd/m2
+
+/// With a threshold map, which plans need to leave out what can be seen a little.
+RenderSettings seen_settings() {
+    RenderSettings settings = planned_settings();
+    settings.perception.guide = Guide::full;
+    return settings;
+}
+
+RenderSettings force(RenderSettings settings, const char* name) {
+    std::string unknown;
+    settings.force = parse_effects(name, unknown);
+    return settings;
+}
+
+struct LeftOut {
+    PlannedEffect planned;
+    double difference = 0.0;  ///< cd/m2, largest of all pixels
+    bool differs = false;
+};
+
+/// The difference that forcing the effect makes in frame 0.
+LeftOut compare_forced(const Scene& scene, const RenderSettings& settings, const char* name) {
+    std::string unknown;
+    const EffectSet one = parse_effects(name, unknown);
+    const FrameOutput planned = Sequence(scene, settings).render(0);
+    const FrameOutput forced = Sequence(scene, force(settings, name)).render(0);
+    LeftOut out;
+    for (std::size_t i = 0; i < effect_count; ++i) {
+        if (one.contains(static_cast<Effect>(i))) out.planned = planned.statistics.plan.effects[i];
+    }
+    out.difference = largest_difference(scene, planned, forced);
+    out.differs = planned.shaded.color.pixels != forced.shaded.color.pixels;
+    return out;
+}
+
+void expect_within_bound(const LeftOut& out, Decision decision) {
+    ASSERT_EQ(out.planned.decision, decision) << out.planned.reason;
+    ASSERT_TRUE(out.planned.bound);
+    EXPECT_GT(out.planned.bound->luminance, 0.0);
+    EXPECT_LE(out.planned.bound->thresholds, plan_share);
+    EXPECT_TRUE(out.differs) << "nothing was left out";
+    EXPECT_LE(out.difference, out.planned.bound->luminance + rounding);
+}
+
+/// Point lights in a grid, 40 m behind the camera.
+Scene make_far_lights(int count, double power) {
+    Scene scene = make_lit_square();
+    scene.range = FrameRange{0, 0};
+    for (int i = 0; i < count; ++i) {
+        add_light(scene, Light::Kind::point, glm::dvec3(power), {0.2 * (i % 32), 0.2 * (i / 32), 40.0});
+    }
+    return scene;
+}
+
+TEST(EffectsBounds, FX14_TheSumOfLightsThatAreLeftOutFits) {
+    const RenderSettings settings = seen_settings();
+    const auto left_out = [&](const Scene& scene) { return Sequence(scene, settings).plan(0).lights_left_out.size(); };
+    // Together they are a hundredth of a threshold or less.
+    const Scene dim = make_far_lights(1000, 1e-5);
+    EXPECT_EQ(left_out(dim), 1000u);
+    expect_within_bound(compare_forced(dim, settings, "direct_light"), Decision::simplify);
+    // Each is below what may be left out, and their sum is not.
+    const std::size_t some = left_out(make_far_lights(1000, 1e-2));
+    EXPECT_GT(some, 0u);
+    EXPECT_LT(some, 1000u);
+    expect_within_bound(compare_forced(make_far_lights(1000, 1e-2), settings, "direct_light"), Decision::simplify);
+    // One near lamp of the same power.
+    Scene near = make_lit_square();
+    add_light(near, Light::Kind::point, glm::dvec3(1.0), {0.0, 0.0, 1.0});
+    EXPECT_EQ(left_out(near), 0u);
+}
+
+TEST(EffectsBounds, FX14_LampsThatAreLeftOutAreStillSeen) {
+    Scene scene = make_lit_square();
+    scene.range = FrameRange{0, 0};
+    const int lamp = add_lambert(scene, glm::dvec3(0.0), glm::dvec3(0.5));
+    add_mesh(scene, make_quad(1.0, 1.0, lamp), {0.0, 0.0, 40.0}, z_to_up * z_to_up);
+    const EffectsPlan plan = Sequence(scene, seen_settings()).plan(0);
+    ASSERT_EQ(plan.lights_left_out.size(), 1u);
+    EXPECT_EQ(plan.lights_left_out[0].kind, LightFacts::Kind::surface);
+    EXPECT_FALSE(plan.skips(Effect::emission));
+    expect_within_bound(compare_forced(scene, seen_settings(), "direct_light"), Decision::simplify);
+}
+
+/// Two walls that face each other, lit by a lamp in front of the camera; one is seen.
+Scene make_corridor(double albedo) {
+    Scene scene = make_empty_view();
+    scene.range = FrameRange{0, 0};
+    const int wall = add_lambert(scene, glm::dvec3(albedo), glm::dvec3(0.0), true);
+    add_mesh(scene, make_quad(2.0, 2.0, wall));
+    add_mesh(scene, make_quad(2.0, 2.0, wall), {0.0, 0.0, 4.0});
+    add_light(scene, Light::Kind::point, glm::dvec3(40.0), {0.0, 3.0, 2.0});
+    return scene;
+}
+
+TEST(EffectsBounds, FX16_ASecondBounceBetweenDarkWalls) {
+    RenderSettings settings = seen_settings();
+    settings.bounces = 2;
+    expect_within_bound(compare_forced(make_corridor(0.05), settings, "more_bounces"), Decision::skip);
+    EXPECT_EQ(Sequence(make_corridor(0.9), settings).plan(0).of(Effect::more_bounces).decision, Decision::simulate);
+    // The bound holds where it is not small enough either.
+    RenderSettings one = settings, forbidden = settings;
+    std::string unknown;
+    forbidden.forbid = parse_effects("more_bounces", unknown);
+    for (const double albedo : {0.05, 0.5, 0.9}) {
+        const Scene scene = make_corridor(albedo);
+        one.bounces = 1;
+        const FrameOutput with = Sequence(scene, force(settings, "more_bounces")).render(0);
+        const FrameOutput without = Sequence(scene, one).render(0);
+        const std::optional<EffectBound> bound = without.statistics.plan.of(Effect::more_bounces).bound;
+        ASSERT_TRUE(bound) << albedo;
+        const double difference = largest_difference(scene, with, without);
+        EXPECT_GT(difference, 0.0);
+        EXPECT_LE(difference, bound->luminance) << albedo;
+        EXPECT_EQ(largest_difference(scene, Sequence(scene, forbidden).render(0), without), 0.0);
+    }
+}
+
+TEST(EffectsBounds, FX13_AFarSmallBodySendsHardlyAnyLight) {
+    Scene scene = make_lit_square();
+    scene.range = FrameRange{0, 0};
+    add_mesh(scene, make_faceted_sphere(0.01, 8, 0), {3.0, 0.0, 30.0});
+    RenderSettings settings = seen_settings();
+    settings.gather = 4096;
+    const LeftOut out = compare_forced(scene, settings, "indirect_diffuse");
+    EXPECT_EQ(out.planned.decision, Decision::skip) << out.planned.reason;
+    EXPECT_GT(out.planned.bound->luminance, 0.0);
+    EXPECT_LE(out.difference, out.planned.bound->luminance);
+}
+
+TEST(EffectsBounds, FX13_AMirrorOutOfViewThatLightsWhatIsInView) {
+    Scene scene = make_lit_square();
+    scene.nodes.back().translation = glm::dvec3(0.0, 4.0, 0.5);
+    Material mirror;
+    mirror.roughness = 0.0;
+    scene.materials.push_back(mirror);
+    add_mesh(scene, make_quad(3.0, 3.0, 1), {4.0, 0.0, 1.0},
+             glm::angleAxis(-0.5 * std::numbers::pi, glm::dvec3(0.0, 1.0, 0.0)));
+    const int lamp = add_lambert(scene, glm::dvec3(0.0), glm::dvec3(40.0));
+    add_mesh(scene, make_quad(2.0, 2.0, lamp), {-2.0, 0.0, 4.5},
+             glm::angleAxis(0.5 * std::numbers::pi, glm::dvec3(0.0, 1.0, 0.0)));
+    RenderSettings settings = seen_settings();
+    settings.gather = 1024;
+    const EffectsPlan plan = Sequence(scene, settings).plan(0);
+    EXPECT_EQ(plan.of(Effect::caustics).decision, Decision::simulate);
+    EXPECT_EQ(plan.of(Effect::mirror_reflection).decision, Decision::skip);
+    RenderSettings without = settings;
+    std::string unknown;
+    without.forbid = parse_effects("caustics", unknown);
+    const FrameOutput lit = Sequence(scene, settings).render(0), unlit = Sequence(scene, without).render(0);
+    EXPECT_GT(largest_difference(scene, lit, unlit), 0.1);
+}
+
+TEST(EffectsBounds, FX13_GlossThatHardlyReflects) {
+    Scene scene = make_lit_square();
+    scene.range = FrameRange{0, 0};
+    scene.materials[0].specular = 1e-4;
+    scene.materials[0].roughness = 0.7;
+    expect_within_bound(compare_forced(scene, seen_settings(), "glossy_reflection"), Decision::skip);
+    scene.materials[0].specular = 1.0;
+    EXPECT_EQ(Sequence(scene, seen_settings()).plan(0).of(Effect::glossy_reflection).decision, Decision::simulate);
+}
+
+/// The camera turns by this angle while the shutter is open.
+Scene make_turning_view(double degrees) {
+    Scene scene = make_lit_square();
+    const double angle = degrees * std::numbers::pi / 180.0;
+    scene.cameras[0].shutter = {-0.5, 0.5};
+    const double frame = scene.frame_rate.seconds_of(1);
+    scene.nodes[0].rotation =
+        keyed<glm::dquat>({-0.5 * frame, 0.5 * frame}, {glm::angleAxis(-0.5 * angle, glm::dvec3(0.0, 1.0, 0.0)),
+                                                        glm::angleAxis(0.5 * angle, glm::dvec3(0.0, 1.0, 0.0))});
+    return scene;
+}
+
+TEST(EffectsBounds, FX15_AShutterInWhichThePictureHardlyMoves) {
+    RenderSettings settings = seen_settings();
+    settings.filter = PixelFilter::blackman_harris;
+    settings.spp = 1024;
+    const LeftOut out = compare_forced(make_turning_view(0.05), settings, "motion_blur");
+    EXPECT_EQ(out.planned.decision, Decision::skip) << out.planned.reason;
+    EXPECT_GT(out.planned.bound->luminance, 0.0);
+    EXPECT_LE(out.difference, out.planned.bound->luminance + 0.05);  // noise of samples at edges
+    EXPECT_EQ(Sequence(make_turning_view(3.0), settings).plan(0).of(Effect::motion_blur).decision, Decision::simulate);
+}
+
+TEST(EffectsBounds, FX15_WhatChangesWhileTheShutterIsOpen) {
+    const auto decision = [](const Scene& scene, std::int64_t frame = 0) {
+        return Sequence(scene, seen_settings()).plan(frame).of(Effect::motion_blur).decision;
+    };
+    Scene scene = make_lit_square();
+    scene.cameras[0].shutter = {0.0, 0.8};
+    EXPECT_EQ(decision(scene), Decision::skip) << "nothing moves";
+    const double frame = scene.frame_rate.seconds_of(1);
+    Scene door = scene;
+    const int node = add_mesh(door, make_quad(9.0, 9.0, add_lambert(door, glm::dvec3(0.0))), {0.0, 0.0, 9.0});
+    door.nodes[node].visible = keyed<double>({0.0, 0.3 * frame}, {1.0, 0.0}, Interpolation::step);
+    EXPECT_EQ(decision(door), Decision::simulate) << "a door out of view opens";
+    EXPECT_EQ(decision(door, 1), Decision::skip) << "it is open";
+    Scene lamp = scene;
+    lamp.nodes.back().translation =
+        keyed<glm::dvec3>({0.0, frame}, {glm::dvec3(0.3, 0.2, 2.0), glm::dvec3(-0.3, 0.2, 2.0)});
+    EXPECT_EQ(decision(lamp), Decision::simulate) << "a lamp moves, and no object does";
+    Scene glow = scene;
+    glow.materials[0].emission = keyed<glm::dvec3>({0.0, frame}, {glm::dvec3(0.0), glm::dvec3(1.0)});
+    EXPECT_EQ(decision(glow), Decision::simulate);
+    Scene entering = scene;
+    entering.nodes[add_mesh(entering, make_quad(0.5, 0.5, 0), {9.0, 0.0, 0.0})].translation =
+        keyed<glm::dvec3>({0.0, frame}, {glm::dvec3(9.0, 0.0, 0.0), glm::dvec3(0.0)});
+    EXPECT_EQ(decision(entering), Decision::simulate) << "an object enters";
+}
+
+TEST(EffectsBounds, FX12_AnApertureThatHardlyBlurs) {
+    Scene scene = make_lit_square();
+    scene.cameras[0].aperture = 1e-9;
+    RenderSettings settings = seen_settings();
+    settings.filter = PixelFilter::blackman_harris;
+    settings.spp = 256;
+    const LeftOut out = compare_forced(scene, settings, "depth_of_field");
+    EXPECT_EQ(out.planned.decision, Decision::skip) << out.planned.reason;
+    EXPECT_LE(out.difference, out.planned.bound->luminance + 1e-3);
+    scene.cameras[0].aperture = 0.1;
+    EXPECT_EQ(Sequence(scene, settings).plan(0).of(Effect::depth_of_field).decision, Decision::simulate);
+}
+
+}  // namespace
+}  // namespace aleph

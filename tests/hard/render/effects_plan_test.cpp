@@ -1,0 +1,331 @@
+// The effects plan: tiny scenes that call for one effect each, and what must not mislead the plan.
+
+#include "render/effects_plan.h"
+
+#include <gtest/gtest.h>
+
+#include "engine/surface/limit_surface.h"
+#include "tests/support/deforming_scenes.h"
+#include "tests/support/keyed_track.h"
+#include "tests/support/planned_scenes.h"
+#include "tests/support/subdivision_cages.h"
+
+namespace aleph {
+namespace {
+
+using Names = std::set<std::string>;
+
+Names effects_of(const Scene& scene, const RenderSettings& settings = planned_settings(), std::int64_t frame = 0) {
+    return simulated(Sequence(scene, settings).plan(frame));
+}
+
+int add_material(Scene& scene, double metallic, double roughness) {
+    Material material;
+    material.base_color = glm::dvec3(metallic > 0.0 ? 0.8 : 0.0);
+    material.metallic = metallic;
+    material.roughness = roughness;
+    scene.materials.push_back(material);
+    return static_cast<int>(scene.materials.size()) - 1;
+}
+
+/// Texels of one colour.
+TextureRef add_texture(Scene& scene, const glm::u8vec4& texel) {
+    SceneImage image;
+    image.bytes = Image<glm::u8vec4>(2, 2, texel);
+    scene.images.push_back(image);
+    TextureRef texture;
+    texture.image = static_cast<int>(scene.images.size()) - 1;
+    return texture;
+}
+
+void make_surroundings(Scene& scene, double radiance) {
+    scene.environment = Track<glm::dvec3>(glm::dvec3(radiance));
+}
+
+struct Case {
+    const char* name;
+    Scene scene;
+    RenderSettings settings;
+    Names effects;
+};
+
+/// Every scene calls for the effects that are named, and for no other.
+std::vector<Case> make_cases() {
+    std::vector<Case> cases;
+    const auto add = [&](const char* name, Scene scene, Names effects) -> RenderSettings& {
+        cases.push_back({name, std::move(scene), planned_settings(), std::move(effects)});
+        return cases.back().settings;
+    };
+    add("nothing", make_empty_view(), {});
+    add("direct light", make_lit_square(), {"direct_light"});
+
+    Scene scene = make_empty_view();
+    add_mesh(scene, make_quad(1.0, 1.0, add_lambert(scene, glm::dvec3(0.0), glm::dvec3(1.0))));
+    add("emission", scene, {"emission"});
+
+    scene = make_empty_view();
+    make_surroundings(scene, 1.0);
+    add("environment", scene, {"environment"});
+
+    scene = make_lit_square();
+    scene.lights.clear();
+    scene.nodes.back().light = no_index;
+    add_mesh(scene, make_quad(0.5, 0.5, add_lambert(scene, glm::dvec3(0.0), glm::dvec3(9.0))), {0.0, 0.0, 4.0},
+             z_to_up * z_to_up);
+    add("a lamp", scene, {"direct_light", "emission"});
+    add_mesh(scene, make_faceted_sphere(0.1, 8, add_lambert(scene, glm::dvec3(0.0))), {0.0, 0.3, 1.0});
+    add("a lamp behind a ball", scene, {"direct_light", "emission", "area_shadows"});
+
+    scene = make_lit_square();
+    add_mesh(scene, make_quad(1.0, 1.0, 0), {0.5, 0.0, 0.5}, glm::angleAxis(-1.5, glm::dvec3(0.0, 1.0, 0.0)));
+    add("two squares that see each other", scene, {"direct_light", "indirect_diffuse"});
+    add("the same, bounces", scene, {"direct_light", "indirect_diffuse", "more_bounces"}).bounces = 3;
+    add("the same, key moments", scene, {"direct_light", "indirect_diffuse", "cache_carry_over"}).light_step = 10;
+    scene.meshes[1].material = add_material(scene, 1.0, 0.0);
+    scene.nodes.back().translation = glm::dvec3(20.0, 0.0, 0.5);
+    add("a mirror out of view", scene, {"direct_light", "indirect_diffuse", "caustics"});
+
+    scene = make_lit_square();
+    scene.meshes[0].material = add_material(scene, 0.0, 0.4);
+    add("gloss", scene, {"direct_light", "glossy_reflection"});
+    scene.meshes[0].material = add_material(scene, 1.0, 0.0);
+    make_surroundings(scene, 1.0);
+    add("a mirror", scene, {"direct_light", "environment", "mirror_reflection"});
+    Material glass;
+    glass.metallic = 0.0;
+    glass.roughness = 0.0;
+    glass.transmission = 1.0;
+    scene.materials.push_back(glass);
+    scene.meshes[0].material = static_cast<int>(scene.materials.size()) - 1;
+    add("glass", scene, {"direct_light", "environment", "refraction"});
+
+    scene = make_lit_square();
+    scene.materials[0].base_color_texture = add_texture(scene, {200, 100, 50, 255});
+    add("a texture", scene, {"direct_light", "textures"});
+    scene.materials[0].base_color_texture = {};
+    scene.materials[0].normal_texture = add_texture(scene, {128, 128, 255, 255});
+    add("a normal map", scene, {"direct_light", "normal_maps"});
+    scene = make_lit_square();
+    scene.materials[0].alpha_mode = Material::AlphaMode::mask;
+    add("a mask", scene, {"direct_light", "alpha"});
+
+    scene = make_lit_square();
+    scene.nodes[1].translation = keyed<glm::dvec3>({0.0, 0.1}, {glm::dvec3(0.0), glm::dvec3(1.0, 0.0, 0.0)});
+    add("motion", scene, {"direct_light", "motion"}).perception.guide = Guide::full;
+    add("motion that matters to viewers", scene, {"direct_light", "motion", "saliency"}).perception.guide =
+        Guide::saliency;
+    scene.cameras[0].shutter = {0.0, 0.5};
+    add("motion blur", scene, {"direct_light", "motion_blur"});
+    scene = make_lit_square();
+    scene.cameras[0].aperture = 0.2;
+    scene.cameras[0].focus_distance = 1.0;
+    add("a lens", scene, {"direct_light", "depth_of_field"});
+    return cases;
+}
+
+TEST(EffectsPlan, EachTinySceneCallsForItsEffectsAlone) {
+    for (const Case& c : make_cases()) {
+        Sequence sequence(c.scene, c.settings);
+        const FrameStatistics statistics = sequence.render(0).statistics;
+        EXPECT_EQ(simulated(statistics.plan), c.effects) << c.name;
+        EXPECT_EQ(simulated(sequence.plan(0)), c.effects) << c.name;
+        const RayCounts& rays = statistics.counts.rays;
+        // Key moments are counted by themselves.
+        const bool gathers = c.effects.contains("indirect_diffuse") && !c.effects.contains("cache_carry_over");
+        EXPECT_EQ(rays.gather > 0, gathers) << c.name;
+        const bool lobes = c.effects.contains("glossy_reflection") || c.effects.contains("caustics");
+        EXPECT_TRUE(lobes || rays.glossy == 0) << c.name;
+        const bool mirrors = c.effects.contains("mirror_reflection") || c.effects.contains("refraction") ||
+                             c.effects.contains("caustics");
+        EXPECT_TRUE(mirrors || rays.specular == 0) << c.name;
+        EXPECT_TRUE(c.effects != Names{"direct_light"} || rays.shadow == 0) << c.name;
+        EXPECT_EQ(rays.total(), statistics.traced_rays) << c.name;
+    }
+}
+
+TEST(EffectsPlan, FX13_ForcingWhatWasSkippedChangesNothing) {
+    for (const Case& c : make_cases()) {
+        RenderSettings forced = c.settings;
+        forced.force = all_effects(c.effects);
+        Sequence sequence(c.scene, forced);
+        const FrameOutput with = sequence.render(0), planned = Sequence(c.scene, c.settings).render(0);
+        EXPECT_EQ(simulated(with.statistics.plan), simulated({})) << c.name;
+        EXPECT_EQ(with.shaded.color.pixels, planned.shaded.color.pixels) << c.name;
+        RenderSettings off = c.settings;
+        off.plan = EffectsPlanning::off;
+        EXPECT_EQ(Sequence(c.scene, off).render(0).shaded.color.pixels, planned.shaded.color.pixels) << c.name;
+    }
+}
+
+TEST(EffectsPlan, ForbiddenEffectsAreLeftOut) {
+    for (const Case& c : make_cases()) {
+        for (const std::string& name : c.effects) {
+            RenderSettings settings = c.settings;
+            std::string unknown;
+            settings.forbid = parse_effects(name, unknown);
+            const FrameOutput without = Sequence(c.scene, settings).render(0);
+            const FrameOutput with = Sequence(c.scene, c.settings).render(0);
+            EXPECT_FALSE(simulated(without.statistics.plan).contains(name)) << c.name;
+            const bool of_light = name != "motion" && name != "saliency" && name != "cache_carry_over" &&
+                                  name != "more_bounces" && name != "normal_maps" && name != "alpha" &&
+                                  std::string(c.name) != "a mirror out of view";
+            EXPECT_TRUE(!of_light || without.shaded.color.pixels != with.shaded.color.pixels) << c.name << ": " << name;
+        }
+    }
+}
+
+TEST(EffectsPlan, FX01_FX09_MotionIsComputedWhereSomethingMoves) {
+    RenderSettings settings = planned_settings();
+    settings.perception.guide = Guide::saliency;
+    const FrameRequest maps{.frame = true, .maps = true, .progress = {}};
+    Scene scene = make_lit_square();
+    scene.nodes[1].translation = keyed<glm::dvec3>({0.0, 0.1}, {glm::dvec3(0.1), glm::dvec3(0.1)});
+    EXPECT_EQ(effects_of(scene, settings), Names{"direct_light"}) << "keys that are all equal";
+    // The maps are those of the stages that were skipped.
+    RenderSettings forced = settings;
+    forced.force = all_effects();
+    const FrameOutput skipped = Sequence(scene, settings).render(0), computed = Sequence(scene, forced).render(0);
+    EXPECT_EQ(skipped.threshold.pixels, computed.threshold.pixels);
+    EXPECT_EQ(skipped.shaded.color.pixels, computed.shaded.color.pixels);
+    const FrameOutput still = Sequence(scene, settings).render(0, maps),
+                      field = Sequence(scene, forced).render(0, maps);
+    EXPECT_EQ(still.motion.displacement.pixels, field.motion.displacement.pixels);
+    EXPECT_EQ(still.motion.validity.pixels, field.motion.validity.pixels);
+    EXPECT_EQ(still.perception.saliency.pixels, field.perception.saliency.pixels) << "it is asked for";
+
+    scene.nodes[1].translation = keyed<glm::dvec3>({0.0, 0.1}, {glm::dvec3(0.1), glm::dvec3(0.1001)});
+    EXPECT_EQ(effects_of(scene, settings), (Names{"direct_light", "motion", "saliency"}));
+    EXPECT_EQ(effects_of(scene, settings, 3), Names{"direct_light"}) << "the animation is over";
+    settings.perception.guide = Guide::full;
+    EXPECT_EQ(effects_of(scene, settings), (Names{"direct_light", "motion"}));
+}
+
+TEST(EffectsPlan, FX02_IndirectLightNeedsSurfacesThatSeeEachOther) {
+    const Names with{"direct_light", "indirect_diffuse"}, without{"direct_light"};
+    Scene scene = make_empty_view();
+    const int white = add_lambert(scene, glm::dvec3(0.8), glm::dvec3(0.0), true);
+    add_light(scene, Light::Kind::point, glm::dvec3(3.0), {2.0, 2.0, 2.0});
+    const int ball = add_mesh(scene, make_faceted_sphere(0.5, 16, white));
+    EXPECT_EQ(effects_of(scene), without) << "one convex body";
+    scene.nodes[ball].scale = glm::dvec3(20.0);
+    scene.nodes[1].translation = glm::dvec3(0.0, 0.0, 9.0);
+    EXPECT_TRUE(effects_of(scene).contains("indirect_diffuse")) << "the camera is inside";
+    scene.nodes[ball].scale = glm::dvec3(1.0);
+    const int floor = add_mesh(scene, make_quad(4.0, 4.0, white), {0.0, -0.5, 0.0}, z_to_up);
+    EXPECT_TRUE(effects_of(scene).contains("indirect_diffuse"));
+    scene.nodes[floor].visible = 0.0;
+    EXPECT_FALSE(effects_of(scene).contains("indirect_diffuse"));
+    scene.nodes[floor].visible = 1.0;
+    scene.materials[white].base_color = glm::dvec3(0.0);
+    EXPECT_FALSE(effects_of(scene).contains("indirect_diffuse")) << "albedo 0";
+}
+
+TEST(EffectsPlan, FX03_FX06_GlossAndMirrorsThatAreSeen) {
+    Scene scene = make_lit_square();
+    const int glossy = add_material(scene, 0.0, 0.4);
+    EXPECT_FALSE(effects_of(scene).contains("glossy_reflection")) << "a material that nothing uses";
+    add_mesh(scene, make_quad(0.5, 0.5, glossy), {0.0, 0.0, 8.0});
+    EXPECT_FALSE(effects_of(scene).contains("glossy_reflection")) << "behind the camera";
+    scene.meshes[0].material = add_material(scene, 1.0, 1e-6);
+    const Names seen = effects_of(scene);
+    EXPECT_TRUE(seen.contains("mirror_reflection")) << "a roughness of 1e-6";
+    EXPECT_TRUE(seen.contains("glossy_reflection")) << "gloss behind the camera, in a mirror";
+}
+
+TEST(EffectsPlan, FX04_LampsThatShine) {
+    Scene scene = make_lit_square();
+    const int lamp = add_lambert(scene, glm::dvec3(0.0), glm::dvec3(0.0));
+    add_mesh(scene, make_quad(0.5, 0.5, lamp), {0.0, 0.0, 4.0}, z_to_up * z_to_up);
+    EXPECT_EQ(effects_of(scene), Names{"direct_light"}) << "an emission of 0";
+    scene.materials[lamp].emission = glm::dvec3(1.0);
+    EXPECT_TRUE(effects_of(scene).contains("emission"));
+    // A texture with one bright texel.
+    scene.materials[lamp].emission_texture = add_texture(scene, {0, 0, 0, 255});
+    EXPECT_FALSE(effects_of(scene).contains("emission")) << "a black texture";
+    scene.images.back().bytes(1, 1) = {255, 0, 0, 255};
+    EXPECT_TRUE(effects_of(scene).contains("emission"));
+}
+
+TEST(EffectsPlan, FX05_ShadowsNeedSomethingBetween) {
+    Scene scene = make_lit_square();
+    Sequence open(scene, planned_settings());
+    EXPECT_EQ(open.render(0).statistics.counts.rays.shadow, 0u);
+    const int ball = add_mesh(scene, make_faceted_sphere(0.2, 8, add_lambert(scene, glm::dvec3(0.0))), {0.3, 0.2, 2.0});
+    const FrameOutput inside = Sequence(scene, planned_settings()).render(0);
+    EXPECT_GT(inside.statistics.counts.rays.shadow, 0u) << "the lamp is inside a ball";
+    EXPECT_EQ(inside.shaded.color(12, 8), Rgb(0.0f));
+    scene.nodes[ball].translation = glm::dvec3(0.0, 0.0, -5.0);
+    EXPECT_EQ(Sequence(scene, planned_settings()).render(0).statistics.counts.rays.shadow, 0u) << "behind the square";
+}
+
+TEST(EffectsPlan, FX07_FX08_ShapesThatChange) {
+    Scene scene = make_lit_square();
+    TestCage test = make_cube_cage();
+    EXPECT_FALSE(effects_of(scene).contains("subdivision"));
+    PointCache points;
+    points.positions = {{test.points.begin(), test.points.end()}};
+    scene.point_caches.push_back(points);
+    test.cage.points = 0;
+    scene.cages.push_back(test.cage);
+    Mesh surface;
+    surface.cage = 0;
+    surface.material = 0;
+    scene.meshes.push_back(surface);
+    tessellate_cage(scene, 0);
+    scene.nodes[1].meshes = {1};
+    EXPECT_TRUE(effects_of(scene).contains("subdivision"));
+    RenderSettings flat = planned_settings();
+    flat.subdivision_level = 0;
+    EXPECT_FALSE(effects_of(scene, flat).contains("subdivision"));
+
+    Scene skinned = make_skin_scene();
+    add_camera(skinned, {4.0, -3.0, 9.0}, {5.0, -3.0, 2.0});
+    skinned.exposure = 1.0;
+    EXPECT_FALSE(effects_of(skinned).contains("deformation")) << "joints at rest";
+    skinned.nodes[2].rotation =
+        keyed<glm::dquat>({0.0, 1.0}, {glm::dquat(1.0, 0.0, 0.0, 0.0), glm::dquat(0.6, 0.0, 0.0, 0.8)});
+    EXPECT_TRUE(effects_of(skinned).contains("deformation"));
+    Mesh& mesh = scene.meshes[0];
+    scene.nodes[1].meshes = {0};
+    mesh.targets.resize(1);
+    mesh.targets[0].positions.assign(mesh.positions.size(), glm::vec3(0.0f, 0.0f, 0.1f));
+    mesh.target_weights = {Track<double>(0.0)};
+    EXPECT_FALSE(effects_of(scene).contains("deformation")) << "weights of 0";
+    mesh.target_weights = {keyed<double>({0.0, 1.0}, {0.0, 1.0})};
+    EXPECT_TRUE(effects_of(scene).contains("deformation"));
+}
+
+TEST(EffectsPlan, FX11_ABlackEnvironmentIsNone) {
+    Scene scene = make_lit_square();
+    make_surroundings(scene, 0.0);
+    EXPECT_EQ(effects_of(scene), Names{"direct_light"});
+    make_surroundings(scene, 0.1);
+    EXPECT_EQ(effects_of(scene), (Names{"direct_light", "environment"}));
+    add_surroundings(scene, Image<Rgb>(4, 2, Rgb(0.0f)));
+    EXPECT_EQ(effects_of(scene), Names{"direct_light"}) << "a black picture";
+}
+
+TEST(EffectsPlan, FX17_GlassBeforeABrightWindow) {
+    Scene scene = make_lit_square();
+    scene.environment = Track<glm::dvec3>(glm::dvec3(20.0));
+    Material pane;
+    pane.base_color = glm::dvec3(1.0);
+    pane.metallic = 0.0;
+    pane.roughness = 0.0;
+    pane.transmission = 1.0;
+    scene.materials.push_back(pane);
+    const int node = add_mesh(scene, make_quad(0.5, 0.5, 1), {0.0, 0.0, 8.0});
+    EXPECT_FALSE(effects_of(scene).contains("refraction")) << "behind the camera";
+    for (const double ior : {1.0, 1.5}) {
+        scene.materials[1].ior = ior;
+        scene.nodes[node].translation = glm::dvec3(0.0, 0.9, 0.0);
+        EXPECT_TRUE(effects_of(scene).contains("refraction")) << ior;
+        const FrameOutput seen = Sequence(scene, planned_settings()).render(0);
+        double brightest = 0.0;
+        for (int x = 10; x < 14; ++x) brightest = std::max(brightest, double{seen.shaded.color(x, 2).x});
+        EXPECT_GT(brightest, 15.0) << "the window behind the pane";
+    }
+}
+
+}  // namespace
+}  // namespace aleph
