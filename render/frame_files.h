@@ -1,6 +1,10 @@
 #pragma once
 // A frame as an EXR file, with channels and attributes, and the statistics of frames as JSON.
 
+#include <string>
+#include <string_view>
+#include <vector>
+
 #include "engine/image/image_file.h"
 #include "engine/scene/scene.h"
 #include "render/frame_output.h"
@@ -17,5 +21,13 @@ ChannelImage make_frame_image(const FrameOutput& output, bool maps, const Scene&
 /// files do not depend on them.
 std::string format_statistics(const std::vector<FrameStatistics>& frames, const Scene& scene,
                               const RenderSettings& settings, double exposure);
+
+/// One element of "frames" as text, so that a growing file need not format all of them again.
+std::string format_frame_statistics(const FrameStatistics& frame);
+
+/// The same text as of a vector.
+/// @param frames  what format_frame_statistics returned for each frame, joined by ",\n"
+std::string format_statistics(std::string_view frames, const Scene& scene, const RenderSettings& settings,
+                              double exposure);
 
 }  // namespace aleph

@@ -1,5 +1,6 @@
 // The --stats file: counts and times of every frame as JSON.
 
+#include <fmt/format.h>
 #include <unistd.h>
 
 #include <nlohmann/json.hpp>
@@ -98,19 +99,41 @@ std::array<std::pair<const char*, double>, 10> list_stages(const StageSeconds& s
              {"total", s.total}}};
 }
 
+std::string format_frame_statistics(const FrameStatistics& frame) {
+    const std::string text = frame_json(frame).dump(2);
+    std::string indented = "    ";
+    for (const char c : text) {
+        indented += c;
+        if (c == '\n') indented += "    ";
+    }
+    return indented;
+}
+
 std::string format_statistics(const std::vector<FrameStatistics>& frames, const Scene& scene,
                               const RenderSettings& settings, double exposure) {
+    std::string joined;
+    for (const FrameStatistics& frame : frames) {
+        if (!joined.empty()) joined += ",\n";
+        joined += format_frame_statistics(frame);
+    }
+    return format_statistics(joined, scene, settings, exposure);
+}
+
+std::string format_statistics(std::string_view frames, const Scene& scene, const RenderSettings& settings,
+                              double exposure) {
     Json json;
     json["schema_version"] = 1;
     json["scene"] = scene.file;
     json["frames"] = Json::array();
-    for (const FrameStatistics& frame : frames) json["frames"].push_back(frame_json(frame));
     for (const Setting& setting : setting_table()) json["settings"][setting.key] = setting_json(setting, settings);
     json["exposure"] = exposure;
     json["threads"] = thread_count();
     char host[256] = "";
     if (gethostname(host, sizeof host - 1) == 0) json["host"] = host;
-    return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+    std::string text = json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+    if (frames.empty()) return text;
+    const std::string_view empty = "\n  \"frames\": []";  // nowhere else: strings have neither quotes nor line ends
+    return text.insert(text.find(empty) + empty.size() - 1, fmt::format("\n{}\n  ", frames));
 }
 
 }  // namespace aleph

@@ -9,6 +9,7 @@
 #include <set>
 
 #include "engine/base/errors.h"
+#include "engine/scene/operations.h"
 
 namespace aleph {
 
@@ -24,18 +25,37 @@ void for_each_key(const Track<double>& track, const Use& use) {
     for (std::size_t key = 0; key < track.key_count(); ++key) use(key_value(track, key));
 }
 
-/// Whether numbers given as degrees are multiples of 15 degrees in radians, such as 1.5708, and at most two turns.
-bool look_like_radians(const Track<double>& angle) {
+/// Whether angles given as degrees are multiples of 15 degrees in radians, such as 1.5708, and at most two turns.
+/// @param angles  radians
+bool look_like_radians(const std::vector<double>& angles) {
     constexpr double step = std::numbers::pi / 12.0;
     bool all = true, any = false;
-    for_each_key(angle, [&](double radians) {
+    for (const double radians : angles) {
         const double given = radians * degrees_per_radian;
-        if (std::abs(given) < 1e-9) return;
+        if (std::abs(given) < 1e-9) continue;
         any = true;
         const double steps = std::round(given / step);
         all = all && steps != 0.0 && std::abs(steps) <= 48.0 && std::abs(given - steps * step) < 2e-4;
-    });
+    }
     return any && all;
+}
+
+/// All keys of a node's axis rotation and of the rotations among its operations, radians.
+std::vector<double> find_angles(const Node& node) {
+    using Kind = OperationStack::Kind;
+    std::vector<double> angles;
+    if (node.axis_rotation) for_each_key(node.axis_rotation->angle, [&](double angle) { angles.push_back(angle); });
+    if (!node.operations) return angles;
+    std::size_t channel = 0;
+    for (std::size_t sample = 0; sample < sample_count(*node.operations); ++sample) {
+        for (const Kind kind : node.operations->operations) {
+            channel += channel_count(kind);
+            const bool turns =
+                kind == Kind::rotate || kind == Kind::rotate_x || kind == Kind::rotate_y || kind == Kind::rotate_z;
+            if (turns) angles.push_back(node.operations->channels[channel - 1]);
+        }
+    }
+    return angles;
 }
 
 /// One line for all elements that share a mistake.
@@ -84,7 +104,7 @@ void add_radian_warnings(Scene& scene) {
     double fov = 0.0;
     for (const Node& node : scene.nodes) {
         if (node.include != no_index) continue;  // other formats have no degrees
-        if (node.axis_rotation && look_like_radians(node.axis_rotation->angle)) rotations.push_back(node.name);
+        if (look_like_radians(find_angles(node))) rotations.push_back(node.name);
         if (node.camera == no_index || scene.cameras[node.camera].orthographic) continue;
         double widest = 0.0;
         for_each_key(scene.cameras[node.camera].fov, [&](double v) { widest = std::max(widest, v); });
@@ -97,7 +117,7 @@ void add_radian_warnings(Scene& scene) {
                 fmt::format("a \"fov\" of {:.4g} degrees looks like radians; {:.4g} radians are {:.4g} degrees", fov,
                             fov, fov * degrees_per_radian));
     add_warning(scene, rotations, "node",
-                "the \"degrees\" of its rotation look like radians; 1.5708 radians are 90 degrees");
+                "the degrees of its rotation look like radians; 1.5708 radians are 90 degrees");
 }
 
 void add_cut_warnings(Scene& scene) {

@@ -14,7 +14,9 @@ namespace aleph {
 namespace {
 
 /// All node names of the file: for duplicates, and for parents that come too late rather than being absent.
-void collect_names(const JsonRef& list, NameIndex& names, std::size_t& count) {
+/// @return whether a node includes files
+bool collect_names(const JsonRef& list, NameIndex& names, std::size_t& count) {
+    bool includes = false;
     for (std::size_t i = 0; i < list.array_size(); ++i) {
         const JsonRef node = list[i];
         if (++count > max_scene_nodes) node.fail(fmt::format("more than {} nodes", max_scene_nodes));
@@ -24,15 +26,17 @@ void collect_names(const JsonRef& list, NameIndex& names, std::size_t& count) {
             }
             names.add(name->string(), 0);
         }
-        if (const auto children = node.find("children")) collect_names(*children, names, count);
+        includes = includes || node.has("include");
+        if (const auto children = node.find("children")) includes = collect_names(*children, names, count) || includes;
     }
+    return includes;
 }
 
 class NodeReader {
   public:
-    NodeReader(SceneReader& reader, const JsonRef& list) : reader_(reader), scene_(reader.scene) {
+    NodeReader(SceneReader& reader, const JsonRef& root, const JsonRef& list) : reader_(reader), scene_(reader.scene) {
         std::size_t count = 0;
-        collect_names(list, all_names_, count);
+        has_includes_ = collect_names(list, all_names_, count) || root.has("include");
     }
 
     void read_list(const JsonRef& list, int parent) {
@@ -77,9 +81,16 @@ class NodeReader {
 
     int require_earlier(const JsonRef& at, const char* what) const {
         if (const auto found = reader_.nodes.find(at.string())) return *found;
-        if (at.string().empty() || !all_names_.find(at.string())) return all_names_.require(at);
+        if (at.string().empty() || !all_names_.find(at.string()))
+            return all_names_.require(at, included_nodes_advice());
         at.fail(fmt::format("\"{}\" comes after this node: {} has to come before, and a node cannot lie below itself",
                             printable(at.string()), what));
+    }
+
+    /// What to do where the name may be that of a node of an included file.
+    const char* included_nodes_advice() const {
+        if (!has_includes_) return "";
+        return "; nodes of an included file cannot be named here: name the node that has the \"include\"";
     }
 
     void read_transform(const JsonRef& at, Node& node) const {
@@ -191,6 +202,7 @@ class NodeReader {
     SceneReader& reader_;
     Scene& scene_;
     NameIndex all_names_{"node"};
+    bool has_includes_ = false;  ///< files, at the top or below a node
     std::size_t ancestors_seen_ = 0;
     std::vector<std::vector<int>> children_;  ///< by node
     std::unordered_set<int> with_include_;
@@ -226,7 +238,7 @@ Include read_include(const JsonRef& at) {
 void read_nodes(SceneReader& reader, const JsonRef& root) {
     const auto list = root.find("nodes");
     if (!list) return;
-    NodeReader(reader, *list).read_list(*list, no_index);
+    NodeReader(reader, root, *list).read_list(*list, no_index);
 }
 
 void read_includes(SceneReader& reader, const JsonRef& parent, int node) {

@@ -3,6 +3,7 @@
 
 #include <optional>
 #include <string>
+#include <string_view>
 #include <unordered_map>
 #include <vector>
 
@@ -20,8 +21,9 @@ class NameIndex {
     /// `name`, or "name 2" and so on if an element has it.
     std::string unused(const std::string& name) const;
     std::optional<int> find(const std::string& name) const;
-    /// The element named by the text at `at`. @throws InputError with the text's pointer and close names
-    int require(const JsonRef& at) const;
+    /// The element named by the text at `at`.
+    /// @throws InputError with the text's pointer, close names, and `advice`
+    int require(const JsonRef& at, std::string_view advice = {}) const;
 
   private:
     std::string kind_;

@@ -114,10 +114,10 @@ std::optional<int> NameIndex::find(const std::string& name) const {
     return found == index_.end() ? std::nullopt : std::optional(found->second);
 }
 
-int NameIndex::require(const JsonRef& at) const {
+int NameIndex::require(const JsonRef& at, std::string_view advice) const {
     if (const auto found = find(at.string())) return *found;
-    at.fail(
-        fmt::format("there is no {} called \"{}\"{}", kind_, printable(at.string()), suggestion(at.string(), names_)));
+    at.fail(fmt::format("there is no {} called \"{}\"{}{}", kind_, printable(at.string()),
+                        suggestion(at.string(), names_), advice));
 }
 
 void read_environment_picture(SceneReader& reader, const JsonRef& root) {

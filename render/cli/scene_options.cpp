@@ -203,7 +203,7 @@ void add_scene_options(CLI::App& app, SceneOptions& options) {
     app.add_option("--camera", options.camera, "name of a camera or of its node; default: the scene's choice")
         ->type_name("NAME");
     app.add_option("--stats", options.stats,
-                   "write counts and times of every frame as JSON; the file is complete after every frame")
+                   "write counts and times of every frame as JSON; while frames are made, the file has the finished ones")
         ->type_name("FILE.json");
     add_load_limits(app, options.limits);
     add_value(app, "-t,--threads", options.threads, "number of threads, 0 to 4096; 0: all processors");

@@ -8,6 +8,7 @@
 #include "engine/base/parallel.h"
 #include "render/cli/output_path.h"
 #include "render/cli/progress.h"
+#include "render/cli/statistics_file.h"
 #include "render/frame_files.h"
 #include "render/map_preview.h"
 #include "render/measure.h"
@@ -101,29 +102,28 @@ void prepare_frames_output(const PreparedScene& prepared, const SceneOptions& op
 }
 
 void write_frames(const FrameJob& job, const SceneOptions& options, const FrameRequest& request) {
-    std::vector<FrameStatistics> statistics;
+    StatisticsFile statistics(options.stats, job.scene, job.settings, job.exposure);
+    std::size_t finished = 0;
     std::size_t changed = 0;
     {
         Progress progress(request.frame ? "render" : "maps", static_cast<double>(job.frames.size()),
                           progress_look(options.quiet));
         for (const int frame : job.frames) {
-            const auto done = static_cast<double>(statistics.size());
+            const auto done = static_cast<double>(finished);
             FrameRequest with_progress = request;
             with_progress.progress = [&](double fraction, const char* stage) {
                 progress.update(done + fraction, fmt::format("frame {}: {}", frame, stage));
             };
             FrameOutput output = job.make(frame, with_progress);
             changed += write_frame(output_path(options.output, job.name, frame), job, output, request.maps);
-            if (statistics.empty() && !options.quiet) warn_of_units(output.statistics);
-            statistics.push_back(output.statistics);
-            // After every frame, so that the statistics of finished frames outlive a program that is ended.
-            if (!options.stats.empty()) {
-                write_file(options.stats, format_statistics(statistics, job.scene, job.settings, job.exposure));
-            }
+            if (finished == 0 && !options.quiet) warn_of_units(output.statistics);
+            statistics.add(output.statistics);
+            ++finished;
             if (!options.quiet && job.settings.error > 0.0) print_error(output.statistics);
             progress.update(done + 1.0, fmt::format("frame {}", frame));
         }
     }
+    statistics.finish();
     if (options.quiet) return;
     warn_of_changed_values(changed);
     print_files(job, options);

@@ -25,8 +25,8 @@ struct FrameJob {
 /// @throws InputError (--output), OutputError
 void prepare_frames_output(const PreparedScene& prepared, const SceneOptions& options, const FrameRequest& request);
 
-/// Makes every frame and writes it. The statistics (--stats) are written anew after every frame. Prints at the end, on
-/// standard error, which files were written.
+/// Makes every frame and writes it. The statistics (--stats) of finished frames are written as they go along
+/// (StatisticsFile). Prints at the end, on standard error, which files were written.
 void write_frames(const FrameJob& job, const SceneOptions& options, const FrameRequest& request);
 
 /// Renders the frames of a scene, or their maps, and writes them. The files have the channels of what is requested.

@@ -98,6 +98,22 @@ TEST_F(IncludeOptions, AnIncludeIsShownAgainAndIsAParent) {
     expect_written_again(scene);
 }
 
+TEST_F(IncludeOptions, NodesOfAFileCannotBeNamed) {
+    const auto load = [&](const std::string& include, const std::string& lamp) {
+        return write_scene(include + R"("nodes": [{"name": "robot"}, {"name": "lamp", )" + lamp + "}]");
+    };
+    const std::string top = R"("include": "two.gltf", )", advice = "name the node that has the \"include\"";
+    expect_refused(load(top, R"("parent": "mover")"), "/nodes/1/parent", advice);
+    expect_refused(load(top, R"("instance": "mover")"), "/nodes/1/instance", advice);
+    expect_refused(load("", R"("parent": "mover", "children": [{"include": "two.gltf"}])"), "/nodes/1/parent", advice);
+    expect_refused(load("", R"("parent": "mover")"), "/nodes/1/parent", "there is \"robot\"");
+    try {
+        load_scene(load("", R"("parent": "mover")"));
+    } catch (const InputError& error) {
+        EXPECT_EQ(error.reason().find("include"), std::string::npos) << "no file is included: " << error.what();
+    }
+}
+
 TEST_F(IncludeOptions, WhatIsNotThereIsRefused) {
     const auto refused = [&](const std::string& include, const std::string& place, const std::string& word) {
         const fs::path path = write_scene(R"("materials": {"oak": {}}, "include": )" + include);

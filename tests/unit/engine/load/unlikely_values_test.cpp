@@ -28,10 +28,27 @@ TEST_F(UnlikelyValues, RotationsInRadians) {
                         degrees + "}}]"));
     };
     for (const char* radians : {"-1.5708", "0.7854", "3.14159", R"({"keys": [[0, 0], [9, 6.2832]]})"}) {
-        EXPECT_TRUE(has_warning(load(radians), "node \"door\": the \"degrees\" of its rotation look like radians"))
+        EXPECT_TRUE(has_warning(load(radians), "node \"door\": the degrees of its rotation look like radians"))
             << radians;
     }
     for (const char* degrees : {"0", "1.5", "-3", "45", "1.571", R"({"keys": [[0, 0], [9, 1.5708], [12, 2]]})"}) {
+        EXPECT_TRUE(load(degrees).warnings.empty()) << degrees;
+    }
+}
+
+TEST_F(UnlikelyValues, OperationsInRadians) {
+    const auto load = [&](const std::string& operations) {
+        return load_scene(
+            write_scene(R"("environment": [1, 1, 1], "nodes": [{"name": "arm", "operations": [)" + operations + "]}]"));
+    };
+    const char* axis = R"({"scale": 2}, {"rotate": {"axis": [1, 1, 0], "degrees": 0.7854}}, {"translate": [1, 2, 3]})";
+    const char* keyed = R"({"rotate_z": {"keys": [[0, 0], [9, -3.1416]]}})";
+    for (const char* radians : {R"({"rotate_y": 1.5708})", R"({"rotate_x": 0}, {"rotate_z": 0.5236})", axis, keyed}) {
+        EXPECT_TRUE(has_warning(load(radians), "node \"arm\": the degrees of its rotation look like radians"))
+            << radians;
+    }
+    const char* mixed = R"({"rotate_y": 1.5708}, {"rotate_x": {"keys": [[0, 1.5708], [9, 30]]}})";
+    for (const char* degrees : {R"({"rotate_y": 90})", R"({"translate": [1.5708, 0, 0]})", mixed, ""}) {
         EXPECT_TRUE(load(degrees).warnings.empty()) << degrees;
     }
 }

@@ -1,0 +1,51 @@
+#pragma once
+// The --stats file while frames are made: it has the finished frames, and writing it takes little of their time.
+
+#include <filesystem>
+#include <string>
+
+#include "render/frame_files.h"
+#include "render/measure.h"
+
+namespace aleph {
+
+/// Whether the file is to be written again. All of it is written each time, which takes longer the more frames it has:
+/// at most a hundredth of the time goes into that.
+/// @param since  seconds since it was written last
+/// @param took  seconds which that took
+bool is_write_due(double since, double took);
+
+class StatisticsFile {
+  public:
+    /// What the file says of all frames. The references outlive this object.
+    /// @param path  empty: no file is written
+    StatisticsFile(std::filesystem::path path, const Scene& scene, const RenderSettings& settings, double exposure);
+
+    /// Writes what is not written yet, as far as possible: the program has failed elsewhere and says so there.
+    ~StatisticsFile();
+    StatisticsFile(const StatisticsFile&) = delete;
+    StatisticsFile& operator=(const StatisticsFile&) = delete;
+
+    /// Adds a finished frame. The first is written at once, others when that is due.
+    /// @throws OutputError
+    void add(const FrameStatistics& frame);
+
+    /// Writes what is not written yet.
+    /// @throws OutputError
+    void finish();
+
+  private:
+    void write();
+
+    std::filesystem::path path_;
+    const Scene& scene_;
+    const RenderSettings& settings_;
+    double exposure_;
+    std::string frames_;  ///< text of the frames so far
+    bool changed_ = false;
+    StageClock clock_;
+    double since_ = 0.0;  ///< seconds since the file was written
+    double took_ = 0.0;   ///< seconds that this took
+};
+
+}  // namespace aleph

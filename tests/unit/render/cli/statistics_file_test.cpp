@@ -1,0 +1,93 @@
+// The --stats file while frames are made.
+
+#include "render/cli/statistics_file.h"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <fmt/format.h>
+#include <fstream>
+#include <iterator>
+#include <nlohmann/json.hpp>
+
+namespace aleph {
+namespace {
+
+namespace fs = std::filesystem;
+
+class StatisticsFileTest : public testing::Test {
+  protected:
+    void SetUp() override {
+        scene_.file = "a \"frames\": [] b.json";
+        path_ = fs::path(testing::TempDir()) / fmt::format("aleph_statistics_{}.json", getpid());
+    }
+    void TearDown() override { fs::remove(path_); }
+
+    static FrameStatistics frame(int number) {
+        FrameStatistics frame;
+        frame.frame = number;
+        frame.moments.resize(2);
+        return frame;
+    }
+    std::string text() const {
+        std::ifstream in(path_, std::ios::binary);
+        return {std::istreambuf_iterator<char>(in), {}};
+    }
+    std::vector<int> frames() const {
+        const auto json = nlohmann::json::parse(text());
+        EXPECT_EQ(json.at("scene"), scene_.file);
+        std::vector<int> frames;
+        for (const auto& one : json.at("frames")) frames.push_back(one.at("frame"));
+        return frames;
+    }
+
+    Scene scene_;
+    RenderSettings settings_;
+    fs::path path_;
+};
+
+TEST_F(StatisticsFileTest, HasTheFirstFrameAtOnceAndAllAtTheEnd) {
+    StatisticsFile file(path_, scene_, settings_, 2.0);
+    file.add(frame(7));
+    EXPECT_EQ(frames(), std::vector<int>{7});
+    file.add(frame(8));
+    EXPECT_EQ(frames().front(), 7);
+    file.add(frame(9));
+    file.finish();
+    EXPECT_EQ(frames(), (std::vector<int>{7, 8, 9}));
+    EXPECT_EQ(text(), format_statistics({frame(7), frame(8), frame(9)}, scene_, settings_, 2.0));
+}
+
+TEST_F(StatisticsFileTest, HasTheFinishedFramesAfterAnError) {
+    try {
+        StatisticsFile file(path_, scene_, settings_, 1.0);
+        for (const int number : {1, 2, 3}) file.add(frame(number));
+        throw std::runtime_error("the fourth frame");
+    } catch (const std::runtime_error&) {
+        EXPECT_EQ(frames(), (std::vector<int>{1, 2, 3}));
+    }
+}
+
+TEST_F(StatisticsFileTest, WithoutANameThereIsNoFile) {
+    StatisticsFile file("", scene_, settings_, 1.0);
+    file.add(frame(1));
+    EXPECT_NO_THROW(file.finish());
+}
+
+TEST_F(StatisticsFileTest, LooksLikeAnyOtherJson) {
+    for (const std::vector<FrameStatistics>& list : {{}, {frame(1)}, std::vector{frame(1), frame(-2)}}) {
+        const std::string text = format_statistics(list, scene_, settings_, 1.0);
+        const auto json = nlohmann::ordered_json::parse(text);
+        EXPECT_EQ(json.at("frames").size(), list.size());
+        EXPECT_EQ(text, json.dump(2) + "\n");
+    }
+}
+
+TEST(StatisticsFile, WritingTakesAHundredthOfTheTime) {
+    EXPECT_TRUE(is_write_due(0.0, 0.0)) << "nothing is written yet";
+    EXPECT_FALSE(is_write_due(0.9, 0.01));
+    EXPECT_TRUE(is_write_due(1.1, 0.01));
+}
+
+}  // namespace
+}  // namespace aleph
