@@ -129,8 +129,9 @@ void Sequence::save_light(const std::filesystem::path& path) {
     write_cache_file(path, s.fingerprint(), *s.shot_light->records());
 }
 
-FrameOutput Sequence::render(std::int64_t frame, const FrameRequest& request) {
-    SequenceState& s = state();
+/// A frame by itself, whether or not it is in a hold.
+FrameOutput SequenceState::render(std::int64_t frame, const FrameRequest& request) {
+    SequenceState& s = *this;
     FrameOutput out;
     FrameStatistics& stats = out.statistics;
     SampleOptions options;

@@ -59,6 +59,7 @@ SequenceState::SequenceState(Scene given, const RenderSettings& chosen, const st
       range(frame_range(scene)),
       textures(make_texture_set(scene)),
       pose_plan(make_pose_plan(scene)),
+      holds(scene, pose_plan, shots, [this](std::int64_t frame) { return shutter(frame); }),
       rays(scene, pose_plan),
       blended(has_blended(scene)),
       light_breaks(scene, pose_plan, shutter(range.first)) {

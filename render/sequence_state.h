@@ -9,6 +9,7 @@
 #include "motion/model_motion.h"
 #include "render/estimate_moments.h"
 #include "render/frame_output.h"
+#include "render/holds.h"
 #include "render/light_breaks.h"
 #include "render/measure.h"
 #include "render/open_shutter.h"
@@ -25,6 +26,7 @@ struct SequenceState {
     /// @param shots  list_camera_shots(given, name)
     SequenceState(Scene given, const RenderSettings& chosen, const std::vector<CameraShot>& shots);
 
+    FrameOutput render(std::int64_t frame, const FrameRequest& request);
     void move_to_frame(std::optional<PosedView>& posed, std::int64_t frame) const;
     Image<Rgb> estimate_view(const RayScene& view_rays, const PosedView& posed, EstimateKind kind,
                              std::optional<std::int64_t> indirect, RayCounts& counts);
@@ -77,6 +79,8 @@ struct SequenceState {
     const FrameRange range;
     TextureSet textures;
     PosePlan pose_plan;
+    Holds holds;
+    HeldFrame held;
     RayScene rays;
     // Kept from frame to frame and updated, which gives the same results as making them anew.
     std::optional<PosedView> now, other;

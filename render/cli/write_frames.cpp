@@ -6,6 +6,7 @@
 
 #include "engine/base/errors.h"
 #include "engine/base/parallel.h"
+#include "render/cli/copied_frames.h"
 #include "render/cli/output_path.h"
 #include "render/cli/progress.h"
 #include "render/frame_files.h"
@@ -126,6 +127,7 @@ void write_frames(const FrameJob& job, const SceneOptions& options, const FrameR
     }
     if (options.quiet) return;
     warn_of_changed_values(changed);
+    std::cerr << describe_copies(statistics);
     print_files(job, options);
 }
 
