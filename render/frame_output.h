@@ -33,6 +33,9 @@ struct MomentStatistics {
 
 struct FrameStatistics {
     std::int64_t frame = 0;
+    /// The earlier frame whose picture this is, because nothing changes between the two. Times and counts are those of
+    /// rendering it, or 0 if that output was kept.
+    std::optional<std::int64_t> copy_of;
     StageSeconds seconds;
     FrameCounts counts;              ///< of all stages
     std::uint64_t traced_rays = 0;   ///< counted where rays are traced; equals counts.rays.total()

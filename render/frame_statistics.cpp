@@ -52,6 +52,7 @@ Json frame_json(const FrameStatistics& f) {
     for (const auto& [stage, value] : list_stages(f.seconds)) seconds[stage] = value;
     return {
         {"frame", f.frame},
+        {"copy_of", f.copy_of ? Json(*f.copy_of) : Json(nullptr)},
         {"seconds", seconds},
         {"rays",
          {{"primary", f.counts.rays.primary},

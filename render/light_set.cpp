@@ -6,6 +6,7 @@
 #include "render/environment_map.h"
 #include "render/light_power.h"
 #include "render/lights.h"
+#include "render/texture.h"
 
 namespace aleph {
 

@@ -144,13 +144,15 @@ EffectsPlan Sequence::plan(std::int64_t frame) {
     SequenceState& s = state();
     FrameOutput out;
     FramePlan plan;
-    s.look(frame, s.needs_perception(), false, out, plan, s.before_edit.has_value());
+    s.look(s.before_edit ? frame : s.holds.find_first(frame), s.needs_perception(), false, out, plan,
+           s.before_edit.has_value());
     s.finish_plan(out, plan);
     return plan.effects;
 }
 
-FrameOutput Sequence::render(std::int64_t frame, const FrameRequest& request) {
-    SequenceState& s = state();
+/// A frame by itself, whether or not it is in a hold.
+FrameOutput SequenceState::render(std::int64_t frame, const FrameRequest& request) {
+    SequenceState& s = *this;
     FrameOutput out;
     FrameStatistics& stats = out.statistics;
     SampleOptions options;

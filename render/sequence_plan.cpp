@@ -107,11 +107,11 @@ FramePlan SequenceState::begin_plan(std::int64_t frame, OtherFrame which, bool p
     plan.shutter.open = interval.has_value();
     if (interval) {
         const double rate = scene.frame_rate.per_second();
-        const SpanLook span = span_looker.look(camera(frame), interval->open / rate, interval->close / rate);
-        plan.shutter.changes = span.world || span.camera();
-        if (!span.world && !plan.facts.sees_all) {
-            plan.shutter.blur =
-                find_camera_blur(span.cameras, settings.width, settings.height, nearest.distance, plan.shutter.largest);
+        const double open_at = interval->open / rate, close_at = interval->close / rate;
+        plan.shutter.changes = !steady.is_steady(camera(frame), open_at, close_at);
+        if (plan.shutter.changes && !plan.facts.sees_all && steady.is_world_steady(open_at, close_at)) {
+            plan.shutter.blur = find_camera_blur(camera_span.look(camera(frame), open_at, close_at), settings.width,
+                                                 settings.height, nearest.distance, plan.shutter.largest);
         }
     }
     plan.perceives = perceive;
@@ -119,9 +119,9 @@ FramePlan SequenceState::begin_plan(std::int64_t frame, OtherFrame which, bool p
     plan.has_other = which != OtherFrame::none;
     plan.moments = shot_light.has_value();
     if (perceive && plan.has_other && !edited) {
-        const SpanLook span =
-            span_looker.look(camera(frame), now->pose.seconds, find_seconds(other_frame_number(frame, which)));
-        plan.moves = span.world || span.camera();
+        const double other_at = find_seconds(other_frame_number(frame, which));
+        plan.moves = !steady.is_steady(camera(frame), std::min(now->pose.seconds, other_at),
+                                       std::max(now->pose.seconds, other_at));
     }
     plan.settings = settings;
     plan.effects = make_effects_plan(plan, std::nullopt);

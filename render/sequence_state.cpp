@@ -60,10 +60,12 @@ SequenceState::SequenceState(Scene given, const RenderSettings& chosen, const st
       range(frame_range(scene)),
       textures(make_texture_set(scene)),
       pose_plan(make_pose_plan(scene)),
+      holds(scene, pose_plan, shots, [this](std::int64_t frame) { return shutter(frame); }),
       rays(scene, pose_plan),
       blended(has_blended(scene)),
       light_breaks(scene, pose_plan, shutter(range.first)),
-      span_looker(scene, pose_plan) {
+      steady(scene, pose_plan),
+      camera_span(scene, pose_plan) {
     if (!reads_moments()) return;
     const auto find_breaks = [this](std::int64_t first, std::int64_t last) { return light_breaks.find(first, last); };
     shot_light.emplace(KeyMoments{range, scene.cuts, settings.light_step, find_breaks}, settings,

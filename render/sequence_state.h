@@ -7,12 +7,13 @@
 
 #include "engine/pose/posed_view.h"
 #include "motion/model_motion.h"
+#include "render/camera_span.h"
 #include "render/estimate_moments.h"
 #include "render/frame_output.h"
+#include "render/holds.h"
 #include "render/light_breaks.h"
 #include "render/measure.h"
 #include "render/open_shutter.h"
-#include "render/pose_change.h"
 #include "render/sequence_plan.h"
 #include "render/settings.h"
 #include "render/shot_light.h"
@@ -33,6 +34,7 @@ struct SequenceState {
     /// @param shots  list_camera_shots(given, name)
     SequenceState(Scene given, const RenderSettings& chosen, const std::vector<CameraShot>& shots);
 
+    FrameOutput render(std::int64_t frame, const FrameRequest& request);
     void move_to_frame(std::optional<PosedView>& posed, std::int64_t frame) const;
     Image<Rgb> estimate_view(const RayScene& view_rays, const PosedView& posed, EstimateKind kind,
                              std::optional<std::int64_t> indirect, RayCounts& counts);
@@ -99,6 +101,8 @@ struct SequenceState {
     const FrameRange range;
     TextureSet textures;
     PosePlan pose_plan;
+    Holds holds;
+    HeldFrame held;
     RayScene rays;
     // Kept from frame to frame and updated, which gives the same results as making them anew.
     std::optional<PosedView> now, other;
@@ -114,7 +118,8 @@ struct SequenceState {
     std::unique_ptr<OpenShutter> open;  ///< the scene while the shutter is open
     LightBreaks light_breaks;
     std::optional<ShotFacts> shot_facts;  ///< once a frame was planned
-    SpanLooker span_looker;
+    const SteadySpans steady;
+    CameraSpan camera_span;
     std::optional<ShotLight> shot_light;  ///< if frames read key moments
     EstimateMoments estimate_moments;
     std::optional<CacheFingerprint> cache_fingerprint;

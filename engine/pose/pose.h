@@ -113,6 +113,9 @@ std::vector<CameraShot> list_camera_shots(const Scene& scene, const std::string&
 /// The camera of the shot that a frame belongs to.
 int camera_at(const std::vector<CameraShot>& shots, std::int64_t frame);
 
+/// Per node: there is a mesh, a light or a joint at or below it.
+std::vector<bool> nodes_with_content(const Scene& scene);
+
 /// True if anything that a ScenePose holds can differ between two times, apart from cameras.
 bool is_world_animated(const Scene& scene);
 

@@ -23,7 +23,8 @@ struct Overloaded : Functions... {
 template <class... Functions>  // clang before 17 does not deduce it by itself
 Overloaded(Functions...)->Overloaded<Functions...>;
 
-/// Nodes with a mesh, a light or a joint at or below them.
+}  // namespace
+
 std::vector<bool> nodes_with_content(const Scene& scene) {
     std::vector<bool> content(scene.nodes.size(), false);
     for (const Skin& skin : scene.skins)
@@ -35,8 +36,6 @@ std::vector<bool> nodes_with_content(const Scene& scene) {
     }
     return content;
 }
-
-}  // namespace
 
 std::vector<Instance> list_instances(const Scene& scene) {
     std::vector<Instance> instances;

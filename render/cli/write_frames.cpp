@@ -6,6 +6,7 @@
 
 #include "engine/base/errors.h"
 #include "engine/base/parallel.h"
+#include "render/cli/copied_frames.h"
 #include "render/cli/output_path.h"
 #include "render/cli/progress.h"
 #include "render/cli/statistics_file.h"
@@ -103,22 +104,22 @@ void prepare_frames_output(const PreparedScene& prepared, const SceneOptions& op
 
 void write_frames(const FrameJob& job, const SceneOptions& options, const FrameRequest& request) {
     StatisticsFile statistics(options.stats, job.scene, job.settings, job.exposure);
-    std::size_t finished = 0;
+    std::vector<FinishedFrame> finished;
     std::size_t changed = 0;
     {
         Progress progress(request.frame ? "render" : "maps", static_cast<double>(job.frames.size()),
                           progress_look(options.quiet));
         for (const int frame : job.frames) {
-            const auto done = static_cast<double>(finished);
+            const auto done = static_cast<double>(finished.size());
             FrameRequest with_progress = request;
             with_progress.progress = [&](double fraction, const char* stage) {
                 progress.update(done + fraction, fmt::format("frame {}: {}", frame, stage));
             };
             FrameOutput output = job.make(frame, with_progress);
             changed += write_frame(output_path(options.output, job.name, frame), job, output, request.maps);
-            if (finished == 0 && !options.quiet) warn_of_units(output.statistics);
+            if (finished.empty() && !options.quiet) warn_of_units(output.statistics);
             statistics.add(output.statistics);
-            ++finished;
+            finished.push_back({frame, output.statistics.copy_of});
             if (!options.quiet && job.settings.error > 0.0) print_error(output.statistics);
             progress.update(done + 1.0, fmt::format("frame {}", frame));
         }
@@ -126,6 +127,7 @@ void write_frames(const FrameJob& job, const SceneOptions& options, const FrameR
     statistics.finish();
     if (options.quiet) return;
     warn_of_changed_values(changed);
+    std::cerr << describe_copies(finished);
     print_files(job, options);
 }
 

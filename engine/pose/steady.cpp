@@ -1,0 +1,146 @@
+#include "engine/pose/steady.h"
+
+#include <algorithm>
+#include <numeric>
+
+#include "engine/scene/operations.h"
+#include "engine/scene/points.h"
+#include "engine/scene/visit.h"
+
+namespace aleph {
+namespace {
+
+/// Samples that have an influence in a span of time.
+struct SampleRange {
+    std::size_t first = 0, last = 0;
+};
+
+SampleRange find_range(const TimeSampling& sampling, std::size_t count, double from, double to) {
+    return {find_samples(sampling, count, from).floor, find_samples(sampling, count, to).ceil};
+}
+
+template <class T>
+SampleRange find_range(const Track<T>& track, double from, double to) {
+    const std::size_t keys = track.key_count();
+    if (track.interpolation == Interpolation::nearest) {
+        return {nearest_sample(track.sampling, keys, from), nearest_sample(track.sampling, keys, to)};
+    }
+    SampleRange range = find_range(track.sampling, keys, from, to);
+    if (track.interpolation == Interpolation::step) range.last = find_samples(track.sampling, keys, to).floor;
+    return range;
+}
+
+template <class T>
+bool is_steady(const Track<T>& track, double from, double to) {
+    if (track.key_count() <= 1) return true;
+    const auto [first, last] = find_range(track, from, to);
+    for (std::size_t key = first + 1; key <= last; ++key) {
+        if (key_value(track, key) != key_value(track, first)) return false;
+    }
+    if (track.interpolation != Interpolation::cubic) return true;
+    // Of a key's in-tangent, value and out-tangent: those tangents that lie between the first key and the last.
+    const T zero = key_value(track, first) - key_value(track, first);
+    for (std::size_t key = first; key < last; ++key) {
+        if (track.values[3 * key + 2] != zero || track.values[3 * (key + 1)] != zero) return false;
+    }
+    return true;
+}
+
+bool is_steady(const OperationStack& stack, double from, double to) {
+    const std::size_t samples = sample_count(stack), count = channel_count(stack);
+    if (samples <= 1) return true;
+    const auto [first, last] = find_range(stack.sampling, samples, from, to);
+    for (std::size_t i = (first + 1) * count; i < (last + 1) * count; ++i) {
+        if (stack.channels[i] != stack.channels[i - count]) return false;
+    }
+    return true;
+}
+
+template <class Samples>
+bool are_samples_steady(const TimeSampling& sampling, const Samples& samples, double from, double to) {
+    if (samples.size() <= 1) return true;
+    const auto [first, last] = find_range(sampling, samples.size(), from, to);
+    for (std::size_t i = first + 1; i <= last; ++i) {
+        if (samples[i] != samples[i - 1]) return false;
+    }
+    return true;
+}
+
+template <class Element>
+bool has_steady_tracks(const Element& element, double from, double to) {
+    bool steady = true;
+    visit_tracks(element, [&](const auto& track) { steady = steady && is_steady(track, from, to); });
+    return steady;
+}
+
+bool is_mesh_steady(const Mesh& mesh, double from, double to) {
+    return has_steady_tracks(mesh, from, to) && are_samples_steady(mesh.normal_sampling, mesh.normal_samples, from, to);
+}
+
+bool is_environment_steady(const Scene& scene, double from, double to) {
+    bool steady = true;
+    visit_environment(scene, [&](const auto& track) { steady = steady && is_steady(track, from, to); });
+    return steady;
+}
+
+void sort_unique(std::vector<int>& list) {
+    std::ranges::sort(list);
+    const auto repeated = std::ranges::unique(list);
+    list.erase(repeated.begin(), repeated.end());
+}
+
+}  // namespace
+
+SteadySpans::SteadySpans(const Scene& scene, const PosePlan& plan)
+    : scene_(scene), materials_(plan.materials), changes_(is_world_animated(scene) || !plan.cameras.empty()) {
+    const std::vector<bool> content = nodes_with_content(scene);
+    std::ranges::copy_if(plan.nodes, std::back_inserter(nodes_), [&](int node) { return content[node]; });
+    const std::vector<Instance> instances = list_instances(scene);
+    for (const int i : plan.instances) meshes_.push_back(instances[i].mesh);
+    sort_unique(meshes_);
+    for (const int m : meshes_) {
+        const Mesh& mesh = scene.meshes[m];
+        if (mesh.points != no_index) point_caches_.push_back(mesh.points);
+        if (mesh.cage != no_index) point_caches_.push_back(scene.cages[mesh.cage].points);
+    }
+    std::erase(point_caches_, no_index);
+    sort_unique(point_caches_);
+    if (plan.lights) {
+        lights_.resize(scene.lights.size());
+        std::iota(lights_.begin(), lights_.end(), 0);
+    }
+    for (std::size_t n = 0; n < scene.nodes.size(); ++n) {
+        if (scene.nodes[n].camera == no_index) continue;
+        CameraTracks& tracks = cameras_.emplace_back(CameraTracks{scene.nodes[n].camera, {}});
+        for (int node = static_cast<int>(n); node != no_index; node = scene.nodes[node].parent) {
+            if (plan.moving[node] != 0) tracks.nodes.push_back(node);
+        }
+    }
+}
+
+bool SteadySpans::is_steady(int camera, double from, double to) const {
+    if (!changes_) return true;
+    const auto in_span = [&](const auto& elements) {
+        return [&](int i) { return has_steady_tracks(elements[i], from, to); };
+    };
+    const CameraTracks& looks = cameras_[camera];
+    return std::ranges::all_of(looks.nodes, in_span(scene_.nodes)) &&
+           has_steady_tracks(scene_.cameras[looks.camera], from, to) && is_world_steady(from, to);
+}
+
+bool SteadySpans::is_world_steady(double from, double to) const {
+    if (!changes_) return true;
+    const auto in_span = [&](const auto& elements) {
+        return [&](int i) { return has_steady_tracks(elements[i], from, to); };
+    };
+    return std::ranges::all_of(nodes_, in_span(scene_.nodes)) &&
+           std::ranges::all_of(materials_, in_span(scene_.materials)) &&
+           std::ranges::all_of(lights_, in_span(scene_.lights)) && is_environment_steady(scene_, from, to) &&
+           std::ranges::all_of(meshes_, [&](int m) { return is_mesh_steady(scene_.meshes[m], from, to); }) &&
+           std::ranges::all_of(point_caches_, [&](int c) {
+               const PointCache& cache = scene_.point_caches[c];
+               return are_samples_steady(cache.sampling, cache.positions, from, to);
+           });
+}
+
+}  // namespace aleph
