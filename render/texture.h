@@ -48,9 +48,10 @@ struct MaterialTextures {
 
 /// All textures of a scene. Made once (make_texture_set); look-ups only read it.
 struct TextureSet {
-    std::vector<Texture> textures;            ///< one for each image and space that materials use
-    std::vector<MaterialTextures> materials;  ///< as Scene::materials, and one without textures at the end
-    EnvironmentMap environment;               ///< empty: the scene has none
+    std::vector<Texture> textures;  ///< one for each image and space of materials that are ever shown
+    /// As Scene::materials, and one without textures at the end. A material that is hidden at all times has none.
+    std::vector<MaterialTextures> materials;
+    EnvironmentMap environment;  ///< empty: the scene has none
 };
 
 /// Builds the pyramids, in parallel. Keeps pointers to the scene's images: the scene must outlive the set.

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "engine/base/parallel.h"
+#include "engine/pose/pose.h"
 #include "render/texture.h"
 #include "render/texture_texels.h"
 
@@ -90,6 +91,18 @@ void find_range(Texture& texture) {
     }
 }
 
+/// Per material: it is on a mesh that is shown at some time.
+std::vector<std::uint8_t> list_shown_materials(const Scene& scene) {
+    const std::vector<Instance> instances = list_instances(scene);
+    const std::vector<std::uint8_t> ever_shown = list_ever_shown(scene);
+    std::vector<std::uint8_t> shown(scene.materials.size(), 0);
+    for (std::size_t i = 0; i < instances.size(); ++i) {
+        const int material = scene.meshes[instances[i].mesh].material;
+        if (ever_shown[i] != 0 && material != no_index) shown[material] = 1;
+    }
+    return shown;
+}
+
 }  // namespace
 
 Texture make_texture(const SceneImage& image, TextureSpace space) {
@@ -145,8 +158,11 @@ TextureSet make_texture_set(const Scene& scene) {
         }
         return make_texture_use(reference, index);
     };
-    for (const Material& material : scene.materials) {
-        MaterialTextures textures;
+    const std::vector<std::uint8_t> shown = list_shown_materials(scene);
+    for (std::size_t m = 0; m < scene.materials.size(); ++m) {
+        MaterialTextures& textures = set.materials.emplace_back();
+        if (shown[m] == 0) continue;
+        const Material& material = scene.materials[m];
         const auto take = [&](TextureUse MaterialTextures::*to, const TextureRef& reference, TextureSpace space) {
             textures.*to = use(reference, space);
             textures.any = textures.any || (textures.*to).texture != no_index;
@@ -168,7 +184,6 @@ TextureSet make_texture_set(const Scene& scene) {
         take(&M::sheen_roughness, material.sheen_roughness_texture, linear);
         take(&M::anisotropy, material.anisotropy_texture, linear);
         textures.maps_normals = textures.normal.texture != no_index || textures.clearcoat_normal.texture != no_index;
-        set.materials.push_back(textures);
     }
     set.materials.emplace_back();
     if (scene.environment && scene.environment_image != no_index) {

@@ -87,6 +87,9 @@ struct ScenePose {
 /// Every (node, mesh) pair in node order, visible or not.
 std::vector<Instance> list_instances(const Scene& scene);
 
+/// Per instance: false where it is hidden at all times.
+std::vector<std::uint8_t> list_ever_shown(const Scene& scene);
+
 /// Poses the scene at a time, s. The result depends on the arguments alone. Any depth of the hierarchy is fine.
 ScenePose pose(const Scene& scene, double seconds);
 

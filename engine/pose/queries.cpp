@@ -44,6 +44,27 @@ std::vector<Instance> list_instances(const Scene& scene) {
     return instances;
 }
 
+std::vector<std::uint8_t> list_ever_shown(const Scene& scene) {
+    // Keys of visibility have no values between them.
+    const auto most = [](const Track<double>& track) {
+        double value = 0.0;
+        for (std::size_t key = 0; key < track.key_count(); ++key)
+            value = std::max(value, std::abs(key_value(track, key)));
+        return value;
+    };
+    std::vector<std::uint8_t> nodes(scene.nodes.size());
+    for (std::size_t n = 0; n < nodes.size(); ++n) {
+        const Node& node = scene.nodes[n];
+        const double visible = most(node.visible);
+        nodes[n] = visible >= 2.0 || (visible != 0.0 && (node.parent == no_index || nodes[node.parent] != 0));
+    }
+    std::vector<std::uint8_t> shown;
+    for (const Instance& instance : list_instances(scene)) {
+        shown.push_back(nodes[instance.node] != 0 && most(scene.meshes[instance.mesh].present) != 0.0);
+    }
+    return shown;
+}
+
 FrameRange frame_range(const Scene& scene) {
     if (scene.range) return *scene.range;
     double earliest = std::numeric_limits<double>::infinity(), latest = -earliest;

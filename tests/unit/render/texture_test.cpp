@@ -137,6 +137,42 @@ TEST(Texture, NoImageIsWhite) {
     }
 }
 
+/// How many pyramids there are for a picture on a mesh below two nodes.
+template <class Change>
+std::size_t count_pyramids(const Change& change) {
+    Scene scene = make_ramp(4, 4);
+    scene.materials.resize(1);
+    scene.materials[0].base_color_texture.image = 0;
+    scene.meshes.resize(1);
+    scene.meshes[0].material = 0;
+    scene.nodes.resize(2);
+    scene.nodes[1].parent = 0;
+    scene.nodes[1].meshes = {0};
+    change(scene);
+    const TextureSet set = make_texture_set(scene);
+    EXPECT_EQ(set.materials[0].any, !set.textures.empty());
+    return set.textures.size();
+}
+
+TEST(Texture, WhatIsNeverShownHasNoPyramid) {
+    EXPECT_EQ(count_pyramids([](Scene&) {}), 1u);
+    EXPECT_EQ(count_pyramids([](Scene& s) { s.meshes[0].material = no_index; }), 0u);
+    EXPECT_EQ(count_pyramids([](Scene& s) { s.nodes[1].meshes.clear(); }), 0u);
+    EXPECT_EQ(count_pyramids([](Scene& s) { s.nodes[1].visible = 0.0; }), 0u);
+    EXPECT_EQ(count_pyramids([](Scene& s) { s.meshes[0].present = 0.0; }), 0u);
+    EXPECT_EQ(count_pyramids([](Scene& s) { s.nodes[0].visible = 0.0; }), 0u) << "below a hidden node";
+    const auto show_explicitly = [](Scene& s) {
+        s.nodes[0].visible = 0.0;
+        s.nodes[1].visible = 2.0;
+    };
+    EXPECT_EQ(count_pyramids(show_explicitly), 1u);
+    const auto show_late = [](Scene& s) {
+        s.nodes[0].visible.values = {0.0, 0.0, 1.0};
+        s.nodes[0].visible.interpolation = Interpolation::step;
+    };
+    EXPECT_EQ(count_pyramids(show_late), 1u) << "at some time";
+}
+
 TEST(Texture, OnePyramidForEachPictureAndSpace) {
     Scene scene = make_ramp(4, 4);
     scene.images.emplace_back();
@@ -147,6 +183,10 @@ TEST(Texture, OnePyramidForEachPictureAndSpace) {
     material.emission_texture.image = material.specular_color_texture.image = 1;  // both sRGB
     material.specular_texture.image = 1;                                          // linear
     scene.materials = {material, material};
+    scene.meshes.resize(2);
+    scene.nodes.resize(1);
+    scene.nodes[0].meshes = {0, 1};
+    for (int i = 0; i < 2; ++i) scene.meshes[i].material = i;
     const TextureSet set = make_texture_set(scene);
     EXPECT_EQ(set.textures.size(), 3u);
     EXPECT_EQ(set.materials[0].base_color.texture, set.materials[1].metallic_roughness.texture);

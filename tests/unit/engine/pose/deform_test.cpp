@@ -94,6 +94,11 @@ TEST(Deform, OnlyShownMeshesAreFilled) {
     scene.meshes[0].present = keyed<double>({0.0, 1.0}, {1.0, 0.0}, Interpolation::step);
     EXPECT_FALSE(pose(scene, 0.5).meshes[0].positions.empty());
     EXPECT_TRUE(pose(scene, 1.0).meshes[0].positions.empty());
+    ScenePose posed = pose(scene, 0.5);
+    update_pose(scene, make_pose_plan(scene), 1.0, posed);
+    EXPECT_TRUE(posed.meshes[0].positions.empty());
+    update_pose(scene, make_pose_plan(scene), 0.5, posed);
+    EXPECT_FALSE(posed.meshes[0].positions.empty());
 }
 
 TEST(Deform, NormalsFollowTheTrianglesAndEdgesStaySharp) {
