@@ -106,6 +106,8 @@ scene radians '"camera": {"fov": 0.7}'
 answers 0 'looks like radians' aleph explain radians.json
 scene turned '"rotation": {"axis": [1, 0, 0], "degrees": -1.5708}'
 answers 0 'look like radians' aleph explain turned.json
+scene operated '"operations": [{"rotate_y": 1.5708}]'
+answers 0 'look like radians' aleph explain operated.json
 scene jumps '"camera": {}, "translation": {"interpolation": "step", "keys": [[0, [0, 0, 5]], [10, [3, 0, 5]]]}'
 answers 0 'step keys move it at frame 10, which is not in "cuts"' aleph explain jumps.json
 scene cut '"camera": {}' '"cuts": [50],'
@@ -124,6 +126,10 @@ scene key '"light": {"type": "area"}'
 answers 2 'a "shape" and a "material" that has "emission"' aleph explain key.json
 scene key '"camera": {}' '"settings": {"sampling": "progressive"},'
 answers 2 'write "error": 1' aleph explain key.json
+scene key '"shape": "sphere"'
+answers 2 'write {"type": "sphere"}' aleph explain key.json
+scene key '"parent": "wheel"' '"include": "car.glb",'
+answers 2 'name the node that has the "include"' aleph explain key.json
 printf '{"aleph": 1,\n "fps": 30\n "frames": [0, 1]}\n' >key.json
 answers 2 'line 2, column 11: not valid JSON: a comma is missing here' aleph explain key.json
 

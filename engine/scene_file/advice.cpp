@@ -1,6 +1,11 @@
 #include "engine/scene_file/advice.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <string_view>
+
+#include "engine/base/errors.h"
 
 namespace aleph {
 
@@ -22,6 +27,12 @@ constexpr std::string_view about_rotation =
 constexpr std::string_view about_view = "a camera looks along -z of its node; \"rotation\" of the node turns it";
 constexpr std::string_view about_color = "the colour of a material is \"base_color\"";
 constexpr std::string_view about_emission = "a material gives light with \"emission\": [r, g, b], in cd/m2";
+constexpr std::string_view about_angle =
+    "the angle of a rotation is \"degrees\", that of a camera \"fov\", that of a spot \"outer_cone\"";
+constexpr std::string_view about_intensity = "the strength of a light is \"intensity\"";
+constexpr std::string_view about_keys = "keys are written as {\"keys\": [[0, ...], [10, ...]]}";
+constexpr std::string_view about_lengths =
+    "a sphere, cylinder or torus has a \"radius\", a quad [x, y], a box [x, y, z]";
 constexpr std::string_view about_size = "the size of the picture is \"settings\": {\"size\": \"640x480\"}";
 
 constexpr Advice unknown_keys[] = {
@@ -39,9 +50,17 @@ constexpr Advice unknown_keys[] = {
     {"", "colour", about_color},
     {"", "albedo", about_color},
     {"", "emissive", about_emission},
+    {"", "angle", about_angle},
+    {"", "degree", about_angle},
+    {"", "power", about_intensity},
+    {"", "energy", about_intensity},
+    {"", "strength", about_intensity},
+    {"", "brightness", about_intensity},
+    {"", "file", "meshes of other files are shown by \"include\": \"FILE.glb\""},
     {"", "objects", "objects are listed in \"nodes\""},
     {"", "resolution", about_size},
     {"", "width", about_size},
+    {"settings", "samples", "the samples of a pixel are \"spp\""},
     {"", "start_frame", "the first and last frame are \"frames\": [0, 59]"},
 };
 
@@ -67,6 +86,27 @@ bool is_three_angles(const json::json_pointer& place, const json& value) {
     return place.back() == "rotation" && value.is_array() && value.size() == 3;
 }
 
+/// Pairs [time, [...]] without the object around them.
+bool is_bare_keys(const json& value) {
+    const auto is_key = [](const json& pair) {
+        return pair.is_array() && pair.size() == 2 && pair[0].is_number() && pair[1].is_array();
+    };
+    return value.is_array() && !value.empty() && std::ranges::all_of(value, is_key);
+}
+
+/// What to write for a value of another kind than expected.
+std::string advise_value(const json::json_pointer& place, std::string_view list, const json& value) {
+    const std::string& key = place.back();
+    if (is_three_angles(place, value)) return std::string(about_rotation);
+    if (is_bare_keys(value)) return std::string(about_keys);
+    if (key == "size" && value.is_number()) return std::string(about_lengths);
+    if (!value.is_string()) return {};
+    const auto& text = value.get_ref<const std::string&>();
+    if (key == "shape") return fmt::format("write {{\"type\": \"{}\"}}", printable(text));
+    if (key == "environment") return "a picture is \"environment_image\"";
+    return std::string(find_advice(found_texts, list, text));
+}
+
 }  // namespace
 
 std::string advise(const SchemaMismatch& mismatch, const json& document) {
@@ -75,15 +115,13 @@ std::string advise(const SchemaMismatch& mismatch, const json& document) {
     const std::string_view pointer = mismatch.pointer;
     const std::string_view list = pointer.substr(1, pointer.find('/', 1) - 1);
     const json& value = document.at(place);
-    std::string_view advice;
+    std::string advice;
     std::string reason = mismatch.reason;
     if (reason.starts_with("unknown key ")) {
         advice = find_advice(unknown_keys, list, place.back());
         if (!advice.empty()) reason = reason.substr(0, reason.find("; did you mean"));
-    } else if (is_three_angles(place, value)) {
-        advice = about_rotation;
-    } else if (value.is_string()) {
-        advice = find_advice(found_texts, list, value.get_ref<const std::string&>());
+    } else {
+        advice = advise_value(place, list, value);
     }
     return advice.empty() ? reason : reason.append("; ").append(advice);
 }

@@ -40,7 +40,8 @@ struct GltfCheck {
         return accessors[index.index(counts.accessors, "accessor")];
     }
     void warn(const JsonRef& place, const std::string& text) {
-        warnings.push_back(place.file() + ": " + place.pointer() + ": " + text);
+        const std::string pointer = place.pointer();
+        warnings.push_back(place.file() + (pointer.empty() ? ": " : ": " + pointer + ": ") + text);
     }
 };
 

@@ -159,6 +159,7 @@ TEST_F(GltfMaterialExtensions, WhatIsMissingIsSaidOncePerFile) {
         const Scene scene = load(draft);
         EXPECT_EQ(scene.warnings.size(), 1u) << name;
         EXPECT_TRUE(warns(scene, std::string("the extension ") + name + " is not supported: ")) << name;
+        EXPECT_FALSE(warns(scene, ": : ")) << "the warning is of the whole file";
         EXPECT_TRUE(warns(scene, words)) << name;
         draft.json["extensionsRequired"] = {name};
         EXPECT_THROW(load(draft), InputError) << name;
