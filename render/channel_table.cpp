@@ -150,6 +150,12 @@ std::vector<ChannelInfo> geometry_channels() {
          "number of the instance that is hit: object_ids of aleph explain --json",
          "whole number, 0 and up",
          "-1"},
+        {{"effects.R", "effects.G", "effects.B"},
+         "what the effects plan leaves out of the pixel, as a colour; render/README.md has the colours (scene)",
+         "mean colour of the effects that the surface has and that are left out (effects plan); black where all are "
+         "simulated",
+         "a colour, 0 to 1",
+         "0"},
         {{"CryptoObject00.r", "CryptoObject00.g", "CryptoObject00.b", "CryptoObject00.a"},
          "Cryptomatte of the objects, by path (scene)",
          "Cryptomatte at the pixel's centre: the path's hash and its coverage, then no second object; the manifest is "

@@ -91,6 +91,7 @@ void add_maps(ChannelImage& file, const FrameOutput& output, const Scene& scene)
     }
     add(file, "objectId.X", pick(output.hits, [](const Hit& hit) { return hit.instance; }));
     add_cryptomatte(file, output.hits, scene);
+    if (!output.effects.empty()) add_color(file, "effects.", output.effects);
     add(file, "samples.Y", output.shaded.samples);
     add(file, "error.Y", output.shaded.errors.total);
     for (std::size_t cause = 0; cause < cause_count; ++cause) {

@@ -6,6 +6,7 @@
 #include "engine/base/errors.h"
 #include "engine/base/parallel.h"
 #include "engine/load/validate_scene.h"
+#include "render/effect_picture.h"
 #include "render/estimate.h"
 #include "render/forbidden_effects.h"
 #include "render/frame.h"
@@ -203,7 +204,10 @@ FrameOutput SequenceState::render(std::int64_t frame, const FrameRequest& reques
                                       .carried = carried.get()};
         shade(context, centers, s.exposure, options, out);
     }
-    if (request.maps) fill_geometry_maps(*s.shading, centers, out);
+    if (request.maps) {
+        fill_geometry_maps(*s.shading, centers, out);
+        out.effects = make_effect_picture(centers.hits, plan.facts, plan.effects, s.shading->instances.size());
+    }
     out.hits = centers.hits;
     s.rendered = true;
     s.forget_pose_before_edit();
