@@ -64,6 +64,9 @@ TEST(FrameFiles, HaveEveryChannel) {
                              "N.Y",
                              "N.Z",
                              "objectId.X",
+                             "effects.R",
+                             "effects.G",
+                             "effects.B",
                              "samples.Y",
                              "records.Y",
                              "cache.count",
@@ -71,7 +74,7 @@ TEST(FrameFiles, HaveEveryChannel) {
                              "invalid.Y"}) {
         EXPECT_NE(file.find(name), nullptr) << name;
     }
-    EXPECT_EQ(file.channels.size(), 35u);
+    EXPECT_EQ(file.channels.size(), 38u);
     EXPECT_EQ(std::get<double>(file.metadata.at("whiteLuminance")), 100.0);
     EXPECT_EQ((std::get<std::array<int, 2>>(file.metadata.at("framesPerSecond"))), (std::array<int, 2>{30, 1}));
 }
