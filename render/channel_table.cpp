@@ -150,6 +150,12 @@ std::vector<ChannelInfo> geometry_channels() {
          "number of the instance that is hit: object_ids of aleph explain --json",
          "whole number, 0 and up",
          "-1"},
+        {{"albedo.R", "albedo.G", "albedo.B"},
+         "share of light that the surface scatters, for denoisers (scene)",
+         "share of light that the surface scatters: Lambert layer, gloss at normal incidence and glass together, with "
+         "textures; for denoisers",
+         "no unit, 0 to 1",
+         "0"},
         {{"effects.R", "effects.G", "effects.B"},
          "what the effects plan leaves out of the pixel, as a colour; render/README.md has the colours (scene)",
          "mean colour of the effects that the surface has and that are left out (effects plan); black where all are "

@@ -91,6 +91,7 @@ void add_maps(ChannelImage& file, const FrameOutput& output, const Scene& scene)
     }
     add(file, "objectId.X", pick(output.hits, [](const Hit& hit) { return hit.instance; }));
     add_cryptomatte(file, output.hits, scene);
+    if (!output.albedo.empty()) add_color(file, "albedo.", output.albedo);
     if (!output.effects.empty()) add_color(file, "effects.", output.effects);
     add(file, "samples.Y", output.shaded.samples);
     add(file, "error.Y", output.shaded.errors.total);
@@ -145,6 +146,12 @@ Matrix44f to_attribute(const glm::dmat4& matrix) {
 }
 
 }  // namespace
+
+Image<float> make_importance(const Image<float>& aleph) {
+    Image<float> importance(aleph.width, aleph.height);
+    for (std::size_t i = 0; i < aleph.size(); ++i) importance.pixels[i] = 1.0f / aleph.pixels[i];
+    return importance;
+}
 
 ChannelImage make_frame_image(const FrameOutput& output, bool maps, const Scene& scene, const RenderSettings& settings,
                               double exposure) {

@@ -30,4 +30,8 @@ std::string format_frame_statistics(const FrameStatistics& frame);
 std::string format_statistics(std::string_view frames, const Scene& scene, const RenderSettings& settings,
                               double exposure);
 
+/// How much a pixel needs samples, for renderers that take such a picture: 1 over the Aleph map, so that 1 is where
+/// viewers are strictest and no value is 0.
+Image<float> make_importance(const Image<float>& aleph);
+
 }  // namespace aleph

@@ -74,6 +74,7 @@ struct FrameOutput {
     Image<float> alpha;               ///< ambient accuracy
     Image<float> threshold;           ///< cd/m2, of an error that lasts
     Image<float> threshold_flicker;   ///< cd/m2, of an error that is new in every frame; at most `threshold`
+    Image<Rgb> albedo;                ///< base of what is reflected; 0 for background. Filled if `maps` of a scene
     Image<Rgb> effects;               ///< make_effect_picture. Filled if `maps`
     Image<float> depth;               ///< planar, m; 1e30 for background. Filled if `maps`
     Image<glm::vec3> normal;          ///< world, towards the viewer; 0 for background. Filled if `maps`

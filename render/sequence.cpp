@@ -25,6 +25,7 @@ void fill_geometry_maps(const ShadingScene& shading, const SampleHits& centers, 
     const CameraView& view = out.view;
     out.depth = Image<float>(view.width, view.height, background_depth);
     out.normal = Image<glm::vec3>(view.width, view.height, glm::vec3(0.0f));
+    out.albedo = Image<Rgb>(view.width, view.height, Rgb(0.0f));
     const glm::vec3 origin(view.position - shading.anchor);
     const glm::vec3 forward(-view.axes[2]);
     parallel_rows(view.height, 16, [&](int begin, int end) {
@@ -34,6 +35,9 @@ void fill_geometry_maps(const ShadingScene& shading, const SampleHits& centers, 
                 const PixelSurface surface = make_pixel_surface(shading, view, centers, x, y);
                 out.depth(x, y) = glm::dot(surface.point.position - origin, forward);
                 out.normal(x, y) = surface.point.normal;
+                const SurfaceMaterial& material = surface.material;
+                out.albedo(x, y) =
+                    glm::min(material.diffuse + material.f0 + material.glass * material.glass_tint, Rgb(1.0f));
             }
         }
     });

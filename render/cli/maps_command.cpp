@@ -195,6 +195,9 @@ void add_maps_command(CLI::App& app, Command& command) {
     const auto options = std::make_shared<MapsOptions>();
     add_scene_options(*maps, options->common);
     maps->get_option("scene")->required(false);
+    maps->add_flag("--importance", options->common.importance,
+                   "write one picture in place of the maps: how much each pixel needs samples, 1 over aleph.Y, for "
+                   "renderers that take such a picture; EXR (channel Y) or PNG (grey)");
     const std::string group = "Frames without a scene";
     maps->add_option("--images", options->images,
                      "pictures in place of a scene, such as 'frame.####.exr' or 'frame.%04d.png', in quotes: EXR "

@@ -47,6 +47,8 @@ constexpr const char* after_channels =
     "  aleph maps scenes/pool/scene.json --frames 20 -o maps.exr\n"
     "  aleph maps scenes/pool/scene.json --frames 20 -o maps.png      six maps in one picture, to look at\n"
     "  aleph maps --images 'shot/frame.####.png' --fps 24 -o maps/\n"
+    "  aleph maps scenes/pool/scene.json -o motion.####.flo           motion in Middlebury's format\n"
+    "  aleph maps --images 'quick.####.exr' --importance -o importance.####.png\n"
     "  aleph maps --images 'blender.####.exr' --layer ViewLayer.Combined -o maps/\n"
     "  aleph compare guided.exr dense.exr --threshold maps.exr      which differences would a viewer see?";
 

@@ -25,6 +25,7 @@ std::optional<OutputFormat> find_format(const fs::path& path) {
     if (extension == ".exr") return OutputFormat::exr;
     if (extension == ".png") return OutputFormat::png;
     if (extension == ".hdr") return OutputFormat::hdr;
+    if (extension == ".flo") return OutputFormat::flow;
     return std::nullopt;
 }
 
@@ -43,7 +44,7 @@ fs::path full_pattern(const std::string& pattern, const std::string& scene_name)
     find_number_field(path.filename().string(), "--output");  // its reasons come before the extension's
     if (find_format(path)) return path;
     const std::string extension = path.extension().string();
-    refuse(pattern, fmt::format("{}; possible are .exr, .png and .hdr, or a folder, which ends in '/'",
+    refuse(pattern, fmt::format("{}; possible are .exr, .png, .hdr and (motion) .flo, or a folder, which ends in '/'",
                                 extension.find_first_of("#%") == std::string::npos && !extension.empty()
                                     ? fmt::format("the extension {} is not known", printable(extension))
                                     : "the name has no extension"));

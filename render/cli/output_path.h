@@ -8,7 +8,7 @@
 
 namespace aleph {
 
-enum class OutputFormat { exr, png, hdr };
+enum class OutputFormat { exr, png, hdr, flow };
 
 /// The file of one frame. A pattern is a file name with one run of '#', or one %d or %0Nd, in the last part of the
 /// path. A minus sign counts as a digit (frame -3 in #### is -003). A folder means `folder/<scene>.####.exr`, and an

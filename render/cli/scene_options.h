@@ -17,6 +17,7 @@ struct SceneOptions {
     int threads = 0;
     LoadLimits limits;
     bool quiet = false;
+    bool importance = false;  ///< `maps` writes this picture in place of the maps
 };
 
 /// Adds --KEY for every setting of the table, and --set.

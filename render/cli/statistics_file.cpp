@@ -8,7 +8,7 @@
 namespace aleph {
 
 bool is_write_due(double since, double took) {
-    return since >= 100.0 * took;
+    return since >= 10.0 * took;
 }
 
 StatisticsFile::StatisticsFile(std::filesystem::path path, const Scene& scene, const RenderSettings& settings,

@@ -10,7 +10,7 @@
 namespace aleph {
 
 /// Whether the file is to be written again. All of it is written each time, which takes longer the more frames it has:
-/// at most a hundredth of the time goes into that.
+/// at most a tenth of the time goes into that. Frames that take longer are in the file as soon as they are finished.
 /// @param since  seconds since it was written last
 /// @param took  seconds which that took
 bool is_write_due(double since, double took);

@@ -10,6 +10,7 @@
 #include "render/cli/output_path.h"
 #include "render/cli/progress.h"
 #include "render/cli/statistics_file.h"
+#include "render/flow_file.h"
 #include "render/frame_files.h"
 #include "render/map_preview.h"
 #include "render/measure.h"
@@ -51,14 +52,34 @@ void print_error(const FrameStatistics& frame) {
         100.0 * shares.beyond, shares.asked, shares.asked == 1.0 ? "" : "s", causes);
 }
 
+/// EXR: the channel Y. PNG: grey, its bytes in proportion to the values.
+void write_importance(const std::filesystem::path& path, const FrameOutput& output) {
+    const Image<float> importance = make_importance(output.perception.aleph);
+    if (output_format(path) == OutputFormat::exr) {
+        ChannelImage file;
+        file.channels.push_back({"Y", importance});
+        write_exr(path, file);
+        return;
+    }
+    Image<Rgb> grey(importance.width, importance.height);
+    for (std::size_t i = 0; i < grey.size(); ++i) grey.pixels[i] = Rgb(srgb_to_linear(importance.pixels[i]));
+    write_png(path, grey);
+}
+
 /// Writes one frame, and adds the time for it to the frame's statistics.
 /// @return how many values the format could not hold
-std::size_t write_frame(const std::filesystem::path& path, const FrameJob& job, FrameOutput& output, bool maps) {
+std::size_t write_frame(const std::filesystem::path& path, const FrameJob& job, FrameOutput& output, bool maps,
+                        bool importance) {
     StageClock clock;
     std::size_t changed = 0;
     switch (output_format(path)) {
+        case OutputFormat::flow:
+            write_flow(path, output.motion);
+            break;
         case OutputFormat::png:
-            if (output.shaded.color.empty()) {
+            if (importance) {
+                write_importance(path, output);
+            } else if (output.shaded.color.empty()) {
                 write_map_preview(path, output);
             } else {
                 write_png(path, output.shaded.color);
@@ -68,7 +89,11 @@ std::size_t write_frame(const std::filesystem::path& path, const FrameJob& job, 
             changed = write_hdr(path, output.shaded.color);
             break;
         case OutputFormat::exr:
-            write_exr(path, make_frame_image(output, maps, job.scene, job.settings, job.exposure));
+            if (importance) {
+                write_importance(path, output);
+            } else {
+                write_exr(path, make_frame_image(output, maps, job.scene, job.settings, job.exposure));
+            }
             break;
     }
     StageSeconds& seconds = output.statistics.seconds;
@@ -91,12 +116,15 @@ void print_files(const FrameJob& job, const SceneOptions& options) {
 void prepare_frames_output(const PreparedScene& prepared, const SceneOptions& options, const FrameRequest& request) {
     const std::filesystem::path path = output_path(options.output, prepared.name, prepared.frames.front());
     const OutputFormat format = output_format(path);
-    const bool preview = format == OutputFormat::png && !request.frame;
-    if (request.maps && format != OutputFormat::exr && !preview) {
-        throw InputError(
-            "--output", printable(options.output),
-            fmt::format("{} cannot hold the channels of maps; write .exr{}",
-                        format == OutputFormat::png ? "PNG" : "HDR", request.frame ? "" : ", or .png to look at them"));
+    if (format == OutputFormat::flow && (request.frame || options.importance)) {
+        throw InputError("--output", printable(options.output), "only `aleph maps` writes motion as .flo, by itself");
+    }
+    const bool instead = (format == OutputFormat::png || format == OutputFormat::flow) && !request.frame;
+    if (request.maps && format != OutputFormat::exr && !instead) {
+        throw InputError("--output", printable(options.output),
+                         fmt::format("{} cannot hold the channels of maps; write .exr{}",
+                                     format == OutputFormat::png ? "PNG" : "HDR",
+                                     request.frame ? "" : ", or .png to look at them, or .flo for motion alone"));
     }
     prepare_output(options.output, prepared.name, prepared.frames);
     if (!options.stats.empty()) try_output(options.stats);
@@ -116,7 +144,8 @@ void write_frames(const FrameJob& job, const SceneOptions& options, const FrameR
                 progress.update(done + fraction, fmt::format("frame {}: {}", frame, stage));
             };
             FrameOutput output = job.make(frame, with_progress);
-            changed += write_frame(output_path(options.output, job.name, frame), job, output, request.maps);
+            changed += write_frame(output_path(options.output, job.name, frame), job, output, request.maps,
+                                   options.importance);
             if (finished.empty() && !options.quiet) warn_of_units(output.statistics);
             statistics.add(output.statistics);
             finished.push_back({frame, output.statistics.copy_of});

@@ -64,6 +64,9 @@ TEST(FrameFiles, HaveEveryChannel) {
                              "N.Y",
                              "N.Z",
                              "objectId.X",
+                             "albedo.R",
+                             "albedo.G",
+                             "albedo.B",
                              "effects.R",
                              "effects.G",
                              "effects.B",
@@ -74,7 +77,7 @@ TEST(FrameFiles, HaveEveryChannel) {
                              "invalid.Y"}) {
         EXPECT_NE(file.find(name), nullptr) << name;
     }
-    EXPECT_EQ(file.channels.size(), 38u);
+    EXPECT_EQ(file.channels.size(), 41u);
     EXPECT_EQ(std::get<double>(file.metadata.at("whiteLuminance")), 100.0);
     EXPECT_EQ((std::get<std::array<int, 2>>(file.metadata.at("framesPerSecond"))), (std::array<int, 2>{30, 1}));
 }

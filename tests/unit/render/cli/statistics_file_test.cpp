@@ -83,10 +83,10 @@ TEST_F(StatisticsFileTest, LooksLikeAnyOtherJson) {
     }
 }
 
-TEST(StatisticsFile, WritingTakesAHundredthOfTheTime) {
+TEST(StatisticsFile, WritingTakesATenthOfTheTime) {
     EXPECT_TRUE(is_write_due(0.0, 0.0)) << "nothing is written yet";
-    EXPECT_FALSE(is_write_due(0.9, 0.01));
-    EXPECT_TRUE(is_write_due(1.1, 0.01));
+    EXPECT_FALSE(is_write_due(0.09, 0.01));
+    EXPECT_TRUE(is_write_due(0.11, 0.01));
 }
 
 }  // namespace
