@@ -22,7 +22,7 @@ constexpr std::string_view magic = "alephL1\n";
 static_assert(std::is_trivially_copyable_v<IrradianceRecord>);
 
 /// They change how records are read, not the records.
-const std::set<std::string> reading_settings{"light_samples", "shade_reach"};
+const std::set<std::string> reading_settings{"light_samples", "shade_reach", "plan", "force"};
 
 std::string setting_text(const SettingValue& value) {
     return std::visit([](const auto& v) { return fmt::format("{}", v); }, value);

@@ -30,6 +30,7 @@ ordered_json to_json(Effect effect, const PlannedEffect& planned) {
 
 ordered_json to_json(const EffectsPlan& plan) {
     ordered_json list = ordered_json::array();
+    if (plan.effects.front().reason.empty()) return list;
     for (std::size_t i = 0; i < effect_count; ++i) list.push_back(to_json(static_cast<Effect>(i), plan.effects[i]));
     return list;
 }

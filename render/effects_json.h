@@ -11,7 +11,7 @@ namespace aleph {
 /// bound is null where none is known.
 nlohmann::ordered_json to_json(Effect effect, const PlannedEffect& planned);
 
-/// All effects, in order.
+/// All effects, in order; an empty list for a plan that was not made: pictures without a scene have none.
 nlohmann::ordered_json to_json(const EffectsPlan& plan);
 
 }  // namespace aleph
