@@ -143,6 +143,17 @@ answers 0 '/ball' bash -c 'grep -a "" both/first-maps.0000.exr'
 scene refused '"shape": {"type": "box"}'
 answers 0 'rendering is refused: camera: the scene has no camera' aleph explain refused.json
 
+# The effects plan: what is left out, and what cannot be named.
+answers 0 'glossy_reflection' aleph explain first.json
+answers 0 '"decision": "skip"' aleph explain first.json --json
+answers 2 'there is no effect shine; known are direct_light' aleph render first.json "${quick[@]}" -q --forbid shine -o shine.exr
+answers 2 'expected one of on, off' aleph render first.json "${quick[@]}" -q --plan none -o plan.exr
+silent aleph render first.json "${quick[@]}" --frames 0 -q --forbid area_shadows --forbid emission --stats forbidden.json -o forbidden.exr
+answers 0 '"reason": "forbidden"' cat forbidden.json
+silent aleph maps first.json --size 16x12 --frames 0 -q -o motion.flo
+is [ "$(head -c 4 motion.flo)" = PIEH ]
+silent aleph maps first.json --size 16x12 --frames 0 -q --importance -o importance.png
+
 # Two sequences: one line for each frame, and a summary.
 silent aleph render first.json --frames 0-1 "${quick[@]}" --seed 5 -q -o other/
 answers 1 'frames differ; the largest difference is in frame' aleph compare 'both/first.####.exr' other/
