@@ -44,10 +44,11 @@ fs::path full_pattern(const std::string& pattern, const std::string& scene_name)
     find_number_field(path.filename().string(), "--output");  // its reasons come before the extension's
     if (find_format(path)) return path;
     const std::string extension = path.extension().string();
-    refuse(pattern, fmt::format("{}; possible are .exr, .png, .hdr and (motion) .flo, or a folder, which ends in '/'",
-                                extension.find_first_of("#%") == std::string::npos && !extension.empty()
-                                    ? fmt::format("the extension {} is not known", printable(extension))
-                                    : "the name has no extension"));
+    refuse(pattern,
+           fmt::format("{}; possible are .exr, .png and .hdr, or a folder, which ends in '/', and for motion .flo",
+                       extension.find_first_of("#%") == std::string::npos && !extension.empty()
+                           ? fmt::format("the extension {} is not known", printable(extension))
+                           : "the name has no extension"));
 }
 
 }  // namespace
