@@ -42,9 +42,12 @@ void Planner::set(Effect effect, Decision decision, std::string reason, std::opt
     plan_.of(effect) = {decision, std::move(reason), bound};
 }
 
-EffectBound Planner::bound_of(double radiance) const {
+/// @param everywhere  it changes pixels that show no surface too
+EffectBound Planner::bound_of(double radiance, bool everywhere) const {
     const double luminance = radiance > 0.0 ? radiance * in_.luminance_scale : 0.0;
-    return {luminance, luminance > 0.0 ? luminance / least_threshold() : 0.0};
+    double threshold = 0.0;
+    if (visible_) threshold = everywhere ? visible_->threshold : visible_->on_surfaces;
+    return {luminance, luminance > 0.0 ? luminance / threshold : 0.0};
 }
 
 /// Whether so much may be left out, which is then spent. Forced effects spend nothing.

@@ -21,7 +21,7 @@ const char* decision_name(Decision decision);
 /// The most that a pixel changes by what is left out.
 struct EffectBound {
     double luminance = 0.0;   ///< cd/m2, exposure applied
-    double thresholds = 0.0;  ///< of the least visible threshold in the frame
+    double thresholds = 0.0;  ///< of the least visible threshold where it can change the frame
 };
 
 struct PlannedEffect {
@@ -87,8 +87,9 @@ struct PlanInput {
 
 /// What is known of a frame once it has been estimated.
 struct VisibleFrame {
-    double threshold = 0.0;  ///< cd/m2, the least of all pixels
-    double brightest = 0.0;  ///< cd/m2, of the estimate
+    double threshold = 0.0;    ///< cd/m2, the least of all pixels
+    double on_surfaces = 0.0;  ///< the least of those that show surfaces, and of those beside them
+    double brightest = 0.0;    ///< cd/m2, of the estimate
 };
 
 /// @param visible  nothing before the estimate: then only what cannot change the picture at all is skipped

@@ -117,7 +117,8 @@ void Planner::plan_blur(Effect effect, double size, const BlurMoments& blur, con
     simulate(effect, fmt::format("{} up to {:.3g} pixels", what, size));
     if (size == 0.0) return skip(effect, "nothing is blurred");
     if (!visible_ || !(size < half_pixel)) return;
-    const EffectBound bound = bound_of(bound_blur(blur, in_.settings.filter) * largest_contrast());
+    const EffectBound bound =
+        bound_of(bound_blur(blur, in_.settings.filter) * largest_contrast(), in_.scene.environment_image != no_index);
     if (spend(effect, bound)) set(effect, Decision::skip, fmt::format("{} by {:.2g} pixels", what, size), bound);
 }
 

@@ -20,7 +20,7 @@ class Planner {
     bool has_light(LightFacts::Kind kind) const;
     bool scatters() const;
     void set(Effect effect, Decision decision, std::string reason, std::optional<EffectBound> bound = EffectBound{});
-    EffectBound bound_of(double radiance) const;
+    EffectBound bound_of(double radiance, bool everywhere = false) const;
     /// Whether so much may be left out, which is then spent. Forced effects spend nothing.
     bool spend(Effect effect, const EffectBound& bound);
     void skip_if_invisible(Effect effect, double radiance, const std::string& some, const std::string& none);
@@ -44,7 +44,6 @@ class Planner {
     void override_by_user();
     void simulate(Effect effect, std::string reason) { set(effect, Decision::simulate, std::move(reason)); }
     void skip(Effect effect, std::string reason) { set(effect, Decision::skip, std::move(reason)); }
-    double least_threshold() const { return visible_ ? visible_->threshold : 0.0; }
 
     const PlanInput& in_;
     const std::optional<VisibleFrame>& visible_;

@@ -149,9 +149,9 @@ EffectsPlan Sequence::plan(std::int64_t frame) {
     SequenceState& s = state();
     FrameOutput out;
     FramePlan plan;
-    s.look(s.before_edit ? frame : s.holds.find_first(frame), s.needs_perception(), false, out, plan,
-           s.before_edit.has_value());
-    s.finish_plan(out, plan);
+    const SampleHits centers = s.look(s.before_edit ? frame : s.holds.find_first(frame), s.needs_perception(), false,
+                                      out, plan, s.before_edit.has_value());
+    s.finish_plan(centers.hits, out, plan);
     return plan.effects;
 }
 
@@ -167,7 +167,7 @@ FrameOutput SequenceState::render(std::int64_t frame, const FrameRequest& reques
     StageClock total;
     const SampleHits centers =
         s.look(frame, s.needs_perception() || request.maps, request.maps, out, plan, s.before_edit.has_value());
-    s.finish_plan(out, plan);
+    s.finish_plan(centers.hits, out, plan);
     if (request.frame) {
         if (!plan.skips(Effect::depth_of_field)) {
             options.lens = find_lens(s.scene, s.now->pose.cameras[s.camera(frame)]);

@@ -31,6 +31,30 @@ Nearest find_nearest(const FrameFacts& facts, const CameraView& view) {
     return nearest;
 }
 
+constexpr int filter_reach = 2;  // pixels to which the filter brings light of a surface, which blur may move a little
+
+bool is_near_surface(const Image<Hit>& hits, int x, int y) {
+    for (int ny = std::max(0, y - filter_reach); ny <= std::min(hits.height - 1, y + filter_reach); ++ny) {
+        for (int nx = std::max(0, x - filter_reach); nx <= std::min(hits.width - 1, x + filter_reach); ++nx) {
+            if (hits(nx, ny).instance != no_index) return true;
+        }
+    }
+    return false;
+}
+
+VisibleFrame find_least_thresholds(const Image<Hit>& hits, const Image<float>& threshold) {
+    constexpr double none = std::numeric_limits<double>::infinity();
+    VisibleFrame visible{none, none, 0.0};
+    for (int y = 0; y < threshold.height; ++y) {
+        for (int x = 0; x < threshold.width; ++x) {
+            const double here = threshold(x, y);
+            visible.threshold = std::min(visible.threshold, here);
+            if (here < visible.on_surfaces && is_near_surface(hits, x, y)) visible.on_surfaces = here;
+        }
+    }
+    return visible;
+}
+
 }  // namespace
 
 std::optional<BlurMoments> find_camera_blur(const std::vector<CameraValues>& cameras, int width, int height,
@@ -146,11 +170,10 @@ EffectsPlan SequenceState::make_effects_plan(const FramePlan& plan, const std::o
 }
 
 /// Adds what a viewer cannot see, once the frame has been estimated.
-void SequenceState::finish_plan(const FrameOutput& out, FramePlan& plan) const {
+void SequenceState::finish_plan(const Image<Hit>& hits, const FrameOutput& out, FramePlan& plan) const {
     if (out.threshold.empty()) return;
     StageClock clock;
-    VisibleFrame visible{std::numeric_limits<double>::infinity(), 0.0};
-    for (const float t : out.threshold.pixels) visible.threshold = std::min(visible.threshold, double{t});
+    VisibleFrame visible = find_least_thresholds(hits, out.threshold);
     for (const Rgb& pixel : out.estimate.pixels)
         visible.brightest = std::max(visible.brightest, double{luminance(pixel)});
     visible.brightest *= scene.viewing.display_white;

@@ -56,7 +56,7 @@ struct SequenceState {
                         FrameOutput& out);
     FramePlan begin_plan(std::int64_t frame, OtherFrame which, bool perceive, bool maps, bool edited);
     EffectsPlan make_effects_plan(const FramePlan& plan, const std::optional<VisibleFrame>& visible) const;
-    void finish_plan(const FrameOutput& out, FramePlan& plan) const;
+    void finish_plan(const Image<Hit>& hits, const FrameOutput& out, FramePlan& plan) const;
     void leave_out(const EffectsPlan& effects);
     double find_seconds(std::int64_t frame) const;
     void show(std::int64_t frame);
