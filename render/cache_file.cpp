@@ -11,6 +11,7 @@
 #include "engine/base/errors.h"
 #include "engine/base/files.h"
 #include "engine/scene/scene_hash.h"
+#include "render/program_build.h"
 
 namespace aleph {
 
@@ -23,10 +24,6 @@ static_assert(std::is_trivially_copyable_v<IrradianceRecord>);
 
 /// They change how records are read, not the records.
 const std::set<std::string> reading_settings{"light_samples", "shade_reach", "plan", "force"};
-
-std::string setting_text(const SettingValue& value) {
-    return std::visit([](const auto& v) { return fmt::format("{}", v); }, value);
-}
 
 std::string format_fingerprint(const CacheFingerprint& fingerprint) {
     Json json{{"build", fingerprint.build}, {"scene", fingerprint.scene}, {"settings", Json::object()}};
@@ -104,10 +101,7 @@ class Reader {
 CacheFingerprint make_cache_fingerprint(const Scene& scene, const RenderSettings& settings,
                                         const std::vector<CameraShot>& shots) {
     CacheFingerprint fingerprint;
-    const std::filesystem::path program = "/proc/self/exe";
-    const Bytes bytes = read_regular_file(program, "this program", "");
-    fingerprint.build =
-        fmt::format("{} {}", ALEPH_VERSION, hash_bytes({reinterpret_cast<const char*>(bytes.data()), bytes.size()}));
+    fingerprint.build = program_build();
     fingerprint.scene = hash_scene(scene);
     for (const CameraShot& shot : shots)
         fingerprint.scene += fmt::format(" camera {} from {}", shot.camera, shot.first);

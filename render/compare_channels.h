@@ -17,8 +17,8 @@ struct ChannelPair {
 };
 
 /// The channels that are compared, in the order of b. `variance.Y` and `error.*` say how certain a picture is and are
-/// compared only if they are named. `samples.Y`, `records.Y`, `invalid.Y`, `cache.count` and `cache.radius` say how a picture was made:
-/// they are left out if only one picture has them.
+/// compared only if they are named. `samples.Y`, `records.Y`, `invalid.Y`, `cache.count` and `cache.radius` say how a
+/// picture was made: they are left out if only one picture has them.
 /// @param wanted  channels ("Z") or layers ("forward"); empty: all
 /// @throws InputError if sizes or channels differ, or a wanted channel is not in both
 std::vector<ChannelPair> match_channels(const ChannelImage& a, const ChannelImage& b,

@@ -27,8 +27,8 @@ struct DirectSample {
 
 class DirectGrid {
   public:
-    /// Samples after which a cell's mean is used alone. Its noise is common to all gathers that meet the cell, so that it
-    /// shows as a change of brightness of the whole picture.
+    /// Samples after which a cell's mean is used alone. Its noise is common to all gathers that meet the cell, so that
+    /// it shows as a change of brightness of the whole picture.
     static constexpr std::uint32_t enough = 26;
 
     /// What a cell holds.
@@ -38,7 +38,8 @@ class DirectGrid {
         std::uint32_t count = 0;
     };
 
-    /// @param unit  m, such as the scene's size: cells are as wide as it times a power of two, so that a scene of another
+    /// @param unit  m, such as the scene's size: cells are as wide as it times a power of two, so that a scene of
+    /// another
     ///              scale has the same cells
     explicit DirectGrid(float unit = 1.0f);
 

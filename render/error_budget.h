@@ -35,9 +35,9 @@ std::optional<SystematicTolerance> compute_systematic_tolerance(const VisibleLim
 /// expected error of cached light; at least a third of it remains. The sum of all is then within what was
 /// asked for.
 /// consecutive, variance: RenderSettings::error times the threshold: they know nothing of other errors.
-/// The Aleph map is that of pixel centres. Beside the outline of a moving object, a pixel's samples may belong to another
-/// surface than its centre, which moves less and is seen better. So a pixel there keeps to the strictest threshold of
-/// the nine around it.
+/// The Aleph map is that of pixel centres. Beside the outline of a moving object, a pixel's samples may belong to
+/// another surface than its centre, which moves less and is seen better. So a pixel there keeps to the strictest
+/// threshold of the nine around it.
 /// @return empty for rules that need none
 Image<float> compute_sampling_tolerance(const VisibleLimits& limits, const RenderSettings& settings, double exposure);
 

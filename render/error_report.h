@@ -41,8 +41,8 @@ struct ErrorInput {
     const Image<float>& threshold;  ///< cd/m2
     const Image<float>& accuracy;   ///< alpha
     const Image<Outline>& outlines;
-    double luminance_scale = 1.0;   ///< cd/m2 for a luminance of 1 of the samples: exposure times display white
-    bool blurred = false;           ///< the shutter or the lens is open
+    double luminance_scale = 1.0;  ///< cd/m2 for a luminance of 1 of the samples: exposure times display white
+    bool blurred = false;          ///< the shutter or the lens is open
 };
 
 /// From the halves of the samples of a pixel and the eight around it (PixelSamples), and from the accuracy of cached

@@ -5,9 +5,7 @@
 namespace aleph {
 
 FrameIrradiance::FrameIrradiance(const IndirectContext& context, const IrradianceCache* cache)
-    : KnownIrradiance(count_bounces(context.settings)),
-      context_(context),
-      cache_(cache) {}
+    : KnownIrradiance(count_bounces(context.settings)), context_(context), cache_(cache) {}
 
 std::optional<Rgb> FrameIrradiance::find(const ViewedSurface& surface, const Hit& hit, float accuracy,
                                          RayTask& task) const {

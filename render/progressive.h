@@ -34,8 +34,8 @@ using TakeSamples = std::function<void(std::span<const PixelRange> ranges)>;
 
 /// Takes samples until the rule stops at every pixel. At each stage the pixels that do not have enough double their
 /// samples. A decision reads what all pixels have after a stage, so the result does not depend on the number of
-/// threads. A pixel that stopped never goes on: it would when its neighbours, which go on because of its own rare bright
-/// sample, meet another, and then that sample is averaged away.
+/// threads. A pixel that stopped never goes on: it would when its neighbours, which go on because of its own rare
+/// bright sample, meet another, and then that sample is averaged away.
 /// @param pixels  what `take` adds to; read between stages
 void sample_by_stages(const SamplingPlan& plan, const Image<PixelSamples>& pixels, const TakeSamples& take);
 

@@ -49,6 +49,10 @@ SettingMap setting_map(const RenderSettings& settings) {
     return map;
 }
 
+std::string setting_text(const SettingValue& value) {
+    return std::visit([](const auto& v) { return fmt::format("{}", v); }, value);
+}
+
 void parse_setting(const std::string& text, SettingMap& into) {
     const std::size_t equals = text.find('=');
     if (equals == std::string::npos || equals == 0) {

@@ -98,6 +98,9 @@ void apply_settings(RenderSettings& settings, const SettingMap& map, const std::
 /// @param error  thresholds, above 0
 void follow_error(RenderSettings& settings, double error);
 
+/// As JSON and the command line write it: true, 0.5, saliency.
+std::string setting_text(const SettingValue& value);
+
 /// All keys with their values, as in a scene file. apply_settings of the map gives equal settings.
 SettingMap setting_map(const RenderSettings& settings);
 

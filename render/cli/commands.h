@@ -8,6 +8,7 @@ namespace aleph {
 void add_render_command(CLI::App& app, Command& command);
 void add_maps_command(CLI::App& app, Command& command);
 void add_explain_command(CLI::App& app, Command& command);
+void add_study_command(CLI::App& app, Command& command);
 void add_compare_command(CLI::App& app, Command& command);
 
 }  // namespace aleph

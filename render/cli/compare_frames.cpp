@@ -6,10 +6,10 @@
 
 #include "engine/base/errors.h"
 #include "render/cli/compare_frames_print.h"
-#include "render/cli/frame_list.h"
 #include "render/cli/frame_pattern.h"
 #include "render/cli/options.h"
 #include "render/cli/progress.h"
+#include "render/frame_list.h"
 
 namespace aleph {
 

@@ -10,8 +10,9 @@
 #include "engine/load/load_scene.h"
 #include "render/cli/commands.h"
 #include "render/cli/explain.h"
-#include "render/cli/frame_list.h"
 #include "render/cli/scene_options.h"
+#include "render/frame_list.h"
+#include "render/scene_numbers.h"
 
 namespace aleph {
 
@@ -52,7 +53,7 @@ int explain(const ExplainOptions& options) {
         RenderSettings settings;
         apply_settings(settings, scene.settings, options.scene);
         SettingMap given = options.settings;
-        set_scene_numbers(scene, given);
+        set_scene_numbers(scene, given, "--set");
         apply_settings(settings, given, "");
         std::vector<int> frames =
             options.frames.empty() ? choose_planned_frames(scene) : parse_frame_list(options.frames);

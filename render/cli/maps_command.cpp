@@ -9,14 +9,15 @@
 #include "engine/base/errors.h"
 #include "engine/image/image_file.h"
 #include "render/cli/commands.h"
-#include "render/cli/frame_list.h"
 #include "render/cli/frame_pattern.h"
 #include "render/cli/maps_help.h"
 #include "render/cli/output_path.h"
 #include "render/cli/scene_options.h"
 #include "render/cli/write_frames.h"
+#include "render/frame_list.h"
 #include "render/image_sequence.h"
 #include "render/picture_frame.h"
+#include "render/scene_numbers.h"
 #include "render/setting_table.h"
 
 namespace aleph {
@@ -108,7 +109,7 @@ PreparedImages prepare_images(const MapsOptions& options) {
     images.with_motion = read_picture_frame(images.files.begin()->second, options.layers).motion.has_value();
     if (!options.common.fps.empty()) shot.frame_rate = parse_fps(options.common.fps);
     SettingMap given = options.common.settings;
-    set_scene_numbers(shot, given);
+    set_scene_numbers(shot, given, "--set");
     if (options.exposure) shot.exposure = *options.exposure;
     if (!(*shot.exposure > 0.0 && *shot.exposure <= 1e18)) {
         throw InputError("", "--exposure", "expected a number above 0");

@@ -7,14 +7,13 @@
 #include <charconv>
 #include <filesystem>
 #include <iostream>
-#include <iterator>
 #include <map>
 
 #include "engine/base/errors.h"
-#include "engine/json/close_names.h"
 #include "engine/load/load_scene.h"
 #include "engine/pose/pose.h"
-#include "render/cli/frame_list.h"
+#include "render/frame_list.h"
+#include "render/scene_numbers.h"
 #include "render/setting_table.h"
 
 namespace aleph {
@@ -33,49 +32,6 @@ FrameRate parse_fps(const std::string& text) {
         if (fps > 1e-3 && fps <= 1e6) return {static_cast<std::int64_t>(fps * 1000.0 + 0.5), 1000};
     }
     throw InputError("--fps", printable(text), "expected frames per second, such as 30 or 30000/1001");
-}
-
-namespace {
-
-/// What --set takes beside the settings of the table.
-constexpr const char* scene_numbers[] = {"exposure", "viewing.pixels_per_degree", "viewing.display_white",
-                                         "viewing.persistence"};
-
-/// @throws InputError (--set)
-void refuse_unknown_settings(const SettingMap& settings) {
-    std::vector<std::string> known;
-    for (const Setting& setting : setting_table()) known.push_back(setting.key);
-    known.insert(known.end(), std::begin(scene_numbers), std::end(scene_numbers));
-    for (const auto& [key, value] : settings) {
-        if (std::ranges::find(known, key) != known.end()) continue;
-        const std::string close = close_suggestion(key, known);
-        throw InputError("--set", printable(key),
-                         fmt::format("there is no such setting{} known are {}", close.empty() ? ";" : close,
-                                     fmt::join(known, ", ")));
-    }
-}
-
-}  // namespace
-
-void set_scene_numbers(Scene& scene, SettingMap& settings) {
-    const auto take = [&](const std::string& key, auto&& apply) {
-        const auto found = settings.find(key);
-        if (found == settings.end()) return;
-        const double* number = std::get_if<double>(&found->second);
-        if (number == nullptr || !(*number > 0.0 && *number <= 1e18)) {
-            throw InputError("--set", key, "expected a number above 0");
-        }
-        apply(*number);
-        settings.erase(found);
-    };
-    take("exposure", [&](double v) { scene.exposure = v; });
-    take("viewing.pixels_per_degree", [&](double v) { scene.viewing.pixels_per_degree = v; });
-    take("viewing.display_white", [&](double v) { scene.viewing.display_white = v; });
-    take("viewing.persistence", [&](double v) {
-        if (v > 1.0) throw InputError("--set", "viewing.persistence", "expected a number above 0, at most 1");
-        scene.viewing.persistence = v;
-    });
-    refuse_unknown_settings(settings);
 }
 
 namespace {
@@ -202,8 +158,9 @@ void add_scene_options(CLI::App& app, SceneOptions& options) {
         ->type_name("PATTERN");
     app.add_option("--camera", options.camera, "name of a camera or of its node; default: the scene's choice")
         ->type_name("NAME");
-    app.add_option("--stats", options.stats,
-                   "write counts and times of every frame as JSON; while frames are made, the file has the finished ones")
+    app.add_option(
+           "--stats", options.stats,
+           "write counts and times of every frame as JSON; while frames are made, the file has the finished ones")
         ->type_name("FILE.json");
     add_load_limits(app, options.limits);
     add_value(app, "-t,--threads", options.threads, "number of threads, 0 to 4096; 0: all processors");
@@ -238,7 +195,7 @@ PreparedScene prepare_scene(const SceneOptions& options) {
     if (!options.fps.empty()) scene.frame_rate = parse_fps(options.fps);
     apply_settings(prepared.settings, scene.settings, options.scene);
     SettingMap given = options.settings;
-    set_scene_numbers(scene, given);
+    set_scene_numbers(scene, given, "--set");
     apply_settings(prepared.settings, given, "");
     if (!options.quiet) {
         for (const std::string& warning : scene.warnings) {

@@ -37,11 +37,6 @@ void add_load_limits(CLI::App& app, LoadLimits& limits);
 /// @throws InputError (--fps)
 FrameRate parse_fps(const std::string& text);
 
-/// Moves exposure and the viewing conditions (viewing.pixels_per_degree, ...) from the map to the scene: --set takes
-/// them, but they are no render settings.
-/// @throws InputError (--set)
-void set_scene_numbers(Scene& scene, SettingMap& settings);
-
 /// A scene with its settings: the defaults, overwritten by the scene file's, overwritten by the command line's.
 struct PreparedScene {
     Scene scene;

@@ -10,9 +10,9 @@
 #include "engine/load/load_scene.h"
 #include "render/accuracy_map.h"
 #include "render/cli/options.h"
+#include "render/sheet.h"
 #include "scenes/studies/cached_light.h"
 #include "scenes/studies/reference_light.h"
-#include "render/sheet.h"
 #include "scenes/studies/study_options.h"
 #include "scenes/studies/study_table.h"
 

@@ -7,9 +7,9 @@
 #include <cmath>
 
 #include "engine/load/load_scene.h"
-#include "render/cli/frame_list.h"
 #include "render/cli/options.h"
 #include "render/cli/progress.h"
+#include "render/frame_list.h"
 #include "render/sequence.h"
 #include "render/sheet.h"
 #include "scenes/studies/study_options.h"

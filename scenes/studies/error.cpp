@@ -6,8 +6,8 @@
 #include <CLI/CLI.hpp>
 
 #include "engine/load/load_scene.h"
-#include "render/cli/frame_list.h"
 #include "render/cli/options.h"
+#include "render/frame_list.h"
 #include "scenes/studies/error_report.h"
 #include "scenes/studies/judged_frame.h"
 #include "scenes/studies/study_options.h"
@@ -41,8 +41,8 @@ std::optional<LuminanceDifference> check_reference(const JudgedFrame& frame, con
     ReferencePictureOptions paths = options.reference;
     paths.kind = "path";
     paths.passes = options.check_passes;
-    const ChannelImage traced = load_or_render_reference_picture(frame.scene, frame.settings, frame.number,
-                                                                 options.study.scene, paths, options.study.quiet);
+    const ChannelImage traced = load_judged_reference(frame.scene, frame.settings, frame.number, options.study.scene,
+                                                      paths, options.study.quiet);
     return compare_luminance(frame.reference, traced, {});
 }
 

@@ -4,8 +4,8 @@
 #include <functional>
 #include <optional>
 
-#include "scenes/studies/picture_error.h"
-#include "scenes/studies/reference_picture.h"
+#include "render/study/picture_error.h"
+#include "render/study/reference_picture.h"
 #include "scenes/studies/timed_frame.h"
 
 namespace aleph {

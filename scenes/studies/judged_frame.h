@@ -1,6 +1,7 @@
 #pragma once
 // What the renderings of a frame are judged by.
 
+#include <CLI/CLI.hpp>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -17,6 +18,14 @@ namespace aleph {
 JudgedFrame make_judged_frame(const Scene& scene, const RenderSettings& settings, std::int64_t number,
                               const std::string& file, const ReferencePictureOptions& reference,
                               std::vector<double> multiples, bool quiet);
+
+/// --reference-kind, --reference-passes, --reference-spp, --references.
+void add_reference_options(CLI::App& app, ReferencePictureOptions& options);
+
+/// load_or_render_reference_picture with a name and an identity for the scene, and progress on standard error.
+/// @param file  of the scene
+ChannelImage load_judged_reference(const Scene& scene, const RenderSettings& settings, std::int64_t frame,
+                                   const std::string& file, ReferencePictureOptions options, bool quiet);
 
 /// Settings of --set that every rendering shares, with the references' filter where the version has one.
 /// @param file  of the scene, for errors

@@ -6,8 +6,8 @@
 #include <CLI/CLI.hpp>
 
 #include "engine/load/load_scene.h"
-#include "render/cli/frame_list.h"
 #include "render/cli/options.h"
+#include "render/frame_list.h"
 #include "scenes/studies/judged_frame.h"
 #include "scenes/studies/study_options.h"
 #include "scenes/studies/study_table.h"

@@ -8,9 +8,9 @@
 
 #include "engine/base/errors.h"
 #include "engine/load/load_scene.h"
-#include "render/cli/frame_list.h"
 #include "render/cli/options.h"
 #include "render/cli/progress.h"
+#include "render/frame_list.h"
 #include "scenes/studies/rest_points.h"
 #include "scenes/studies/study_options.h"
 #include "scenes/studies/study_table.h"

@@ -1,7 +1,5 @@
 #include "scenes/studies/study_frame.h"
 
-#include <ctime>
-
 #include "render/texture.h"
 
 namespace aleph {
@@ -48,10 +46,6 @@ FrameVision compute_vision(Sequence& sequence, std::int64_t frame) {
     FrameOutput out = sequence.render(frame, request);
     return {std::move(out.perception.aleph), std::move(out.threshold), std::move(out.tolerance),
             processor_seconds() - start};
-}
-
-double processor_seconds() {
-    return static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
 }
 
 }  // namespace aleph

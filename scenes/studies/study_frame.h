@@ -5,6 +5,7 @@
 #include "perception/perception_settings.h"
 #include "render/frame.h"
 #include "render/sequence.h"
+#include "render/study/processor_time.h"
 
 namespace aleph {
 
@@ -57,9 +58,5 @@ inline PixelSurface surface_at(const StudyFrame& frame, int x, int y) {
 
 /// Radiance that a surface reflects towards its viewer of an indirect irradiance of 1.
 Rgb reflect_unit_irradiance(const PixelSurface& surface);
-
-/// Seconds of processor time that the program has used, in all its threads: less disturbed by other programs than the
-/// time of a clock.
-double processor_seconds();
 
 }  // namespace aleph

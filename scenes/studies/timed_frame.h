@@ -9,7 +9,7 @@
 #include "engine/image/image_file.h"
 #include "engine/scene/scene.h"
 #include "render/settings.h"
-#include "scenes/studies/picture_error.h"
+#include "render/study/picture_error.h"
 
 namespace aleph {
 

@@ -12,6 +12,7 @@
 #include "render/cli/commands.h"
 #include "render/cli/progress.h"
 #include "render/cli/scene_options.h"
+#include "render/scene_numbers.h"
 #include "render/setting_table.h"
 #include "tests/support/scratch_folder.h"
 
@@ -36,12 +37,12 @@ TEST(Options, NumbersAreReadWhole) {
 TEST(Options, SetTakesTheViewingConditions) {
     Scene scene;
     SettingMap settings = {{"viewing.persistence", 0.1}, {"viewing.display_white", 200.0}, {"spp", 4.0}};
-    set_scene_numbers(scene, settings);
+    set_scene_numbers(scene, settings, "--set");
     EXPECT_EQ(scene.viewing, (ViewingConditions{31.0, 200.0, 0.1}));
     EXPECT_EQ(settings, (SettingMap{{"spp", 4.0}}));
     for (const double bad : {2.0, 0.0, -1.0}) {
         settings = {{"viewing.persistence", bad}};
-        EXPECT_THROW(set_scene_numbers(scene, settings), InputError) << bad;
+        EXPECT_THROW(set_scene_numbers(scene, settings, "--set"), InputError) << bad;
     }
 }
 

@@ -1,6 +1,6 @@
 // Frame lists and output names.
 
-#include "render/cli/frame_list.h"
+#include "render/frame_list.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "render/cli/frame_list.h"
+#include "render/frame_list.h"
 
 #include <fmt/format.h>
 

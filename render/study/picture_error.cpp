@@ -1,4 +1,4 @@
-#include "scenes/studies/picture_error.h"
+#include "render/study/picture_error.h"
 
 #include <algorithm>
 #include <cmath>

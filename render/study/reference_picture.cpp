@@ -1,4 +1,4 @@
-#include "scenes/studies/reference_picture.h"
+#include "render/study/reference_picture.h"
 
 #include <fmt/format.h>
 
@@ -7,13 +7,11 @@
 #include <limits>
 
 #include "engine/base/errors.h"
-#include "render/cli/options.h"
-#include "render/cli/progress.h"
+#include "engine/scene/scene_hash.h"
 #include "render/compare_luminance.h"
 #include "render/frame_files.h"
 #include "render/sequence.h"
-#include "scenes/studies/study_frame.h"
-#include "scenes/studies/study_options.h"
+#include "render/study/processor_time.h"
 
 namespace aleph {
 
@@ -31,6 +29,7 @@ double number_in(const ChannelImage& image, const char* key) {
 }
 
 RenderSettings reference_settings(const RenderSettings& settings, const ReferencePictureOptions& options) {
+    if (options.kind == "settings") return settings;
     RenderSettings out;
     out.width = settings.width;
     out.height = settings.height;
@@ -39,6 +38,7 @@ RenderSettings reference_settings(const RenderSettings& settings, const Referenc
     out.subdivision_level = settings.subdivision_level;
     out.estimate = settings.estimate;  // the automatic exposure is that of the estimate
     out.perception.guide = Guide::none;
+    out.filter = settings.filter;
     out.spp = options.pass_spp;
     if (options.kind == "path") {
         out.integrator = Integrator::path;
@@ -48,17 +48,16 @@ RenderSettings reference_settings(const RenderSettings& settings, const Referenc
         out.gather = 16;
         out.light_samples = 2 * options.pass_spp;
     }
-    if (has_setting("filter")) out = with_choice(out, "filter", "box");
     return out;
 }
 
-std::filesystem::path reference_path(const RenderSettings& settings, std::int64_t frame, const std::string& file,
-                                     const ReferencePictureOptions& options) {
-    const std::string what = fmt::format("{} {} {} {} {}", hash_file(file), settings.spp, settings.bounces,
-                                         settings.path_depth, settings.subdivision_level);
-    return std::filesystem::path(options.folder) / fmt::format("{}-{}-{}x{}-{}-{}.exr", scene_name(file), frame,
-                                                               settings.width, settings.height, options.kind,
-                                                               hash_text(what));
+/// What the picture depends on, but for its scene.
+std::string describe_settings(const RenderSettings& settings, const ReferencePictureOptions& options) {
+    std::string text = fmt::format("{} {} {} {} {}", settings.spp, settings.bounces, settings.path_depth,
+                                   settings.subdivision_level, static_cast<int>(settings.filter));
+    if (options.kind != "settings") return text;
+    for (const auto& [key, value] : setting_map(settings)) text += fmt::format(" {}={}", key, setting_text(value));
+    return text;
 }
 
 ChannelImage read_reference(const std::filesystem::path& path, const RenderSettings& settings) {
@@ -86,25 +85,31 @@ ChannelImage render_pass(const Scene& scene, RenderSettings settings, std::int64
     const double start = processor_seconds();
     FrameRequest request;
     request.progress = progress;
-    ChannelImage all =
-        make_frame_image(sequence.render(frame, request), false, sequence.scene(), settings, sequence.exposure());
+    const FrameOutput output = sequence.render(frame, request);
+    ChannelImage all = make_frame_image(output, false, sequence.scene(), settings, sequence.exposure());
     std::erase_if(all.channels, [](const Channel& channel) { return channel.name.size() > 1 || channel.name == "A"; });
+    add_indirect(all, output.shaded);
     all.metadata[seconds_key] = processor_seconds() - start;
     return all;
 }
 
 }  // namespace
 
-void add_reference_options(CLI::App& app, ReferencePictureOptions& options) {
-    add_value(app, "--reference-passes", options.passes, "renderings that the reference is the mean of");
-    add_value(app, "--reference-spp", options.pass_spp, "samples per pixel of each");
-    app.add_option("--reference-kind", options.kind,
-                   "how the reference is made: by traced paths, or by gathers without a cache")
-        ->check(CLI::IsMember({"path", "gather"}))
-        ->capture_default_str();
-    app.add_option("--references", options.folder,
-                   "folder for references, which are read if they exist; those with fewer passes get more")
-        ->capture_default_str();
+void add_indirect(ChannelImage& image, const ShadedFrame& shaded) {
+    if (shaded.indirect.empty()) return;
+    for (int c = 0; c < 3; ++c) {
+        Image<float> values(shaded.indirect.width, shaded.indirect.height);
+        for (std::size_t i = 0; i < values.size(); ++i) values.pixels[i] = shaded.indirect.pixels[i][c];
+        image.channels.push_back({indirect_channels[static_cast<std::size_t>(c)], std::move(values)});
+    }
+}
+
+std::filesystem::path reference_picture_path(const RenderSettings& given, std::int64_t frame,
+                                             const ReferencePictureOptions& options) {
+    const RenderSettings settings = reference_settings(given, options);
+    const std::string what = hash_bytes(options.identity + " " + describe_settings(settings, options)).substr(0, 16);
+    return std::filesystem::path(options.folder) / fmt::format("{}-{}-{}x{}-{}-{}.exr", options.name, frame,
+                                                               settings.width, settings.height, options.kind, what);
 }
 
 double reference_passes(const ChannelImage& reference) {
@@ -153,18 +158,19 @@ ChannelImage with_exposure(ChannelImage picture, double exposure) {
 }
 
 ChannelImage load_or_render_reference_picture(const Scene& scene, const RenderSettings& given, std::int64_t frame,
-                                              const std::string& file, const ReferencePictureOptions& options,
-                                              bool quiet) {
-    if (options.passes < 2) throw InputError("", "--reference-passes", "expected at least 2: one has no variance");
+                                              const ReferencePictureOptions& options,
+                                              const ReferenceProgress& progress) {
+    if (options.passes < 2) throw InputError("", "reference", "expected at least 2 passes: one has no variance");
     const RenderSettings settings = reference_settings(given, options);
-    const std::filesystem::path path = reference_path(settings, frame, file, options);
+    const std::filesystem::path path = reference_picture_path(given, frame, options);
     ChannelImage reference;
     if (std::filesystem::exists(path)) reference = read_reference(path, settings);
     if (reference_passes(reference) >= options.passes) return reference;
     if (path.has_parent_path()) std::filesystem::create_directories(path.parent_path());
-    Progress progress(fmt::format("reference of {} {}", scene_name(file), frame), options.passes, progress_look(quiet));
     for (double done = reference_passes(reference); done < options.passes; ++done) {
-        const auto show = [&](double fraction, const char*) { progress.update(done + fraction); };
+        const auto show = [&](double fraction, const char*) {
+            if (progress) progress(done + fraction);
+        };
         const ChannelImage pass = render_pass(scene, settings, frame, done, show);
         add_pass(reference, done == 0.0 ? pass : with_exposure(pass, number_in(reference, exposure_key)));
         write_exr(path, reference);

@@ -1,0 +1,168 @@
+// `aleph study`: what settings cost, and what error they leave.
+
+#include <fmt/format.h>
+
+#include <iostream>
+
+#include "engine/base/errors.h"
+#include "engine/base/parallel.h"
+#include "render/cli/commands.h"
+#include "render/cli/progress.h"
+#include "render/cli/scene_options.h"
+#include "render/cli/study_output.h"
+#include "render/study/study_file.h"
+
+namespace aleph {
+
+namespace {
+
+struct StudyCommandOptions {
+    std::string file, frames, size, output, reference;
+    std::vector<std::string> sweeps, sets, viewers;
+    int passes = 0, spp = 0, repeats = 0, seeds = 0, threads = 0;
+    bool quiet = false, markdown = false;
+};
+
+/// "error=.5,1,2"
+StudyAxis parse_sweep(const std::string& text) {
+    const std::size_t equals = text.find('=');
+    if (equals == std::string::npos || equals == 0 || equals + 1 == text.size())
+        throw InputError("", "--sweep", fmt::format("{}: expected KEY=VALUE,VALUE,...", printable(text)));
+    StudyAxis axis{text.substr(0, equals), {}};
+    for (std::size_t begin = equals + 1; begin <= text.size();) {
+        const std::size_t comma = std::min(text.find(',', begin), text.size());
+        SettingMap value;
+        parse_setting(fmt::format("{}={}", axis.setting, text.substr(begin, comma - begin)), value);
+        axis.values.push_back(value.begin()->second);
+        begin = comma + 1;
+    }
+    return axis;
+}
+
+/// A model of vision by its name; castle with the viewing conditions of a display that holds its frames.
+StudyViewer make_viewer(const std::string& vision) {
+    StudyViewer viewer{vision, {{"vision", vision}}};
+    if (vision == "castle") viewer.settings["viewing.persistence"] = 1.0;
+    return viewer;
+}
+
+/// The study of a file, or that of the sweeps of a scene.
+Study make_study(const StudyCommandOptions& options) {
+    Study study;
+    if (is_study(options.file)) {
+        study = load_study(options.file);
+    } else {
+        study.scenes.push_back({options.file, ""});
+        study.title = fmt::format("{}: what accuracy costs in time", printable(options.file));
+        study.settings["size"] = std::string("320x240");
+        study.viewers.push_back(default_viewer());
+    }
+    for (const std::string& text : options.sweeps) {
+        StudyAxis axis = parse_sweep(text);
+        std::erase_if(study.sweep, [&](const StudyAxis& other) { return other.setting == axis.setting; });
+        study.sweep.push_back(std::move(axis));
+    }
+    if (study.sweep.empty() && study.variants.empty()) {
+        throw InputError(options.file, "--sweep",
+                         "nothing to compare: name the settings, such as --sweep error=.5,1,2,4 --sweep "
+                         "guide=none,saliency");
+    }
+    return study;
+}
+
+void override_study(const StudyCommandOptions& options, Study& study) {
+    if (!options.frames.empty()) {
+        for (StudyScene& scene : study.scenes) scene.frames = options.frames;
+    }
+    if (!options.size.empty()) study.settings["size"] = options.size;
+    for (const std::string& set : options.sets) parse_setting(set, study.settings);
+    if (!options.reference.empty()) study.reference.kind = options.reference;
+    if (options.passes > 0) study.reference.passes = options.passes;
+    if (options.spp > 0) study.reference.spp = options.spp;
+    if (options.repeats > 0) study.repeats = options.repeats;
+    if (options.seeds > 0) {
+        study.seeds.clear();
+        for (int seed = 0; seed < options.seeds; ++seed) study.seeds.push_back(static_cast<std::uint32_t>(seed));
+    }
+    if (options.viewers.empty()) return;
+    study.viewers.clear();
+    for (const std::string& viewer : options.viewers) study.viewers.push_back(make_viewer(viewer));
+}
+
+int run(const StudyCommandOptions& options, const std::string& command_line) {
+    check_threads(options.threads);
+    const ThreadLimit limit(options.threads);
+    Study study = make_study(options);
+    override_study(options, study);
+    const PreparedStudy prepared = prepare_study(std::move(study));
+    const std::filesystem::path folder =
+        options.output.empty() ? study_folder(options.file) : std::filesystem::path(options.output);
+    StudyResults results;
+    {
+        Progress progress("study", 1.0, progress_look(options.quiet));
+        results =
+            run_study(prepared, folder, [&](double share, const std::string& what) { progress.update(share, what); });
+    }
+    print_study(prepared, results, options.markdown, std::cout);
+    const StudyContext context{command_line, study_date(), thread_count()};
+    write_study(prepared, results, context, folder, options.quiet);
+    return exit_done;
+}
+
+void add_study_options(CLI::App& study, StudyCommandOptions& options) {
+    study.add_option("study", options.file, "study file (.json), or a scene with --sweep")
+        ->required()
+        ->type_name("FILE|SCENE");
+    study
+        .add_option("--sweep", options.sweeps,
+                    "a setting and its values; every combination of several sweeps is a variant")
+        ->type_name("KEY=A,B,...")
+        ->allow_extra_args(false);
+    study
+        .add_option("--frames", options.frames,
+                    "frames, such as 20,60; default: the study's, or the middle of the shot")
+        ->type_name("LIST");
+    study.add_option("--size", options.size, "of the frames; default: the study's, or 320x240")
+        ->type_name("WIDTHxHEIGHT");
+    study.add_option("--set", options.sets, "a setting of every variant and of the reference")
+        ->type_name("KEY=VALUE")
+        ->allow_extra_args(false);
+    study
+        .add_option("--reference", options.reference,
+                    "what judges: traced paths, or gather rays at every sample (default: the study's, or gather)")
+        ->check(CLI::IsMember({"path", "gather"}));
+    add_value(study, "--reference-passes", options.passes,
+              "renderings that the reference is the mean of, at least 2; 0: the study's, or 4");
+    add_value(study, "--reference-spp", options.spp, "samples per pixel of each; 0: the study's, or 32");
+    add_value(study, "--repeats", options.repeats, "renderings with equal random numbers; 0: the study's, or 1");
+    add_value(study, "--seeds", options.seeds, "renderings with different ones; 0: the study's, or 1");
+    study
+        .add_option("--viewers", options.viewers,
+                    "models of vision that judge, such as thesis,castle (castle: a display that holds its frames)")
+        ->delimiter(',')
+        ->check(CLI::IsMember({"thesis", "laird", "castle"}));
+    study.add_option("-o,--output", options.output, "folder of the results; default: NAME-study")->type_name("FOLDER");
+    add_value(study, "-t,--threads", options.threads, "number of threads, 0 to 4096; 0: all processors");
+    study.add_flag("--markdown", options.markdown, "print the table as Markdown");
+    study.add_flag("-q,--quiet", options.quiet, "print no progress and no list of files");
+}
+
+}  // namespace
+
+void add_study_command(CLI::App& app, Command& command) {
+    CLI::App* study = app.add_subcommand("study", "measure what settings cost in time, and what error they leave");
+    const auto options = std::make_shared<StudyCommandOptions>();
+    add_study_options(*study, *options);
+    study->footer(
+        "Every variant is rendered and compared with a reference, in units of what a viewer just sees. The folder gets "
+        "study.json and study.csv with all figures, study.png with error against time, and report.html, a page to "
+        "look at the frames and their maps. Finished variants are kept there: a study that was stopped goes on.\n"
+        "Seconds are of a processor. --repeats and --seeds give times and errors their uncertainty.\n\n"
+        "Examples:\n"
+        "  aleph study scenes/pool/scene.json --frames 20 --sweep error=.5,1,2,4 --sweep guide=none,saliency\n"
+        "  aleph study scenes/cornell/scene.json --sweep accuracy=.05,.15,.5 --reference path --repeats 3\n"
+        "  aleph study scenes/studies/pool.json -o out/pool");
+    study->callback([options, &command] { command = [options] { return run(*options, study_command_line()); }; });
+}
+
+}  // namespace aleph

@@ -1,0 +1,122 @@
+#include "render/cli/study_output.h"
+
+#include <fmt/format.h>
+#include <fmt/ostream.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iostream>
+#include <nlohmann/json.hpp>
+
+#include "engine/base/atomic_file.h"
+#include "engine/base/errors.h"
+#include "engine/base/files.h"
+#include "render/study/study_plot.h"
+
+namespace aleph {
+
+namespace {
+
+/// What the table shows of the metrics; the files have all of them.
+bool is_shown(const Metric& metric) {
+    constexpr const char* hidden[] = {"wall_seconds", "share_certain", "records", "relative_mse_indirect", "bias"};
+    return std::ranges::none_of(hidden, [&](std::string_view name) { return metric.name.starts_with(name); });
+}
+
+/// Heads of columns: shorter than titles.
+std::string head_of(const Metric& metric) {
+    std::string head = metric.name;
+    std::ranges::replace(head, '_', ' ');
+    if (head.starts_with("processor seconds")) return "seconds";
+    if (head.starts_with("share beyond")) head.replace(0, 12, "beyond %");
+    if (head.starts_with("rays")) return "M rays";
+    return head;
+}
+
+std::string cell(const VariantResult& variant, const Metric& metric) {
+    const auto found = variant.metrics.find(metric.name);
+    if (found == variant.metrics.end()) return "-";
+    std::string text = fmt::format("{:.3g}", found->second.value);
+    if (found->second.error) text += fmt::format(" +- {:.1g}", *found->second.error);
+    return text;
+}
+
+using Row = std::vector<std::string>;
+
+void print_row(const Row& row, const std::vector<std::size_t>& widths, bool markdown, std::ostream& out) {
+    std::string text = markdown ? "|" : "";
+    for (std::size_t i = 0; i < row.size(); ++i) {
+        if (i > 0 && !markdown) text += "  ";
+        if (markdown) text += " ";
+        text += i == 0 ? fmt::format("{:<{}}", row[i], widths[i]) : fmt::format("{:>{}}", row[i], widths[i]);
+        if (markdown) text += " |";
+    }
+    out << text << "\n";
+}
+
+}  // namespace
+
+std::filesystem::path study_folder(const std::filesystem::path& file) {
+    const std::filesystem::path path = std::filesystem::absolute(file);
+    const std::string name = path.stem() == "scene" ? path.parent_path().filename().string() : path.stem().string();
+    return name + "-study";
+}
+
+std::string study_command_line() {
+    const Bytes bytes = read_regular_file("/proc/self/cmdline", "/proc/self/cmdline", "");
+    std::string text(bytes.begin(), bytes.end()), line;
+    for (std::size_t begin = 0; begin < text.size();) {
+        const std::size_t end = std::min(text.find('\0', begin), text.size());
+        std::string word = text.substr(begin, end - begin);
+        if (begin == 0) word = std::filesystem::path(word).filename().string();
+        line += (line.empty() ? "" : " ") + word;
+        begin = end + 1;
+    }
+    return line;
+}
+
+void print_study(const PreparedStudy& prepared, const StudyResults& results, bool markdown, std::ostream& out) {
+    std::vector<Row> rows{{"variant"}};
+    for (const Metric& metric : prepared.metrics) {
+        if (is_shown(metric)) rows.front().push_back(head_of(metric));
+    }
+    for (const VariantResult& variant : results.variants) {
+        Row& row = rows.emplace_back();
+        row.push_back(printable(variant.name, 80) + (variant.on_front ? " *" : ""));
+        for (const Metric& metric : prepared.metrics) {
+            if (is_shown(metric)) row.push_back(cell(variant, metric));
+        }
+    }
+    std::vector<std::size_t> widths(rows.front().size(), 0);
+    for (const Row& row : rows) {
+        for (std::size_t i = 0; i < row.size(); ++i) widths[i] = std::max(widths[i], row[i].size());
+    }
+    fmt::print(out, "{}\nReference: {}.\nMeans over {} frame{}; * no other variant is faster and better.\n\n",
+               printable(prepared.study.title, 400), describe_reference(prepared, results), results.frames.size(),
+               results.frames.size() == 1 ? "" : "s");
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+        print_row(rows[i], widths, markdown, out);
+        if (i > 0 || !markdown) continue;
+        Row rule;
+        for (std::size_t c = 0; c < widths.size(); ++c)
+            rule.push_back(std::string(widths[c] - 1, '-') + (c == 0 ? "-" : ":"));
+        print_row(rule, widths, true, out);
+    }
+}
+
+void write_study(const PreparedStudy& prepared, const StudyResults& results, const StudyContext& context,
+                 const std::filesystem::path& folder, bool quiet) {
+    const nlohmann::ordered_json json = study_json(prepared, results, context);
+    write_file(folder / "study.json",
+               json.dump(1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n");
+    write_file(folder / "study.csv", study_csv(prepared, results));
+    std::string files = "study.json, study.csv";
+    const bool plotted = draw_plot(folder / "study.png", prepared, results);
+    if (plotted) files += ", study.png";
+    if (quiet) return;
+    std::cerr << fmt::format("aleph: {} runs made, {} found finished; wrote {} in {}\n", results.made, results.found,
+                             files, printable(folder.string(), 400));
+    if (!plotted) std::cerr << "aleph: no chart was drawn: that needs gnuplot (Debian: gnuplot-nox)\n";
+}
+
+}  // namespace aleph

@@ -1,0 +1,89 @@
+#include "render/study/measure_run.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+#include "render/compare_luminance.h"
+#include "render/compare_threshold.h"
+#include "render/study/flip_tool.h"
+#include "render/study/reference_picture.h"
+#include "render/yee_metric.h"
+
+namespace aleph {
+
+namespace {
+
+double mean_ratio(const LuminanceError& error, const Image<float>& threshold) {
+    double sum = 0.0;
+    for (std::size_t i = 0; i < threshold.size(); ++i) sum += std::abs(error.error.pixels[i]) / threshold.pixels[i];
+    return threshold.size() == 0 ? 0.0 : sum / static_cast<double>(threshold.size());
+}
+
+/// Errors in the thresholds of one viewer.
+void measure_viewer(const LuminanceError& error, const Image<float>& threshold, const std::string& suffix,
+                    MetricValues& out) {
+    const ThresholdFigures figures = summarize(measure_error(error, threshold));
+    out["share_beyond" + suffix] = figures.percent_beyond();
+    if (figures.noise) out["share_certain" + suffix] = figures.percent(static_cast<double>(figures.noise->certain));
+    out["mean_error" + suffix] = mean_ratio(error, threshold);
+    out["p99_error" + suffix] = figures.percentile_99;
+}
+
+/// The indirect light of a picture as R, G and B; no channels if it has none.
+ChannelImage indirect_of(const ChannelImage& picture) {
+    ChannelImage out{{}, picture.metadata};
+    constexpr std::array names = {"R", "G", "B"};
+    for (std::size_t c = 0; c < names.size(); ++c) {
+        const Image<float>* channel = picture.find(indirect_channels[c]);
+        if (channel == nullptr) return {};
+        out.channels.push_back({names[c], *channel});
+    }
+    return out;
+}
+
+double yee_percent(const ChannelImage& picture, const ChannelImage& reference, double display_white) {
+    ViewingConditions viewing;
+    viewing.display_white = display_white;
+    const Image<Rgb> a = linear_colour(picture), b = linear_colour(reference);
+    return 100.0 * static_cast<double>(count_visible_differences(a, b, viewing)) / static_cast<double>(a.size());
+}
+
+}  // namespace
+
+MetricValues measure_errors(const ChannelImage& picture, const FrameTruth& truth, const std::vector<Metric>& metrics) {
+    const auto wants = [&](const char* name) {
+        return std::ranges::find(metrics, name, &Metric::name) != metrics.end();
+    };
+    const auto found = picture.metadata.find("exposureFactor");
+    const double* exposure = found == picture.metadata.end() ? nullptr : std::get_if<double>(&found->second);
+    const ChannelImage reference = exposure ? with_exposure(truth.reference, *exposure) : truth.reference;
+    MetricValues all;
+    const LuminanceError error = compute_luminance_error(picture, reference);
+    for (const Metric& metric : metrics) {
+        if (metric.viewer < 0 || !metric.name.starts_with("share_beyond")) continue;
+        measure_viewer(error, truth.thresholds.at(static_cast<std::size_t>(metric.viewer)),
+                       metric.name.substr(std::string("share_beyond").size()), all);
+    }
+    const LuminanceDifference difference = compare_luminance(picture, reference, {});
+    all["relative_mse"] = difference.relative_mse - difference.noise_mse;
+    all["bias"] = 100.0 * difference.bias;
+    const ChannelImage indirect = indirect_of(picture), true_indirect = indirect_of(reference);
+    if (!indirect.channels.empty() && !true_indirect.channels.empty())
+        all["relative_mse_indirect"] = compare_luminance(indirect, true_indirect, {}).relative_mse;
+    if (wants("yee")) all["yee"] = yee_percent(picture, reference, truth.display_white);
+    if (wants("flip")) {
+        if (const auto flip = run_flip(linear_colour(picture), linear_colour(reference))) all["flip"] = *flip;
+    }
+    std::erase_if(all, [&](const auto& value) { return !wants(value.first.c_str()); });
+    return all;
+}
+
+ReferenceQuality measure_reference(const FrameTruth& truth) {
+    const LuminanceError none = compute_luminance_error(truth.reference, truth.reference);
+    const ThresholdFigures figures = summarize(measure_error(none, truth.thresholds.front()));
+    if (!figures.noise) return {};
+    return {figures.percent(figures.noise->expected), figures.noise->percentile_99};
+}
+
+}  // namespace aleph

@@ -1,0 +1,81 @@
+#include "render/study/metric_table.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+
+#include "engine/base/errors.h"
+#include "engine/json/close_names.h"
+
+namespace aleph {
+
+namespace {
+
+struct Row {
+    const char *name, *title, *unit;
+    bool cost, usual, of_viewer;
+};
+
+constexpr Row rows[] = {
+    {"processor_seconds", "processor seconds", "s", true, true, false},
+    {"wall_seconds", "seconds of a clock", "s", true, true, false},
+    {"rays", "rays", "million", true, true, false},
+    {"samples", "samples per pixel", "", true, true, false},
+    {"records", "irradiance values computed", "", true, true, false},
+    {"share_beyond", "pixels beyond one visible threshold", "%", false, true, true},
+    {"share_certain", "pixels certainly beyond it, whatever the noise of the reference", "%", false, true, true},
+    {"mean_error", "mean error", "visible thresholds", false, true, true},
+    {"p99_error", "99th percentile of the error", "visible thresholds", false, true, true},
+    {"relative_mse", "relative MSE of luminance, less the noise of the reference", "", false, true, false},
+    {"relative_mse_indirect", "relative MSE of indirect light", "", false, true, false},
+    {"bias", "bias of the mean luminance", "%", false, true, false},
+    {"yee", "pixels that Yee's metric of 2004 finds different", "%", false, true, false},
+    {"flip", "mean FLIP error", "", false, false, false},
+};
+
+Metric make_metric(const Row& row, const Study& study, int viewer) {
+    Metric metric{row.name, row.title, row.unit, row.cost, row.usual, viewer};
+    if (viewer > 0) {
+        const std::string& name = study.viewers[static_cast<std::size_t>(viewer)].name;
+        metric.name += "." + name;
+        metric.title += fmt::format(" ({})", name);
+    }
+    return metric;
+}
+
+std::vector<Metric> make_all(const Study& study) {
+    std::vector<Metric> all;
+    for (const Row& row : rows) {
+        const int viewers = row.of_viewer ? static_cast<int>(study.viewers.size()) : 1;
+        for (int i = 0; i < viewers; ++i) all.push_back(make_metric(row, study, row.of_viewer ? i : -1));
+    }
+    return all;
+}
+
+}  // namespace
+
+std::vector<Metric> list_metrics(const Study& study) {
+    std::vector<Metric> all = make_all(study);
+    if (study.metrics.empty()) {
+        std::erase_if(all, [](const Metric& metric) { return !metric.usual; });
+        return all;
+    }
+    std::vector<std::string> known;
+    for (const Row& row : rows) known.emplace_back(row.name);
+    for (const std::string& name : study.metrics) {
+        if (std::ranges::find(known, name) != known.end()) continue;
+        throw InputError("", "metrics",
+                         fmt::format("there is no metric {}{}; known are {}", printable(name),
+                                     close_suggestion(name, known), fmt::join(known, ", ")));
+    }
+    // Those that charts show first are always measured.
+    std::erase_if(all, [&](const Metric& metric) {
+        const std::string row = metric.name.substr(0, metric.name.find('.'));
+        return row != "processor_seconds" && row != "share_beyond" &&
+               std::ranges::find(study.metrics, row) == study.metrics.end();
+    });
+    return all;
+}
+
+}  // namespace aleph

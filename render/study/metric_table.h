@@ -1,0 +1,25 @@
+#pragma once
+// What a study measures of a frame.
+
+#include <string>
+#include <vector>
+
+#include "render/study/study.h"
+
+namespace aleph {
+
+struct Metric {
+    std::string name;   ///< in files: "share_beyond", and of other viewers than the first "share_beyond.castle"
+    std::string title;  ///< in tables and charts
+    std::string unit;   ///< empty: none
+    bool cost = false;  ///< of time or work; else of error
+    bool usual = true;  ///< measured unless the study names its metrics
+    int viewer = -1;    ///< index of the viewer whose thresholds it is in; -1: of none
+};
+
+/// All metrics of a study, those of every viewer among them. The first cost and the first error are what charts show
+/// first: processor_seconds and share_beyond.
+/// @throws InputError for a name in `Study::metrics` that is unknown
+std::vector<Metric> list_metrics(const Study& study);
+
+}  // namespace aleph

@@ -1,0 +1,94 @@
+#include "render/study/prepared_study.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "engine/base/errors.h"
+#include "engine/load/load_scene.h"
+#include "engine/pose/pose.h"
+#include "engine/scene/scene_hash.h"
+#include "render/frame_list.h"
+#include "render/scene_numbers.h"
+
+namespace aleph {
+
+namespace {
+
+/// "pool" for pool/scene.json, else the name of the file.
+std::string name_scene(const std::filesystem::path& file) {
+    const std::filesystem::path path = std::filesystem::absolute(file);
+    return path.stem() == "scene" ? path.parent_path().filename().string() : path.stem().string();
+}
+
+PreparedStudyScene prepare_scene(const StudyScene& given) {
+    PreparedStudyScene scene;
+    scene.name = name_scene(given.file);
+    scene.scene = load_scene(given.file.string());
+    scene.identity = hash_scene(scene.scene);
+    if (given.frames.empty()) {
+        const FrameRange range = frame_range(scene.scene);
+        scene.frames = {static_cast<int>(range.first + (range.last - range.first) / 2)};
+    } else {
+        scene.frames = parse_frame_list(given.frames);
+    }
+    return scene;
+}
+
+/// All variants are compared pixel by pixel, and seeds are a study's own list.
+void refuse(const SettingMap& settings, const std::string& place) {
+    if (settings.contains("size"))
+        throw InputError("", place, "variants of a study have one size: `size` of the study");
+    if (settings.contains("seed")) throw InputError("", place, "the seeds of a study are its list `seeds`");
+}
+
+void check(const PreparedStudy& prepared) {
+    for (const PreparedStudyScene& scene : prepared.scenes) {
+        for (const StudyVariant& variant : prepared.variants) {
+            refuse(variant.settings, variant.name);
+            with_settings_of(scene, prepared.study, variant.settings);
+        }
+        for (const StudyViewer& viewer : prepared.study.viewers)
+            with_settings_of(scene, prepared.study, viewer.settings);
+        with_settings_of(scene, prepared.study, prepared.study.reference.settings);
+    }
+}
+
+}  // namespace
+
+PreparedStudy prepare_study(Study study) {
+    PreparedStudy prepared;
+    prepared.variants = list_variants(study);
+    prepared.metrics = list_metrics(study);
+    for (const StudyScene& scene : study.scenes) {
+        prepared.scenes.push_back(prepare_scene(scene));
+        const std::string& name = prepared.scenes.back().name;
+        if (std::ranges::count(prepared.scenes, name, &PreparedStudyScene::name) > 1)
+            throw InputError(scene.file.string(), "scenes", fmt::format("two scenes are called {}", printable(name)));
+    }
+    prepared.study = std::move(study);
+    check(prepared);
+    return prepared;
+}
+
+SceneWithSettings with_settings_of(const PreparedStudyScene& scene, const Study& study, const SettingMap& more) {
+    SceneWithSettings out{scene.scene, {}};
+    apply_settings(out.settings, scene.scene.settings, scene.scene.file);
+    SettingMap settings = more;
+    settings.insert(study.settings.begin(), study.settings.end());
+    set_scene_numbers(out.scene, settings, "study");
+    apply_settings(out.settings, settings, "study");
+    return out;
+}
+
+ReferencePictureOptions reference_options(const PreparedStudyScene& scene, const Study& study,
+                                          const std::string& folder) {
+    return {.passes = study.reference.passes,
+            .pass_spp = study.reference.spp,
+            .kind = study.reference.kind,
+            .folder = folder,
+            .name = scene.name,
+            .identity = scene.identity};
+}
+
+}  // namespace aleph

@@ -1,0 +1,47 @@
+#pragma once
+// A study with its scenes loaded and its settings checked.
+
+#include <string>
+#include <vector>
+
+#include "render/settings.h"
+#include "render/study/metric_table.h"
+#include "render/study/reference_picture.h"
+#include "render/study/study.h"
+
+namespace aleph {
+
+/// A scene as one variant or viewer has it.
+struct SceneWithSettings {
+    Scene scene;
+    RenderSettings settings;
+};
+
+struct PreparedStudyScene {
+    std::string name;      ///< of its folder or file: "pool"
+    std::string identity;  ///< hash_scene and the file's settings
+    Scene scene;
+    std::vector<int> frames;
+};
+
+struct PreparedStudy {
+    Study study;
+    std::vector<StudyVariant> variants;
+    std::vector<Metric> metrics;
+    std::vector<PreparedStudyScene> scenes;
+};
+
+/// Loads the scenes and checks every setting of every variant and viewer, before anything is rendered.
+/// @throws InputError: a scene or a setting that is wrong, two scenes of one name, or a sweep of `size` or `seed`
+PreparedStudy prepare_study(Study study);
+
+/// The scene with the settings of its file, of the study, and `more` in their places.
+/// @throws InputError
+SceneWithSettings with_settings_of(const PreparedStudyScene& scene, const Study& study, const SettingMap& more);
+
+/// How the reference of a scene is made.
+/// @param folder  that keeps references
+ReferencePictureOptions reference_options(const PreparedStudyScene& scene, const Study& study,
+                                          const std::string& folder);
+
+}  // namespace aleph

@@ -1,0 +1,179 @@
+#include "render/study/run_study.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+
+#include "engine/base/parallel.h"
+#include "engine/scene/scene_hash.h"
+#include "render/frame_files.h"
+#include "render/sequence.h"
+#include "render/study/run_store.h"
+
+namespace aleph {
+
+namespace {
+
+/// How long a pass of a reference takes, in runs of a frame: for progress alone.
+constexpr double frames_per_pass = 4.0;
+
+class StudyRunner {
+  public:
+    StudyRunner(const PreparedStudy& prepared, const std::filesystem::path& folder, const StudyProgress& progress)
+        : prepared_(prepared), study_(prepared.study), store_(folder), progress_(progress) {
+        for (const PreparedStudyScene& scene : prepared.scenes) {
+            const auto frames = static_cast<double>(scene.frames.size());
+            work_ += frames * (frames_per_pass * study_.reference.passes + static_cast<double>(runs_of_scene()));
+        }
+    }
+
+    StudyResults run() {
+        for (const PreparedStudyScene& scene : prepared_.scenes) truths_.push_back(prepare_truths(scene));
+        std::vector<std::vector<std::vector<MeasuredRun>>> runs(
+            prepared_.variants.size(), std::vector<std::vector<MeasuredRun>>(prepared_.scenes.size()));
+        for (int repeat = 0; repeat < study_.repeats; ++repeat) {
+            for (const std::uint32_t seed : study_.seeds) {
+                for (std::size_t v = 0; v < runs.size(); ++v) {
+                    for (std::size_t s = 0; s < prepared_.scenes.size(); ++s)
+                        runs[v][s].push_back(find_or_make(v, s, seed, repeat));
+                }
+            }
+        }
+        for (std::size_t v = 0; v < runs.size(); ++v) {
+            VariantResult result{prepared_.variants[v].name, prepared_.variants[v].settings, {}, {}, false};
+            for (std::size_t s = 0; s < prepared_.scenes.size(); ++s)
+                std::ranges::move(summarize_runs(prepared_.scenes[s].name, runs[v][s]),
+                                  std::back_inserter(result.frames));
+            average_frames(result);
+            results_.variants.push_back(std::move(result));
+        }
+        find_front(results_.variants, "processor_seconds", "share_beyond");
+        return std::move(results_);
+    }
+
+  private:
+    std::size_t runs_of_scene() const {
+        return prepared_.variants.size() * study_.seeds.size() * static_cast<std::size_t>(study_.repeats);
+    }
+
+    void show(double more, const std::string& what) const {
+        if (progress_) progress_(std::min(1.0, (done_ + more) / std::max(1.0, work_)), what);
+    }
+
+    /// The maps of every viewer, frame by frame; those of the first are kept.
+    void add_viewers(const PreparedStudyScene& scene, std::vector<FrameTruth>& truths) {
+        for (const StudyViewer& viewer : study_.viewers) {
+            SceneWithSettings own = with_settings_of(scene, study_, viewer.settings);
+            own.settings.perception.guide = Guide::saliency;
+            Sequence sequence(std::move(own.scene), own.settings);
+            FrameRequest request;
+            request.frame = false;
+            request.maps = true;
+            for (std::size_t i = 0; i < scene.frames.size(); ++i) {
+                FrameOutput output = sequence.render(scene.frames[i], request);
+                truths[i].thresholds.push_back(output.threshold);
+                if (truths[i].thresholds.size() > 1) continue;
+                truths[i].display_white = sequence.scene().viewing.display_white;
+                JudgingFrame& frame = results_.frames.emplace_back();
+                frame.scene = scene.name;
+                frame.frame = scene.frames[i];
+                frame.maps = make_frame_image(output, true, sequence.scene(), own.settings, sequence.exposure());
+            }
+        }
+    }
+
+    std::vector<FrameTruth> prepare_truths(const PreparedStudyScene& scene) {
+        std::vector<FrameTruth> truths(scene.frames.size());
+        const std::size_t first = results_.frames.size();
+        add_viewers(scene, truths);
+        const SceneWithSettings own = with_settings_of(scene, study_, study_.reference.settings);
+        const ReferencePictureOptions options =
+            reference_options(scene, study_, (store_.folder() / "references").string());
+        for (std::size_t i = 0; i < scene.frames.size(); ++i) {
+            const auto show_passes = [&](double passes) {
+                show(frames_per_pass * passes, fmt::format("reference of {} {}", scene.name, scene.frames[i]));
+            };
+            truths[i].reference =
+                load_or_render_reference_picture(own.scene, own.settings, scene.frames[i], options, show_passes);
+            done_ += frames_per_pass * study_.reference.passes;
+            JudgingFrame& frame = results_.frames[first + i];
+            frame.quality = measure_reference(truths[i]);
+            frame.reference = reference_picture_path(own.settings, scene.frames[i], options);
+        }
+        return truths;
+    }
+
+    MeasuredRun find_or_make(std::size_t v, std::size_t s, std::uint32_t seed, int repeat) {
+        const PreparedStudyScene& scene = prepared_.scenes[s];
+        const StudyVariant& variant = prepared_.variants[v];
+        SceneWithSettings own = with_settings_of(scene, study_, variant.settings);
+        own.settings.seed = seed;
+        RunName name{scene.name, variant.name, identity(own, scene.frames), seed, repeat};
+        MeasuredRun run;
+        run.repeat = repeat;
+        const std::string what = fmt::format("{}: {}", scene.name, variant.name);
+        if (auto finished = store_.find(name, scene.frames)) {
+            run.frames = std::move(*finished);
+            ++results_.found;
+        } else {
+            const auto save = [&](std::int64_t frame, ChannelImage picture) {
+                keep_channels(picture);
+                write_exr(store_.picture(name, frame), picture);
+            };
+            const auto frames = static_cast<double>(scene.frames.size());
+            run.frames = render_run(own.scene, own.settings, scene.frames, save,
+                                    [&](double share) { show(share * frames, what); });
+            store_.save(name, run.frames);
+            ++results_.made;
+        }
+        done_ += static_cast<double>(scene.frames.size());
+        show(0.0, what);
+        if (repeat == 0) measure(name, s, run);
+        return run;
+    }
+
+    /// From the files, so that a study that went on has the numbers of one that was never stopped.
+    void measure(const RunName& name, std::size_t s, MeasuredRun& run) const {
+        for (std::size_t i = 0; i < run.frames.size(); ++i) {
+            const std::filesystem::path file = store_.picture(name, run.frames[i].frame);
+            run.errors.push_back(measure_errors(read_image(file), truths_[s][i], prepared_.metrics));
+            run.pictures.push_back(file.string());
+        }
+    }
+
+    static std::string identity(const SceneWithSettings& own, const std::vector<int>& frames) {
+        std::string text =
+            fmt::format("{} frames {} threads {}", hash_scene(own.scene), fmt::join(frames, ","), thread_count());
+        for (const auto& [key, value] : setting_map(own.settings))
+            text += fmt::format(" {}={}", key, setting_text(value));
+        return text;
+    }
+
+    static void keep_channels(ChannelImage& picture) {
+        constexpr const char* kept[] = {"R",      "G",       "B",         "A",         "indirect.", "error.",
+                                        "cache.", "aleph.Y", "alpha.acc", "samples.Y", "records.Y", "effects."};
+        std::erase_if(picture.channels, [&](const Channel& channel) {
+            return std::ranges::none_of(kept, [&](std::string_view name) {
+                return name.ends_with('.') ? channel.name.starts_with(name) : channel.name == name;
+            });
+        });
+    }
+
+    const PreparedStudy& prepared_;
+    const Study& study_;
+    RunStore store_;
+    const StudyProgress& progress_;
+    double work_ = 0.0, done_ = 0.0;  ///< in runs of a frame
+    std::vector<std::vector<FrameTruth>> truths_;
+    StudyResults results_;
+};
+
+}  // namespace
+
+StudyResults run_study(const PreparedStudy& prepared, const std::filesystem::path& folder,
+                       const StudyProgress& progress) {
+    return StudyRunner(prepared, folder, progress).run();
+}
+
+}  // namespace aleph

@@ -1,0 +1,38 @@
+#pragma once
+// Runs a study: references and thresholds of its frames, then every variant that is not finished yet.
+
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "render/study/prepared_study.h"
+#include "render/study/study_results.h"
+
+namespace aleph {
+
+/// A frame with what its pictures are judged by.
+struct JudgingFrame {
+    std::string scene;
+    std::int64_t frame = 0;
+    ReferenceQuality quality;
+    std::filesystem::path reference;  ///< the file
+    ChannelImage maps;                ///< of `aleph maps`, for the first viewer
+};
+
+struct StudyResults {
+    std::vector<VariantResult> variants;
+    std::vector<JudgingFrame> frames;
+    std::size_t made = 0, found = 0;  ///< runs that were rendered, and those that were finished before
+};
+
+/// Called as the study goes on: the share that is done, 0 to 1, and what is being done.
+using StudyProgress = std::function<void(double share, const std::string& what)>;
+
+/// Every variant is rendered once before any is repeated, so that a machine that gets slower slows all of them.
+/// @param folder  keeps references and finished runs (RunStore); those of an earlier call are not made again
+/// @throws InputError, OutputError
+StudyResults run_study(const PreparedStudy& prepared, const std::filesystem::path& folder,
+                       const StudyProgress& progress = {});
+
+}  // namespace aleph

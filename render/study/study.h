@@ -1,0 +1,68 @@
+#pragma once
+// A study as data: pictures of some frames in several variants, which references judge.
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "engine/scene/scene.h"
+
+namespace aleph {
+
+/// What variants are judged by.
+struct StudyReference {
+    /// "path": traced paths. "gather": no cache, gather rays at every pixel sample. "settings": the study's settings
+    /// with `settings` in their places.
+    std::string kind = "gather";
+    int passes = 4;         ///< renderings with random numbers of their own, of which it is the mean; at least 2
+    int spp = 32;           ///< samples per pixel of each pass
+    SettingMap settings{};  ///< of the kind "settings"
+};
+
+/// Values that a setting takes, one after the other.
+struct StudyAxis {
+    std::string setting;
+    std::vector<SettingValue> values;
+};
+
+/// A variant: settings that differ from the study's own.
+struct StudyVariant {
+    std::string name;
+    SettingMap settings;
+};
+
+/// For whom errors are visible: a model of vision with its viewing conditions.
+struct StudyViewer {
+    std::string name;
+    SettingMap settings;  ///< vision, bands, grid, viewing.persistence, ...
+};
+
+/// Frames of one scene.
+struct StudyScene {
+    std::filesystem::path file;
+    std::string frames;  ///< "20,60" (frame_list.h); empty: the middle of the shot
+};
+
+struct Study {
+    std::string title, description;
+    std::vector<StudyScene> scenes;  ///< at least one
+    SettingMap settings;             ///< of every variant and of the reference, over those of the scene
+    StudyReference reference;
+    std::vector<StudyAxis> sweep;            ///< every combination is a variant
+    std::vector<StudyVariant> variants;      ///< and these are
+    std::vector<std::string> metrics;        ///< metric_table.h; empty: the usual ones
+    std::vector<StudyViewer> viewers;        ///< at least one; the first judges where one threshold is meant
+    int repeats = 1;                         ///< renderings with equal random numbers, for the uncertainty of times
+    std::vector<std::uint32_t> seeds = {0};  ///< renderings with different ones, for that of errors
+};
+
+/// The variants of the sweep, each named by its settings ("error=1,guide=none"), then the named ones. The last axis
+/// changes fastest.
+/// @throws InputError for more than 10,000, two variants of one name, or none at all
+std::vector<StudyVariant> list_variants(const Study& study);
+
+/// "error=1,guide=none"
+std::string name_settings(const SettingMap& settings, const std::vector<StudyAxis>& order = {});
+
+}  // namespace aleph

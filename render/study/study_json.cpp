@@ -1,0 +1,174 @@
+// The results of a study as JSON.
+
+#include <fmt/chrono.h>
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <ctime>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "render/program_build.h"
+#include "render/study/study_files.h"
+
+namespace aleph {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// null where a value is not finite: JSON has no such numbers.
+Json number_json(double value) {
+    return std::isfinite(value) ? Json(value) : Json(nullptr);
+}
+
+Json values_json(const std::map<std::string, MeasuredValue>& values, const std::vector<Metric>& metrics) {
+    Json json = Json::object();
+    for (const Metric& metric : metrics) {
+        const auto found = values.find(metric.name);
+        if (found == values.end()) continue;
+        json[metric.name] = {{"value", number_json(found->second.value)},
+                             {"error", found->second.error ? number_json(*found->second.error) : Json(nullptr)}};
+    }
+    return json;
+}
+
+Json value_json(const SettingValue& value) {
+    return std::visit([](const auto& v) { return Json(v); }, value);
+}
+
+Json settings_json(const SettingMap& settings) {
+    Json json = Json::object();
+    for (const auto& [key, value] : settings) json[key] = value_json(value);
+    return json;
+}
+
+Json parts_json(const std::vector<std::pair<std::string, double>>& parts, const char* name, const char* value) {
+    Json json = Json::array();
+    for (const auto& [part, amount] : parts) json.push_back({{name, part}, {value, amount}});
+    return json;
+}
+
+Json variant_json(const VariantResult& variant, const std::vector<Metric>& metrics) {
+    Json json{{"id", variant.name},
+              {"settings", settings_json(variant.settings)},
+              {"metrics", values_json(variant.metrics, metrics)},
+              {"pareto", variant.on_front},
+              {"frames", Json::array()}};
+    for (const FrameResult& frame : variant.frames) {
+        json["frames"].push_back({{"scene", frame.scene},
+                                  {"frame", frame.frame},
+                                  {"metrics", values_json(frame.metrics, metrics)},
+                                  {"stages", parts_json(frame.stages, "stage", "seconds")},
+                                  {"rays", parts_json(frame.rays, "kind", "count")},
+                                  {"plan", Json::parse(frame.plan)},
+                                  {"file", frame.picture}});
+    }
+    return json;
+}
+
+/// "model name" of /proc/cpuinfo, where there is one.
+std::string processor_name() {
+    std::ifstream file("/proc/cpuinfo");
+    for (std::string line; std::getline(file, line);) {
+        const std::size_t colon = line.find(": ");
+        if (line.starts_with("model name") && colon != std::string::npos) return line.substr(colon + 2);
+    }
+    return "not known";
+}
+
+Json host_json(int threads) {
+    char name[256] = "";
+    if (gethostname(name, sizeof name - 1) != 0) name[0] = 0;
+    const double memory = static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE));
+    return {{"name", name},
+            {"processor", processor_name()},
+            {"threads", threads},
+            {"memory_mib", std::round(memory / (1 << 20))}};
+}
+
+/// @param metric  whose axis is better logarithmic: all but the bias, which has a sign
+Json metric_json(const Metric& metric) {
+    return {{"name", metric.name},
+            {"title", metric.title},
+            {"unit", metric.unit},
+            {"log", metric.name != "bias"},
+            {"cost", metric.cost}};
+}
+
+Json frames_json(const StudyResults& results) {
+    Json json = Json::array();
+    for (const JudgingFrame& frame : results.frames) {
+        json.push_back({{"scene", frame.scene},
+                        {"frame", frame.frame},
+                        {"reference", frame.reference.string()},
+                        {"reference_share_beyond_by_noise", number_json(frame.quality.share_by_noise)},
+                        {"reference_noise_p99", number_json(frame.quality.percentile_99)}});
+    }
+    return json;
+}
+
+}  // namespace
+
+std::string study_date() {
+    std::time_t now = std::time(nullptr);
+    if (const char* epoch = std::getenv("SOURCE_DATE_EPOCH")) now = std::strtoll(epoch, nullptr, 10);
+    return fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(now));
+}
+
+std::string describe_reference(const PreparedStudy& prepared, const StudyResults& results) {
+    const StudyReference& reference = prepared.study.reference;
+    const std::string kind = reference.kind == "path"     ? "traced paths"
+                             : reference.kind == "gather" ? "gather rays at every sample, no cache"
+                                                          : "given settings: " + name_settings(reference.settings);
+    double share = 0.0, noise = 0.0;
+    for (const JudgingFrame& frame : results.frames) {
+        share = std::max(share, frame.quality.share_by_noise);
+        noise = std::max(noise, frame.quality.percentile_99);
+    }
+    return fmt::format(
+        "{}; mean of {} renderings with random numbers of their own; its standard error is {:.2g} visible thresholds "
+        "in the 99th percentile of the pixels, which alone puts {:.2g} % of them beyond one threshold",
+        kind, reference.passes, noise, share);
+}
+
+Json study_json(const PreparedStudy& prepared, const StudyResults& results, const StudyContext& context) {
+    const Study& study = prepared.study;
+    Json json{{"schema_version", 1},
+              {"title", study.title},
+              {"description", study.description},
+              {"command", context.command},
+              {"date", context.date},
+              {"host", host_json(context.threads)},
+              {"build", {{"version", ALEPH_VERSION}, {"program", program_build()}, {"compiler", __VERSION__}}},
+              {"settings", settings_json(study.settings)}};
+    for (const PreparedStudyScene& scene : prepared.scenes) json["scenes"].push_back(scene.scene.file);
+    const RenderSettings base = with_settings_of(prepared.scenes.front(), study, {}).settings;
+    json["width"] = base.width;
+    json["height"] = base.height;
+    json["frames"] = frames_json(results);
+    json["reference"] = {{"kind", study.reference.kind},
+                         {"passes", study.reference.passes},
+                         {"spp", study.reference.spp},
+                         {"note", describe_reference(prepared, results)}};
+    for (const StudyViewer& viewer : study.viewers)
+        json["viewers"].push_back({{"name", viewer.name}, {"settings", settings_json(viewer.settings)}});
+    json["repeats"] = study.repeats;
+    json["seeds"] = study.seeds;
+    json["axes"] = Json::array();
+    for (const StudyAxis& axis : study.sweep) {
+        Json values = Json::array();
+        for (const SettingValue& value : axis.values) values.push_back(value_json(value));
+        json["axes"].push_back({{"setting", axis.setting}, {"values", values}});
+    }
+    json["metrics"] = Json::array();
+    for (const Metric& metric : prepared.metrics) json["metrics"].push_back(metric_json(metric));
+    json["variants"] = Json::array();
+    for (const VariantResult& variant : results.variants)
+        json["variants"].push_back(variant_json(variant, prepared.metrics));
+    return json;
+}
+
+}  // namespace aleph

@@ -1,0 +1,77 @@
+#include "render/study/timed_run.h"
+
+#include <nlohmann/json.hpp>
+#include <string_view>
+
+#include "render/effects_json.h"
+#include "render/frame_files.h"
+#include "render/measure.h"
+#include "render/sequence.h"
+#include "render/study/processor_time.h"
+#include "render/study/reference_picture.h"
+
+namespace aleph {
+
+namespace {
+
+std::vector<std::pair<std::string, double>> list_rays(const RayCounts& rays) {
+    const auto number = [](std::uint64_t count) { return static_cast<double>(count); };
+    return {{"primary", number(rays.primary)}, {"shadow", number(rays.shadow)},     {"gather", number(rays.gather)},
+            {"glossy", number(rays.glossy)},   {"specular", number(rays.specular)}, {"path", number(rays.path)},
+            {"deeper", number(rays.deeper)}};
+}
+
+/// A copied frame has the counts of the frame that it is a copy of, and took none of that.
+FrameRun describe_frame(const FrameStatistics& statistics) {
+    FrameRun run;
+    run.frame = statistics.frame;
+    run.plan = to_json(statistics.plan).dump();
+    const bool copied = statistics.copy_of.has_value();
+    RayCounts rays = copied ? RayCounts() : statistics.counts.rays;
+    double moments = 0.0;
+    if (!copied) run.records = static_cast<double>(statistics.counts.records);
+    for (const auto& [stage, seconds] : list_stages(statistics.seconds)) {
+        if (stage != std::string_view("total") && stage != std::string_view("write"))
+            run.stages.emplace_back(stage, copied ? 0.0 : seconds);
+    }
+    for (const MomentStatistics& moment : statistics.moments) {
+        rays += moment.counts.rays;
+        run.records += static_cast<double>(moment.counts.records);
+        moments += moment.seconds;
+    }
+    run.stages.emplace_back("moments", moments);
+    run.rays = list_rays(rays);
+    return run;
+}
+
+}  // namespace
+
+std::vector<FrameRun> render_run(const Scene& scene, const RenderSettings& settings, const std::vector<int>& frames,
+                                 const SaveFrame& save, const std::function<void(double)>& progress) {
+    std::vector<FrameRun> runs;
+    Sequence sequence(scene, settings);
+    const double pixels = static_cast<double>(settings.width) * settings.height;
+    for (const int frame : frames) {
+        FrameRequest request;
+        request.progress = [&](double fraction, const char*) {
+            if (progress) progress((static_cast<double>(runs.size()) + fraction) / static_cast<double>(frames.size()));
+        };
+        const double start = processor_seconds();
+        StageClock clock;
+        const FrameOutput output = sequence.render(frame, request);
+        double wall = 0.0;
+        clock.add_to(wall);
+        const double processor = processor_seconds() - start;
+        FrameRun run = describe_frame(output.statistics);
+        run.processor_seconds = processor;
+        run.wall_seconds = wall;
+        run.samples = static_cast<double>(output.statistics.counts.samples) / pixels;
+        ChannelImage picture = make_frame_image(output, true, sequence.scene(), settings, sequence.exposure());
+        add_indirect(picture, output.shaded);
+        save(frame, picture);
+        runs.push_back(std::move(run));
+    }
+    return runs;
+}
+
+}  // namespace aleph
