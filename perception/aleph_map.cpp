@@ -79,6 +79,18 @@ void divide_sums(const RowBuffers& b, const float* noise, float* out) {
     }
 }
 
+/// R_i = L_i / sum of L_i; a pixel without contrast has R_6 = 1 (5.3).
+void keep_responses(const BandRows& bands, const std::vector<float>& sum, int y, std::vector<Image<float>>& out) {
+    for (int i = 0; i < band_count; ++i) {
+        float* const row = out[static_cast<std::size_t>(i)].row(y);
+        const float alone = i == band_count - 1 ? 1.0f : 0.0f;
+        for (std::size_t x = 0; x < sum.size(); ++x) {
+            const bool has_contrast = sum[x] > bands.noise()[x];
+            row[x] = has_contrast ? std::abs(bands.band(i)[x]) / sum[x] : alone;
+        }
+    }
+}
+
 std::uint64_t clamp_row(float* row, std::size_t width) {
     int outside = 0;
     for (std::size_t x = 0; x < width; ++x) {
@@ -194,6 +206,15 @@ std::uint64_t compute_rows(const AlephPass& pass, int begin, int end, AlephImage
             kelly.load(b.velocity.data());
             sum_bands(bands, kelly, b);
         }
+        if (!out.responses.empty()) keep_responses(bands, b.sum, y, out.responses);
+        for (int i = 0; i < static_cast<int>(out.elevations.size()); ++i) {
+            float* const row = out.elevations[static_cast<std::size_t>(i)].row(y);
+            if (castle) {
+                std::copy_n(castle->elevations(i), width, row);
+            } else {
+                kelly.elevations(i, row);
+            }
+        }
         divide_sums(b, bands.noise(), out.aleph.row(y));
         clamped += clamp_row(out.aleph.row(y), width);
     }
@@ -202,11 +223,15 @@ std::uint64_t compute_rows(const AlephPass& pass, int begin, int end, AlephImage
 
 }  // namespace
 
-AlephImages compute_aleph(const AlephPass& pass, bool with_retinal_velocity) {
+AlephImages compute_aleph(const AlephPass& pass, bool with_retinal_velocity, bool with_bands) {
     const LevelSize size = pass.bands.sizes.front();
     AlephImages out;
     out.aleph = Image<float>(size.width, size.height);
     if (with_retinal_velocity) out.retinal_velocity = Image<float>(size.width, size.height);
+    if (with_bands) {
+        out.responses.assign(band_count, Image<float>(size.width, size.height));
+        out.elevations = out.responses;
+    }
     std::vector<std::uint64_t> clamped((size.height + rows_per_band - 1) / rows_per_band);
     parallel_rows(size.height, rows_per_band,
                   [&](int begin, int end) { clamped[begin / rows_per_band] = compute_rows(pass, begin, end, out); });

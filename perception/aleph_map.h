@@ -62,11 +62,13 @@ struct AlephPass {
 struct AlephImages {
     Image<float> aleph;             ///< contrast elevation, [1, 250.76]
     Image<float> retinal_velocity;  ///< v_R, deg/s; empty if not requested
-    std::uint64_t clamped = 0;      ///< values that were outside [1, 250.76] before the final clamp
+    /// R_i (5.3) and f_i (5.9) of each band, finest first; empty if not requested. Their products sum to the Aleph map.
+    std::vector<Image<float>> responses, elevations;
+    std::uint64_t clamped = 0;  ///< values that were outside [1, 250.76] before the final clamp
 };
 
 /// The Aleph map (5.11), or with castle the sum of R_i castle_elevation(rho_i). The same bits for any number of
 /// threads.
-AlephImages compute_aleph(const AlephPass& pass, bool with_retinal_velocity);
+AlephImages compute_aleph(const AlephPass& pass, bool with_retinal_velocity, bool with_bands = false);
 
 }  // namespace aleph

@@ -101,10 +101,12 @@ PerceptionMaps compute_perception(const Image<Rgb>& estimate, const Image<float>
     } else if (settings.vision == Vision::laird) {
         pass.model = laird_2006;
     }
-    AlephImages images = compute_aleph(pass, outputs.retinal_velocity);
+    AlephImages images = compute_aleph(pass, outputs.retinal_velocity, outputs.bands);
     maps.aleph = std::move(images.aleph);
     maps.retinal_velocity = std::move(images.retinal_velocity);
     maps.saliency = std::move(saliency.map);
+    maps.responses = std::move(images.responses);
+    maps.elevations = std::move(images.elevations);
     maps.clamped = images.clamped;
     maps.fallback = saliency.fallback;
     if (salient && outputs.conspicuity) {

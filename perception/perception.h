@@ -3,6 +3,7 @@
 // perception/README.md has every equation and where it is read differently.
 
 #include <cstdint>
+#include <vector>
 
 #include "engine/base/color.h"
 #include "engine/base/frame_rate.h"
@@ -19,6 +20,8 @@ struct PerceptionMaps {
     Image<float> saliency;          ///< S, [0,1]; empty unless the guide is `saliency`
     /// Sums of N(feature map) per channel; empty if not requested or if the guide is not `saliency`
     Image<float> conspicuity_intensity, conspicuity_color, conspicuity_orientation, conspicuity_motion;
+    /// R_i (5.3) and f_i (5.9) of each band, finest first; empty if not requested or without a guide
+    std::vector<Image<float>> responses, elevations;
     bool fallback = false;      ///< nothing stood out, or everything did: S = .82 everywhere (thesis 7.2)
     std::uint64_t clamped = 0;  ///< aleph values outside [1, 250.76] before the final clamp; 0 in valid scenes
 };
@@ -27,6 +30,7 @@ struct PerceptionMaps {
 struct PerceptionOutputs {
     bool retinal_velocity = false;
     bool conspicuity = false;
+    bool bands = false;
 };
 
 /// Depends on its arguments only; the same bits for any number of threads. With guide `none` aleph is 1 everywhere.

@@ -22,7 +22,7 @@ void compute_frame_vision(FrameOutput& out, const Scene& shot, const RenderSetti
     out.velocity = compute_image_velocity(out.motion, shot.viewing, shot.frame_rate);
     clock.add_to(seconds.motion);
     out.perception = compute_perception(out.estimate, out.velocity, shot.viewing, shot.frame_rate, settings.perception,
-                                        {.retinal_velocity = maps, .conspicuity = maps});
+                                        {.retinal_velocity = maps, .conspicuity = maps, .bands = false});
     out.statistics.saliency_fallback = out.perception.fallback;
     Image<float>& adaptation = out.perception.adaptation;
     if (adaptation.empty()) adaptation = compute_adaptation_luminance(out.estimate, shot.viewing);

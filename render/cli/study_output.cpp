@@ -11,6 +11,7 @@
 #include "engine/base/atomic_file.h"
 #include "engine/base/errors.h"
 #include "engine/base/files.h"
+#include "render/study/report_page.h"
 #include "render/study/study_plot.h"
 
 namespace aleph {
@@ -111,11 +112,19 @@ void write_study(const PreparedStudy& prepared, const StudyResults& results, con
                json.dump(1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n");
     write_file(folder / "study.csv", study_csv(prepared, results));
     std::string files = "study.json, study.csv";
+    if (!report_template().empty()) {
+        write_file(folder / "report.html", make_report(report_template(), json, results));
+        files += ", report.html";
+    }
     const bool plotted = draw_plot(folder / "study.png", prepared, results);
     if (plotted) files += ", study.png";
     if (quiet) return;
     std::cerr << fmt::format("aleph: {} runs made, {} found finished; wrote {} in {}\n", results.made, results.found,
                              files, printable(folder.string(), 400));
+    if (report_template().empty()) {
+        std::cerr << "aleph: no page was written: this program was built without it; install node and npm (Debian: "
+                     "nodejs npm), and build in a new folder\n";
+    }
     if (!plotted) std::cerr << "aleph: no chart was drawn: that needs gnuplot (Debian: gnuplot-nox)\n";
 }
 

@@ -18,6 +18,19 @@ namespace {
 /// How long a pass of a reference takes, in runs of a frame: for progress alone.
 constexpr double frames_per_pass = 4.0;
 
+/// What the Aleph map of a frame is the sum of.
+void add_bands(const FrameOutput& output, const Scene& scene, const RenderSettings& settings, JudgingFrame& frame) {
+    PerceptionSettings perception = settings.perception;
+    if (output.perception.saliency.empty()) perception.guide = Guide::full;  // nothing moves, or all is alike
+    PerceptionMaps maps = compute_perception(output.estimate, output.velocity, scene.viewing, scene.frame_rate,
+                                             perception, {.bands = true});
+    frame.frequencies = band_frequencies(perception.bands, scene.viewing.pixels_per_degree);
+    for (std::size_t i = 0; i < maps.responses.size(); ++i) {
+        frame.maps.channels.push_back({fmt::format("band.{}", i), std::move(maps.responses[i])});
+        frame.maps.channels.push_back({fmt::format("elevation.{}", i), std::move(maps.elevations[i])});
+    }
+}
+
 class StudyRunner {
   public:
     StudyRunner(const PreparedStudy& prepared, const std::filesystem::path& folder, const StudyProgress& progress)
@@ -79,6 +92,7 @@ class StudyRunner {
                 frame.scene = scene.name;
                 frame.frame = scene.frames[i];
                 frame.maps = make_frame_image(output, true, sequence.scene(), own.settings, sequence.exposure());
+                add_bands(output, sequence.scene(), own.settings, frame);
             }
         }
     }

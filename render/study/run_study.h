@@ -1,11 +1,13 @@
 #pragma once
 // Runs a study: references and thresholds of its frames, then every variant that is not finished yet.
 
+#include <array>
 #include <filesystem>
 #include <functional>
 #include <string>
 #include <vector>
 
+#include "perception/sensitivity.h"
 #include "render/study/prepared_study.h"
 #include "render/study/study_results.h"
 
@@ -17,7 +19,9 @@ struct JudgingFrame {
     std::int64_t frame = 0;
     ReferenceQuality quality;
     std::filesystem::path reference;  ///< the file
-    ChannelImage maps;                ///< of `aleph maps`, for the first viewer
+    /// Of `aleph maps`, for the first viewer, with band.0 to .6, R_i of (5.3), and elevation.0 to .6, f_i of (5.9).
+    ChannelImage maps;
+    std::array<double, band_count> frequencies{};  ///< of the bands, cycles per degree
 };
 
 struct StudyResults {
