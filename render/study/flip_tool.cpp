@@ -18,7 +18,7 @@ bool has_flip() {
 
 std::optional<double> run_flip(const Image<Rgb>& test, const Image<Rgb>& reference) {
     if (!has_flip()) return std::nullopt;
-    const ScratchFolder folder;
+    const TemporaryFolder folder;
     write_png(folder.path() / "test.png", test);
     write_png(folder.path() / "reference.png", reference);
     const ProgramOutput output =

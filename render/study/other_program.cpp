@@ -28,7 +28,7 @@ std::optional<std::filesystem::path> find_program(std::string_view name) {
 ProgramOutput run_program_in(const std::filesystem::path& folder, const std::vector<std::string>& command,
                              std::string_view input) {
     // Through files: no pipe can fill up while the other one is read.
-    const ScratchFolder scratch;
+    const TemporaryFolder scratch;
     const std::filesystem::path in = scratch.path() / "in", out = scratch.path() / "out";
     write_bytes(in, input, in);
     std::vector<std::string> words = command;
@@ -55,13 +55,13 @@ ProgramOutput run_program_in(const std::filesystem::path& folder, const std::vec
     return output;
 }
 
-ScratchFolder::ScratchFolder() {
+TemporaryFolder::TemporaryFolder() {
     std::string name = (std::filesystem::temp_directory_path() / "aleph-XXXXXX").string();
     if (::mkdtemp(name.data()) == nullptr) throw OutputError(name, "cannot make a folder for temporary files");
     path_ = name;
 }
 
-ScratchFolder::~ScratchFolder() {
+TemporaryFolder::~TemporaryFolder() {
     std::error_code ignored;
     std::filesystem::remove_all(path_, ignored);
 }

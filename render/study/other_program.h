@@ -23,13 +23,13 @@ ProgramOutput run_program_in(const std::filesystem::path& folder, const std::vec
                              std::string_view input);
 
 /// A new folder among those for temporary files, removed at the end.
-class ScratchFolder {
+class TemporaryFolder {
   public:
     /// @throws OutputError if it cannot be made
-    ScratchFolder();
-    ~ScratchFolder();
-    ScratchFolder(const ScratchFolder&) = delete;
-    ScratchFolder& operator=(const ScratchFolder&) = delete;
+    TemporaryFolder();
+    ~TemporaryFolder();
+    TemporaryFolder(const TemporaryFolder&) = delete;
+    TemporaryFolder& operator=(const TemporaryFolder&) = delete;
     const std::filesystem::path& path() const { return path_; }
 
   private:

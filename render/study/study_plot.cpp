@@ -101,7 +101,7 @@ std::string plot_program(const PreparedStudy& prepared, const StudyResults& resu
 
 bool draw_plot(const std::filesystem::path& png, const PreparedStudy& prepared, const StudyResults& results) {
     if (!find_program("gnuplot")) return false;
-    const ScratchFolder folder;
+    const TemporaryFolder folder;
     if (run_program_in(folder.path(), {"gnuplot", "-"}, plot_program(prepared, results)).code != 0) return false;
     const std::filesystem::path drawn = folder.path() / "plot.png";
     if (!std::filesystem::is_regular_file(drawn)) return false;

@@ -37,6 +37,8 @@ const std::vector<Layer>& layers() {
         for (const char* folder : {"motion", "perception"}) stages.push_back(folder);
         std::vector<std::string> all_below_cli = stages;
         all_below_cli.push_back("render");
+        const std::vector<std::string> below_study = all_below_cli;
+        all_below_cli.push_back("render/study");
         const auto with = [](std::vector<std::string> folders, std::initializer_list<const char*> more) {
             folders.insert(folders.end(), more.begin(), more.end());
             return folders;
@@ -57,6 +59,7 @@ const std::vector<Layer>& layers() {
             {"motion", engine},
             {"perception", {"engine/base"}},
             {"render", stages},
+            {"render/study", below_study},
             {"render/cli", all_below_cli},
         };
     }();

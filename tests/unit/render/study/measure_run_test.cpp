@@ -1,0 +1,106 @@
+// Errors of pictures whose differences are known, and other programs that measure.
+
+#include "render/study/measure_run.h"
+
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+
+#include <fstream>
+
+#include "render/study/flip_tool.h"
+#include "render/study/other_program.h"
+#include "tests/support/scratch_folder.h"
+
+namespace aleph {
+namespace {
+
+constexpr double white = 100.0;  // cd/m2
+
+ChannelImage grey(float value, bool with_indirect = false) {
+    ChannelImage image;
+    for (const char* name : {"R", "G", "B"}) image.channels.push_back({name, Image<float>(10, 10, value)});
+    if (with_indirect) {
+        for (const char* name : {"indirect.R", "indirect.G", "indirect.B"})
+            image.channels.push_back({name, Image<float>(10, 10, 0.5f * value)});
+    }
+    image.metadata["exposureFactor"] = 1.0;
+    image.metadata["whiteLuminance"] = white;
+    return image;
+}
+
+std::vector<Metric> all_metrics(int viewers) {
+    Study study;
+    for (int i = 0; i < viewers; ++i) study.viewers.push_back({i == 0 ? "one" : "two", {}});
+    return list_metrics(study);
+}
+
+FrameTruth truth_of(ChannelImage reference, double variance) {
+    reference.channels.push_back({"variance.Y", Image<float>(10, 10, static_cast<float>(variance))});
+    return {std::move(reference), {Image<float>(10, 10, 2.0f), Image<float>(10, 10, 0.5f)}, white};
+}
+
+TEST(MeasureErrors, KnownDifferences) {
+    ChannelImage picture = grey(0.5f);
+    for (std::size_t c = 0; c < 3; ++c) {
+        for (std::size_t i = 0; i < 7; ++i) picture.channels[c].values.pixels[i] += 0.03f;  // 3 cd/m2
+        for (std::size_t i = 7; i < 20; ++i) picture.channels[c].values.pixels[i] -= 0.01f;
+    }
+    const MetricValues values = measure_errors(picture, truth_of(grey(0.5f), 0.0), all_metrics(2));
+    EXPECT_DOUBLE_EQ(values.at("share_beyond"), 7.0);
+    EXPECT_DOUBLE_EQ(values.at("share_beyond.two"), 20.0);
+    EXPECT_NEAR(values.at("mean_error"), (7 * 3.0 + 13 * 1.0) / 2.0 / 100.0, 1e-6);
+    EXPECT_NEAR(values.at("p99_error"), 1.5, 0.01);
+    EXPECT_NEAR(values.at("p99_error.two"), 6.0, 0.05);
+    EXPECT_NEAR(values.at("bias"), 100.0 * (7 * 0.03 - 13 * 0.01) / 50.0, 1e-4);
+    EXPECT_NEAR(values.at("relative_mse"), (7 * 9e-4 + 13 * 1e-4) / 100.0 / 0.25, 1e-5);
+    EXPECT_FALSE(values.contains("relative_mse_indirect")) << "neither picture has its indirect light alone";
+}
+
+TEST(MeasureErrors, NoiseOfTheReferenceIsTakenOff) {
+    const double variance = 1e-4;  // standard error 1 cd/m2: half of a threshold
+    const FrameTruth truth = truth_of(grey(0.5f), variance);
+    const MetricValues values = measure_errors(grey(0.5f), truth, all_metrics(1));
+    EXPECT_LT(values.at("relative_mse"), 0.0) << "less than the noise would make";
+    const ReferenceQuality quality = measure_reference(truth);
+    EXPECT_NEAR(quality.percentile_99, 0.5, 0.01);
+    EXPECT_NEAR(quality.share_by_noise, 4.55, 0.01) << "beyond 2 standard deviations";
+}
+
+TEST(MeasureErrors, ExposureAndIndirectLight) {
+    ChannelImage picture = grey(1.0f, true);
+    picture.metadata["exposureFactor"] = 2.0;
+    const MetricValues values = measure_errors(picture, truth_of(grey(0.5f, true), 0.0), all_metrics(1));
+    EXPECT_EQ(values.at("share_beyond"), 0.0) << "the same light, exposed twice as long";
+    EXPECT_EQ(values.at("relative_mse_indirect"), 0.0);
+    for (std::size_t c = 3; c < 6; ++c) picture.channels[c].values.pixels[0] = 0.6f;
+    const MetricValues changed = measure_errors(picture, truth_of(grey(0.5f, true), 0.0), all_metrics(1));
+    EXPECT_NEAR(changed.at("relative_mse_indirect"), 0.01 / 0.25 / 100.0, 1e-6);
+}
+
+TEST(OtherPrograms, AreRunInTheirFolderWithTheirInput) {
+    const ScratchFolder folder;
+    EXPECT_TRUE(find_program("sh").has_value());
+    EXPECT_FALSE(find_program("no-such-program-here").has_value());
+    const ProgramOutput output = run_program_in(folder.path(), {"sh", "-c", "pwd; cat; exit 3"}, "in");
+    EXPECT_EQ(output.code, 3);
+    EXPECT_EQ(output.text, std::filesystem::canonical(folder.path()).string() + "\nin");
+    EXPECT_NE(run_program_in(folder.path(), {"no-such-program-here"}, "").code, 0);
+}
+
+TEST(OtherPrograms, FlipIsReadFromWhatItPrints) {
+    const ScratchFolder folder;
+    const std::filesystem::path flip = folder / "flip";
+    std::ofstream(flip) << "#!/bin/sh\ntest -s test.png && test -s reference.png && echo '  Mean: 0.0625'\n";
+    ::chmod(flip.c_str(), 0755);
+    const std::string path = std::getenv("PATH");
+    ::setenv("PATH", (folder.path().string() + ":" + path).c_str(), 1);
+    Study study;
+    study.viewers.push_back({"one", {}});
+    study.metrics = {"flip"};
+    const MetricValues values = measure_errors(grey(0.5f), truth_of(grey(0.5f), 0.0), list_metrics(study));
+    ::setenv("PATH", path.c_str(), 1);
+    EXPECT_EQ(values.at("flip"), 0.0625);
+}
+
+}  // namespace
+}  // namespace aleph

@@ -1,0 +1,188 @@
+// The page of a study: its layers, its data, and its size.
+
+#include "render/study/report_page.h"
+
+#include <Imath/half.h>
+#include <gtest/gtest.h>
+#include <zlib.h>
+
+#include <bit>
+#include <nlohmann/json.hpp>
+
+#include "engine/image/image_file.h"
+#include "render/study/report_layers.h"
+#include "tests/support/scratch_folder.h"
+
+namespace aleph {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+std::string decode_base64(const std::string& text) {
+    const std::string digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    std::string out;
+    std::uint32_t bits = 0;
+    int count = 0;
+    for (const char c : text) {
+        const std::size_t digit = digits.find(c);
+        if (digit == std::string::npos) break;
+        bits = bits << 6 | static_cast<std::uint32_t>(digit);
+        count += 6;
+        if (count >= 8) out += static_cast<char>(bits >> (count -= 8) & 255);
+    }
+    return out;
+}
+
+/// The values of a layer, read as report_layers.h describes it.
+std::vector<float> decode(const std::string& text, std::size_t count, LayerType type) {
+    const std::size_t width = type == LayerType::f16 ? 2 : 4;
+    const std::string packed = decode_base64(text);
+    std::string bytes(count * width, '\0');
+    uLongf size = bytes.size();
+    EXPECT_EQ(uncompress(reinterpret_cast<Bytef*>(bytes.data()), &size, reinterpret_cast<const Bytef*>(packed.data()),
+                         packed.size()),
+              Z_OK);
+    EXPECT_EQ(size, bytes.size());
+    std::vector<float> values;
+    for (std::size_t i = 0; i < count; ++i) {
+        std::uint32_t bits = 0;
+        for (std::size_t b = 0; b < width; ++b)
+            bits |= std::uint32_t{static_cast<unsigned char>(bytes[b * count + i])} << (8 * b);
+        if (type == LayerType::f32) {
+            values.push_back(std::bit_cast<float>(bits));
+        } else {
+            Imath::half h;
+            h.setBits(static_cast<std::uint16_t>(bits));
+            values.push_back(h);
+        }
+    }
+    return values;
+}
+
+TEST(ReportLayers, GiveBackWhatWasPutIn) {
+    Image<float> a(5, 3), b(5, 3);
+    for (std::size_t i = 0; i < a.size(); ++i) {
+        a.pixels[i] = std::ldexp(1.0f + 0.1f * static_cast<float>(i), static_cast<int>(i) - 7);
+        b.pixels[i] = -a.pixels[i];
+    }
+    b.pixels[3] = 1e9f;
+    const std::vector<float> exact = decode(encode_layer({&a, &b}, LayerType::f32), 30, LayerType::f32);
+    const std::vector<float> half = decode(encode_layer({&a, &b}, LayerType::f16), 30, LayerType::f16);
+    for (std::size_t i = 0; i < 15; ++i) {
+        EXPECT_EQ(exact[i], a.pixels[i]);
+        EXPECT_EQ(exact[15 + i], b.pixels[i]);
+        EXPECT_NEAR(half[i], a.pixels[i], a.pixels[i] / 2048.0f);
+    }
+    EXPECT_EQ(half[18], 65504.0f) << "the largest half";
+}
+
+TEST(ReportLayers, KeepToTheirSize) {
+    const Image<float> image(64, 64, 0.3f);
+    const std::size_t one = encode_layer({&image}, LayerType::f32).size();
+    ReportLayers layers(2 * one + one / 2);
+    EXPECT_FALSE(layers.add({&image}, LayerType::f32).is_null());
+    const Json second = layers.add({&image}, LayerType::f32);
+    EXPECT_EQ(second["element"], "layer-1");
+    EXPECT_EQ(second["width"], 64);
+    EXPECT_EQ(second["type"], "f32");
+    EXPECT_TRUE(layers.add({&image}, LayerType::f32).is_null());
+    EXPECT_EQ(layers.left_out(), 1u);
+}
+
+/// A study of one frame of noise with two variants, and its JSON.
+struct ReportDraft {
+    explicit ReportDraft(const ScratchFolder& folder) {
+        ChannelImage picture;
+        std::uint32_t state = 1;
+        for (const char* name : {"R", "G", "B", "samples.Y", "error.edges"}) {
+            Image<float> values(32, 32);
+            for (float& value : values.pixels)
+                value = static_cast<float>((state = state * 1664525u + 1013904223u) >> 8) / 16777216.0f;
+            picture.channels.push_back({name, std::move(values)});
+        }
+        write_exr(folder / "picture.exr", picture);
+        JudgingFrame& frame = results.frames.emplace_back();
+        frame.scene = "noise";
+        frame.frame = 7;
+        frame.reference = folder / "picture.exr";
+        frame.maps.channels.push_back({"threshold.Y", Image<float>(32, 32, 0.5f)});
+        json = {{"title", "</script><b>"}, {"width", 32}, {"height", 32}, {"variants", Json::array()}};
+        for (const char* name : {"worse", "better"}) {
+            VariantResult& variant = results.variants.emplace_back();
+            variant.name = name;
+            variant.on_front = variant.name == "better";
+            FrameResult& result = variant.frames.emplace_back();
+            result.scene = "noise";
+            result.frame = 7;
+            result.picture = (folder / "picture.exr").string();
+            json["variants"].push_back({{"id", name}, {"frames", {{{"scene", "noise"}, {"frame", 7}}}}});
+        }
+    }
+    StudyResults results;
+    Json json;
+};
+
+/// What the page's script would read.
+Json data_of(const std::string& page) {
+    const std::string start = "<script id=\"study\" type=\"application/json\">";
+    const std::size_t begin = page.find(start) + start.size();
+    return Json::parse(page.substr(begin, page.find("</script>", begin) - begin));
+}
+
+constexpr std::string_view page_draft = "<head><!-- STUDY DATA --></head><body><!-- STUDY LAYERS --></body>";
+
+TEST(ReportPage, HoldsPicturesAndMaps) {
+    const ScratchFolder folder;
+    const ReportDraft draft(folder);
+    const std::string page = make_report(page_draft, draft.json, draft.results);
+    const Json data = data_of(page);
+    EXPECT_EQ(data["title"], "</script><b>") << "a text does not end the script";
+    EXPECT_EQ(data["frames"], Json::array({7}));
+    EXPECT_EQ(data["layers_left_out"], 0);
+    EXPECT_EQ(data["pictures"][0]["maps"]["threshold.Y"]["channels"], 1);
+    const Json picture = data["variants"][1]["frames"][0]["picture"];
+    EXPECT_EQ(picture["channels"], 3);
+    const std::string element = "id=\"" + picture["element"].get<std::string>() + "\">";
+    const std::size_t begin = page.find(element) + element.size();
+    const std::string text = page.substr(begin, page.find('<', begin) - begin);
+    const ChannelImage stored = read_image(folder / "picture.exr");
+    const std::vector<float> values = decode(text, 3 * 1024, LayerType::f32);
+    EXPECT_TRUE(std::equal(values.begin(), values.begin() + 1024, stored.find("R")->pixels.begin()));
+    EXPECT_TRUE(data["variants"][0]["frames"][0]["maps"].contains("error.edges"));
+}
+
+TEST(ReportPage, LeavesOutTheLeastNeededFirst) {
+    const ScratchFolder folder;
+    const ReportDraft draft(folder);
+    const std::size_t whole = make_report(page_draft, draft.json, draft.results).size();
+    const std::string page = make_report(page_draft, draft.json, draft.results, whole / 2);
+    EXPECT_LT(page.size(), whole / 2 + 6000) << "the descriptions of layers and maps come on top";
+    const Json data = data_of(page);
+    EXPECT_GT(data["layers_left_out"], 0);
+    EXPECT_TRUE(data["pictures"][0].contains("reference"));
+    EXPECT_TRUE(data["variants"][1]["frames"][0].contains("picture")) << "of the variant on the front";
+    EXPECT_FALSE(data["variants"][0]["frames"][0]["maps"].contains("error.edges"));
+}
+
+TEST(ReportPage, SeveralScenesHaveNamedFrames) {
+    const ScratchFolder folder;
+    ReportDraft draft(folder);
+    draft.results.frames.push_back(draft.results.frames[0]);
+    draft.results.frames[1].scene = "other";
+    const Json data = data_of(make_report(page_draft, draft.json, draft.results));
+    EXPECT_EQ(data["frames"], Json::array({"noise 7", "other 7"}));
+    EXPECT_EQ(data["variants"][0]["frames"][0]["frame"], "noise 7");
+}
+
+TEST(ReportPage, EveryMapOfTheWalkIsDescribedOnce) {
+    std::set<std::string> names;
+    for (const Json& map : report_maps()) EXPECT_TRUE(names.insert(map["name"]).second) << map["name"];
+    for (const Json& step : report_walk({})) {
+        if (!step.contains("channels")) continue;
+        for (const Json& channel : step["channels"])
+            EXPECT_TRUE(names.contains(channel["name"])) << channel["name"] << " has no scale";
+    }
+}
+
+}  // namespace
+}  // namespace aleph

@@ -1,0 +1,175 @@
+// Studies of a small picture: what is run, what is kept, and that a stopped study ends with the same numbers.
+
+#include "render/study/run_study.h"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <stdexcept>
+
+#include "engine/base/errors.h"
+#include "tests/support/paths.h"
+#include "tests/support/scratch_folder.h"
+
+namespace aleph {
+namespace {
+
+namespace fs = std::filesystem;
+
+Study small_study() {
+    Study study;
+    study.title = "small";
+    study.scenes = {{source_folder() / "scenes/cornell/scene.json", "3"}};
+    study.settings = {{"size", "20x15"}, {"light_step", 0.0}, {"filter", "box"}};
+    study.reference = {"gather", 2, 32, {}};
+    study.sweep = {{"spp", {1.0, 4.0}}, {"guide", {std::string("none"), std::string("saliency")}}};
+    study.viewers = {{"own", {}}, {"castle", {{"vision", "castle"}, {"viewing.persistence", 1.0}}}};
+    return study;
+}
+
+/// All numbers but those of time.
+std::vector<std::map<std::string, double>> numbers_of(const StudyResults& results) {
+    std::vector<std::map<std::string, double>> numbers;
+    for (const VariantResult& variant : results.variants) {
+        for (const FrameResult& frame : variant.frames) {
+            auto& row = numbers.emplace_back();
+            for (const auto& [name, value] : frame.metrics) {
+                if (name.find("seconds") == std::string::npos) row[name] = value.value;
+            }
+            for (const auto& [name, value] : frame.rays) row["rays " + name] = value;
+        }
+    }
+    return numbers;
+}
+
+TEST(RunStudy, MeasuresEveryVariantAndKeepsIt) {
+    const ScratchFolder folder;
+    const PreparedStudy prepared = prepare_study(small_study());
+    const StudyResults first = run_study(prepared, folder.path());
+    ASSERT_EQ(first.variants.size(), 4u);
+    EXPECT_EQ(first.made, 4u);
+    EXPECT_EQ(first.found, 0u);
+    EXPECT_EQ(first.variants[1].name, "spp=1,guide=saliency");
+    for (const VariantResult& variant : first.variants) {
+        EXPECT_GT(variant.metrics.at("processor_seconds").value, 0.0);
+        EXPECT_GT(variant.metrics.at("rays").value, 0.0);
+        EXPECT_GT(variant.metrics.at("mean_error.castle").value, variant.metrics.at("mean_error").value)
+            << "castleCSF is stricter in this picture";
+    }
+    EXPECT_EQ(first.variants[0].metrics.at("samples").value, 1.0);
+    EXPECT_EQ(first.variants[2].metrics.at("samples").value, 4.0);
+    EXPECT_GT(first.variants[0].metrics.at("mean_error").value, first.variants[2].metrics.at("mean_error").value)
+        << "one sample is noisier than four";
+    ASSERT_EQ(first.frames.size(), 1u);
+    EXPECT_TRUE(fs::exists(first.frames[0].reference));
+    double sum = 0.0;
+    const Image<float>& aleph = *first.frames[0].maps.find("aleph.Y");
+    for (int i = 0; i < band_count; ++i) {
+        sum += first.frames[0].maps.find("band." + std::to_string(i))->pixels[7] *
+               first.frames[0].maps.find("elevation." + std::to_string(i))->pixels[7];
+    }
+    EXPECT_NEAR(sum, aleph.pixels[7], 1e-4 * aleph.pixels[7]) << "(5.11)";
+
+    const StudyResults again = run_study(prepared, folder.path());
+    EXPECT_EQ(again.made, 0u);
+    EXPECT_EQ(again.found, 4u);
+    EXPECT_EQ(numbers_of(again), numbers_of(first));
+    EXPECT_EQ(again.variants[2].metrics.at("processor_seconds").value,
+              first.variants[2].metrics.at("processor_seconds").value)
+        << "times are those of the finished run";
+}
+
+TEST(RunStudy, StoppedAnywhereEndsWithTheSameNumbers) {
+    const ScratchFolder whole, stopped;
+    Study study = small_study();
+    study.sweep.pop_back();
+    study.seeds = {0, 5};
+    study.repeats = 2;
+    const PreparedStudy prepared = prepare_study(study);
+    const StudyResults expected = run_study(prepared, whole.path());
+    EXPECT_EQ(expected.made, 8u);
+    std::size_t stops = 0;
+    for (int limit = 1; limit < 100; limit = 3 * limit + 1) {
+        int calls = 0;
+        const auto stop = [&](double, const std::string&) {
+            if (++calls > limit) throw std::runtime_error("stopped");
+        };
+        try {
+            run_study(prepared, stopped.path(), stop);
+            break;
+        } catch (const std::runtime_error&) {
+            ++stops;
+        }
+    }
+    EXPECT_GE(stops, 2u);
+    const StudyResults resumed = run_study(prepared, stopped.path());
+    EXPECT_GT(resumed.found, 0u);
+    EXPECT_EQ(numbers_of(resumed), numbers_of(expected));
+    for (const VariantResult& variant : resumed.variants)
+        EXPECT_TRUE(variant.metrics.at("share_beyond").error.has_value()) << "two seeds";
+}
+
+TEST(RunStudy, MakesAgainWhatIsMissingOrOfOtherSettings) {
+    const ScratchFolder folder;
+    Study study = small_study();
+    study.sweep.pop_back();
+    run_study(prepare_study(study), folder.path());
+    for (const fs::directory_entry& entry : fs::directory_iterator(folder / "runs")) {
+        if (entry.path().extension() == ".exr") {
+            fs::remove(entry.path());
+            break;
+        }
+    }
+    EXPECT_EQ(run_study(prepare_study(study), folder.path()).made, 1u) << "a picture is missing";
+    study.settings["light_samples"] = 4.0;
+    EXPECT_EQ(run_study(prepare_study(study), folder.path()).made, 2u) << "another setting";
+    study.scenes[0].frames = "4";
+    EXPECT_EQ(run_study(prepare_study(study), folder.path()).made, 2u) << "another frame";
+}
+
+TEST(RunStudy, DamagedRunsAreNamed) {
+    const ScratchFolder folder;
+    Study study = small_study();
+    study.sweep = {{"spp", {1.0}}};
+    run_study(prepare_study(study), folder.path());
+    for (const fs::directory_entry& entry : fs::directory_iterator(folder / "runs")) {
+        if (entry.path().extension() == ".json") std::ofstream(entry.path()) << "{\"frames\": [{}]}";
+    }
+    EXPECT_THROW(run_study(prepare_study(study), folder.path()), InputError);
+}
+
+TEST(RunStudy, ChecksEverythingBeforeItRenders) {
+    const auto error_of = [](Study study) -> std::string {
+        try {
+            prepare_study(std::move(study));
+        } catch (const InputError& error) {
+            return error.what();
+        }
+        return "none";
+    };
+    Study study = small_study();
+    EXPECT_EQ(error_of(study), "none");
+    study.sweep.push_back({"gathr", {1.0}});
+    EXPECT_NE(error_of(study).find("gather"), std::string::npos) << "did you mean";
+    study = small_study();
+    study.sweep[0].values.push_back(-4.0);
+    EXPECT_NE(error_of(study).find("spp"), std::string::npos);
+    study = small_study();
+    study.variants.push_back({"large", {{"size", "64x48"}}});
+    EXPECT_NE(error_of(study).find("one size"), std::string::npos);
+    study = small_study();
+    study.variants.push_back({"other noise", {{"seed", 3.0}}});
+    EXPECT_NE(error_of(study).find("seeds"), std::string::npos);
+    study = small_study();
+    study.viewers.push_back({"bad", {{"vision", "cat"}}});
+    EXPECT_NE(error_of(study).find("vision"), std::string::npos);
+    study = small_study();
+    study.scenes.push_back(study.scenes[0]);
+    EXPECT_NE(error_of(study).find("two scenes"), std::string::npos);
+    study = small_study();
+    study.scenes[0].file = "no/such.json";
+    EXPECT_NE(error_of(study).find("no/such.json"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace aleph
