@@ -18,9 +18,10 @@ namespace aleph {
 
 namespace {
 
-/// What the table shows of the metrics; the files have all of them.
-bool is_shown(const Metric& metric) {
-    constexpr const char* hidden[] = {"wall_seconds", "share_certain", "records", "relative_mse_indirect", "bias"};
+/// What the table shows of the metrics: those that the study names, or the usual ones. The files have all of them.
+bool is_shown(const Metric& metric, const Study& study) {
+    if (!study.metrics.empty()) return true;
+    constexpr const char* hidden[] = {"wall_seconds", "share_certain", "records", "gather_rays", "relative_mse_indirect", "bias"};
     return std::ranges::none_of(hidden, [&](std::string_view name) { return metric.name.starts_with(name); });
 }
 
@@ -30,7 +31,8 @@ std::string head_of(const Metric& metric) {
     std::ranges::replace(head, '_', ' ');
     if (head.starts_with("processor seconds")) return "seconds";
     if (head.starts_with("share beyond")) head.replace(0, 12, "beyond %");
-    if (head.starts_with("rays")) return "M rays";
+    if (head == "rays") return "M rays";
+    if (head == "gather rays") return "M gather rays";
     return head;
 }
 
@@ -79,13 +81,13 @@ std::string study_command_line() {
 void print_study(const PreparedStudy& prepared, const StudyResults& results, bool markdown, std::ostream& out) {
     std::vector<Row> rows{{"variant"}};
     for (const Metric& metric : prepared.metrics) {
-        if (is_shown(metric)) rows.front().push_back(head_of(metric));
+        if (is_shown(metric, prepared.study)) rows.front().push_back(head_of(metric));
     }
     for (const VariantResult& variant : results.variants) {
         Row& row = rows.emplace_back();
         row.push_back(printable(variant.name, 80) + (variant.on_front ? " *" : ""));
         for (const Metric& metric : prepared.metrics) {
-            if (is_shown(metric)) row.push_back(cell(variant, metric));
+            if (is_shown(metric, prepared.study)) row.push_back(cell(variant, metric));
         }
     }
     std::vector<std::size_t> widths(rows.front().size(), 0);

@@ -21,6 +21,7 @@ constexpr Row rows[] = {
     {"processor_seconds", "processor seconds", "s", true, true, false},
     {"wall_seconds", "seconds of a clock", "s", true, true, false},
     {"rays", "rays", "million", true, true, false},
+    {"gather_rays", "rays for irradiance values", "million", true, true, false},
     {"samples", "samples per pixel", "", true, true, false},
     {"records", "irradiance values computed", "", true, true, false},
     {"share_beyond", "pixels beyond one visible threshold", "%", false, true, true},

@@ -13,6 +13,11 @@ double total(const std::vector<std::pair<std::string, double>>& parts) {
                            [](double sum, const auto& part) { return sum + part.second; });
 }
 
+double part(const std::vector<std::pair<std::string, double>>& parts, const char* name) {
+    const auto found = std::ranges::find(parts, name, [](const auto& entry) { return entry.first; });
+    return found == parts.end() ? 0.0 : found->second;
+}
+
 /// Mean of each part over the runs; all have the same parts.
 template <class Parts>
 std::vector<std::pair<std::string, double>> mean_parts(const std::vector<MeasuredRun>& runs, std::size_t frame,
@@ -41,6 +46,7 @@ FrameResult summarize_frame(const std::string& scene, const std::vector<Measured
         values["wall_seconds"].push_back(frame.wall_seconds);
         if (run.errors.empty()) continue;  // a repeat counts the same
         values["rays"].push_back(1e-6 * total(frame.rays));
+        values["gather_rays"].push_back(1e-6 * (part(frame.rays, "gather") + part(frame.rays, "deeper")));
         values["samples"].push_back(frame.samples);
         values["records"].push_back(frame.records);
         for (const auto& [name, value] : run.errors.at(i)) values[name].push_back(value);

@@ -52,6 +52,7 @@ TEST(StudyResults, RepeatsCountForTimesAndSeedsForErrors) {
     EXPECT_DOUBLE_EQ(results[0].metrics.at("share_beyond").value, 3.0) << "both seeds";
     EXPECT_DOUBLE_EQ(results[0].metrics.at("share_beyond").error.value(), 1.0);
     EXPECT_DOUBLE_EQ(results[0].metrics.at("rays").value, 4.5) << "millions";
+    EXPECT_DOUBLE_EQ(results[0].metrics.at("gather_rays").value, 3.0);
     EXPECT_DOUBLE_EQ(results[0].stages[0].second, 1.5);
 }
 
