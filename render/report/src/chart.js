@@ -4,7 +4,7 @@ import { menu } from './controls.js';
 import { byId, fill } from './dom.js';
 import { settingText, withUnit } from './format.js';
 import { select, toggleSelected } from './selection.js';
-import { drawChart, onResize, seriesColors } from './vega_view.js';
+import { drawChart, onResize, rampColor, seriesColors } from './vega_view.js';
 
 /** @param {object} study @param {object} store */
 export function showChart(study, store) {
@@ -73,12 +73,12 @@ function showControls(study, store) {
   if (name) holder.querySelector(`[name="${name}"]`)?.focus();
 }
 
-function axisSpec(study, values, axis, domains) {
+function axisSpec(study, values, axis, domains, ticks) {
   const metric = findMetric(study, values[axis]);
   return {
-    field: axis, type: 'quantitative', title: withUnit(metric),
-    scale: { type: metric.log ? 'log' : 'linear', domain: domains[axis], nice: false, zero: false },
-    axis: { format: '~g', tickCount: 6, labelOverlap: 'greedy' },
+    field: axis, type: 'quantitative', title: axis === 'x' ? withUnit(metric) : null,
+    scale: { type: metric.log ? 'log' : 'linear', domain: domains[axis], nice: false, ...(metric.log ? {} : { zero: false }) },
+    axis: { format: '~g', tickCount: ticks, labelOverlap: 'greedy', labelSeparation: 10 },
   };
 }
 
@@ -88,8 +88,7 @@ function settingSpec(study, setting, channel, narrow) {
   const { values } = study.axes.find(axis => axis.setting === setting);
   const domain = values.map(settingText);
   const ordered = values.length > 2 && values.every(value => typeof value === 'number');
-  const colors = ordered ? { scheme: { name: 'viridis', extent: [0.12, 0.82] } }
-    : { range: domain.map((_, i) => seriesColors[i % seriesColors.length]) };
+  const colors = { range: domain.map((_, i) => ordered ? rampColor(i / (domain.length - 1)) : seriesColors[i % seriesColors.length]) };
   return {
     field: channel, type: ordered ? 'ordinal' : 'nominal', title: setting,
     scale: { domain, ...(channel === 'color' ? colors : {}) },
@@ -99,11 +98,12 @@ function settingSpec(study, setting, channel, narrow) {
 
 function specOf(study, values, { points, front, domains }, width) {
   const narrow = width < 620;
-  const x = axisSpec(study, values, 'x', domains);
-  const y = axisSpec(study, values, 'y', domains);
+  const x = axisSpec(study, values, 'x', domains, width / 120);
+  const y = axisSpec(study, values, 'y', domains, 6);
+  const yTitle = withUnit(findMetric(study, values.y));
   const color = settingSpec(study, values.color, 'color', narrow);
   const same = values.color === values.shape;
-  const tooltip = [{ field: 'xText', title: x.title }, { field: 'yText', title: y.title },
+  const tooltip = [{ field: 'xText', title: x.title }, { field: 'yText', title: yTitle },
     ...study.axes.map((axis, i) => ({ field: `setting${i}`, title: axis.setting }))];
   const bar = (axis, other) => ({
     mark: { type: 'rule', strokeWidth: 1.2, opacity: 0.7, tooltip: null },
@@ -114,7 +114,7 @@ function specOf(study, values, { points, front, domains }, width) {
   });
   return {
     width, height: narrow ? 300 : 380, autosize: { type: 'fit', contains: 'padding' },
-    data: { name: 'points', values: points },
+    title: yTitle, data: { name: 'points', values: points },
     layer: [
       {
         data: { name: 'front', values: front },
@@ -129,7 +129,7 @@ function specOf(study, values, { points, front, domains }, width) {
         encoding: {
           x, y, color, tooltip,
           shape: settingSpec(study, values.shape, 'shape', narrow),
-          opacity: { condition: { test: 'datum.selected', value: 1 }, value: 0.62 },
+          opacity: { condition: { test: 'datum.selected', value: 1 }, value: 0.75 },
           stroke: { condition: { test: 'datum.selected', value: 'var(--ink)' }, value: 'transparent' },
           strokeWidth: { value: 2 },
         },

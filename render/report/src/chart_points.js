@@ -9,7 +9,7 @@ export function findMetric(study, name) {
 
 /**
  * Points with positions, error bars and tooltip fields, and the Pareto front in the order of x.
- * On a logarithmic axis, values of 0 or less go to the lower edge.
+ * On a logarithmic axis, values of 0 or less go near the lower edge.
  * @returns {{points: object[], front: object[], domains: {x: number[], y: number[]}, atEdge: number, missing: number}}
  */
 export function chartPoints(study, values) {
@@ -19,15 +19,19 @@ export function chartPoints(study, values) {
   })).filter(row => row.x && row.y);
   const domains = {};
   let atEdge = 0;
-  for (const axis of ['x', 'y']) domains[axis] = domainOf(rows.map(row => row[axis]), metrics[axis].log);
+  const edges = {};
+  for (const axis of ['x', 'y']) {
+    const { domain, edge } = domainOf(rows.map(row => row[axis]), metrics[axis].log);
+    domains[axis] = domain;
+    edges[axis] = edge;
+  }
 
   const points = rows.map(row => {
     const point = { id: row.variant.id, label: row.variant.label };
     let edge = false;
     for (const axis of ['x', 'y']) {
       const { value, error = 0 } = row[axis];
-      const [low] = domains[axis];
-      const clamp = place => metrics[axis].log ? Math.max(place, low) : place;
+      const clamp = place => metrics[axis].log ? Math.max(place, edges[axis]) : place;
       edge ||= clamp(value) !== value;
       point[axis] = clamp(value);
       point[`${axis}Low`] = clamp(value - (error || 0));
@@ -52,26 +56,27 @@ function frontOf(study, values, points) {
   return points.filter(point => ids.has(point.id)).sort((a, b) => a.x - b.x || b.y - a.y);
 }
 
+/** The ends of an axis; and for a logarithmic one, where values of 0 or less are drawn. */
 function domainOf(metrics, log) {
   const ends = metrics.flatMap(({ value, error }) => [value - (error || 0), value + (error || 0), value]).filter(Number.isFinite);
   if (!log) {
     const low = Math.min(0, ...ends);
     const high = Math.max(...ends, low + 1e-12);
-    return [low < 0 ? low - 0.05 * (high - low) : 0, high + 0.05 * (high - low)];
+    return { domain: [low < 0 ? low - 0.05 * (high - low) : 0, high + 0.05 * (high - low)] };
   }
-  const positive = [...ends, ...metrics.map(metric => metric.value)].filter(value => value > 0);
-  if (positive.length === 0) return [0.1, 1];
+  const positive = ends.filter(value => value > 0);
+  if (positive.length === 0) return { domain: [0.1, 1], edge: 0.12 };
   const low = Math.min(...positive);
   const high = Math.max(...positive);
   const pad = Math.max(1.15, (high / low) ** 0.06);
   const zeros = ends.some(value => value <= 0);
-  return [low / (zeros ? pad * 1.5 : pad), high * pad];
+  return { domain: [low / (zeros ? pad ** 2 : pad), high * pad], edge: low / pad };
 }
 
 /** What the note below the chart says. */
 export function chartNote({ atEdge, missing }) {
   const notes = [];
-  if (atEdge > 0) notes.push(`${number(atEdge)} ${atEdge === 1 ? 'point is' : 'points are'} drawn at the lower edge: their value is 0, which a logarithmic axis cannot show.`);
+  if (atEdge > 0) notes.push(`${number(atEdge)} ${atEdge === 1 ? 'point is' : 'points are'} drawn near the lower edge: ${atEdge === 1 ? 'its' : 'their'} value is 0, which a logarithmic axis cannot show.`);
   if (missing > 0) notes.push(`${number(missing)} ${missing === 1 ? 'variant has' : 'variants have'} no value of these metrics.`);
   return notes.join(' ');
 }

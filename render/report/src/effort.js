@@ -34,7 +34,7 @@ export function showEffort(study, store) {
 function rowsOf(study, ids, chart) {
   return ids.map(id => findVariant(study, id)).flatMap(variant => variant.frames.flatMap(entry =>
     (entry[chart.list] ?? []).map((part, order) => ({
-      bar: `${variant.label}, frame ${entry.frame}`, part: part[chart.part], amount: part[chart.amount], order,
+      bar: `${variant.label}\nframe ${entry.frame}`, part: part[chart.part], amount: part[chart.amount], order,
     }))));
 }
 
@@ -42,12 +42,12 @@ function specOf(chart, rows, width) {
   const narrow = width < 520;
   const parts = [...new Set(rows.map(row => row.part))];
   return {
-    width, height: { step: 26 }, autosize: { type: 'fit-x', contains: 'padding' },
-    title: { text: chart.title, anchor: 'start' },
+    width, height: 38 * new Set(rows.map(row => row.bar)).size, autosize: { type: 'fit-x', contains: 'padding' },
+    title: chart.title,
     data: { values: rows },
     mark: { type: 'bar', tooltip: true, height: { band: 0.72 } },
     encoding: {
-      y: { field: 'bar', type: 'nominal', sort: null, title: null, axis: { labelLimit: narrow ? 130 : 260, ticks: false, domain: false } },
+      y: { field: 'bar', type: 'nominal', sort: null, title: null, axis: { labelExpr: `split(datum.label, '\\n')`, labelLimit: narrow ? 130 : 260, labelLineHeight: 14, ticks: false, domain: false } },
       x: { field: 'amount', type: 'quantitative', aggregate: 'sum', stack: 'zero', title: chart.axis, axis: { format: chart.format, tickCount: 5 } },
       color: {
         field: 'part', type: 'nominal', title: null, sort: parts, scale: { scheme: 'tableau20', domain: parts },
@@ -69,6 +69,6 @@ function tableOf(chart, rows) {
   return make('details', {}, make('summary', {}, `${chart.title} as a table`), make('div', { class: 'scroll', tabindex: 0 },
     make('table', {}, make('thead', {}, make('tr', {}, make('th', { scope: 'col' }, 'Frame'),
       ...parts.map(part => make('th', { scope: 'col', class: 'numeric' }, part)))),
-    make('tbody', {}, ...bars.map(bar => make('tr', {}, make('th', { scope: 'row' }, bar),
+    make('tbody', {}, ...bars.map(bar => make('tr', {}, make('th', { scope: 'row' }, bar.replace('\n', ', ')),
       ...parts.map(part => make('td', { class: 'numeric' }, amount(bar, part).toLocaleString('en', { maximumSignificantDigits: 4 })))))))));
 }

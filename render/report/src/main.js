@@ -32,7 +32,7 @@ function initialValues(study) {
     selected, current: selected[0] ?? null, frame: study.frames[0] ?? study.variants[0]?.frames[0]?.frame,
     layout: 'side', a: reference, b: selected[0] ?? reference, swipe: 0.5, rate: calm ? 0 : 1,
     show: 'picture', opacity: 1, ranges: {}, stops: 0, view: fitted,
-    cursor: { x: study.width >> 1, y: study.height >> 1 }, pixel: null,
+    cursor: null, pixel: null,
   };
 }
 

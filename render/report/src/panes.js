@@ -40,7 +40,7 @@ export function showPanes(study, store, groups) {
 
   const choosePixel = (x, y) => {
     store.set({ cursor: { x, y }, pixel: { x, y } });
-    announce(`Values of the pixel at column ${x}, row ${y} are listed below the pictures`);
+    announce(`Values of the pixel at column ${x}, row ${y} are listed under One pixel, step by step`);
   };
 
   /** Ids in the order of display. */

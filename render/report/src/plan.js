@@ -28,7 +28,7 @@ export function showPlan(study, store) {
 function planRow(entry) {
   return make('tr', { 'data-effect': entry.effect },
     make('th', { scope: 'row' }, entry.effect.replaceAll('_', ' ')),
-    make('td', {}, make('span', { class: `decision ${entry.decision}` }, decisions[entry.decision] ?? entry.decision)),
+    make('td', {}, make('span', { class: 'decision', 'data-decision': entry.decision }, decisions[entry.decision] ?? entry.decision)),
     make('td', { class: 'reason' }, entry.reason ?? ''),
     make('td', { class: 'numeric' }, number(entry.bound?.luminance)),
     make('td', { class: 'numeric' }, number(entry.bound?.thresholds)));

@@ -41,5 +41,6 @@ export function firstSelection(study, x, y) {
     .filter(point => point.x !== undefined && point.y !== undefined);
   const front = paretoFront(points);
   const ids = front.length > 0 ? front : study.variants.map(variant => variant.id);
-  return [...new Set([ids[0], ids.at(-1)])].filter(Boolean);
+  const ends = [ids[0], ids.at(-1)];
+  return study.variants.map(variant => variant.id).filter(id => ends.includes(id));
 }

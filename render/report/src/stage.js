@@ -5,7 +5,7 @@ import { clampViewport, fitted, pan, placeAt, zoomAbout } from './viewport.js';
 const dragStart = 4; // pixels of movement that make a click a drag
 
 /**
- * @param {object} store  with view, cursor and pixel
+ * @param {object} store  with view, and cursor: a pixel, or null before there is one
  * @param {{width: number, height: number}} size  of the pictures, in pixels
  * @param {string} label  for screen readers
  * @param {(x: number, y: number) => void} onPixel  when a pixel is chosen
@@ -34,7 +34,8 @@ export function makeStage(store, size, label, onPixel) {
 const arrows = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1] };
 
 function handleKey(event, store, size, zoom, onPixel) {
-  const { view, cursor } = store.values;
+  const { view } = store.values;
+  const cursor = store.values.cursor ?? { x: size.width >> 1, y: size.height >> 1 };
   if (event.key in arrows) {
     const [right, down] = arrows[event.key];
     if (event.shiftKey) moveCursor(store, size, cursor.x + right, cursor.y + down);

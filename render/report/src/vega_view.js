@@ -11,8 +11,8 @@ const config = {
     labelColor: 'var(--ink-2)', titleColor: 'var(--ink)', gridColor: 'var(--line)', domainColor: 'var(--line-2)',
     tickColor: 'var(--line-2)', labelFontSize: 12, titleFontSize: 13, titleFontWeight: 500,
   },
-  legend: { labelColor: 'var(--ink-2)', titleColor: 'var(--ink)', labelFontSize: 12, titleFontSize: 12, symbolStrokeColor: 'var(--ink-2)' },
-  title: { color: 'var(--ink)', fontSize: 13, fontWeight: 600 },
+  legend: { labelColor: 'var(--ink-2)', titleColor: 'var(--ink)', labelFontSize: 12, titleFontSize: 12, symbolBaseFillColor: 'var(--ink-2)' },
+  title: { color: 'var(--ink)', fontSize: 13, fontWeight: 500, anchor: 'start', frame: 'group' },
   view: { stroke: 'var(--line)' },
 };
 
@@ -44,6 +44,11 @@ export function onResize(node, draw) {
     clearTimeout(timer);
     timer = setTimeout(draw, 80);
   }).observe(node);
+}
+
+/** Colours of numbers in order. @param {number} place  0 to 1 */
+export function rampColor(place) {
+  return `color-mix(in oklch, var(--ramp-low), var(--ramp-high) ${Math.round(100 * place)}%)`;
 }
 
 /** Colours of named categories, the same in light and dark. */

@@ -16,7 +16,7 @@ export function showWalk(study, store) {
     const { current, frame, pixel } = store.values;
     showControls(study, store);
     if (!pixel) {
-      fill(node, make('p', { class: 'note' }, 'Click a pixel in a picture above, or press Enter at the cursor.'));
+      fill(node, make('p', { class: 'note' }, 'Click a pixel in a picture here, or press Enter at the cursor.'));
       return;
     }
     const read = readerOf(study, current, frame, pixel);
@@ -85,8 +85,10 @@ async function bandsNode(bands, read) {
   const shown = columns.filter(column => column.values.some(value => value !== undefined));
   if (shown.length === 0) return null;
   const cell = (column, i) => make('td', {}, column.values[i] === undefined ? '–' : make('span', { class: 'band' },
-    make('span', { class: 'band-bar', style: `inline-size: ${100 * Math.abs(column.values[i]) / column.largest}%`, 'aria-hidden': 'true' }),
-    valueNode(column.names[i], column.values[i])));
+    valueNode(column.names[i], column.values[i]),
+    make('span', { class: 'band-track', 'aria-hidden': 'true' }, make('span', {
+      class: 'band-bar', style: `inline-size: ${100 * Math.abs(column.values[i]) / column.largest}%`,
+    }))));
   return make('table', { class: 'bands' },
     make('thead', {}, make('tr', {}, make('th', { scope: 'col' }, 'cycles/degree'),
       ...shown.map(column => make('th', { scope: 'col' }, column.title)))),
