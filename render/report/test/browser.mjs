@@ -5,12 +5,11 @@ import fs from 'node:fs';
 import path from 'node:path';
 import { fileURLToPath, pathToFileURL } from 'node:url';
 
-export const here = path.dirname(fileURLToPath(import.meta.url));
+const here = path.dirname(fileURLToPath(import.meta.url));
 const packages = fs.existsSync(path.join(process.cwd(), 'node_modules')) ? process.cwd() : path.dirname(here);
 const require = createRequire(path.join(packages, 'package.json'));
 
-export const chromium = [process.env.CHROMIUM, '/usr/bin/chromium', '/usr/bin/chromium-browser', '/usr/bin/google-chrome']
-  .find(file => file && fs.existsSync(file));
+const chromium = process.env.CHROMIUM ?? '/usr/bin/chromium';
 
 /** Starts the browser. */
 export async function launch() {
