@@ -11,6 +11,7 @@ export function showChart(study, store) {
   const node = byId('chart');
   const { values } = store;
   let view = null;
+  let brushed = []; // the selection that the brush made
   let drawn = Promise.resolve();
 
   const markSelected = points => points.map(point => ({ ...point, selected: values.selected.includes(point.id) }));
@@ -22,12 +23,16 @@ export function showChart(study, store) {
     byId('results-title').textContent = titleOf(study, values);
     drawn = drawn.then(async () => {
       view = await drawChart(node, specOf(study, values, { ...data, points: markSelected(data.points) }, node.clientWidth));
-      listen(view, study, store, data.points);
+      listen(view, study, store, data.points, ids => { brushed = ids; });
     });
   };
   store.on(['x', 'y', 'color', 'shape', 'over'], draw);
   store.on(['selected'], () => {
-    view?.data('points', markSelected(chartPoints(study, values).points)).runAsync();
+    if (!view) return;
+    view.data('points', markSelected(chartPoints(study, values).points));
+    // A selection made elsewhere ends the brush.
+    if (values.selected.join() !== brushed.join()) view.signal('brush_x', []).signal('brush_y', []);
+    view.runAsync();
   });
   onResize(node, draw);
   draw();
@@ -39,14 +44,16 @@ function titleOf(study, values) {
   return usual ? 'Error against time' : `${findMetric(study, values.y).title} against ${findMetric(study, values.x).title}`;
 }
 
-function listen(view, study, store, points) {
+function listen(view, study, store, points, onBrush) {
   let brushed = false;
   view.addSignalListener('brush', (_, brush) => {
-    const { x, y } = brush;
+    const { xPlace: x, yPlace: y } = brush;
     if (!x || !y) return;
     brushed = true;
     const inside = (value, [a, b]) => value >= Math.min(a, b) && value <= Math.max(a, b);
-    select(study, store, points.filter(point => inside(point.x, x) && inside(point.y, y)).map(point => point.id));
+    const ids = points.filter(point => inside(point.xPlace, x) && inside(point.yPlace, y)).map(point => point.id);
+    onBrush(ids);
+    select(study, store, ids);
   });
   view.addEventListener('mousedown', () => { brushed = false; });
   view.addEventListener('click', (event, item) => {
@@ -65,8 +72,8 @@ function showControls(study, store) {
   const holder = byId('chart-controls');
   const name = holder.contains(document.activeElement) ? document.activeElement.name : null;
   fill(holder,
-    menu('Across', metrics, values.x, x => store.set({ x })),
-    menu('Up', metrics, values.y, y => store.set({ y })),
+    menu('Horizontal axis', metrics, values.x, x => store.set({ x })),
+    menu('Vertical axis', metrics, values.y, y => store.set({ y })),
     menu('Colour', axes, values.color, color => store.set({ color })),
     menu('Shape', axes, values.shape, shape => store.set({ shape })),
     study.frames.length > 1 ? menu('Frames', frames, values.over, over => store.set({ over })) : null);
@@ -76,7 +83,7 @@ function showControls(study, store) {
 function axisSpec(study, values, axis, domains, ticks) {
   const metric = findMetric(study, values[axis]);
   return {
-    field: axis, type: 'quantitative', title: axis === 'x' ? withUnit(metric) : null,
+    field: `${axis}Place`, type: 'quantitative', title: axis === 'x' ? withUnit(metric) : null,
     scale: { type: metric.log ? 'log' : 'linear', domain: domains[axis], nice: false, ...(metric.log ? {} : { zero: false }) },
     axis: { format: '~g', tickCount: ticks, labelOverlap: 'greedy', labelSeparation: 10 },
   };
@@ -119,7 +126,7 @@ function specOf(study, values, { points, front, domains }, width) {
       {
         data: { name: 'front', values: front },
         mark: { type: 'line', interpolate: 'step-after', color: 'var(--ink-3)', strokeDash: [5, 4], strokeWidth: 1.5, tooltip: null },
-        encoding: { x, y, order: { field: 'x', type: 'quantitative' } },
+        encoding: { x, y, order: { field: 'xPlace', type: 'quantitative' } },
       },
       bar('x', 'y'),
       bar('y', 'x'),

@@ -33,7 +33,8 @@ export function chartPoints(study, values) {
       const { value, error = 0 } = row[axis];
       const clamp = place => metrics[axis].log ? Math.max(place, edges[axis]) : place;
       edge ||= clamp(value) !== value;
-      point[axis] = clamp(value);
+      point[axis] = value;
+      point[`${axis}Place`] = clamp(value);
       point[`${axis}Low`] = clamp(value - (error || 0));
       point[`${axis}High`] = value + (error || 0);
       point[`${axis}Text`] = `${withError(row[axis])} ${metrics[axis].unit ?? ''}`;

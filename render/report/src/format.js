@@ -19,6 +19,7 @@ export function withError(metric) {
 
 /** A setting's value as text. @param {any} value */
 export function settingText(value) {
+  if (value === undefined) return '–';
   return typeof value === 'object' && value !== null ? JSON.stringify(value) : String(value);
 }
 

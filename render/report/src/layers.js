@@ -7,7 +7,7 @@ import { byId } from './dom.js';
 const cacheBytes = 256 * 1024 * 1024;
 const cache = new Map(); // element id -> {bytes, promise of the decoded layer}, the last used at the end
 const done = new Set(); // element ids that are decoded
-let bytes = 0;
+let cachedBytes = 0;
 
 let halves; // value of each half-precision number
 
@@ -22,6 +22,14 @@ function halfValues() {
     halves[bits] = bits >> 15 ? -size : size;
   }
   return halves;
+}
+
+function decodeBase64(text) {
+  if (Uint8Array.fromBase64) return Uint8Array.fromBase64(text);
+  const binary = atob(text);
+  const bytes = new Uint8Array(binary.length);
+  for (let i = 0; i < bytes.length; ++i) bytes[i] = binary.charCodeAt(i);
+  return bytes;
 }
 
 async function inflate(packed) {
@@ -47,7 +55,7 @@ export function unshuffle(shuffled, count, type) {
 async function decode(layer) {
   const text = byId(layer.element)?.textContent;
   if (!text) throw new Error(`the layer ${layer.element} is missing`);
-  const packed = Uint8Array.from(atob(text.trim()), character => character.charCodeAt(0));
+  const packed = decodeBase64(text.trim());
   const count = layer.width * layer.height * layer.channels;
   const size = layer.type === 'f16' ? 2 : 4;
   const shuffled = await inflate(packed);
@@ -57,10 +65,10 @@ async function decode(layer) {
 
 function dropOldest() {
   for (const [element, entry] of cache) {
-    if (bytes <= cacheBytes || !done.has(element)) return;
+    if (cachedBytes <= cacheBytes || !done.has(element)) return;
     cache.delete(element);
     done.delete(element);
-    bytes -= entry.bytes;
+    cachedBytes -= entry.bytes;
   }
 }
 
@@ -74,7 +82,7 @@ export function readLayer(layer) {
     bytes: layer.width * layer.height * layer.channels * 4,
     promise: decode(layer).then(decoded => {
       done.add(layer.element);
-      bytes += decoded.values.byteLength;
+      cachedBytes += decoded.values.byteLength;
       dropOldest();
       return decoded;
     }),
@@ -87,6 +95,11 @@ export function readLayer(layer) {
 /** Whether a layer is decoded already. @param {{element: string}|undefined} layer */
 export function isDecoded(layer) {
   return layer !== undefined && done.has(layer.element);
+}
+
+/** Whether another layer fits into the half of the cache that is for layers that are not asked for yet. */
+export function hasRoom() {
+  return cachedBytes < cacheBytes / 2;
 }
 
 /** A layer's value at a pixel of a picture of another or the same size. */

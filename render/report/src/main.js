@@ -6,6 +6,7 @@ import { showFrameControls } from './frame_controls.js';
 import { showHead } from './head.js';
 import { reference, showPanes } from './panes.js';
 import { showPlan } from './plan.js';
+import { prefetchPictures } from './prefetch.js';
 import { firstSelection } from './selection.js';
 import { createStore } from './store.js';
 import { listMaps } from './shown_maps.js';
@@ -30,7 +31,7 @@ function initialValues(study) {
   return {
     x, y, over: 'mean', color: varied[0] ?? 'none', shape: varied[1] ?? 'none',
     selected, current: selected[0] ?? null, frame: study.frames[0] ?? study.variants[0]?.frames[0]?.frame,
-    layout: 'side', a: reference, b: selected[0] ?? reference, swipe: 0.5, rate: calm ? 0 : 1,
+    layout: 'side', a: study.pictures.some(entry => entry.reference) ? reference : selected[0], b: selected[0] ?? reference, swipe: 0.5, rate: calm ? 0 : 1,
     show: 'picture', opacity: 1, ranges: {}, stops: 0, view: fitted,
     cursor: null, pixel: null,
   };
@@ -56,6 +57,7 @@ async function start() {
     showFrameControls(study, store, groups);
     showPanes(study, store, groups);
     showWalk(study, store);
+    prefetchPictures(study, store);
   }
   if (has('plan')) showPlan(study, store);
   if (has('stages') || has('rays')) await showEffort(study, store);

@@ -1,6 +1,7 @@
 // Titles and captions of the panes.
 import { fill, make } from './dom.js';
-import { withError } from './format.js';
+import { number, withError } from './format.js';
+import { valueAt } from './layers.js';
 import { disagreementTitles } from './shown_maps.js';
 import { findVariant, metricOf } from './study.js';
 
@@ -19,6 +20,14 @@ export function paneCaption(study, store, view) {
       const value = metric && metricOf(variant, metric.name, String(store.values.frame));
       if (value) parts.push(make('span', {}, `${withError(value)} ${metric.unit === '%' ? '% ' : metric.unit ? `${metric.unit} ` : ''}`,
         make('small', {}, metric.title)));
+    }
+    if (item.made?.beyond !== undefined) {
+      parts.push(make('span', { class: 'beyond', 'data-value': item.made.beyond },
+        `${(100 * item.made.beyond / item.made.values.length).toFixed(2)} % of this frame's pixels beyond 1 threshold`));
+    }
+    const at = store.values.cursor;
+    if (item.made && item.made.channels !== 3 && !item.made.counts && at) {
+      parts.push(make('span', {}, `${number(valueAt(item.made, at.x, at.y, study.width, study.height))} `, make('small', {}, 'at the cursor')));
     }
     if (item.made?.counts) parts.push(countsText(item.made.counts, store));
     return [make('div', {}, ...parts)];

@@ -59,7 +59,8 @@ export function layersOf(study, map, id, frame) {
 }
 
 /**
- * A map of one pane: {width, height, values}, with `counts` of pixels for a disagreement; null if it has none there.
+ * A map of one pane: {width, height, values}, with the number of pixels `beyond` one threshold for an error,
+ * and `counts` of pixels for a disagreement; null if it has none there.
  * @param {object} study @param {object} map  of listMaps @param {string|null} id @param {number} frame
  */
 export async function makeMap(study, map, id, frame) {
@@ -76,7 +77,8 @@ export async function makeMap(study, map, id, frame) {
   for (let i = 0; i < error.length; ++i) error[i] /= valueAt(layers.threshold, i % width, Math.floor(i / width), width, height);
   if (map.key === 'computed.signed') return { width, height, values: error };
   if (map.judge) return disagreement(error, layers.judge, map.judge.limit, width, height);
-  return { width, height, values: error.map(Math.abs) };
+  const values = error.map(Math.abs);
+  return { width, height, values, beyond: values.reduce((count, value) => count + (value > 1), 0) };
 }
 
 /** Luminance of a picture minus that of the reference, in cd/m². */

@@ -1,4 +1,5 @@
 // The table of all variants, with the same selection as the chart, and its CSV file.
+import { chartPoints } from './chart_points.js';
 import { button } from './controls.js';
 import { byId, fill, make } from './dom.js';
 import { settingText, withError, withUnit } from './format.js';
@@ -106,7 +107,7 @@ export function showTable(study, store) {
   mark();
   fill(byId('table-buttons'),
     button('Select all', () => select(study, store, study.variants.map(variant => variant.id))),
-    button('Select the front', () => select(study, store, study.variants.filter(variant => variant.pareto).map(variant => variant.id))),
+    button('Select the front', () => select(study, store, chartPoints(study, values).front.map(point => point.id))),
     button('Download as CSV', () => download('study.csv', tableText(study, columns, values.over))));
 }
 

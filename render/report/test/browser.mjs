@@ -19,9 +19,9 @@ export async function launch() {
 
 /**
  * Opens a page from a file, and notes everything that goes wrong in it.
- * @param {object} browser @param {string} file @param {{width?: number, height?: number, dark?: boolean, calm?: boolean}} [options]
+ * @param {object} browser @param {string} file @param {{width?: number, height?: number, dark?: boolean, calm?: boolean, ready?: string}} [options]  `ready`: what shows that it is done
  */
-export async function open(browser, file, { width = 1280, height = 900, dark = false, calm = false } = {}) {
+export async function open(browser, file, { width = 1280, height = 900, dark = false, calm = false, ready = '[data-ready="true"]' } = {}) {
   const page = await browser.newPage();
   const troubles = [];
   const requests = [];
@@ -37,7 +37,7 @@ export async function open(browser, file, { width = 1280, height = 900, dark = f
   ]);
   const address = pathToFileURL(path.resolve(file)).href;
   await page.goto(address);
-  await page.waitForSelector('[data-ready="true"]', { timeout: 30000 });
+  await page.waitForSelector(ready, { timeout: 30000 });
   const isOutside = url => url !== address && !url.startsWith('data:') && !url.startsWith('blob:');
   return { page, troubles, outside: () => requests.filter(isOutside) };
 }

@@ -35,10 +35,10 @@ afterEach(async () => {
   for (const { troubles, outside } of pages) assert.deepEqual([...troubles, ...outside()], []);
 });
 
-/** Opens the page with the data given, else those of `study`. @param {object} [options]  of open @param {object} [data]  of makeStudy */
+/** Opens the page with the data given, else those of `study`. @param {object} [options]  of open @param {object} [data]  of makeStudy; null for the template itself */
 export async function openPage(options, data = sample) {
   const file = path.join(folder, 'report.html');
-  fs.writeFileSync(file, fillTemplate(template, data));
+  fs.writeFileSync(file, data ? fillTemplate(template, data) : template);
   const result = await open(browser, file, options);
   opened.push(result);
   return result.page;

@@ -48,6 +48,13 @@ describe('the page', () => {
     assert.deepEqual(await selectedRows(page), ['only']);
   });
 
+  it('says so where it has no data, or data of another version', async () => {
+    for (const [data, reason] of [[null, /template without data/], [{ study: { schema_version: 2 }, layers: [] }, /version 2/]]) {
+      const page = await openPage({ ready: '#notice:not([hidden])' }, data);
+      assert.match(await page.$eval('#notice', node => node.textContent), reason);
+    }
+  });
+
   it('paints and draws soon with 20 MB of layers', async context => {
     const data = makeStudy({ width: 320, height: 240 });
     const copies = Math.ceil(20e6 / data.layers.reduce((sum, text) => sum + text.length, 0));

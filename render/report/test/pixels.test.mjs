@@ -88,6 +88,23 @@ describe('pictures', () => {
     }
   });
 
+  it('count the pixels beyond one threshold', async () => {
+    const page = await openPage();
+    const counts = async variant => {
+      await page.click(`tr[data-variant="${variant}"]`);
+      await waitForPanes(page, ['reference', variant]);
+      await page.waitForSelector('.beyond');
+      return page.$eval('.beyond', node => Number(node.dataset.value));
+    };
+    await choose(page, '#frame-controls', 'Show', 'computed.thresholds');
+    const [small, large] = [await counts(id(0.5, 'none')), await counts(id(2, 'none'))];
+    await choose(page, '#frame-controls', 'Show', 'disagreement.colorvideovdp');
+    await page.waitForSelector('.counts li');
+    const kinds = await page.$$eval('.counts li', nodes => nodes.map(node => Number(node.dataset.value)));
+    assert.equal(kinds[1] + kinds[2], large); // visible by our threshold, with the judge or without
+    assert.ok(small < large);
+  });
+
   it('count disagreement with a judge, pixel by pixel', async () => {
     const page = await openPage();
     const variant = id(2, 'saliency');

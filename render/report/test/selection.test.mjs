@@ -20,6 +20,17 @@ describe('selection', () => {
     assert.deepEqual(await selectedRows(page), all);
   });
 
+  it('ends the brush when it is made elsewhere', async () => {
+    const page = await openPage();
+    await brushAll(page);
+    await waitForPanes(page, ['reference', ...all]);
+    const width = () => page.$eval('#chart .brush_brush path', node => node.getBoundingClientRect().width);
+    assert.ok(await width() > 100);
+    await page.click(`tr[data-variant="${all[2]}"]`);
+    await waitForPanes(page, ['reference', all[2]]);
+    assert.ok(await width() < 2);
+  });
+
   it('takes only the points inside the brush', async () => {
     const page = await openPage();
     await page.evaluate(() => document.querySelector('#chart').scrollIntoView({ block: 'center' }));
@@ -96,11 +107,11 @@ describe('other parts', () => {
 
   it('change the axes, and the front with them', async () => {
     const page = await openPage();
-    await choose(page, '#chart-controls', 'Up', 'relative_mse');
+    await choose(page, '#chart-controls', 'Vertical axis', 'relative_mse');
     await page.waitForFunction(() => /relative mean squared error/.test(document.querySelector('#results-title').textContent)
       || /relative mean squared error/.test(document.querySelector('#chart svg').textContent));
     assert.equal(await page.$eval('#chart-note', node => node.textContent), '');
-    await choose(page, '#chart-controls', 'Up', 'yee');
+    await choose(page, '#chart-controls', 'Vertical axis', 'yee');
     await page.waitForFunction(() => /6 variants have no value/.test(document.querySelector('#chart-note').textContent));
   });
 });
