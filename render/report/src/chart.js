@@ -131,7 +131,7 @@ function specOf(study, values, { points, front, domains }, width) {
       bar('x', 'y'),
       bar('y', 'x'),
       {
-        params: [{ name: 'brush', select: { type: 'interval', zoom: false, mark: { fill: 'var(--accent)', fillOpacity: 0.1, stroke: 'var(--accent)' } } }],
+        params: [{ name: 'brush', select: { type: 'interval', zoom: false, translate: false, mark: { fill: 'var(--accent)', fillOpacity: 0.1, stroke: 'var(--accent)' } } }],
         mark: { type: 'point', filled: true, size: narrow ? 130 : 110, cursor: 'pointer' },
         encoding: {
           x, y, color, tooltip,

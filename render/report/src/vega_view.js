@@ -11,7 +11,7 @@ const config = {
     labelColor: 'var(--ink-2)', titleColor: 'var(--ink)', gridColor: 'var(--line)', domainColor: 'var(--line-2)',
     tickColor: 'var(--line-2)', labelFontSize: 12, titleFontSize: 13, titleFontWeight: 500,
   },
-  legend: { labelColor: 'var(--ink-2)', titleColor: 'var(--ink)', labelFontSize: 12, titleFontSize: 12, symbolBaseFillColor: 'var(--ink-2)' },
+  legend: { labelColor: 'var(--ink-2)', titleColor: 'var(--ink)', labelFontSize: 12, titleFontSize: 12, symbolBaseFillColor: 'var(--ink-2)', symbolOpacity: 1 },
   title: { color: 'var(--ink)', fontSize: 13, fontWeight: 500, anchor: 'start', frame: 'group' },
   view: { stroke: 'var(--line)' },
 };

@@ -43,12 +43,18 @@ describe('selection', () => {
     await waitForPanes(page, ['reference', id(2, 'none'), id(2, 'saliency')]);
   });
 
-  it('follows a click on a point', async () => {
+  it('follows a click on a point inside the brush, whose settings a tooltip shows', async () => {
     const page = await openPage();
+    await brushAll(page);
+    await waitForPanes(page, ['reference', ...all]);
     const point = await page.$$eval('#chart svg path[aria-roledescription="point"], #chart svg .mark-symbol path', nodes => {
       const { x, y, width, height } = nodes[2].getBoundingClientRect();
       return { x: x + width / 2, y: y + height / 2, data: nodes[2].__data__.datum.id };
     });
+    await page.mouse.move(point.x, point.y);
+    await page.waitForSelector('#vg-tooltip-element.visible');
+    const { error, guide } = study.variants.find(variant => variant.id === point.data).settings;
+    assert.match(await page.$eval('#vg-tooltip-element', node => node.innerText), new RegExp(`error\\s+${error}\\s+guide\\s+${guide}`));
     await page.mouse.click(point.x, point.y);
     await waitForPanes(page, ['reference', point.data]);
   });
