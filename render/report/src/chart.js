@@ -55,7 +55,7 @@ function listen(view, study, store, points, onBrush) {
     onBrush(ids);
     select(study, store, ids);
   });
-  view.addEventListener('mousedown', () => { brushed = false; });
+  view.addEventListener('pointerdown', () => { brushed = false; });
   view.addEventListener('click', (event, item) => {
     const id = item?.datum?.id;
     if (!id || brushed) return;
