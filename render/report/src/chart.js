@@ -134,7 +134,7 @@ function specOf(study, values, { points, front, domains }, width) {
         params: [{ name: 'brush', select: { type: 'interval', zoom: false, translate: false, mark: { fill: 'var(--accent)', fillOpacity: 0.1, stroke: 'var(--accent)' } } }],
         mark: { type: 'point', filled: true, size: narrow ? 130 : 110, cursor: 'pointer' },
         encoding: {
-          x, y, color, tooltip,
+          x, y, color, tooltip, description: { field: 'label' },
           shape: settingSpec(study, values.shape, 'shape', narrow),
           opacity: { condition: { test: 'datum.selected', value: 1 }, value: 0.75 },
           stroke: { condition: { test: 'datum.selected', value: 'var(--ink)' }, value: 'transparent' },

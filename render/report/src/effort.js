@@ -1,4 +1,4 @@
-// Bars of time by stage and of rays by kind, for each frame of the selected variants.
+// Bars of time by stage and of rays by kind, for each frame of the selected variants; of the frame shown where these are many.
 import { byId, fill, make } from './dom.js';
 import { findVariant } from './study.js';
 import { drawChart, onResize } from './vega_view.js';
@@ -8,41 +8,58 @@ const charts = [
   { list: 'rays', part: 'kind', amount: 'count', title: 'Rays by kind', axis: 'rays', format: '~s' },
 ];
 
+const mostBars = 24;
+
 /** @param {object} study @param {object} store */
 export function showEffort(study, store) {
   const holder = byId('bars');
   const nodes = charts.map(chart => make('figure', { class: 'chart', role: 'img', 'aria-label': `${chart.title}, for each frame of the selected variants` }));
-  fill(holder, ...nodes, make('div', { class: 'tables' }));
+  const note = make('p', { class: 'note' });
+  const tables = make('div', { class: 'tables' });
+  fill(holder, note, ...nodes, tables);
 
   const draw = async () => {
+    const { selected, frame } = store.values;
+    const every = selected.length * study.frames.length <= mostBars;
+    const ids = selected.slice(0, every ? selected.length : mostBars);
+    note.textContent = every ? '' : `Only frame ${frame}${ids.length < selected.length ? ` of the first ${mostBars} variants` : ''}: too many are selected to show every frame.`;
+    const lists = charts.map(chart => rowsOf(study, ids, every ? null : frame, chart));
     for (const [i, chart] of charts.entries()) {
-      const rows = rowsOf(study, store.values.selected, chart);
-      nodes[i].hidden = rows.length === 0;
-      if (rows.length > 0) await drawChart(nodes[i], specOf(chart, rows, nodes[i].clientWidth));
+      nodes[i].hidden = lists[i].length === 0;
+      if (lists[i].length > 0) await drawChart(nodes[i], specOf(chart, lists[i], nodes[i].clientWidth));
     }
-    fill(holder.lastChild, ...charts.map(chart => tableOf(chart, rowsOf(study, store.values.selected, chart))));
-    holder.dataset.drawn = store.values.selected.join('|');
+    fill(tables, ...charts.map((chart, i) => tableOf(chart, lists[i])));
+    holder.dataset.drawn = selected.join('|');
   };
   let queue = Promise.resolve();
-  const report = () => { queue = queue.then(draw); };
-  store.on(['selected'], report);
+  let timer = 0;
+  // The pictures come first; while a selection changes, the bars wait.
+  const report = () => {
+    clearTimeout(timer);
+    timer = setTimeout(() => { queue = queue.then(draw); }, 150);
+  };
+  store.on(['selected', 'frame'], report);
   onResize(holder, report);
-  report();
+  queue = draw();
   return queue;
 }
 
-function rowsOf(study, ids, chart) {
-  return ids.map(id => findVariant(study, id)).flatMap(variant => variant.frames.flatMap(entry =>
+/** Rows of a chart: of one frame, or of all where `frame` is null. */
+function rowsOf(study, ids, frame, chart) {
+  const isShown = entry => frame === null || entry.frame === frame;
+  return ids.map(id => findVariant(study, id)).flatMap(variant => variant.frames.filter(isShown).flatMap(entry =>
     (entry[chart.list] ?? []).map((part, order) => ({
-      bar: `${variant.label}\nframe ${entry.frame}`, part: part[chart.part], amount: part[chart.amount], order,
+      bar: frame === null ? `${variant.label}\nframe ${entry.frame}` : variant.label, part: part[chart.part], amount: part[chart.amount], order,
     }))));
 }
 
 function specOf(chart, rows, width) {
   const narrow = width < 520;
   const parts = [...new Set(rows.map(row => row.part))];
+  const bars = [...new Set(rows.map(row => row.bar))];
+  const lines = bars[0].split('\n').length;
   return {
-    width, height: 38 * new Set(rows.map(row => row.bar)).size, autosize: { type: 'fit-x', contains: 'padding' },
+    width, height: (lines > 1 ? 38 : 26) * bars.length, autosize: { type: 'fit-x', contains: 'padding' },
     title: chart.title,
     data: { values: rows },
     mark: { type: 'bar', tooltip: true, height: { band: 0.72 } },

@@ -14,7 +14,7 @@ export function makeStage(store, size, label, onPixel) {
   const node = make('div', {
     class: 'stage', tabindex: 0, role: 'application', 'aria-roledescription': 'picture view',
     'aria-label': `${label}. Keys: plus, minus and 0 zoom; arrows pan; Shift and arrows move the cursor; Enter reads the pixel.`,
-    style: `aspect-ratio: ${size.width} / ${size.height}`,
+    style: `--aspect: ${size.width} / ${size.height}`,
   });
   const zoom = (factor, u, v) => store.set({ view: zoomAbout(store.values.view, factor, u, v) });
   listenToPointers(node, store, size, onPixel);
