@@ -1,0 +1,160 @@
+// The pictures of the selected variants and the reference: side by side, under a swipe, or blinking.
+import { announce, byId, fill, make } from './dom.js';
+import { mapImage, pictureImage } from './color.js';
+import { isDecoded, readLayer } from './layers.js';
+import { showLegend } from './legend.js';
+import { layersOf, makeMap, scaleOf } from './shown_maps.js';
+import { paneCaption, paneTitle } from './pane_text.js';
+import { drawView, makeStage } from './stage.js';
+import { makeHandle, startBlinking } from './two_pictures.js';
+import { sharedFrame, variantFrame } from './study.js';
+
+export const reference = 'reference';
+const mostPanes = 9;
+
+function canvasOf(imageData) {
+  const canvas = document.createElement('canvas');
+  canvas.width = imageData.width;
+  canvas.height = imageData.height;
+  canvas.getContext('2d').putImageData(imageData, 0, 0);
+  return canvas;
+}
+
+/**
+ * Shows the panes, and keeps them as the store says.
+ * @param {object} study
+ * @param {object} store
+ * @param {Array<{group: string, maps: object[]}>} groups  of listMaps
+ */
+export function showPanes(study, store, groups) {
+  const size = { width: study.width, height: study.height };
+  const maps = groups.flatMap(entry => entry.maps);
+  const holder = byId('panes');
+  let views = []; // {node, stage, items: [{id, canvas, images}]}
+  let turn = 0;
+  let stopBlinking = () => {};
+  let showAll = false;
+
+  const pictureLayer = id => id === reference ? sharedFrame(study, store.values.frame)?.reference
+    : variantFrame(study, id, store.values.frame)?.picture;
+
+  const choosePixel = (x, y) => {
+    store.set({ cursor: { x, y }, pixel: { x, y } });
+    announce(`Values of the pixel at column ${x}, row ${y} are listed under One pixel, step by step`);
+  };
+
+  /** Ids in the order of display. */
+  function shownIds() {
+    const { layout, a, b, selected } = store.values;
+    if (layout !== 'side') return [a, b];
+    const ids = selected.filter(id => variantFrame(study, id, store.values.frame));
+    if (sharedFrame(study, store.values.frame)?.reference) ids.unshift(reference);
+    return showAll ? ids : ids.slice(0, mostPanes);
+  }
+
+  function makeView(ids) {
+    const stage = makeStage(store, size, ids.map(id => paneTitle(study, id)).join(' and '), choosePixel);
+    const items = ids.map(id => ({ id, canvas: make('canvas', { 'data-pane': id }), images: [] }));
+    stage.append(...items.map(item => item.canvas));
+    const caption = make('figcaption', {});
+    return { key: ids.join('\n'), ids, items, stage, caption, node: make('figure', { class: 'pane' }, stage, caption) };
+  }
+
+  function arrange() {
+    const ids = shownIds();
+    const { layout } = store.values;
+    const wanted = layout === 'side' ? ids.map(id => [id]) : [ids];
+    const old = new Map(holder.dataset.layout === layout ? views.map(view => [view.key, view]) : []);
+    const known = views;
+    views = wanted.map(list => old.get(list.join('\n')) ?? makeView(list));
+    if (views.length !== known.length || views.some((view, i) => view !== known[i])) fill(holder, ...views.map(view => view.node));
+    for (const view of known) if (!views.includes(view)) observer.unobserve(view.stage);
+    for (const view of views) observer.observe(view.stage);
+    holder.dataset.layout = layout;
+    stopBlinking();
+    stopBlinking = () => {};
+    if (layout === 'swipe' && !views[0].handle) views[0].handle = makeHandle(views[0], store);
+    if (layout === 'blink') stopBlinking = startBlinking(views[0], store, id => paneTitle(study, id));
+    showCount(layout === 'side' ? store.values.selected.length : null, ids.length);
+  }
+
+  function showCount(selected, shown) {
+    const note = byId('panes-note');
+    const hidden = selected === null ? 0 : selected - (shown - (shownIds()[0] === reference ? 1 : 0));
+    if (selected === 0) fill(note, 'Select variants in the chart or the table to see their frames.');
+    else if (hidden > 0) {
+      fill(note, `${hidden} more selected. `, make('button', {
+        type: 'button', onclick: () => { showAll = true; update(); },
+      }, 'Show all'));
+    } else fill(note);
+  }
+
+  /** Decodes what an item shows and makes its images. The range of the map's colours comes from `scale`. */
+  async function prepare(item, map, made, scale) {
+    const { stops, opacity } = store.values;
+    const images = [];
+    const layer = pictureLayer(item.id);
+    if (layer && (!map || !made || opacity < 1)) {
+      images.push({ image: canvasOf(pictureImage(await readLayer(layer), stops)), alpha: 1 });
+    }
+    if (made) {
+      const colors = made.channels === 3 ? pictureImage(made, stops) : mapImage(made, scale);
+      images.push({ image: canvasOf(colors), alpha: opacity });
+    }
+    item.images = images;
+    item.made = made;
+  }
+
+  const mapOf = (item, map) => map ? makeMap(study, map, item.id === reference ? null : item.id, store.values.frame) : null;
+
+  function isReady(item, map) {
+    const layer = pictureLayer(item.id);
+    const needed = map ? layersOf(study, map, item.id === reference ? null : item.id, store.values.frame) : [];
+    return [layer, ...needed].every(entry => !entry || isDecoded(entry));
+  }
+
+  async function update() {
+    const mine = ++turn;
+    arrange();
+    const map = maps.find(entry => entry.key === store.values.show) ?? null;
+    const chosen = map ? store.values.ranges[map.key] : undefined;
+    const all = views.flatMap(view => view.items.map(item => ({ view, item })));
+    // What is decoded is shown first.
+    all.sort((left, right) => isReady(right.item, map) - isReady(left.item, map));
+    let scale = map ? scaleOf(map, chosen, []) : null;
+    const fromValues = map && map.scale !== 'category' && [map.low ?? chosen?.low, map.high ?? chosen?.high].includes(undefined);
+    let made = [];
+    if (fromValues) {
+      made = await Promise.all(all.map(({ item }) => mapOf(item, map)));
+      scale = scaleOf(map, chosen, made.filter(entry => entry && entry.channels !== 3));
+    }
+    await Promise.all(all.map(async ({ view, item }, i) => {
+      const values = fromValues ? made[i] : await mapOf(item, map);
+      if (mine !== turn) return;
+      await prepare(item, map, values, scale);
+      if (mine === turn) draw(view);
+    }));
+    if (mine !== turn) return;
+    showLegend(map, scale, all.map(({ item }) => item.made).filter(Boolean), store);
+    holder.dataset.drawn = `${store.values.frame}|${shownIds().join('|')}`;
+    if (performance.getEntriesByName('selection').length > 0) {
+      performance.measure('selection to frames', 'selection');
+      performance.clearMarks('selection');
+    }
+  }
+
+  function draw(view) {
+    view.stage.style.touchAction = store.values.view.zoom > 1 ? 'none' : 'pan-y';
+    for (const item of view.items) drawView(item.canvas, item.images, store.values.view, store.values.cursor, size);
+    paneCaption(study, store, view);
+  }
+
+  const drawAll = () => views.forEach(draw);
+  const observer = new ResizeObserver(entries => {
+    for (const entry of entries) views.filter(view => view.stage === entry.target).forEach(draw);
+  });
+  const report = () => update().catch(error => fill(byId('panes-note'), `The pictures cannot be shown: ${error.message}.`));
+  store.on(['selected', 'frame', 'layout', 'a', 'b', 'show', 'opacity', 'stops', 'ranges', 'rate', 'x', 'y'], report);
+  store.on(['view', 'cursor'], drawAll);
+  report();
+}

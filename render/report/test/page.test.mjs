@@ -1,0 +1,116 @@
+// The page as a whole: narrow windows, contrast, absent data, speed and size.
+import assert from 'node:assert/strict';
+import { describe, it } from 'node:test';
+import { brushAll, choose, clickPixel, firstPaint, readWalk, selectedRows, selectionTimes, waitForPanes } from './browser.mjs';
+import { all, openPage, settle, size, study, template } from './fixture.mjs';
+import { makeStudy } from './sample.mjs';
+
+describe('the page', () => {
+  it('has no horizontal scroll in a narrow window', async () => {
+    for (const width of [360, 768]) {
+      const page = await openPage({ width, height: 740 });
+      await page.evaluate(() => document.querySelectorAll('details').forEach(node => { node.open = true; }));
+      await clickPixel(page, 'reference', 10, 10, size);
+      await readWalk(page, 10, 10, all[0], 20);
+      for (const show of ['disagreement.colorvideovdp', 'threshold.Y']) {
+        await choose(page, '#frame-controls', 'Show', show);
+        await settle();
+        const [scroll, inner] = await page.evaluate(() => [document.documentElement.scrollWidth, window.innerWidth]);
+        assert.ok(scroll <= inner, `${scroll} pixels in a window of ${inner}`);
+      }
+    }
+  });
+
+  it('has text with enough contrast, light and dark', async () => {
+    for (const dark of [false, true]) {
+      const page = await openPage({ dark });
+      const weak = await page.evaluate(findWeakText);
+      assert.deepEqual(weak, [], dark ? 'dark' : 'light');
+    }
+  });
+
+  it('keeps the theme that is chosen', async () => {
+    const page = await openPage();
+    const background = () => page.evaluate(() => getComputedStyle(document.body).backgroundColor);
+    const light = await background();
+    await page.click('#theme');
+    await page.click('#theme');
+    assert.match(await page.$eval('#theme', node => node.textContent), /dark/);
+    assert.notEqual(await background(), light);
+    await page.evaluate(() => localStorage.clear());
+  });
+
+  it('leaves out what the data do not have', async () => {
+    const bare = { schema_version: 1, title: 'bare', width: 8, height: 8, frames: [1], axes: [], metrics: study.metrics,
+      variants: [{ id: 'only', settings: {}, metrics: { processor_seconds: { value: 1 }, share_beyond: null }, frames: [{ frame: 1, metrics: {} }] }] };
+    const page = await openPage({}, { study: bare, layers: [] });
+    for (const part of ['pictures', 'pixel', 'effort', 'plan']) assert.equal(await page.$eval(`#${part}`, node => node.hidden), true, part);
+    assert.deepEqual(await selectedRows(page), ['only']);
+  });
+
+  it('says so where it has no data, or data of another version', async () => {
+    for (const [data, reason] of [[null, /template without data/], [{ study: { schema_version: 2 }, layers: [] }, /version 2/]]) {
+      const page = await openPage({ ready: '#notice:not([hidden])' }, data);
+      assert.match(await page.$eval('#notice', node => node.textContent), reason);
+    }
+  });
+
+  it('paints and draws soon with 20 MB of layers', async context => {
+    const data = makeStudy({ width: 320, height: 240 });
+    const copies = Math.ceil(20e6 / data.layers.reduce((sum, text) => sum + text.length, 0));
+    data.layers = Array.from({ length: copies }, () => data.layers).flat();
+    const page = await openPage({}, data);
+    const bytes = data.layers.reduce((sum, text) => sum + text.length, 0);
+    const paint = await firstPaint(page);
+    await page.click('[data-sort="metric:processor_seconds"]');
+    await brushAll(page);
+    await waitForPanes(page, ['reference', ...all]);
+    await page.click(`tr[data-variant="${all[1]}"]`);
+    await waitForPanes(page, ['reference', all[1]]);
+    await page.evaluate(() => [...document.querySelectorAll('#table-buttons button')].find(node => node.textContent === 'Select all').click());
+    await waitForPanes(page, ['reference', ...all]);
+    const times = await selectionTimes(page);
+    context.diagnostic(`layers of ${(bytes / 1e6).toFixed(1)} MB; first paint ${paint.toFixed(0)} ms; ` +
+      `selection to frames ${times.map(time => time.toFixed(0)).join(', ')} ms`);
+    assert.ok(paint < 3000, `${paint} ms to the first paint`);
+    assert.ok(times.length >= 3);
+    assert.ok(Math.max(...times) < 1000, `${Math.max(...times)} ms from selection to frames`);
+  });
+
+  it('is of modest size, with each place for data once', () => {
+    assert.ok(template.length < 1.3e6, `${template.length} bytes`);
+    for (const place of ['<!-- STUDY DATA -->', '<!-- STUDY LAYERS -->']) assert.equal(template.split(place).length, 2);
+  });
+});
+
+/** In the page: texts of the page's own style with less contrast than 4.5 (WCAG 2.2, 1.4.3), with their contrast. */
+function findWeakText() {
+  const canvas = document.createElement('canvas').getContext('2d', { willReadFrequently: true });
+  const parse = color => {
+    canvas.clearRect(0, 0, 1, 1);
+    canvas.fillStyle = color;
+    canvas.fillRect(0, 0, 1, 1);
+    const [r, g, b, a] = canvas.getImageData(0, 0, 1, 1).data;
+    return { rgb: [r, g, b], alpha: a / 255 };
+  };
+  const luminance = rgb => rgb.map(value => value / 255).map(value => value <= 0.04045 ? value / 12.92 : ((value + 0.055) / 1.055) ** 2.4)
+    .reduce((sum, value, i) => sum + value * [0.2126, 0.7152, 0.0722][i], 0);
+  const backgroundOf = node => {
+    for (let at = node; at; at = at.parentElement) {
+      const color = parse(getComputedStyle(at).backgroundColor);
+      if (color.alpha > 0.99) return color.rgb;
+    }
+    return [255, 255, 255];
+  };
+  const weak = [];
+  for (const node of document.querySelectorAll('body *')) {
+    const own = [...node.childNodes].some(child => child.nodeType === 3 && child.textContent.trim());
+    if (!own || !node.checkVisibility() || node.closest('.stage, .visually-hidden, option')) continue;
+    const style = getComputedStyle(node);
+    const ink = node instanceof SVGElement ? style.fill : style.color;
+    const [a, b] = [luminance(parse(ink).rgb), luminance(backgroundOf(node))].sort((left, right) => right - left);
+    const contrast = (a + 0.05) / (b + 0.05);
+    if (contrast < 4.5) weak.push(`${node.textContent.trim().slice(0, 30)}: ${contrast.toFixed(2)}`);
+  }
+  return weak;
+}
