@@ -10,6 +10,7 @@
 #include "render/cli/progress.h"
 #include "render/cli/scene_options.h"
 #include "render/cli/study_output.h"
+#include "render/study/prepared_study.h"
 #include "render/study/study_file.h"
 
 namespace aleph {
@@ -18,7 +19,7 @@ namespace {
 
 struct StudyCommandOptions {
     std::string file, frames, size, output, reference;
-    std::vector<std::string> sweeps, sets, viewers;
+    std::vector<std::string> sweeps, sets, viewers, judges;
     int passes = 0, spp = 0, repeats = 0, seeds = 0, threads = 0;
     bool quiet = false, markdown = false;
 };
@@ -39,6 +40,17 @@ StudyAxis parse_sweep(const std::string& text) {
     return axis;
 }
 
+/// "castle=folder"
+StudyJudge parse_judge(const std::string& text) {
+    const std::size_t equals = text.find('=');
+    if (equals == std::string::npos || equals == 0 || equals + 1 == text.size())
+        throw InputError("", "--judge", fmt::format("{}: expected NAME=FOLDER", printable(text)));
+    StudyJudge judge{text.substr(0, equals), text.substr(equals + 1)};
+    if (!std::filesystem::is_directory(judge.folder))
+        throw InputError(judge.folder.string(), "--judge", "there is no such folder");
+    return judge;
+}
+
 /// A model of vision by its name; castle with the viewing conditions of a display that holds its frames.
 StudyViewer make_viewer(const std::string& vision) {
     StudyViewer viewer{vision, {{"vision", vision}}};
@@ -53,7 +65,7 @@ Study make_study(const StudyCommandOptions& options) {
         study = load_study(options.file);
     } else {
         study.scenes.push_back({options.file, ""});
-        study.title = fmt::format("{}: what accuracy costs in time", printable(options.file));
+        study.title = fmt::format("{}: what accuracy costs in time", printable(name_scene(options.file)));
         study.settings["size"] = std::string("320x240");
         study.viewers.push_back(default_viewer());
     }
@@ -84,6 +96,7 @@ void override_study(const StudyCommandOptions& options, Study& study) {
         study.seeds.clear();
         for (int seed = 0; seed < options.seeds; ++seed) study.seeds.push_back(static_cast<std::uint32_t>(seed));
     }
+    for (const std::string& judge : options.judges) study.judges.push_back(parse_judge(judge));
     if (options.viewers.empty()) return;
     study.viewers.clear();
     for (const std::string& viewer : options.viewers) study.viewers.push_back(make_viewer(viewer));
@@ -141,6 +154,13 @@ void add_study_options(CLI::App& study, StudyCommandOptions& options) {
                     "models of vision that judge, such as thesis,castle (castle: a display that holds its frames)")
         ->delimiter(',')
         ->check(CLI::IsMember({"thesis", "laird", "castle"}));
+    study
+        .add_option("--judge", options.judges,
+                    "maps of visible differences by another program, 1 where a difference is just visible: for each "
+                    "picture that study.json names, a file of the same name in this folder; the page shows where they "
+                    "and our thresholds disagree")
+        ->type_name("NAME=FOLDER")
+        ->allow_extra_args(false);
     study.add_option("-o,--output", options.output, "folder of the results; default: NAME-study")->type_name("FOLDER");
     add_value(study, "-t,--threads", options.threads, "number of threads, 0 to 4096; 0: all processors");
     study.add_flag("--markdown", options.markdown, "print the table as Markdown");

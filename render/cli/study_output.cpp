@@ -21,7 +21,8 @@ namespace {
 /// What the table shows of the metrics: those that the study names, or the usual ones. The files have all of them.
 bool is_shown(const Metric& metric, const Study& study) {
     if (!study.metrics.empty()) return true;
-    constexpr const char* hidden[] = {"wall_seconds", "share_certain", "records", "gather_rays", "relative_mse_indirect", "bias"};
+    constexpr const char* hidden[] = {"wall_seconds", "share_certain",         "records",
+                                      "gather_rays",  "relative_mse_indirect", "bias"};
     return std::ranges::none_of(hidden, [&](std::string_view name) { return metric.name.starts_with(name); });
 }
 
@@ -60,9 +61,7 @@ void print_row(const Row& row, const std::vector<std::size_t>& widths, bool mark
 }  // namespace
 
 std::filesystem::path study_folder(const std::filesystem::path& file) {
-    const std::filesystem::path path = std::filesystem::absolute(file);
-    const std::string name = path.stem() == "scene" ? path.parent_path().filename().string() : path.stem().string();
-    return name + "-study";
+    return name_scene(file) + "-study";
 }
 
 std::string study_command_line() {

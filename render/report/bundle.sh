@@ -22,7 +22,7 @@ done
 if ! cmp -s "$here/package-lock.json" "$folder/package-lock.json" || [ ! -f "$folder/installed" ]; then
   rm -f "$folder/installed"
   cp "$here/package.json" "$here/package-lock.json" "$folder/"
-  (cd "$folder" && npm ci --omit=dev --no-audit --no-fund >npm.log 2>&1) ||
+  (cd "$folder" && npm ci --no-audit --no-fund >npm.log 2>&1) ||
     without "npm could not install its packages, perhaps for want of a network (see $folder/npm.log)"
   : >"$folder/installed"
 fi

@@ -19,11 +19,6 @@ struct Row {
 
 constexpr Row rows[] = {
     {"processor_seconds", "processor seconds", "s", true, true, false},
-    {"wall_seconds", "seconds of a clock", "s", true, true, false},
-    {"rays", "rays", "million", true, true, false},
-    {"gather_rays", "rays for irradiance values", "million", true, true, false},
-    {"samples", "samples per pixel", "", true, true, false},
-    {"records", "irradiance values computed", "", true, true, false},
     {"share_beyond", "pixels beyond one visible threshold", "%", false, true, true},
     {"share_certain", "pixels certainly beyond it, whatever the noise of the reference", "%", false, true, true},
     {"mean_error", "mean error", "visible thresholds", false, true, true},
@@ -33,6 +28,11 @@ constexpr Row rows[] = {
     {"bias", "bias of the mean luminance", "%", false, true, false},
     {"yee", "pixels that Yee's metric of 2004 finds different", "%", false, true, false},
     {"flip", "mean FLIP error", "", false, false, false},
+    {"rays", "rays", "million", true, true, false},
+    {"gather_rays", "rays for irradiance values", "million", true, true, false},
+    {"samples", "samples per pixel", "", true, true, false},
+    {"records", "irradiance values computed", "", true, true, false},
+    {"wall_seconds", "seconds of a clock", "s", true, true, false},
 };
 
 Metric make_metric(const Row& row, const Study& study, int viewer) {

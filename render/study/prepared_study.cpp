@@ -15,12 +15,6 @@ namespace aleph {
 
 namespace {
 
-/// "pool" for pool/scene.json, else the name of the file.
-std::string name_scene(const std::filesystem::path& file) {
-    const std::filesystem::path path = std::filesystem::absolute(file);
-    return path.stem() == "scene" ? path.parent_path().filename().string() : path.stem().string();
-}
-
 PreparedStudyScene prepare_scene(const StudyScene& given) {
     PreparedStudyScene scene;
     scene.name = name_scene(given.file);
@@ -55,6 +49,11 @@ void check(const PreparedStudy& prepared) {
 }
 
 }  // namespace
+
+std::string name_scene(const std::filesystem::path& file) {
+    const std::filesystem::path path = std::filesystem::absolute(file);
+    return path.stem() == "scene" ? path.parent_path().filename().string() : path.stem().string();
+}
 
 PreparedStudy prepare_study(Study study) {
     PreparedStudy prepared;

@@ -31,6 +31,9 @@ struct PreparedStudy {
     std::vector<PreparedStudyScene> scenes;
 };
 
+/// "pool" for pool/scene.json, else the name of the file without its extension.
+std::string name_scene(const std::filesystem::path& file);
+
 /// Loads the scenes and checks every setting of every variant and viewer, before anything is rendered.
 /// @throws InputError: a scene or a setting that is wrong, two scenes of one name, or a sweep of `size` or `seed`
 PreparedStudy prepare_study(Study study);

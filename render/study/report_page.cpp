@@ -73,10 +73,11 @@ class ReportWriter {
     void write() {
         label_frames();
         add_pictures();
-        for (const MapTier& tier : map_tiers()) add_tier(tier);
         json_["maps"] = report_maps();
-        json_["walk"] = report_walk(results_);
         json_["judges"] = Json::array();
+        for (const StudyJudge& judge : results_.judges) add_judge(judge);
+        for (const MapTier& tier : map_tiers()) add_tier(tier);
+        json_["walk"] = report_walk(results_);
         json_["layers_left_out"] = layers_.left_out();
     }
 
@@ -110,6 +111,37 @@ class ReportWriter {
             add(frame, "picture", colours(picture), picture_type());
             frame["maps"] = Json::object();
         });
+    }
+
+    /// Its map of every picture; those that it lacks are left out.
+    void add_judge(const StudyJudge& judge) {
+        const std::string name = "judge." + judge.name;
+        json_["judges"].push_back({{"name", judge.name}, {"map", name}, {"limit", 1.0}});
+        json_["maps"].push_back({{"name", name},
+                                 {"title", "visible differences by " + judge.name},
+                                 {"unit", "just visible differences"},
+                                 {"scale", "log"}});
+        std::size_t found = 0;
+        for (const std::size_t v : order_) {
+            for (std::size_t i = 0; i < results_.variants[v].frames.size(); ++i) {
+                const std::filesystem::path picture = results_.variants[v].frames[i].picture;
+                const std::filesystem::path file = judge.folder / picture.filename();
+                if (!std::filesystem::exists(file)) continue;
+                const ChannelImage image = read_image(file);
+                const Image<float>* map = image.find("Y");
+                if (map == nullptr) map = &image.channels.at(0).values;
+                if (map->width != json_["width"] || map->height != json_["height"])
+                    throw InputError(file.string(), "--judge", "is not of the study's size");
+                add(json_["variants"][v]["frames"][i]["maps"], name.c_str(), {map}, LayerType::f16);
+                ++found;
+            }
+        }
+        if (found == 0) {
+            throw InputError(
+                judge.folder.string(), "--judge",
+                "has no file named like a picture of the study, such as " +
+                    std::filesystem::path(results_.variants.at(0).frames.at(0).picture).filename().string());
+        }
     }
 
     void add_tier(const MapTier& tier) {

@@ -61,6 +61,7 @@ class StudyRunner {
             average_frames(result);
             results_.variants.push_back(std::move(result));
         }
+        results_.judges = study_.judges;
         find_front(results_.variants, "processor_seconds", "share_beyond");
         return std::move(results_);
     }

@@ -27,6 +27,7 @@ struct JudgingFrame {
 struct StudyResults {
     std::vector<VariantResult> variants;
     std::vector<JudgingFrame> frames;
+    std::vector<StudyJudge> judges;
     std::size_t made = 0, found = 0;  ///< runs that were rendered, and those that were finished before
 };
 

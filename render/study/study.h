@@ -38,6 +38,12 @@ struct StudyViewer {
     SettingMap settings;  ///< vision, bands, grid, viewing.persistence, ...
 };
 
+/// A map of visible differences by another program: for each picture of a run a file of the same name.
+struct StudyJudge {
+    std::string name;
+    std::filesystem::path folder;
+};
+
 /// Frames of one scene.
 struct StudyScene {
     std::filesystem::path file;
@@ -53,6 +59,7 @@ struct Study {
     std::vector<StudyVariant> variants;      ///< and these are
     std::vector<std::string> metrics;        ///< metric_table.h; empty: the usual ones
     std::vector<StudyViewer> viewers;        ///< at least one; the first judges where one threshold is meant
+    std::vector<StudyJudge> judges;          ///< beside the thresholds of the viewers
     int repeats = 1;                         ///< renderings with equal random numbers, for the uncertainty of times
     std::vector<std::uint32_t> seeds = {0};  ///< renderings with different ones, for that of errors
 };

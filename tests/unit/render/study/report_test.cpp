@@ -9,6 +9,7 @@
 #include <bit>
 #include <nlohmann/json.hpp>
 
+#include "engine/base/errors.h"
 #include "engine/image/image_file.h"
 #include "render/study/report_layers.h"
 #include "tests/support/scratch_folder.h"
@@ -172,6 +173,19 @@ TEST(ReportPage, SeveralScenesHaveNamedFrames) {
     const Json data = data_of(make_report(page_draft, draft.json, draft.results));
     EXPECT_EQ(data["frames"], Json::array({"noise 7", "other 7"}));
     EXPECT_EQ(data["variants"][0]["frames"][0]["frame"], "noise 7");
+}
+
+TEST(ReportPage, OtherJudgesHaveMapsOfTheSameNames) {
+    const ScratchFolder folder, judged;
+    ReportDraft draft(folder);
+    draft.results.judges = {{"other", judged.path()}};
+    EXPECT_THROW(make_report(page_draft, draft.json, draft.results), InputError) << "no map at all";
+    write_exr(judged / "picture.exr", {{{"Y", Image<float>(31, 32, 2.0f)}}, {}});
+    EXPECT_THROW(make_report(page_draft, draft.json, draft.results), InputError) << "another size";
+    write_exr(judged / "picture.exr", {{{"Y", Image<float>(32, 32, 2.0f)}}, {}});
+    const Json data = data_of(make_report(page_draft, draft.json, draft.results));
+    EXPECT_EQ(data["judges"][0]["map"], "judge.other");
+    EXPECT_TRUE(data["variants"][0]["frames"][0]["maps"].contains("judge.other"));
 }
 
 TEST(ReportPage, EveryMapOfTheWalkIsDescribedOnce) {
