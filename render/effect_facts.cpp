@@ -128,6 +128,14 @@ bool contains(const Bounds& box, const glm::dvec3& point) {
     return glm::all(glm::lessThanEqual(box.low, point)) && glm::all(glm::lessThanEqual(point, box.high));
 }
 
+/// Whether a ray of the camera may start in a box: all start at one place, or on a plane as wide as the picture.
+bool may_start_inside(const CameraView& view, const Bounds& box) {
+    if (!view.orthographic) return contains(box, view.position);
+    int behind = 0;
+    for (int i = 0; i < 8; ++i) behind += to_camera(view, box.corner(i)).z > 0.0 ? 1 : 0;
+    return behind > 0 && behind < 8 && is_in_view(view, box);
+}
+
 Bounds find_world_bounds(const MeshFacts& mesh, const PosedMesh& posed, const glm::dmat4& world) {
     Bounds own = mesh.bounds;
     if (!posed.positions.empty()) {
@@ -201,7 +209,7 @@ FrameFacts find_frame_facts(const Scene& scene, const ShotFacts& shot, const Tex
         object.in_view = all_in_view || is_in_view(view, object.bounds);
         if (pose.meshes[m].positions.empty()) {
             // Seen from inside, a closed body sees itself.
-            object.convex = known.flat || (known.convex && !all_in_view && !contains(object.bounds, view.position));
+            object.convex = known.flat || (known.convex && !all_in_view && !may_start_inside(view, object.bounds));
             object.flat = known.flat;
             object.point = glm::dvec3(pose.world[node] * glm::dvec4(known.point, 1.0));
             object.normal =

@@ -35,6 +35,29 @@ inline RenderSettings planned_settings() {
     return settings;
 }
 
+inline int add_material(Scene& scene, double metallic, double roughness) {
+    Material material;
+    material.base_color = glm::dvec3(metallic > 0.0 ? 0.8 : 0.0);
+    material.metallic = metallic;
+    material.roughness = roughness;
+    scene.materials.push_back(material);
+    return static_cast<int>(scene.materials.size()) - 1;
+}
+
+/// Texels of one colour.
+inline TextureRef add_texture(Scene& scene, const glm::u8vec4& texel) {
+    SceneImage image;
+    image.bytes = Image<glm::u8vec4>(2, 2, texel);
+    scene.images.push_back(image);
+    TextureRef texture;
+    texture.image = static_cast<int>(scene.images.size()) - 1;
+    return texture;
+}
+
+inline void make_surroundings(Scene& scene, double radiance) {
+    scene.environment = Track<glm::dvec3>(glm::dvec3(radiance));
+}
+
 /// Names of the effects that a plan does not skip.
 inline std::set<std::string> simulated(const EffectsPlan& plan) {
     std::set<std::string> names;

@@ -1,0 +1,122 @@
+// The effects plan: tiny scenes, each of which calls for one effect, or for as few as can be. Caustics need a mirror
+// and light that it passes on; area shadows a lamp and something before it; further bounces, and cached light that
+// lasts, indirect light; saliency motion. The others are alone with the light that shows them. Subdivision and
+// deformation are in effects_plan_test.cpp (FX-07, FX-08).
+
+#include <gtest/gtest.h>
+
+#include "engine/surface/limit_surface.h"
+#include "render/effects_plan.h"
+#include "tests/support/deforming_scenes.h"
+#include "tests/support/keyed_track.h"
+#include "tests/support/planned_scenes.h"
+#include "tests/support/subdivision_cages.h"
+
+namespace aleph {
+namespace {
+
+using Names = std::set<std::string>;
+
+struct Case {
+    const char* name;
+    Scene scene;
+    RenderSettings settings;
+    Names effects;
+};
+
+/// Every scene calls for the effects that are named, and for no other.
+std::vector<Case> make_cases() {
+    std::vector<Case> cases;
+    const auto add = [&](const char* name, Scene scene, Names effects) -> RenderSettings& {
+        cases.push_back({name, std::move(scene), planned_settings(), std::move(effects)});
+        return cases.back().settings;
+    };
+    add("nothing", make_empty_view(), {});
+    add("direct light", make_lit_square(), {"direct_light"});
+
+    Scene scene = make_empty_view();
+    add_mesh(scene, make_quad(1.0, 1.0, add_lambert(scene, glm::dvec3(0.0), glm::dvec3(1.0))));
+    add("emission", scene, {"emission"});
+
+    scene = make_empty_view();
+    make_surroundings(scene, 1.0);
+    add("environment", scene, {"environment"});
+
+    scene = make_lit_square();
+    scene.lights.clear();
+    scene.nodes.back().light = no_index;
+    add_mesh(scene, make_quad(0.5, 0.5, add_lambert(scene, glm::dvec3(0.0), glm::dvec3(9.0))), {0.0, 0.0, 4.0},
+             z_to_up * z_to_up);
+    add("a lamp", scene, {"direct_light", "emission"});
+    add_mesh(scene, make_faceted_sphere(0.1, 8, add_lambert(scene, glm::dvec3(0.0))), {0.0, 0.3, 1.0});
+    add("a lamp behind a ball", scene, {"direct_light", "emission", "area_shadows"});
+
+    scene = make_lit_square();
+    add_mesh(scene, make_quad(1.0, 1.0, 0), {0.5, 0.0, 0.5}, glm::angleAxis(-1.5, glm::dvec3(0.0, 1.0, 0.0)));
+    add("two squares that see each other", scene, {"direct_light", "indirect_diffuse"});
+    add("the same, bounces", scene, {"direct_light", "indirect_diffuse", "more_bounces"}).bounces = 3;
+    add("the same, key moments", scene, {"direct_light", "indirect_diffuse", "cache_carry_over"}).light_step = 10;
+    scene.meshes[1].material = add_material(scene, 1.0, 0.0);
+    scene.nodes.back().translation = glm::dvec3(20.0, 0.0, 0.5);
+    add("a mirror out of view", scene, {"direct_light", "indirect_diffuse", "caustics"});
+
+    scene = make_lit_square();
+    scene.meshes[0].material = add_material(scene, 0.0, 0.4);
+    add("gloss", scene, {"direct_light", "glossy_reflection"});
+    scene.meshes[0].material = add_material(scene, 1.0, 0.0);
+    make_surroundings(scene, 1.0);
+    add("a mirror", scene, {"direct_light", "environment", "mirror_reflection"});
+    Material glass;
+    glass.metallic = 0.0;
+    glass.roughness = 0.0;
+    glass.transmission = 1.0;
+    scene.materials.push_back(glass);
+    scene.meshes[0].material = static_cast<int>(scene.materials.size()) - 1;
+    add("glass", scene, {"direct_light", "environment", "refraction"});
+
+    scene = make_lit_square();
+    scene.materials[0].base_color_texture = add_texture(scene, {200, 100, 50, 255});
+    add("a texture", scene, {"direct_light", "textures"});
+    scene.materials[0].base_color_texture = {};
+    scene.materials[0].normal_texture = add_texture(scene, {128, 128, 255, 255});
+    add("a normal map", scene, {"direct_light", "normal_maps"});
+    scene = make_lit_square();
+    scene.materials[0].alpha_mode = Material::AlphaMode::mask;
+    add("a mask", scene, {"direct_light", "alpha"});
+
+    scene = make_lit_square();
+    scene.nodes[1].translation = keyed<glm::dvec3>({0.0, 0.1}, {glm::dvec3(0.0), glm::dvec3(1.0, 0.0, 0.0)});
+    add("motion", scene, {"direct_light", "motion"}).perception.guide = Guide::full;
+    add("motion that matters to viewers", scene, {"direct_light", "motion", "saliency"}).perception.guide =
+        Guide::saliency;
+    scene.cameras[0].shutter = {0.0, 0.5};
+    add("motion blur", scene, {"direct_light", "motion_blur"});
+    scene = make_lit_square();
+    scene.cameras[0].aperture = 0.2;
+    scene.cameras[0].focus_distance = 1.0;
+    add("a lens", scene, {"direct_light", "depth_of_field"});
+    return cases;
+}
+
+TEST(EffectsPlan, EachTinySceneCallsForItsEffectsAlone) {
+    for (const Case& c : make_cases()) {
+        Sequence sequence(c.scene, c.settings);
+        const FrameStatistics statistics = sequence.render(0).statistics;
+        EXPECT_EQ(simulated(statistics.plan), c.effects) << c.name;
+        EXPECT_EQ(simulated(sequence.plan(0)), c.effects) << c.name;
+        const RayCounts& rays = statistics.counts.rays;
+        // Key moments are counted by themselves.
+        const bool gathers = c.effects.contains("indirect_diffuse") && !c.effects.contains("cache_carry_over");
+        EXPECT_EQ(rays.gather > 0, gathers) << c.name;
+        const bool lobes = c.effects.contains("glossy_reflection") || c.effects.contains("caustics");
+        EXPECT_TRUE(lobes || rays.glossy == 0) << c.name;
+        const bool mirrors = c.effects.contains("mirror_reflection") || c.effects.contains("refraction") ||
+                             c.effects.contains("caustics");
+        EXPECT_TRUE(mirrors || rays.specular == 0) << c.name;
+        EXPECT_TRUE(c.effects != Names{"direct_light"} || rays.shadow == 0) << c.name;
+        EXPECT_EQ(rays.total(), statistics.traced_rays) << c.name;
+    }
+}
+
+}  // namespace
+}  // namespace aleph
