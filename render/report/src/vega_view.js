@@ -36,7 +36,7 @@ export async function drawChart(node, spec) {
   return view;
 }
 
-/** Calls draw when the width of an element has changed, once things have settled. @param {HTMLElement} node @param {() => void} draw */
+/** Calls draw when the width of an element has changed and stays for a moment. @param {HTMLElement} node @param {() => void} draw */
 export function onResize(node, draw) {
   let width = node.clientWidth;
   let timer = 0;

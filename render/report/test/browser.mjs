@@ -57,7 +57,7 @@ export function shownPanes(page) {
 /** Waits until the panes show these ids in this order. */
 export async function waitForPanes(page, ids) {
   await page.waitForFunction(list => document.querySelector('#panes').dataset.drawn?.split('|').slice(1).join('|') === list,
-    { timeout: 10000 }, ids.join('|'));
+    { timeout: 20000 }, ids.join('|'));
 }
 
 /** Selected variants, as the table shows them. */
