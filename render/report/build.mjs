@@ -33,7 +33,7 @@ async function bundle(entry) {
   return { text: result.outputFiles[0].text.trim(), folders: [...new Set(folders.filter(Boolean))] };
 }
 
-/** The licences of the bundled packages, each text once, as HTML text: they ask to go with every copy. */
+/** The licences of the bundled packages, each text once, as HTML text; they must go with every copy. */
 function licences(folders) {
   const texts = new Map();
   for (const folder of folders.sort()) {

@@ -43,13 +43,10 @@ export function showPanes(study, store, groups) {
     announce(`Values of the pixel at column ${x}, row ${y} are listed under One pixel, step by step`);
   };
 
-  /** Ids in the order of display. */
-  function shownIds() {
+  /** Ids that have a picture of the frame, in the order of display. */
+  function idsToShow() {
     const { layout, a, b, selected } = store.values;
-    if (layout !== 'side') return [a, b];
-    const ids = selected.filter(id => variantFrame(study, id, store.values.frame));
-    if (sharedFrame(study, store.values.frame)?.reference) ids.unshift(reference);
-    return showAll ? ids : ids.slice(0, mostPanes);
+    return layout === 'side' ? [reference, ...selected].filter(pictureLayer) : [a, b];
   }
 
   function makeView(ids) {
@@ -61,8 +58,9 @@ export function showPanes(study, store, groups) {
   }
 
   function arrange() {
-    const ids = shownIds();
     const { layout } = store.values;
+    const wishes = idsToShow();
+    const ids = showAll ? wishes : wishes.slice(0, mostPanes);
     const wanted = layout === 'side' ? ids.map(id => [id]) : [ids];
     const old = new Map(holder.dataset.layout === layout ? views.map(view => [view.key, view]) : []);
     const known = views;
@@ -75,21 +73,27 @@ export function showPanes(study, store, groups) {
     stopBlinking = () => {};
     if (layout === 'swipe' && !views[0].handle) views[0].handle = makeHandle(views[0], store);
     if (layout === 'blink') stopBlinking = startBlinking(views[0], store, id => paneTitle(study, id));
-    showCount(layout === 'side' ? store.values.selected.length : null, ids.length);
+    if (layout === 'side') showCount(wishes, wishes.length - ids.length);
+    else fill(byId('panes-note'));
+    return ids;
   }
 
-  function showCount(selected, shown) {
-    const note = byId('panes-note');
-    const hidden = selected === null ? 0 : selected - (shown - (shownIds()[0] === reference ? 1 : 0));
-    if (selected === 0) fill(note, 'Select variants in the chart or the table to see their frames.');
-    else if (hidden > 0) {
-      fill(note, `${hidden} more selected. `, make('button', {
-        type: 'button', onclick: () => { showAll = true; update(); },
-      }, 'Show all'));
-    } else fill(note);
+  function showCount(wishes, hidden) {
+    const { selected, frame } = store.values;
+    const absent = selected.filter(id => !wishes.includes(id)).length;
+    const showRest = make('button', {
+      type: 'button', onclick: () => {
+        showAll = true;
+        report();
+      },
+    }, 'Show all');
+    fill(byId('panes-note'),
+      selected.length === 0 ? 'Select variants in the chart or the table to see their frames.' : null,
+      absent > 0 ? `${absent} of the selected variants ${absent === 1 ? 'has' : 'have'} no picture of frame ${frame}. ` : null,
+      hidden > 0 ? `${hidden} more selected. ` : null, hidden > 0 ? showRest : null);
   }
 
-  /** Decodes what an item shows and makes its images. The range of the map's colours comes from `scale`. */
+  /** Decodes what an item shows and makes its images, a map in the colours of `scale`. */
   async function prepare(item, map, made, scale) {
     const { stops, opacity } = store.values;
     const images = [];
@@ -115,7 +119,7 @@ export function showPanes(study, store, groups) {
 
   async function update() {
     const mine = ++turn;
-    arrange();
+    const ids = arrange();
     const map = maps.find(entry => entry.key === store.values.show) ?? null;
     const chosen = map ? store.values.ranges[map.key] : undefined;
     const all = views.flatMap(view => view.items.map(item => ({ view, item })));
@@ -136,7 +140,7 @@ export function showPanes(study, store, groups) {
     }));
     if (mine !== turn) return;
     showLegend(map, scale, all.map(({ item }) => item.made).filter(Boolean), store);
-    holder.dataset.drawn = `${store.values.frame}|${shownIds().join('|')}`;
+    holder.dataset.drawn = `${store.values.frame}|${ids.join('|')}`;
     if (performance.getEntriesByName('selection').length > 0) {
       performance.measure('selection to frames', 'selection');
       performance.clearMarks('selection');

@@ -13,7 +13,7 @@ const errorMaps = [
 const differenceMap = { key: 'computed.difference', title: 'Difference of luminance', unit: 'cd/m²', scale: 'diverging' };
 
 /** What the values of a disagreement map mean. */
-export const disagreementTitles = judge => ['both: not visible', 'both: visible', 'visible by our threshold only', `visible to ${judge} only`];
+export const disagreementTitles = judge => ['not visible', 'visible by both', 'visible by our threshold only', `visible by ${judge} only`];
 const disagreementColors = [7, 2, 0, 5]; // grey, green, blue, orange of the categories
 
 /** The entries of the map menu, in groups. @param {object} study @returns {Array<{group: string, maps: object[]}>} */

@@ -31,10 +31,12 @@ export async function drawChart(node, spec) {
   views.set(node, view);
   node.replaceChildren();
   await view.initialize(node).runAsync();
+  // The element is an image with a label, and a table holds the same values: screen readers skip the marks.
+  node.querySelector('svg').setAttribute('aria-hidden', 'true');
   return view;
 }
 
-/** Calls draw when the width of an element has changed, once things have settled. @param {HTMLElement} node @param {() => void} draw */
+/** Calls draw when the width of an element has changed and stays for a moment. @param {HTMLElement} node @param {() => void} draw */
 export function onResize(node, draw) {
   let width = node.clientWidth;
   let timer = 0;

@@ -42,6 +42,13 @@ export async function open(browser, file, { width = 1280, height = 900, dark = f
   return { page, troubles, outside: () => requests.filter(isOutside) };
 }
 
+/** What axe-core finds wrong with the page's accessibility: rule and place, one line each. */
+export async function accessibilityFaults(page) {
+  await page.addScriptTag({ content: fs.readFileSync(require.resolve('axe-core/axe.min.js'), 'utf8') });
+  const { violations } = await page.evaluate(() => window.axe.run({ runOnly: ['wcag2a', 'wcag2aa', 'wcag21a', 'wcag21aa', 'wcag22aa', 'best-practice'] }));
+  return violations.flatMap(({ id, nodes }) => nodes.map(node => `${id}: ${node.html.slice(0, 120)}`));
+}
+
 /** Ids of the variants and "reference" whose pictures are drawn. */
 export function shownPanes(page) {
   return page.$$eval('#panes canvas[data-pane]', nodes => nodes.map(node => node.dataset.pane));
@@ -50,7 +57,7 @@ export function shownPanes(page) {
 /** Waits until the panes show these ids in this order. */
 export async function waitForPanes(page, ids) {
   await page.waitForFunction(list => document.querySelector('#panes').dataset.drawn?.split('|').slice(1).join('|') === list,
-    { timeout: 10000 }, ids.join('|'));
+    { timeout: 20000 }, ids.join('|'));
 }
 
 /** Selected variants, as the table shows them. */

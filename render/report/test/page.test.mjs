@@ -1,7 +1,9 @@
 // The page as a whole: narrow windows, contrast, absent data, speed and size.
 import assert from 'node:assert/strict';
 import { describe, it } from 'node:test';
-import { brushAll, choose, clickPixel, firstPaint, readWalk, selectedRows, selectionTimes, waitForPanes } from './browser.mjs';
+import {
+  accessibilityFaults, brushAll, choose, clickPixel, firstPaint, readWalk, selectedRows, selectionTimes, waitForPanes,
+} from './browser.mjs';
 import { all, openPage, settle, size, study, template } from './fixture.mjs';
 import { makeStudy } from './sample.mjs';
 
@@ -26,6 +28,21 @@ describe('the page', () => {
       const page = await openPage({ dark });
       const weak = await page.evaluate(findWeakText);
       assert.deepEqual(weak, [], dark ? 'dark' : 'light');
+    }
+  });
+
+  it('keeps the rules of axe-core on accessibility', async () => {
+    for (const layout of ['side', 'swipe', 'blink']) {
+      const page = await openPage({ calm: true, dark: layout === 'swipe', width: layout === 'blink' ? 360 : 1280 });
+      await page.evaluate(() => document.querySelectorAll('details').forEach(node => { node.open = true; }));
+      await page.click(`input[value="${layout}"]`);
+      await page.waitForSelector(`#panes[data-layout="${layout}"]`);
+      await page.focus('.stage');
+      await page.keyboard.press('Enter');
+      await readWalk(page, 48, 32, all[0], 20);
+      await choose(page, '#frame-controls', 'Show', layout === 'side' ? 'threshold.Y' : 'disagreement.colorvideovdp');
+      await settle();
+      assert.deepEqual(await accessibilityFaults(page), [], layout);
     }
   });
 

@@ -4,7 +4,7 @@ import assert from 'node:assert/strict';
 import { after, before, describe, it } from 'node:test';
 import fs from 'node:fs';
 import zlib from 'node:zlib';
-import { brushAll, clickPixel, launch, open, readWalk, selectedRows, shownPanes } from './browser.mjs';
+import { brushAll, choose, clickPixel, launch, open, readWalk, selectedRows, shownPanes, waitForPanes } from './browser.mjs';
 
 const file = process.env.REPORT;
 const text = fs.readFileSync(file, 'utf8');
@@ -59,15 +59,16 @@ describe('the report', () => {
 
   it('walks: the values shown are those stored', async context => {
     const [variant] = study.variants;
-    const entry = variant.frames.find(frame => frame.picture && study.pictures?.some(shared => shared.frame === frame.frame));
-    if (!entry) return context.skip('the report has no pictures');
+    const entry = variant.frames.find(frame => frame.picture && study.pictures?.some(shared => shared.frame === frame.frame && shared.reference));
+    if (!entry) return context.skip('the report has no pictures with a reference');
     const { page } = opened;
     const { frame } = entry;
     const [x, y] = [Math.floor(study.width / 3), Math.floor(study.height / 3)];
     await page.click('tr[data-variant]');
-    await page.waitForFunction(id => document.querySelector('#panes').dataset.drawn?.endsWith(`|${id}`), { timeout: 20000 }, variant.id);
+    await choose(page, '#frame-controls', 'Frame', String(frame));
+    await waitForPanes(page, ['reference', variant.id]);
     await clickPixel(page, variant.id, x, y, study);
-    const shown = await readWalk(page, x, y, variant.id, study.frames[0]);
+    const shown = await readWalk(page, x, y, variant.id, frame);
     assert.ok('result.luminance' in shown);
     const layers = { ...study.pictures.find(shared => shared.frame === frame).maps, ...entry.maps };
     let compared = 0;
