@@ -154,6 +154,27 @@ silent aleph maps first.json --size 16x12 --frames 0 -q -o motion.flo
 is [ "$(head -c 4 motion.flo)" = PIEH ]
 silent aleph maps first.json --size 16x12 --frames 0 -q --importance -o importance.png
 
+# Studies: what is asked for, what is written, and that a killed one goes on.
+study=(--size 16x12 --frames 0 --reference-spp 2 --reference-passes 2)
+answers 2 'nothing to compare' aleph study first.json "${study[@]}"
+answers 2 'expected KEY=VALUE' aleph study first.json "${study[@]}" --sweep error
+answers 2 'did you mean "gather"' aleph study first.json "${study[@]}" --sweep gathr=1,2
+answers 2 'variants of a study have one size' aleph study first.json "${study[@]}" --sweep size=16x12,32x24
+answers 0 'spp=2' aleph study first.json "${study[@]}" --sweep spp=1,2 -o swept
+is [ "$(wc -l <swept/study.csv)" = 3 ]
+is grep -q '"share_beyond"' swept/study.json
+answers 0 '0 runs made, 2 found finished' aleph study first.json "${study[@]}" --sweep spp=1,2 -o swept
+echo '{"scenes": [{"scene": "first.json", "frames": "0"}], "size": "16x12", "sweeps": {"spp": [1]}}' >typo.json
+answers 2 '/sweeps' aleph study typo.json
+echo '{"scenes": [{"scene": "first.json", "frames": "0-5"}], "size": "64x48", "sweep": {"spp": [4, 8, 16]}, "repeats": 2}' >long.json
+aleph study long.json -q -o killed >output 2>&1 &
+sleep 1 && kill -9 $! && wait 2>/dev/null
+answers 0 'spp=16' aleph study long.json -o killed
+answers 0 'spp=16' aleph study long.json -o whole
+numbers() { cut -d, -f5,7,9,11,13,15,17,19 "$1/study.csv"; }
+is [ "$(head -1 whole/study.csv | cut -d, -f5,7,9)" = processor_seconds,share_beyond,share_certain ]
+is [ "$(numbers killed | cut -d, -f2-)" = "$(numbers whole | cut -d, -f2-)" ]
+
 # Two sequences: one line for each frame, and a summary.
 silent aleph render first.json --frames 0-1 "${quick[@]}" --seed 5 -q -o other/
 answers 1 'frames differ; the largest difference is in frame' aleph compare 'both/first.####.exr' other/

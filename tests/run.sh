@@ -62,7 +62,8 @@ checked() {
 }
 
 rm -rf "$build/results" "$root/build-address/results" "$root/build-thread/results"
-needed "set-up" bash "$root/scenes/setup.sh"
+# Chromium opens the page of study reports.
+needed "set-up" bash "$root/scenes/setup.sh" chromium
 needed "configure" configure
 needed "build" cmake --build "$build" --parallel "$jobs"
 checked "$build" "tests" run_tests "$build"
