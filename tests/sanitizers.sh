@@ -66,7 +66,7 @@ render_pictures() {
 
 # GCC 12 takes parts of instrumented std::regex for uninitialized.
 cmake -S "$root" -B "$build" -G Ninja -DALEPH_SANITIZE="$kind" -DCMAKE_BUILD_TYPE=None \
-  -DCMAKE_CXX_FLAGS="$optimize -g1 -Wno-maybe-uninitialized" -DALEPH_TESTS=ON -DALEPH_PRECOMPILE=ON
+  -DCMAKE_CXX_FLAGS="$optimize -g1 -Wno-maybe-uninitialized" -DALEPH_TESTS=ON -DALEPH_PRECOMPILE=ON -DALEPH_REPORT=OFF
 cmake --build "$build" --parallel "$jobs" --target "${programs[@]}"
 
 # GCC 12's sanitizers cannot start if the kernel randomizes more address bits than they support. setarch turns that off; if

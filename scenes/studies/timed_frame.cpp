@@ -60,10 +60,4 @@ TimedFrame render_timed(const Scene& scene, const RenderSettings& settings, std:
     return std::move(frames[frames.size() / 2]);
 }
 
-std::array<TimedFrame, 2> render_timed_twice(const Scene& scene, const RenderSettings& settings, std::int64_t frame) {
-    Sequence sequence(scene, settings);
-    TimedFrame first = render_once(sequence, settings, frame);
-    return {std::move(first), render_once(sequence, settings, frame)};
-}
-
 }  // namespace aleph

@@ -1,7 +1,6 @@
 #pragma once
 // One frame, rendered alone: its picture, and what it took.
 
-#include <array>
 #include <string>
 #include <utility>
 #include <vector>
@@ -35,9 +34,5 @@ struct TimedFrame {
 
 /// @param repeats  renderings, at least 1: the cost is of the one with the median of seconds
 TimedFrame render_timed(const Scene& scene, const RenderSettings& settings, std::int64_t frame, int repeats);
-
-/// The frame without any light known, and once more with all of the light of key moments that the first time computed.
-/// Both pictures have the same bytes.
-std::array<TimedFrame, 2> render_timed_twice(const Scene& scene, const RenderSettings& settings, std::int64_t frame);
 
 }  // namespace aleph
