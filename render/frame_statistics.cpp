@@ -47,6 +47,14 @@ Json setting_json(const Setting& setting, const RenderSettings& settings) {
     return std::visit([](const auto& v) { return Json(v); }, value);
 }
 
+Json budget_json(const BudgetStatistics& budget) {
+    return {{"asked", budget.asked},
+            {"error", budget.error},
+            {"predicted", budget.predicted},
+            {"took", budget.took > 0.0 ? Json(budget.took) : Json(nullptr)},
+            {"pilot", budget.pilot}};
+}
+
 Json frame_json(const FrameStatistics& f) {
     Json seconds = Json::object();
     for (const auto& [stage, value] : list_stages(f.seconds)) seconds[stage] = value;
@@ -121,13 +129,14 @@ std::string format_statistics(const std::vector<FrameStatistics>& frames, const 
 }
 
 std::string format_statistics(std::string_view frames, const Scene& scene, const RenderSettings& settings,
-                              double exposure) {
+                              double exposure, const std::optional<BudgetStatistics>& budget) {
     Json json;
     json["schema_version"] = 1;
     json["scene"] = scene.file;
     json["frames"] = Json::array();
     for (const Setting& setting : setting_table()) json["settings"][setting.key] = setting_json(setting, settings);
     json["exposure"] = exposure;
+    if (budget) json["budget"] = budget_json(*budget);
     json["threads"] = thread_count();
     char host[256] = "";
     if (gethostname(host, sizeof host - 1) == 0) json["host"] = host;

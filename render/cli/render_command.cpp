@@ -1,17 +1,49 @@
 // `aleph render`: renders frames of a scene, with an accuracy that follows their Aleph maps.
 
+#include <iostream>
+
+#include "render/cli/budget.h"
 #include "render/cli/commands.h"
 #include "render/cli/write_frames.h"
 
 namespace aleph {
+
+namespace {
+
+/// @param budget  text of --budget
+void render_within(const std::string& budget, const SceneOptions& options, const FrameRequest& request,
+                   const std::string& cache) {
+    Budget chosen;
+    const double seconds = parse_budget(budget);
+    refuse_beside_budget(options, cache);
+    PreparedScene prepared = prepare_scene(options);
+    prepare_frames_output(prepared, options, request);
+    {
+        const ThreadLimit limit(options.threads);
+        StageClock since = chosen.clock;
+        double spent = 0.0;
+        since.add_to(spent);
+        chosen.statistics = apply_budget(prepared, options, seconds, spent);
+    }
+    if (!options.quiet) std::cerr << describe_choice(chosen.statistics);
+    render_frames(std::move(prepared), options, request, cache, chosen);
+}
+
+}  // namespace
 
 void add_render_command(CLI::App& app, Command& command) {
     CLI::App* render = app.add_subcommand("render", "render frames of a scene to EXR or PNG files");
     const auto options = std::make_shared<SceneOptions>();
     const auto aovs = std::make_shared<bool>(false);
     const auto cache = std::make_shared<std::string>();
+    const auto budget = std::make_shared<std::optional<std::string>>();
     add_scene_options(*render, *options);
     render->add_flag("--aovs", *aovs, "also write the channels of `aleph maps` (EXR only)");
+    render
+        ->add_option("--budget", *budget,
+                     "seconds of a clock, with the threads given, that all the frames asked for may take, loading and "
+                     "choosing included: picks the smallest error (--error, .1 to 10) that is predicted to fit")
+        ->type_name("SECONDS");
     render
         ->add_option(
             "--cache", *cache,
@@ -23,6 +55,9 @@ void add_render_command(CLI::App& app, Command& command) {
         "chooses accuracy, gather rays and samples; options given beside it override them. Afterwards the program "
         "prints "
         "what share of the pixels it expects to err by more; --aovs has the error of every pixel and its causes.\n"
+        "--budget renders small pictures of up to three frames first. The error it chooses is printed and stored in "
+        "the "
+        "statistics (--stats): --error with that number makes the same bytes again. The time is an estimate.\n"
         "--accuracy is the error that irradiance caching may make where the viewer is strictest. Elsewhere the Aleph "
         "map "
         "allows more, which saves time; with --guide none the accuracy is the same everywhere.\n"
@@ -33,12 +68,19 @@ void add_render_command(CLI::App& app, Command& command) {
         "Examples:\n"
         "  aleph render scenes/pool/scene.json --frames 20 --error 1 -o frame.exr        no visible error\n"
         "  aleph render scenes/pool/scene.json --frames 20 --spp 1 -o frame.png          a quick look\n"
+        "  aleph render scenes/pool/scene.json --budget 600 -o out/                      the whole shot in ten "
+        "minutes\n"
         "  aleph render scenes/pool/scene.json -o out/ --stats out/stats.json            the whole shot\n"
         "  aleph render scenes/pool/scene.json --frames 20 --guide none -o unguided.exr  the baseline\n"
         "  aleph render scenes/pool/scene.json --frames 20 --accuracy 0 --gather 4096 --spp 1 -o dense.exr");
-    render->callback([options, aovs, cache, &command] {
-        command = [options, aovs, cache] {
-            render_frames(prepare_scene(*options), *options, {.frame = true, .maps = *aovs, .progress = {}}, *cache);
+    render->callback([options, aovs, cache, budget, &command] {
+        command = [options, aovs, cache, budget] {
+            const FrameRequest request{.frame = true, .maps = *aovs, .progress = {}};
+            if (budget->has_value()) {
+                render_within(**budget, *options, request, *cache);
+            } else {
+                render_frames(prepare_scene(*options), *options, request, *cache);
+            }
             return exit_done;
         };
     });

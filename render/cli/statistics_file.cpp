@@ -12,8 +12,8 @@ bool is_write_due(double since, double took) {
 }
 
 StatisticsFile::StatisticsFile(std::filesystem::path path, const Scene& scene, const RenderSettings& settings,
-                               double exposure)
-    : path_(std::move(path)), scene_(scene), settings_(settings), exposure_(exposure) {}
+                               double exposure, const std::optional<BudgetStatistics>& budget)
+    : path_(std::move(path)), scene_(scene), settings_(settings), exposure_(exposure), budget_(budget) {}
 
 StatisticsFile::~StatisticsFile() {
     try {
@@ -31,13 +31,18 @@ void StatisticsFile::add(const FrameStatistics& frame) {
     if (is_write_due(since_, took_)) write();
 }
 
+void StatisticsFile::set_budget(const BudgetStatistics& budget) {
+    budget_ = budget;
+    changed_ = !path_.empty();
+}
+
 void StatisticsFile::finish() {
     if (changed_) write();
 }
 
 void StatisticsFile::write() {
     StageClock writing;
-    write_file(path_, format_statistics(frames_, scene_, settings_, exposure_));
+    write_file(path_, format_statistics(frames_, scene_, settings_, exposure_, budget_));
     changed_ = false;
     took_ = since_ = 0.0;
     writing.add_to(took_);

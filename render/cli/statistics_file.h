@@ -2,6 +2,7 @@
 // The --stats file while frames are made: it has the finished frames, and writing it takes little of their time.
 
 #include <filesystem>
+#include <optional>
 #include <string>
 
 #include "render/frame_files.h"
@@ -19,7 +20,8 @@ class StatisticsFile {
   public:
     /// What the file says of all frames. The references outlive this object.
     /// @param path  empty: no file is written
-    StatisticsFile(std::filesystem::path path, const Scene& scene, const RenderSettings& settings, double exposure);
+    StatisticsFile(std::filesystem::path path, const Scene& scene, const RenderSettings& settings, double exposure,
+                   const std::optional<BudgetStatistics>& budget = std::nullopt);
 
     /// Writes what is not written yet, as far as possible: the program has failed elsewhere and says so there.
     ~StatisticsFile();
@@ -29,6 +31,9 @@ class StatisticsFile {
     /// Adds a finished frame. The first is written at once, others when that is due.
     /// @throws OutputError
     void add(const FrameStatistics& frame);
+
+    /// Says what the budget came to. `finish` then writes the file with it.
+    void set_budget(const BudgetStatistics& budget);
 
     /// Writes what is not written yet.
     /// @throws OutputError
@@ -41,6 +46,7 @@ class StatisticsFile {
     const Scene& scene_;
     const RenderSettings& settings_;
     double exposure_;
+    std::optional<BudgetStatistics> budget_;
     std::string frames_;  ///< text of the frames so far
     bool changed_ = false;
     StageClock clock_;

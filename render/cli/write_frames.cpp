@@ -6,6 +6,7 @@
 
 #include "engine/base/errors.h"
 #include "engine/base/parallel.h"
+#include "render/cli/budget.h"
 #include "render/cli/copied_frames.h"
 #include "render/cli/output_path.h"
 #include "render/cli/progress.h"
@@ -131,7 +132,9 @@ void prepare_frames_output(const PreparedScene& prepared, const SceneOptions& op
 }
 
 void write_frames(const FrameJob& job, const SceneOptions& options, const FrameRequest& request) {
-    StatisticsFile statistics(options.stats, job.scene, job.settings, job.exposure);
+    std::optional<BudgetStatistics> budget;
+    if (job.budget) budget = job.budget->statistics;
+    StatisticsFile statistics(options.stats, job.scene, job.settings, job.exposure, budget);
     std::vector<FinishedFrame> finished;
     std::size_t changed = 0;
     {
@@ -153,23 +156,30 @@ void write_frames(const FrameJob& job, const SceneOptions& options, const FrameR
             progress.update(done + 1.0, fmt::format("frame {}", frame));
         }
     }
+    if (budget) {
+        StageClock clock = job.budget->clock;
+        clock.add_to(budget->took);
+        statistics.set_budget(*budget);
+    }
     statistics.finish();
     if (options.quiet) return;
     warn_of_changed_values(changed);
     std::cerr << describe_copies(finished);
     print_files(job, options);
+    if (budget) std::cerr << describe_budget(*budget);
 }
 
 void render_frames(PreparedScene prepared, const SceneOptions& options, const FrameRequest& request,
-                   const std::string& cache) {
+                   const std::string& cache, const std::optional<Budget>& budget) {
     prepare_frames_output(prepared, options, request);
     if (!cache.empty()) try_output(cache);
     const ThreadLimit limit(options.threads);
     Sequence sequence(std::move(prepared.scene), prepared.settings, options.camera);
     if (!cache.empty()) sequence.load_light(cache);
     const auto make = [&](int frame, const FrameRequest& asked) { return sequence.render(frame, asked); };
-    write_frames({sequence.scene(), prepared.settings, sequence.exposure(), prepared.frames, prepared.name, make},
-                 options, request);
+    write_frames(
+        {sequence.scene(), prepared.settings, sequence.exposure(), prepared.frames, prepared.name, make, budget},
+        options, request);
     if (!cache.empty()) sequence.save_light(cache);
 }
 

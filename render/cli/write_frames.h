@@ -2,13 +2,22 @@
 // Makes the frames of `aleph render` and `aleph maps` one by one, writes each to its file and shows progress.
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "render/cli/scene_options.h"
+#include "render/frame_files.h"
+#include "render/measure.h"
 #include "render/sequence.h"
 
 namespace aleph {
+
+/// A budget whose error has been chosen.
+struct Budget {
+    BudgetStatistics statistics;
+    StageClock clock;  ///< since the command began
+};
 
 /// Frames that are to be made, and what their files say of them.
 struct FrameJob {
@@ -18,6 +27,7 @@ struct FrameJob {
     const std::vector<int>& frames;
     const std::string& name;  ///< of the files, where --output does not say
     std::function<FrameOutput(int frame, const FrameRequest& request)> make;
+    std::optional<Budget> budget = std::nullopt;
 };
 
 /// Checks and tries --output and --stats, and makes their folders; called before anything is computed.
@@ -31,7 +41,8 @@ void write_frames(const FrameJob& job, const SceneOptions& options, const FrameR
 
 /// Renders the frames of a scene, or their maps, and writes them. The files have the channels of what is requested.
 /// @param cache  file that keeps the light of key moments; empty: none
+/// @param budget  what they are to take; printed afterwards beside what they took
 void render_frames(PreparedScene prepared, const SceneOptions& options, const FrameRequest& request,
-                   const std::string& cache = "");
+                   const std::string& cache = "", const std::optional<Budget>& budget = std::nullopt);
 
 }  // namespace aleph

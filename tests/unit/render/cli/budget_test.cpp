@@ -1,0 +1,93 @@
+// `aleph render --budget`.
+
+#include "render/cli/budget.h"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "engine/base/errors.h"
+#include "render/cli/commands.h"
+#include "tests/support/paths.h"
+#include "tests/support/read_bytes.h"
+#include "tests/support/scratch_folder.h"
+
+namespace aleph {
+namespace {
+
+namespace fs = std::filesystem;
+
+class Budgets : public testing::Test {
+  protected:
+    /// @return the exit code
+    int run(const std::vector<std::string>& more) {
+        std::vector<std::string> words = {"aleph", "render", (source_folder() / "scenes/furnace/scene.json").string(),
+                                          "-q",    "--size", "24x18",
+                                          "-t",    "1"};
+        words.insert(words.end(), more.begin(), more.end());
+        std::vector<const char*> argv;
+        for (const std::string& word : words) argv.push_back(word.c_str());
+        CLI::App app{"aleph"};
+        Command command;
+        add_render_command(app, command);
+        errors.str("");
+        return run_program(app, command, static_cast<int>(argv.size()), argv.data(), errors);
+    }
+    std::string file(const char* name) const { return (folder_.path() / name).string(); }
+
+    std::ostringstream errors;
+
+  private:
+    ScratchFolder folder_;
+};
+
+TEST_F(Budgets, WrongOnesAreRefused) {
+    for (const char* text : {"0", "-1", "nan", "inf", "", "1 s", "1e-400x"}) {
+        EXPECT_EQ(run({"--frames", "0", "-o", file("a.exr"), "--budget", text}), exit_bad_input) << text;
+        EXPECT_NE(errors.str().find("--budget"), std::string::npos) << errors.str();
+        EXPECT_FALSE(fs::exists(file("a.exr"))) << text;
+    }
+}
+
+TEST_F(Budgets, ChooseTheErrorAlone) {
+    for (const std::vector<std::string>& beside :
+         {std::vector<std::string>{"--error", "1"}, {"--set", "error=1"}, {"--cache", file("light")}}) {
+        std::vector<std::string> words = {"--frames", "0", "-o", file("a.exr"), "--budget", "5"};
+        words.insert(words.end(), beside.begin(), beside.end());
+        EXPECT_EQ(run(words), exit_bad_input) << beside.front();
+        EXPECT_NE(errors.str().find("give one of the two"), std::string::npos) << errors.str();
+        EXPECT_FALSE(fs::exists(file("a.exr")));
+    }
+}
+
+TEST_F(Budgets, TheErrorMakesTheSameBytesAgain) {
+    for (const char* budget : {"1e-9", "1e9"}) {
+        ASSERT_EQ(run({"--frames", "3", "--budget", budget, "-o", file("a.exr"), "--stats", file("a.json")}), exit_done)
+            << errors.str();
+        const auto json = nlohmann::json::parse(read_bytes(file("a.json")));
+        const double error = json.at("budget").at("error");
+        EXPECT_EQ(error, std::string(budget) == "1e9" ? least_budget_error : most_budget_error);
+        EXPECT_EQ(json.at("settings").at("error"), error);
+        EXPECT_GT(json.at("budget").at("took"), json.at("budget").at("pilot"));
+        EXPECT_GT(json.at("budget").at("predicted"), 0.0);
+        ASSERT_EQ(run({"--frames", "3", "--error", fmt::format("{:g}", error), "-o", file("b.exr"), "--stats",
+                       file("b.json")}),
+                  exit_done);
+        EXPECT_EQ(read_bytes(file("a.exr")), read_bytes(file("b.exr"))) << error;
+        EXPECT_FALSE(nlohmann::json::parse(read_bytes(file("b.json"))).contains("budget"));
+    }
+}
+
+TEST(BudgetText, SaysWhatWasPredictedAndWhatItTook) {
+    BudgetStatistics budget{60.0, 1.3, 55.0, 58.0, 2.1};
+    EXPECT_EQ(describe_budget(budget), "aleph: budget 60 s: error 1.3 chosen, predicted 55 s, took 58 s\n");
+    EXPECT_EQ(describe_choice(budget).find("warning"), std::string::npos);
+    budget.predicted = 90.0;
+    EXPECT_NE(describe_choice(budget).find("predicted to take 90 s"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace aleph
