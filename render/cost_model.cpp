@@ -41,10 +41,10 @@ void check(const std::vector<PilotRun>& runs, double error) {
 
 }  // namespace
 
-// build/study_cost scenes/cornell/scene.json@15 scenes/pool/scene.json@20 scenes/boomerang/scene.json@45
-// scenes/furnace/scene.json@20
+// build/study_cost scenes/cornell/scene.json@15 scenes/pool/scene.json@20 scenes/boomerang/scene.json@45 --size 120x90
+// --errors 4,2,1 -t 1
 CostCoefficients fitted_coefficients() {
-    return {{0.0, 1.0, 0.8, 0.7, 0.9}, {0.0, 0.0, 0.8, 0.8, 1.0}};
+    return {{0.0, 0.72, 0.81, 0.68, 0.31}, {0.0, 0.0, 1.25, 1.06, 1.56}};
 }
 
 double predict_seconds(const std::vector<PilotRun>& runs, const CostRatios& ratios,

@@ -24,7 +24,7 @@ class Budgets : public testing::Test {
   protected:
     /// @return the exit code
     int run(const std::vector<std::string>& more) {
-        std::vector<std::string> words = {"aleph", "render", (source_folder() / "scenes/furnace/scene.json").string(),
+        std::vector<std::string> words = {"aleph", "render", (source_folder() / "scenes/cornell/scene.json").string(),
                                           "-q",    "--size", "24x18",
                                           "-t",    "1"};
         words.insert(words.end(), more.begin(), more.end());
