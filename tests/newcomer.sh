@@ -160,6 +160,7 @@ answers 2 'nothing to compare' aleph study first.json "${study[@]}"
 answers 2 'expected KEY=VALUE' aleph study first.json "${study[@]}" --sweep error
 answers 2 'did you mean "gather"' aleph study first.json "${study[@]}" --sweep gathr=1,2
 answers 2 'variants of a study have one size' aleph study first.json "${study[@]}" --sweep size=16x12,32x24
+answers 2 '-1: expected 0' aleph study first.json "${study[@]}" --sweep spp=1,2 --repeats -1
 answers 0 'spp=2' aleph study first.json "${study[@]}" --sweep spp=1,2 -o swept
 is [ "$(wc -l <swept/study.csv)" = 3 ]
 is grep -q '"share_beyond"' swept/study.json

@@ -82,6 +82,18 @@ Study make_study(const StudyCommandOptions& options) {
     return study;
 }
 
+/// @throws InputError for numbers that are out of range; 0 stands for the study's own
+void check_numbers(const StudyCommandOptions& options) {
+    const auto check = [](const char* name, int value, int most) {
+        if (value < 0 || value > most)
+            throw InputError("", name, fmt::format("{}: expected 0 (the study's own) to {}", value, most));
+    };
+    check("--reference-passes", options.passes, 4096);
+    check("--reference-spp", options.spp, 65536);
+    check("--repeats", options.repeats, 1000);
+    check("--seeds", options.seeds, 1000);
+}
+
 void override_study(const StudyCommandOptions& options, Study& study) {
     if (!options.frames.empty()) {
         for (StudyScene& scene : study.scenes) scene.frames = options.frames;
@@ -104,6 +116,7 @@ void override_study(const StudyCommandOptions& options, Study& study) {
 
 int run(const StudyCommandOptions& options, const std::string& command_line) {
     check_threads(options.threads);
+    check_numbers(options);
     const ThreadLimit limit(options.threads);
     Study study = make_study(options);
     override_study(options, study);
