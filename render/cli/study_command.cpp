@@ -121,6 +121,12 @@ int run(const StudyCommandOptions& options, const std::string& command_line) {
     Study study = make_study(options);
     override_study(options, study);
     const PreparedStudy prepared = prepare_study(std::move(study));
+    if (!options.quiet) {
+        for (const PreparedStudyScene& scene : prepared.scenes) {
+            for (const std::string& warning : scene.scene.warnings)
+                std::cerr << "aleph: warning: " << printable(warning, 400) << "\n";
+        }
+    }
     const std::filesystem::path folder =
         options.output.empty() ? study_folder(options.file) : std::filesystem::path(options.output);
     StudyResults results;
