@@ -21,7 +21,7 @@ struct StudyCommandOptions {
     std::string file, frames, size, output, reference;
     std::vector<std::string> sweeps, sets, viewers, judges;
     int passes = 0, spp = 0, repeats = 0, seeds = 0, threads = 0;
-    bool quiet = false, markdown = false;
+    bool quiet = false, markdown = false, viewer_test = false;
 };
 
 /// "error=.5,1,2"
@@ -137,7 +137,7 @@ int run(const StudyCommandOptions& options, const std::string& command_line) {
     }
     print_study(prepared, results, options.markdown, std::cout);
     const StudyContext context{command_line, study_date(), thread_count()};
-    write_study(prepared, results, context, folder, options.quiet);
+    write_study(prepared, results, context, folder, options.viewer_test, options.quiet);
     return exit_done;
 }
 
@@ -182,6 +182,10 @@ void add_study_options(CLI::App& study, StudyCommandOptions& options) {
         ->allow_extra_args(false);
     study.add_option("-o,--output", options.output, "folder of the results; default: NAME-study")->type_name("FOLDER");
     add_value(study, "-t,--threads", options.threads, "number of threads, 0 to 4096; 0: all processors");
+    study.add_flag(
+        "--viewer-test", options.viewer_test,
+        "also write viewer-test.html: a test in which viewers say which of two sequences had the errors, the "
+        "reference or a variant; several consecutive --frames make sequences");
     study.add_flag("--markdown", options.markdown, "print the table as Markdown");
     study.add_flag("-q,--quiet", options.quiet, "print no progress and no list of files");
 }

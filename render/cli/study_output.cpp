@@ -13,6 +13,7 @@
 #include "engine/base/files.h"
 #include "render/study/report_page.h"
 #include "render/study/study_plot.h"
+#include "render/study/viewer_page.h"
 
 namespace aleph {
 
@@ -107,7 +108,7 @@ void print_study(const PreparedStudy& prepared, const StudyResults& results, boo
 }
 
 void write_study(const PreparedStudy& prepared, const StudyResults& results, const StudyContext& context,
-                 const std::filesystem::path& folder, bool quiet) {
+                 const std::filesystem::path& folder, bool viewer_test, bool quiet) {
     const nlohmann::ordered_json json = study_json(prepared, results, context);
     write_file(folder / "study.json",
                json.dump(1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n");
@@ -116,6 +117,10 @@ void write_study(const PreparedStudy& prepared, const StudyResults& results, con
     if (!report_template().empty()) {
         write_file(folder / "report.html", make_report(report_template(), json, results));
         files += ", report.html";
+    }
+    if (viewer_test && !viewer_template().empty()) {
+        write_file(folder / "viewer-test.html", make_viewer_test(viewer_template(), prepared, results, context));
+        files += ", viewer-test.html";
     }
     const bool plotted = draw_plot(folder / "study.png", prepared, results);
     if (plotted) files += ", study.png";

@@ -1,4 +1,5 @@
-// node build.mjs OUT/report-template.html: bundles the page, its style and its script into one file.
+// node build.mjs OUT/report-template.html: bundles each page, its style and its script into one file: the report, and
+// beside it OUT/viewer-template.html, the viewer test.
 // The packages stand in the folder that this is run in (npm ci), or beside this file.
 import { createRequire } from 'node:module';
 import fs from 'node:fs';
@@ -17,7 +18,7 @@ const esbuild = createRequire(path.join(packages, 'package.json'))('esbuild');
 /** The bundled text of one entry file, and the folders of the packages in it. */
 async function bundle(entry) {
   const result = await esbuild.build({
-    entryPoints: [path.join(here, 'src', entry)],
+    entryPoints: [path.join(here, entry)],
     bundle: true,
     write: false,
     metafile: true,
@@ -47,19 +48,27 @@ function licences(folders) {
   return all.replaceAll('&', '&amp;').replaceAll('<', '&lt;');
 }
 
-const style = await bundle('page.css');
-const script = await bundle('main.js');
-const parts = { STYLE: style.text, SCRIPT: script.text, LICENCES: licences(script.folders) };
-let page = fs.readFileSync(path.join(here, 'page.html'), 'utf8');
-for (const [name, text] of Object.entries(parts)) page = page.replace(`{{${name}}}`, () => text);
-
-for (const place of ['<!-- STUDY DATA -->', '<!-- STUDY LAYERS -->']) {
-  if (page.split(place).length !== 2) throw new Error(`${place} does not occur exactly once in the page`);
+/**
+ * Writes one page with its style and script inside.
+ * @param {string} html @param {string} styleEntry @param {string} scriptEntry
+ * @param {string[]} places comments for data, each of which has to be there once
+ */
+async function write(html, styleEntry, scriptEntry, places, file) {
+  const style = await bundle(styleEntry);
+  const script = await bundle(scriptEntry);
+  const parts = { STYLE: style.text, SCRIPT: script.text, LICENCES: licences(script.folders) };
+  let page = fs.readFileSync(path.join(here, html), 'utf8');
+  for (const [name, text] of Object.entries(parts)) page = page.replace(`{{${name}}}`, () => text);
+  for (const place of places) {
+    if (page.split(place).length !== 2) throw new Error(`${place} does not occur exactly once in ${html}`);
+  }
+  // "<!--" within a script starts a state in which "</script>" may not end it.
+  if (parts.SCRIPT.includes('<!--')) throw new Error(`the script of ${html} holds "<!--"`);
+  if (/(?:src|href)="(?!data:|#)/.test(page.replace(parts.SCRIPT, ''))) throw new Error(`${html} refers to a file`);
+  fs.mkdirSync(path.dirname(path.resolve(file)), { recursive: true });
+  fs.writeFileSync(file, page);
+  console.log(`${file}: ${(Buffer.byteLength(page) / 1e6).toFixed(2)} MB`);
 }
-// "<!--" within a script starts a state in which "</script>" may not end it.
-if (parts.SCRIPT.includes('<!--')) throw new Error('the script holds "<!--"');
-if (/(?:src|href)="(?!data:|#)/.test(page.replace(parts.SCRIPT, ''))) throw new Error('the page refers to a file');
 
-fs.mkdirSync(path.dirname(path.resolve(out)), { recursive: true });
-fs.writeFileSync(out, page);
-console.log(`${out}: ${(Buffer.byteLength(page) / 1e6).toFixed(2)} MB`);
+await write('page.html', 'src/page.css', 'src/main.js', ['<!-- STUDY DATA -->', '<!-- STUDY LAYERS -->'], out);
+await write('viewer.html', 'viewer/viewer.css', 'viewer/main.js', ['<!-- TEST DATA -->'], path.join(path.dirname(out), 'viewer-template.html'));

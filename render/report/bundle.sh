@@ -1,21 +1,23 @@
 #!/usr/bin/env bash
-# bundle.sh FOLDER OUT [skip]: bundles the page of study reports into the file OUT. FOLDER keeps the packages from npm.
-# The build calls it. Without npm, without a network for the first time, or with `skip`, OUT is empty: `aleph study` then
-# writes everything but the page.
+# bundle.sh FOLDER REPORT VIEWER [skip]: bundles the report page and the viewer test of studies into these two files of one
+# folder. FOLDER keeps the packages from npm. The build calls it. Without npm, without a network for the first time, or with
+# `skip`, both are empty: `aleph study` then writes everything but the pages.
 set -euo pipefail
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 folder=$1
 out=$2
+viewer=$3
 mkdir -p "$folder" "$(dirname "$out")"
 folder=$(cd "$folder" && pwd)
 
 without() {
   : >"$out"
+  : >"$viewer"
   echo "aleph study will write no page: $1"
   exit 0
 }
 
-[ "${3:-}" != skip ] || { : >"$out"; exit 0; }
+[ "${4:-}" != skip ] || { : >"$out"; : >"$viewer"; exit 0; }
 for tool in node npm; do
   command -v "$tool" >/dev/null || without "$tool is not installed; scenes/setup.sh can install it"
 done

@@ -9,6 +9,7 @@
 
 #include "engine/base/errors.h"
 #include "render/study/report_layers.h"
+#include "render/study/script_json.h"
 
 namespace aleph {
 
@@ -179,19 +180,6 @@ class ReportWriter {
     std::vector<std::size_t> order_;  ///< of the variants
     bool exact_ = false;              ///< pictures as floats
 };
-
-/// JSON inside a script element, which a "</script>" in a text must not end.
-std::string script_json(const Json& json) {
-    std::string text;
-    for (const char c : json.dump(-1, ' ', false, Json::error_handler_t::replace)) {
-        if (c == '<') {
-            text += "\\u003c";
-        } else {
-            text += c;
-        }
-    }
-    return text;
-}
 
 void insert(std::string& page, std::string_view place, const std::string& text) {
     const std::size_t at = page.find(place);
