@@ -2,7 +2,7 @@
 import { fill, make } from '../src/dom.js';
 import { weibull, wilson } from './psychometric.js';
 
-const [width, height, left, bottom] = [560, 300, 60, 40];
+const [width, height, left, bottom] = [600, 320, 110, 45];
 
 function percent(share) {
   return `${(100 * share).toFixed(0)} %`;
@@ -22,17 +22,17 @@ function drawChart({ levels, fitted, level }) {
   const ends = [place(levels[0].level), place(levels.at(-1).level)];
   const room = Math.max(1e-6, ends[1] - ends[0]) * 0.08;
   const x = value => left + (place(value) - ends[0] + room) / (ends[1] - ends[0] + 2 * room) * (width - left - 10);
-  const y = share => 10 + (1 - share) / 0.7 * (height - bottom - 10);
+  const y = share => 10 + (1 - share) * (height - bottom - 10);
   const text = (at, up, words, anchor = 'middle') => svg('text', { x: at, y: up, 'text-anchor': anchor }, words);
   const chart = svg('svg', { viewBox: `0 0 ${width} ${height}`, role: 'img', 'aria-label': 'Right answers against level' });
-  for (const share of [0.3, 0.5, 0.75, 1]) {
+  for (const share of [0, 0.25, 0.5, 0.75, 1]) {
     chart.append(svg('line', { x1: left, x2: width - 10, y1: y(share), y2: y(share), class: share === 0.5 ? 'chance' : 'rule' }),
       text(left - 6, y(share) + 4, share === 0.5 ? '50 % (guessing)' : percent(share), 'end'));
   }
   for (const { level: value, trials, correct } of levels) {
     const [low, high] = wilson(correct, trials);
     chart.append(svg('line', { x1: x(value), x2: x(value), y1: y(low), y2: y(high), class: 'bar' }),
-      svg('circle', { cx: x(value), cy: y(correct / trials), r: 5, class: 'point' }), text(x(value), height - bottom + 18, String(value)));
+      svg('circle', { cx: x(value), cy: y(correct / trials), r: 5, class: 'point' }), text(x(value), height - bottom + 16, String(value)));
   }
   if (fitted.scale) {
     const points = Array.from({ length: 81 }, (_, i) => {
