@@ -7,6 +7,7 @@
 #include "engine/base/errors.h"
 #include "engine/base/parallel.h"
 #include "render/cli/commands.h"
+#include "render/cli/frame_pattern.h"
 #include "render/cli/progress.h"
 #include "render/cli/scene_options.h"
 #include "render/cli/study_output.h"
@@ -40,12 +41,16 @@ StudyAxis parse_sweep(const std::string& text) {
     return axis;
 }
 
-/// "castle=folder"
+/// "castle=folder", or for one variant "castle=maps.####.exr"
 StudyJudge parse_judge(const std::string& text) {
     const std::size_t equals = text.find('=');
     if (equals == std::string::npos || equals == 0 || equals + 1 == text.size())
-        throw InputError("", "--judge", fmt::format("{}: expected NAME=FOLDER", printable(text)));
+        throw InputError("", "--judge", fmt::format("{}: expected NAME=FOLDER or NAME=maps.####.exr", printable(text)));
     StudyJudge judge{text.substr(0, equals), text.substr(equals + 1)};
+    if (find_number_field(judge.folder.filename().string(), "--judge")) {
+        judge.frames = find_frame_files(judge.folder.string(), "--judge");
+        return judge;
+    }
     if (!std::filesystem::is_directory(judge.folder))
         throw InputError(judge.folder.string(), "--judge", "there is no such folder");
     return judge;
@@ -176,8 +181,8 @@ void add_study_options(CLI::App& study, StudyCommandOptions& options) {
     study
         .add_option("--judge", options.judges,
                     "maps of visible differences by another program, 1 where a difference is just visible: for each "
-                    "picture that study.json names, a file of the same name in this folder; the page shows where they "
-                    "and our thresholds disagree")
+                    "picture that study.json names, a file of the same name in this folder, or for a study of one "
+                    "variant files by frame, NAME=maps.####.exr; the page shows where they and our thresholds disagree")
         ->type_name("NAME=FOLDER")
         ->allow_extra_args(false);
     study.add_option("-o,--output", options.output, "folder of the results; default: NAME-study")->type_name("FOLDER");

@@ -122,11 +122,15 @@ class ReportWriter {
                                  {"title", "visible differences by " + judge.name},
                                  {"unit", "just visible differences"},
                                  {"scale", "log"}});
+        if (!judge.frames.empty() && order_.size() > 1) {
+            throw InputError(judge.folder.string(), "--judge",
+                             "files by frame fit a study of one variant; give a folder with files named like the "
+                             "pictures of study.json");
+        }
         std::size_t found = 0;
         for (const std::size_t v : order_) {
             for (std::size_t i = 0; i < results_.variants[v].frames.size(); ++i) {
-                const std::filesystem::path picture = results_.variants[v].frames[i].picture;
-                const std::filesystem::path file = judge.folder / picture.filename();
+                const std::filesystem::path file = find_map(judge, results_.variants[v].frames[i]);
                 if (!std::filesystem::exists(file)) continue;
                 const ChannelImage image = read_image(file);
                 const Image<float>* map = image.find("Y");
@@ -143,6 +147,13 @@ class ReportWriter {
                 "has no file named like a picture of the study, such as " +
                     std::filesystem::path(results_.variants.at(0).frames.at(0).picture).filename().string());
         }
+    }
+
+    /// The file of a picture's map; empty if there is none.
+    static std::filesystem::path find_map(const StudyJudge& judge, const FrameResult& frame) {
+        if (judge.frames.empty()) return judge.folder / std::filesystem::path(frame.picture).filename();
+        const auto found = judge.frames.find(frame.frame);
+        return found == judge.frames.end() ? std::filesystem::path() : found->second;
     }
 
     void add_tier(const MapTier& tier) {

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -38,10 +39,12 @@ struct StudyViewer {
     SettingMap settings;  ///< vision, bands, grid, viewing.persistence, ...
 };
 
-/// A map of visible differences by another program: for each picture of a run a file of the same name.
+/// Maps of visible differences by another program: for each picture of a run a file of the same name in a folder or,
+/// for a study of one variant, files by frame.
 struct StudyJudge {
     std::string name;
-    std::filesystem::path folder;
+    std::filesystem::path folder;                            ///< also of the files, for messages
+    std::map<std::int64_t, std::filesystem::path> frames{};  ///< empty: files have the pictures' names
 };
 
 /// Frames of one scene.

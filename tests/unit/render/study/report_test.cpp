@@ -186,6 +186,11 @@ TEST(ReportPage, OtherJudgesHaveMapsOfTheSameNames) {
     const Json data = data_of(make_report(page_draft, draft.json, draft.results));
     EXPECT_EQ(data["judges"][0]["map"], "judge.other");
     EXPECT_TRUE(data["variants"][0]["frames"][0]["maps"].contains("judge.other"));
+    draft.results.judges[0].frames = {{7, judged / "picture.exr"}};
+    EXPECT_THROW(make_report(page_draft, draft.json, draft.results), InputError) << "which variant is it of?";
+    draft.results.variants.pop_back();
+    const Json one = data_of(make_report(page_draft, draft.json, draft.results));
+    EXPECT_TRUE(one["variants"][0]["frames"][0]["maps"].contains("judge.other"));
 }
 
 TEST(ReportPage, EveryMapOfTheWalkIsDescribedOnce) {
