@@ -138,9 +138,15 @@ struct Totals {
     double planned = 0.0, off = 0.0;
 };
 
-/// Rounding of 32-bit sums that add the same light in another order.
-double rounding_of(const Rgb& pixel, double white) {
-    return 1e-6 * white * double{luminance(pixel)};
+/// Rounding of 32-bit sums that add the same light in another order, relative.
+constexpr double rounding = 1e-6;
+
+/// In any channel, by more than rounding; NaN differs from everything.
+bool differs(const Rgb& a, const Rgb& b) {
+    for (int c = 0; c < 3; ++c) {
+        if (!(std::abs(double{a[c]} - b[c]) <= rounding * std::abs(a[c]))) return true;
+    }
+    return false;
 }
 
 /// What a trial found.
@@ -160,6 +166,7 @@ Finding compare_with_bound(const Scene& scene, const RenderSettings& settings, s
     Finding finding;
     MeanDifference difference;
     difference.reserve(planned.color.size());
+    Image<std::uint8_t> changed(planned.color.width, planned.color.height, 0);
     for (int i = 0; i < (bound.luminance > 0.0 ? seeds : 1); ++i) {
         RenderSettings plain = settings, forced = settings;
         plain.seed = forced.seed = settings.seed + static_cast<std::uint32_t>(i);
@@ -171,15 +178,18 @@ Finding compare_with_bound(const Scene& scene, const RenderSettings& settings, s
         }
         const Picture own = i == 0 ? planned : render_picture(scene, plain, frame);
         difference.add(find_differences(own, with, white));
+        for (std::size_t k = 0; k < changed.size(); ++k)
+            changed.pixels[k] |= differs(own.color.pixels[k], with.color.pixels[k]) ? 1 : 0;
     }
     const Image<double> noise = find_standard_errors(difference.variance);
     finding.difference = largest_of(difference.mean);
     finding.noise = standard_errors * largest_of(noise);
     finding.tested = finding.noise <= bound.luminance;
     for (std::size_t i = 0; i < noise.size(); ++i) {
-        const double allowed = bound.luminance + standard_errors * noise.pixels[i];
-        finding.violations +=
-            std::abs(difference.mean.pixels[i]) > allowed + rounding_of(planned.color.pixels[i], white) ? 1 : 0;
+        const double allowed =
+            bound.luminance + standard_errors * noise.pixels[i] + rounding * white * luminance(planned.color.pixels[i]);
+        const bool within = std::abs(difference.mean.pixels[i]) <= allowed;
+        finding.violations += !within || (bound.luminance == 0.0 && changed.pixels[i] != 0) ? 1 : 0;
     }
     return finding;
 }
@@ -196,7 +206,7 @@ void try_frame(const FrameOfScene& which, const EffectsOptions& options, const S
     totals.planned += planned.seconds;
     totals.off += everything.seconds;
     const double bound_of_all = planned.plan.left_out_thresholds();
-    const double share = settings.error > 0.0 ? 0.05 * settings.error : 0.1;
+    const double share = planned_thresholds(settings);
     if (bound_of_all > share * (1.0 + 1e-9)) {
         fmt::print("{}: the bounds of what is left out sum to {:.3g} thresholds; {:.3g} are allowed\n", name,
                    bound_of_all, share);
