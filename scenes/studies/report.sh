@@ -4,7 +4,7 @@ set -euo pipefail
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 root=$(cd "$here/../.." && pwd)
 cd "$root"
-bash scenes/setup.sh
+bash scenes/setup.sh chromium
 cmake -S . -B build -G Ninja >/dev/null
 ninja -C build --quiet aleph
 build/aleph study scenes/studies/pool.json -o build/study-pool
