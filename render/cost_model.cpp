@@ -8,64 +8,91 @@ namespace aleph {
 
 namespace {
 
-using Part = double CostParts::*;
+constexpr double usual_exponent = 0.8;  // of pixels, for light in a picture
+constexpr double least_exponent = 0.5, most_exponent = 1.3;
 
-/// One part at an error.
-double predict_part(const std::vector<PilotRun>& runs, Part part, double exponent, double error) {
-    double seconds = runs.front().seconds.*part;  // runs are in descending order of errors
-    for (std::size_t i = 1; i < runs.size(); ++i) {
-        const double before = runs[i - 1].error, next = runs[i].error;
-        if (error >= before) return seconds;
-        const double grown = std::max(seconds, runs[i].seconds.*part);
-        if (error > next) {
-            const double weight = std::log(before / error) / std::log(before / next);
-            if (!(seconds > 0.0)) return weight * grown;
-            return seconds * std::pow(grown / seconds, weight);
+/// What a part's seconds have grown by at an error, since the largest error of the pilot.
+/// @param parts  in descending order of errors
+double find_growth(const std::vector<PartSeconds>& parts, double PartSeconds::*seconds, double exponent, double error) {
+    const double floor = parts.front().*seconds;
+    double before = 0.0;
+    for (std::size_t i = 1; i < parts.size(); ++i) {
+        const double larger = parts[i - 1].error, smaller = parts[i].error;
+        if (error >= larger) return before;
+        const double growth = std::max(before, parts[i].*seconds - floor);
+        if (error > smaller) {
+            if (!(before > 0.0)) return growth * std::pow(smaller / error, exponent);
+            return before * std::pow(growth / before, std::log(larger / error) / std::log(larger / smaller));
         }
-        seconds = grown;
+        before = growth;
     }
-    if (error >= runs.back().error) return seconds;
-    return seconds * std::pow(runs.back().error / error, exponent);
+    return error >= parts.back().error ? before : before * std::pow(parts.back().error / error, exponent);
 }
 
-void check(const std::vector<PilotRun>& runs, double error) {
-    if (runs.empty()) throw std::invalid_argument("a cost needs a pilot");
-    if (!(error > 0.0) || !std::isfinite(error)) throw std::invalid_argument("the error of a cost is not above 0");
-    for (const PilotRun& run : runs) {
-        const double seconds = run.seconds.sum() + run.start;
-        if (!(run.error > 0.0) || !std::isfinite(run.error) || !(seconds >= 0.0) || !std::isfinite(seconds)) {
-            throw std::invalid_argument("a pilot's error or seconds are out of range");
-        }
+/// Light of the full picture at the largest error.
+double extrapolate_light(std::vector<LightSeconds> light, double LightSeconds::*seconds) {
+    if (light.empty()) return 0.0;
+    std::ranges::sort(light, std::less(), &LightSeconds::pixels);
+    const LightSeconds& large = light.front();
+    const LightSeconds& small = light.back();
+    double exponent = usual_exponent;
+    if (small.pixels > large.pixels && small.*seconds > 0.0 && large.*seconds > 0.0) {
+        exponent = std::log(large.*seconds / small.*seconds) / std::log(small.pixels / large.pixels);
     }
+    return large.*seconds * std::pow(large.pixels, std::clamp(exponent, least_exponent, most_exponent));
+}
+
+bool is_time(double seconds) {
+    return seconds >= 0.0 && std::isfinite(seconds);
+}
+
+void check(const PilotSeconds& pilot, double error) {
+    if (pilot.parts.empty()) throw std::invalid_argument("a cost needs a pilot");
+    if (!(error > 0.0) || !std::isfinite(error)) throw std::invalid_argument("the error of a cost is not above 0");
+    bool valid = is_time(pilot.start) && is_time(pilot.before) && pilot.share > 0.0 && is_time(pilot.moments);
+    for (const PartSeconds& part : pilot.parts) {
+        valid &= part.error > 0.0 && std::isfinite(part.error) && is_time(part.fill) && is_time(part.shade);
+    }
+    for (const LightSeconds& light : pilot.light) {
+        valid &= light.pixels > 0.0 && is_time(light.fill) && is_time(light.moments);
+    }
+    if (!valid) throw std::invalid_argument("a pilot's error or seconds are out of range");
 }
 
 }  // namespace
 
-// build/study_cost scenes/cornell/scene.json@15 scenes/pool/scene.json@20 scenes/boomerang/scene.json@45 --size 120x90
-// --errors 4,2,1 -t 1
+// build/study_cost scenes/cornell/scene.json@15 scenes/pool/scene.json@20 scenes/boomerang/scene.json@45 --size 320x240
+// -t 1
 CostCoefficients fitted_coefficients() {
-    return {{0.0, 0.72, 0.81, 0.68, 0.31}, {0.0, 0.0, 1.25, 1.06, 1.56}};
+    return {
+        .shade = 0.88, .overlap = 1.7, .fill = 0.12, .moments = 0.72, .shade_exponent = 1.85, .light_exponent = 2.2};
 }
 
-double predict_seconds(const std::vector<PilotRun>& runs, const CostRatios& ratios,
-                       const CostCoefficients& coefficients, double error) {
-    check(runs, error);
-    std::vector<PilotRun> sorted = runs;
-    std::ranges::sort(sorted, std::greater(), &PilotRun::error);
-    const auto scaled = [&](Part part, double count) {
-        return count * std::pow(ratios.pixels, coefficients.size.*part) *
-               predict_part(sorted, part, coefficients.error.*part, error);
-    };
-    double start = 0.0;
-    for (const PilotRun& run : sorted) start += run.start / static_cast<double>(sorted.size());
-    return start + scaled(&CostParts::constant, ratios.frames) + scaled(&CostParts::pixels, ratios.frames) +
-           scaled(&CostParts::fill, ratios.frames) + scaled(&CostParts::moments, ratios.moments) +
-           scaled(&CostParts::shade, ratios.frames);
+CostParts predict_seconds(const PilotSeconds& pilot, const CostRatios& ratios, const CostCoefficients& coefficients,
+                          double error) {
+    check(pilot, error);
+    std::vector<PartSeconds> parts = pilot.parts;
+    std::ranges::sort(parts, std::greater(), &PartSeconds::error);
+    const double light = find_growth(parts, &PartSeconds::fill, coefficients.light_exponent, error) / pilot.share;
+    const double shade =
+        parts.front().shade + find_growth(parts, &PartSeconds::shade, coefficients.shade_exponent, error);
+    CostParts seconds;
+    seconds.start = pilot.start;
+    seconds.before = ratios.frames * pilot.before;
+    const bool by_moments = pilot.moments > 0.0;
+    seconds.shade = ratios.frames * shade / pilot.share / (by_moments ? coefficients.shade : 1.0);
+    seconds.fill = ratios.frames * (extrapolate_light(pilot.light, &LightSeconds::fill) +
+                                    (by_moments ? coefficients.fill : 1.0 / coefficients.overlap) * light);
+    seconds.moments = ratios.moments * (extrapolate_light(pilot.light, &LightSeconds::moments) +
+                                        coefficients.moments * pilot.moments * light);
+    return seconds;
 }
 
-double choose_error(const std::vector<PilotRun>& runs, const CostRatios& ratios, const CostCoefficients& coefficients,
+double choose_error(const PilotSeconds& pilot, const CostRatios& ratios, const CostCoefficients& coefficients,
                     double seconds) {
-    const auto fits = [&](double error) { return predict_seconds(runs, ratios, coefficients, error) <= seconds; };
+    const auto fits = [&](double error) {
+        return predict_seconds(pilot, ratios, coefficients, error).sum() <= seconds;
+    };
     for (int i = 10; i < 100; ++i) {
         if (fits(i / 100.0)) return i / 100.0;
     }

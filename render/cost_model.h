@@ -1,51 +1,74 @@
 #pragma once
-// What frames will cost at an error that is asked for, predicted from small renderings of some of them (the pilot).
+// What frames will cost at an error that is asked for, predicted from measurements of some of them (the pilot).
+//
+// Three things are measured:
+// - the stages before light and samples, for whole frames: they do not depend on the error;
+// - a part of the pixels, spread over the picture, at several errors: their samples, and their light without that of
+// key
+//   moments. The picture has its own resolution, because a small picture asks for other samples: more of its pixels
+//   show several things, and contrasts of other sizes;
+// - light in two small pictures at the largest error. What this costs grows as a power of the number of pixels.
+// At smaller errors the seconds of light grow by what those of the part do.
 
-#include <string>
 #include <vector>
 
 namespace aleph {
 
-/// Seconds by how they grow with the number of pixels and with the error, or a number for each of these.
-struct CostParts {
-    double constant = 0.0;  ///< pose, update of ray structures: neither pixels nor error
-    double pixels = 0.0;    ///< first hits, estimate, motion, perception: pixels alone
-    double fill = 0.0;      ///< irradiance records of frames
-    double moments = 0.0;   ///< irradiance records of key moments
-    double shade = 0.0;     ///< samples
-
-    double sum() const { return constant + pixels + fill + moments + shade; }
+/// A part of the pixels at one error; s.
+struct PartSeconds {
+    double error = 0.0;  ///< thresholds, above 0
+    double fill = 0.0;   ///< irradiance values for these pixels alone
+    double shade = 0.0;  ///< their samples
 };
 
-/// A pilot at one error.
-struct PilotRun {
-    double error = 0.0;  ///< thresholds, above 0
-    CostParts seconds;   ///< of all its frames
-    double start = 0.0;  ///< seconds to make the sequence, once
+/// Light in a small picture, at the largest error; s.
+struct LightSeconds {
+    double pixels = 1.0;   ///< of the full picture, over those of this one
+    double fill = 0.0;     ///< irradiance values of frames
+    double moments = 0.0;  ///< of key moments
+};
+
+/// What was measured of some frames; sums over them.
+struct PilotSeconds {
+    double start = 0.0;               ///< s, to make the sequence, once
+    double before = 0.0;              ///< s, of the stages before light and samples
+    double share = 1.0;               ///< of the pixels: those of the parts
+    double moments = 0.0;             ///< key moments that were computed, by frame; 0: light is computed for each frame
+    std::vector<PartSeconds> parts;   ///< at least one, of different errors
+    std::vector<LightSeconds> light;  ///< none, one or two pictures
 };
 
 /// What the frames to be rendered are, relative to those of the pilot.
 struct CostRatios {
-    double pixels = 1.0;   ///< of a frame
     double frames = 1.0;   ///< number of frames that are rendered, not copied
     double moments = 1.0;  ///< number of key moments
 };
 
-/// Seconds are in proportion to pixels^size, and to error^-error where no pilot has measured how they follow it.
+/// What `build/study_cost` fits.
 struct CostCoefficients {
-    CostParts size, error;
+    double shade = 1.0;    ///< seconds of samples beside light of their own, over those that read key moments
+    double overlap = 1.0;  ///< light for a part alone, over its share of the picture's: blocks do not share it
+    double fill = 0.0;     ///< growth of a frame's own light beside key moments, over what the part's says (by share)
+    double moments = 0.0;  ///< the same for each key moment
+    double shade_exponent = 0.0;  ///< below the least error measured, seconds of samples grow as error^-exponent
+    double light_exponent = 0.0;  ///< the same for light
 };
 
-/// Those that `build/study_cost` fits.
 CostCoefficients fitted_coefficients();
 
-/// Predicted seconds at an error. Between the errors of the pilot every part is linear in the logarithms; below the
-/// least of them it grows by the power law; above the largest it is constant. It never falls where the error does.
-/// @param runs  at least one, in any order, of different errors
+/// Predicted seconds by what takes them.
+struct CostParts {
+    double start = 0.0, before = 0.0, fill = 0.0, moments = 0.0, shade = 0.0;
+    double sum() const { return start + before + fill + moments + shade; }
+};
+
+/// Predicted seconds at an error. No part falls where the error does. Above the largest error of the pilot nothing
+/// falls.
 /// @param error  above 0
-/// @throws std::invalid_argument for no run, and for an error or a time that is not finite or out of range
-double predict_seconds(const std::vector<PilotRun>& runs, const CostRatios& ratios,
-                       const CostCoefficients& coefficients, double error);
+/// @throws std::invalid_argument for a pilot without parts, and for an error or a time that is not finite or out of
+/// range
+CostParts predict_seconds(const PilotSeconds& pilot, const CostRatios& ratios, const CostCoefficients& coefficients,
+                          double error);
 
 /// The errors that a budget chooses among: .1 to 10 in two digits. From 10 on the accuracy of cached light is 1, the
 /// loosest.
@@ -53,7 +76,7 @@ inline constexpr double least_budget_error = 0.1, most_budget_error = 10.0;
 
 /// The smallest of these errors that is predicted to take at most so many seconds; if none is, the largest.
 /// It is the double that its decimal text is read as.
-double choose_error(const std::vector<PilotRun>& runs, const CostRatios& ratios, const CostCoefficients& coefficients,
+double choose_error(const PilotSeconds& pilot, const CostRatios& ratios, const CostCoefficients& coefficients,
                     double seconds);
 
 }  // namespace aleph

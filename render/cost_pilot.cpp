@@ -4,7 +4,6 @@
 #include <cmath>
 #include <set>
 
-#include "engine/pose/pose.h"
 #include "render/key_moments.h"
 #include "render/measure.h"
 #include "render/sequence.h"
@@ -13,21 +12,102 @@ namespace aleph {
 
 namespace {
 
-/// What the clock shows beyond the stages belongs to pixels: buffers and their copies.
-void add_frame(CostParts& parts, const FrameStatistics& frame, double clock) {
-    const StageSeconds& seconds = frame.seconds;
-    CostParts one;
-    one.constant = seconds.pose + seconds.update;
-    one.fill = seconds.fill;
-    one.shade = seconds.shade;
-    for (const MomentStatistics& moment : frame.moments) one.moments += moment.seconds;
-    one.pixels = std::max(0.0, clock - one.sum());
-    parts.constant += one.constant;
-    parts.pixels += one.pixels;
-    parts.fill += one.fill;
-    parts.moments += one.moments;
-    parts.shade += one.shade;
+constexpr double light_scales[] = {0.25, 0.5};
+constexpr int least_width = 32;    // pixels, of a small picture, unless the frame is smaller
+constexpr int part_block = 4;      // pixels: decisions read the pixels around
+constexpr int blocks_of_all = 75;  // a picture of fewer than four times as many is measured whole
+constexpr int most_every = 64;
+constexpr double light_growth = 4.0;  // seconds, from one small picture to the next
+constexpr double part_growth = 2.0;   // seconds, from one error to the next
+
+/// The settings for a picture of this scale, and the scene, in which angles stay the same, and so velocities.
+Scene scale_picture(Scene scene, RenderSettings& settings, double scale) {
+    const PictureSize size = scale_size({settings.width, settings.height}, scale);
+    settings.width = size.width;
+    settings.height = size.height;
+    scene.viewing.pixels_per_degree *= scale;
+    return scene;
 }
+
+LightSeconds time_light(const PilotRequest& request, double scale) {
+    RenderSettings settings = request.settings.front();
+    const double pixels = static_cast<double>(settings.width) * settings.height;
+    Sequence sequence(scale_picture(request.scene, settings, scale), settings, request.camera);
+    LightSeconds seconds{.pixels = pixels / (static_cast<double>(settings.width) * settings.height)};
+    for (const std::int64_t frame : request.frames) {
+        const LightTime time = sequence.time_light(frame);
+        seconds.fill += time.fill;
+        seconds.moments += time.moments;
+    }
+    return seconds;
+}
+
+/// One block of so many: all of a small picture, an eighth of 320x240, a sixteenth of 640x480.
+int choose_every(const RenderSettings& settings) {
+    const int blocks = settings.width * settings.height / (part_block * part_block);
+    int every = 1;
+    while (every < most_every && blocks >= blocks_of_all * 4 * every * every) every *= 2;
+    return every;
+}
+
+class PartPilot {
+  public:
+    PartPilot(const PilotRequest& request, Pilot& pilot)
+        : request_(request),
+          pilot_(pilot),
+          sequence_(request.scene, request.settings.front(), request.camera),
+          part_(choose_part(request.settings.front().width, request.settings.front().height,
+                            choose_every(request.settings.front()), part_block)) {
+        pilot_.seconds.share = find_share(part_);
+    }
+
+    void run() {
+        std::set<std::int64_t> rendered;
+        for (const std::int64_t frame : request_.frames) {
+            const bool first = rendered.empty();
+            const std::size_t count = first ? request_.settings.size() : pilot_.seconds.parts.size();
+            const PartTimes times = sequence_.time_part(frame, part_, {request_.settings.data(), count},
+                                                        [&](const PartTimes& now) { return !first || go_on(now); });
+            add(times);
+            rendered.insert(times.frame);
+        }
+        pilot_.rendered = static_cast<int>(rendered.size());
+    }
+
+  private:
+    /// After an error of the first frame: is there time for the next one, in all frames?
+    bool go_on(const PartTimes& now) const {
+        if (now.parts.size() < 2) return true;
+        const auto frames = static_cast<double>(request_.frames.size());
+        PilotSeconds expected = pilot_.seconds;
+        expected.before = frames * now.before;
+        double next = frames * now.before * (frames - 1.0) / frames;
+        for (std::size_t i = 0; i < now.parts.size(); ++i) {
+            const PartTime& part = now.parts[i];
+            expected.parts.push_back({request_.settings[i].error, frames * part.fill, frames * part.shade});
+            next += (frames - 1.0) * (part.fill + part.shade);
+        }
+        const PartTime& last = now.parts.back();
+        next += part_growth * frames * (last.fill + last.shade);
+        return request_.go_on(expected, next);
+    }
+
+    void add(const PartTimes& times) {
+        pilot_.seconds.before += times.before;
+        pilot_.seconds.parts.resize(times.parts.size());
+        for (std::size_t i = 0; i < times.parts.size(); ++i) {
+            PartSeconds& part = pilot_.seconds.parts[i];
+            part.error = request_.settings[i].error;
+            part.fill += times.parts[i].fill;
+            part.shade += times.parts[i].shade;
+        }
+    }
+
+    const PilotRequest& request_;
+    Pilot& pilot_;
+    Sequence sequence_;
+    PicturePart part_;
+};
 
 }  // namespace
 
@@ -38,42 +118,33 @@ std::vector<std::int64_t> choose_pilot_frames(const std::vector<int>& frames) {
     return chosen;
 }
 
-double find_pilot_scale(int width) {
-    return std::clamp(32.0 / width, 0.25, 1.0);
-}
-
 PictureSize scale_size(PictureSize size, double scale) {
     const auto scaled = [&](int side) { return std::max(1, static_cast<int>(std::lround(scale * side))); };
     return {scaled(size.width), scaled(size.height)};
 }
 
-Pilot render_pilot(Scene scene, RenderSettings settings, const std::string& camera,
-                   const std::vector<std::int64_t>& frames, double scale) {
-    const PictureSize size = scale_size({settings.width, settings.height}, scale);
-    settings.width = size.width;
-    settings.height = size.height;
-    scene.viewing.pixels_per_degree *= scale;
+Pilot run_pilot(const PilotRequest& request) {
     Pilot pilot;
-    pilot.run.error = settings.error;
+    const RenderSettings& settings = request.settings.front();
+    const auto frames = static_cast<double>(request.frames.size());
+    pilot.seconds.moments = static_cast<double>(count_moments(request.scene, settings, request.frames)) / frames;
     StageClock clock;
-    Sequence sequence(std::move(scene), settings, camera);
-    clock.add_to(pilot.run.start);
-    std::set<std::int64_t> rendered;
-    for (const std::int64_t frame : frames) {
-        double seconds = 0.0;
-        clock.add_to(seconds);
-        seconds = 0.0;
-        const FrameOutput output = sequence.render(frame);
-        clock.add_to(seconds);
-        add_frame(pilot.run.seconds, output.statistics, seconds);
-        rendered.insert(output.statistics.copy_of.value_or(frame));
+    for (const double scale : light_scales) {
+        double last = 0.0;
+        pilot.seconds.light.push_back(
+            time_light(request, std::clamp(least_width / (1.0 * settings.width), scale, 1.0)));
+        clock.add_to(last);
+        if (scale == light_scales[0] && !request.go_on(pilot.seconds, light_growth * last)) break;
     }
-    pilot.rendered = static_cast<int>(rendered.size());
+    PartPilot parts(request, pilot);
+    clock.add_to(pilot.seconds.start);
+    parts.run();
     return pilot;
 }
 
 std::size_t count_moments(const Scene& scene, const RenderSettings& settings, const std::vector<std::int64_t>& frames) {
-    if (settings.light_step == 0) return 0;
+    const bool has_indirect = settings.bounces > 0 && settings.path_depth > 1 && settings.accuracy > 0.0;
+    if (settings.light_step == 0 || settings.integrator != Integrator::cache || !has_indirect) return 0;
     const KeyMoments moments{frame_range(scene), scene.cuts, settings.light_step, {}};
     std::set<std::int64_t> read;
     for (const std::int64_t frame : frames) {
@@ -84,11 +155,8 @@ std::size_t count_moments(const Scene& scene, const RenderSettings& settings, co
 }
 
 CostRatios find_cost_ratios(const Scene& scene, const RenderSettings& settings, const std::vector<int>& frames,
-                            const std::vector<std::int64_t>& pilot_frames, int rendered, double scale) {
-    const PictureSize small = scale_size({settings.width, settings.height}, scale);
+                            const std::vector<std::int64_t>& pilot_frames, int rendered) {
     CostRatios ratios;
-    ratios.pixels =
-        static_cast<double>(settings.width) * settings.height / (static_cast<double>(small.width) * small.height);
     if (pilot_frames.size() > 1 && rendered == 1) return ratios;  // all frames are copies of one
     ratios.frames = static_cast<double>(frames.size()) / static_cast<double>(pilot_frames.size());
     const std::vector<std::int64_t> all(frames.begin(), frames.end());

@@ -1,7 +1,9 @@
 #pragma once
-// Small renderings of some frames, measured by what their seconds depend on.
+// Measures some frames, so that their cost at other errors can be predicted (cost_model.h).
 
 #include <cstdint>
+#include <functional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -12,27 +14,32 @@
 
 namespace aleph {
 
-struct Pilot {
-    PilotRun run;
-    int rendered = 0;  ///< frames that are no copies of others
-};
-
 /// At most three frames, in the middle of as many equal parts of the list.
 std::vector<std::int64_t> choose_pilot_frames(const std::vector<int>& frames);
 
-/// By which both sides of the picture are multiplied for a pilot: a quarter, and at least 32 pixels of width.
-double find_pilot_scale(int width);
-
-/// The size that the scale leaves of a picture.
+/// The size that a factor leaves of a picture.
 PictureSize scale_size(PictureSize size, double scale);
 
-/// Renders the frames in a smaller picture of the same angle, so that velocities in degrees stay the same.
-/// @param settings  with the error that is asked for (RenderSettings::error)
-/// @param camera    as for Sequence
-/// @param scale     of both sides; 1 measures the frames themselves
+/// Frames to measure, and how.
+struct PilotRequest {
+    const Scene& scene;
+    std::string camera;  ///< as for Sequence
+    std::vector<std::int64_t> frames;
+    std::vector<RenderSettings> settings;  ///< of the same pictures at falling errors; the first is the largest
+    /// Whether to go on to the next step, whose seconds are expected to be about these. Not asked before the first
+    /// small picture, the parts of the first frame and their first two errors.
+    std::function<bool(const PilotSeconds& measured, double next)> go_on;
+};
+
+/// A pilot, and how many of its frames are no copies of others.
+struct Pilot {
+    PilotSeconds seconds;
+    int rendered = 0;
+};
+
+/// Measures light in pictures of a quarter and of half the width, and parts of the full picture.
 /// @throws InputError as Sequence
-Pilot render_pilot(Scene scene, RenderSettings settings, const std::string& camera,
-                   const std::vector<std::int64_t>& frames, double scale);
+Pilot run_pilot(const PilotRequest& request);
 
 /// How many key moments the frames read, jumps of the light not counted.
 /// @param scene  of the Sequence, whose cuts include changes of the camera
@@ -41,6 +48,6 @@ std::size_t count_moments(const Scene& scene, const RenderSettings& settings, co
 /// What a list of frames is, relative to its pilot.
 /// @param pilot_frames  choose_pilot_frames
 CostRatios find_cost_ratios(const Scene& scene, const RenderSettings& settings, const std::vector<int>& frames,
-                            const std::vector<std::int64_t>& pilot_frames, int rendered, double scale);
+                            const std::vector<std::int64_t>& pilot_frames, int rendered);
 
 }  // namespace aleph

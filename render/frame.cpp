@@ -45,6 +45,7 @@ class FrameShading {
         if (options.record_maps && !by_paths_) uses_ = Image<RecordUse>(context_.view.width, context_.view.height);
         const bool as_centers = !options.at_sample && !options.blended && !(options.lens.radius > 0.0);
         if (place_.centered && as_centers) first_ = &centers;
+        if (options.part != nullptr && first_ != nullptr) leave_part();
     }
 
     /// Of pixel samples, the first alone: where others need light beside them, they get it before they are added.
@@ -54,6 +55,7 @@ class FrameShading {
         if (first_ == nullptr) {
             cast_first_ = cast_sample(context_.lighting.rays, context_.view, place_, &out_.counts.rays.primary);
             first_ = &cast_first_;
+            if (options_.part != nullptr) leave_part();
         }
         if (options_.risk != nullptr) context_.carried = &checked_.emplace(context_, *options_.risk, *first_);
         fill_fewer_bounces(*first_);
@@ -70,6 +72,7 @@ class FrameShading {
         plan.rule = settings.sampling;
         plan.test = settings.variance_test;
         plan.most = settings.spp;
+        plan.part = options_.part;
         if (options_.limits != nullptr) {
             plan.tolerance = compute_sampling_tolerance(*options_.limits, settings, exposure);
             plan.aleph = options_.limits->aleph;
@@ -77,6 +80,12 @@ class FrameShading {
             systematic_ = compute_systematic_tolerance(*options_.limits, settings, exposure);
         }
         sample_by_stages(plan, pixels_, [&](std::span<const PixelRange> ranges) { take(ranges); });
+    }
+
+    void count_samples() {
+        for (const PixelSamples& pixel : pixels_.pixels) {
+            out_.counts.samples += static_cast<std::uint64_t>(pixel.taken());
+        }
     }
 
     void resolve(double exposure) {
@@ -87,6 +96,15 @@ class FrameShading {
     }
 
   private:
+    /// First samples of other pixels count as misses, so that no light is computed for them.
+    void leave_part() {
+        if (first_ != &cast_first_) cast_first_ = *first_;
+        for (std::size_t i = 0; i < cast_first_.hits.pixels.size(); ++i) {
+            if (options_.part->pixels[i] == 0) cast_first_.hits.pixels[i].instance = no_index;
+        }
+        first_ = &cast_first_;
+    }
+
     void fill_fewer_bounces(const SampleHits& sample) {
         if (context_.deeper.bounces == 0) return;
         std::vector<PixelSurface> seen;
@@ -288,8 +306,13 @@ ShadedFrame shade_frame(const IndirectContext& context, const SampleHits& center
     StageClock clock;
     shading.fill();
     clock.add_to(out.fill_seconds);
+    if (options.light_only) return out;
     shading.shade(exposure);
-    shading.resolve(exposure);
+    if (options.part == nullptr) {
+        shading.resolve(exposure);
+    } else {
+        shading.count_samples();
+    }
     clock.add_to(out.shade_seconds);
     return out;
 }

@@ -4,6 +4,7 @@
 #include "render/cache_fill.h"
 #include "render/error_budget.h"
 #include "render/moment_check.h"
+#include "render/picture_part.h"
 #include "render/sample_shading.h"
 
 namespace aleph {
@@ -20,6 +21,8 @@ struct SampleOptions {
     const MomentRisk* risk = nullptr;  ///< of carried light; null: it need not be checked
     /// What the samples may err by; null: not known, which Sampling::uniform alone allows.
     const VisibleLimits* limits = nullptr;
+    const PicturePart* part = nullptr;  ///< pixels that are lit and shaded, without a picture; null: all
+    bool light_only = false;            ///< the cache is filled, and nothing shaded
 };
 
 /// Shades a frame. With Integrator::cache it fills a cache first; with accuracy 0, irradiance is gathered at every

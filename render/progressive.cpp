@@ -14,6 +14,7 @@ std::vector<PixelRange> first_ranges(const SamplingPlan& plan, const Image<Pixel
     ranges.reserve(pixels.size());
     for (int y = 0; y < pixels.height; ++y) {
         for (int x = 0; x < pixels.width; ++x) {
+            if (plan.part != nullptr && (*plan.part)(x, y) == 0) continue;
             const Outline outline = plan.outlines.empty() ? Outline::none : plan.outlines(x, y);
             const int count = plan.rule == Sampling::protocol ? protocol_samples(plan.aleph(x, y), plan.most)
                                                               : first_samples(plan.rule, outline, plan.most);

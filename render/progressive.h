@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "render/picture_part.h"
 #include "render/stopping_rule.h"
 
 namespace aleph {
@@ -17,6 +18,7 @@ struct SamplingPlan {
     Image<float> tolerance;   ///< of luminance, in the samples' unit (is_enough); empty for `uniform` and `protocol`
     Image<float> aleph;       ///< for `protocol`
     Image<Outline> outlines;  ///< for `threshold`; empty: none
+    const PicturePart* part = nullptr;  ///< pixels that take samples; null: all
 };
 
 /// Samples of one pixel: those from `first` up to, not including, `last`.

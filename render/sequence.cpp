@@ -54,10 +54,11 @@ std::function<SampleMoment(int, int)> open_shutter(SequenceState& s, const Shutt
 }
 
 /// Empty where nothing is known of what a viewer sees.
-Image<Outline> find_visible_outlines(const SequenceState& s, const SampleHits& centers, const FrameOutput& out) {
+Image<Outline> find_visible_outlines(const SequenceState& s, const SampleHits& centers, const FrameOutput& out,
+                                     double asked) {
     if (out.threshold.empty()) return {};
     Image<Outline> outlines = find_outlines(out.view, centers.hits, out.motion);
-    const double error = s.settings.error > 0.0 ? s.settings.error : 1.0;
+    const double error = asked > 0.0 ? asked : 1.0;
     mark_contrasts(outlines, out.estimate, out.threshold, error / s.scene.viewing.display_white);
     return outlines;
 }
@@ -67,19 +68,6 @@ std::optional<MomentRisk> find_risk(const SequenceState& s, std::int64_t frame) 
     const std::vector<const ShadingScene*> moments = s.shot_light->scenes_around(frame);
     if (moments.empty()) return std::nullopt;
     return find_moment_risk(*s.shading, s.pose_plan, moments);
-}
-
-/// Fills the cache, shades the picture and adds their times and counts to the frame's statistics.
-void shade(const IndirectContext& context, const SampleHits& centers, double exposure, const SampleOptions& options,
-           FrameOutput& out) {
-    out.shaded = shade_frame(context, centers, exposure, options);
-    FrameStatistics& stats = out.statistics;
-    stats.seconds.fill = out.shaded.fill_seconds;
-    stats.seconds.shade = out.shaded.shade_seconds;
-    const RayCounts before = stats.counts.rays;
-    stats.counts = out.shaded.counts;
-    stats.counts.rays += before;
-    if (!out.shaded.errors.total.empty()) stats.error = out.shaded.error_shares;
 }
 
 /// The exposure that the scene has with all of its effects, so that pictures without some of them can be compared.
@@ -155,13 +143,60 @@ EffectsPlan Sequence::plan(std::int64_t frame) {
     return plan.effects;
 }
 
+SampleOptions SequenceState::find_sample_options(std::int64_t frame, const FramePlan& plan) {
+    SampleOptions options;
+    std::optional<ShutterInterval> shutter;
+    if (!plan.skips(Effect::depth_of_field)) options.lens = find_lens(scene, now->pose.cameras[camera(frame)]);
+    if (!plan.skips(Effect::motion_blur)) shutter = find_open_shutter(frame);
+    if (shutter) {
+        options.light_lasts = !light_breaks.changes(shutter->open, shutter->close);
+        options.at_sample = open_shutter(*this, *shutter, frame);
+    }
+    options.blended = blended;
+    return options;
+}
+
+/// Fills the cache, shades the picture and adds their times and counts to the frame's statistics.
+/// @param carried  light of key moments; may be null
+void SequenceState::shade(std::int64_t frame, const SampleHits& centers, const FramePlan& plan,
+                          const CarriedLight* carried, SampleOptions options, const FrameProgress& progress,
+                          FrameOutput& out) {
+    const Image<Outline> outlines = find_visible_outlines(*this, centers, out, plan.settings.error);
+    const VisibleLimits limits{out.threshold,
+                               out.perception.aleph,
+                               out.alpha,
+                               out.indirect_luminance,
+                               outlines,
+                               scene.viewing,
+                               plan.effects.left_out_thresholds()};
+    if (!out.threshold.empty()) options.limits = &limits;
+    std::optional<MomentRisk> risk;
+    if (carried != nullptr) risk = find_risk(*this, frame);
+    if (risk) options.risk = &*risk;
+    const LightingContext seen = lighting();
+    const IndirectContext context{.lighting = seen,
+                                  .view = out.view,
+                                  .settings = plan.settings,
+                                  .accuracy = out.alpha,
+                                  .frame = noise_key(frame),
+                                  .max_radius = scene_radius(*shading),
+                                  .progress = progress,
+                                  .carried = carried};
+    out.shaded = shade_frame(context, centers, exposure, options);
+    FrameStatistics& stats = out.statistics;
+    stats.seconds.fill = out.shaded.fill_seconds;
+    stats.seconds.shade = out.shaded.shade_seconds;
+    const RayCounts before = stats.counts.rays;
+    stats.counts = out.shaded.counts;
+    stats.counts.rays += before;
+    if (!out.shaded.errors.total.empty()) stats.error = out.shaded.error_shares;
+}
+
 /// A frame by itself, whether or not it is in a hold.
 FrameOutput SequenceState::render(std::int64_t frame, const FrameRequest& request) {
     SequenceState& s = *this;
     FrameOutput out;
     FrameStatistics& stats = out.statistics;
-    SampleOptions options;
-    std::optional<ShutterInterval> shutter;
     FramePlan plan;
     TracedRays before = s.traced();
     StageClock total;
@@ -169,11 +204,7 @@ FrameOutput SequenceState::render(std::int64_t frame, const FrameRequest& reques
         s.look(frame, s.needs_perception() || request.maps, request.maps, out, plan, s.before_edit.has_value());
     s.finish_plan(centers.hits, out, plan);
     if (request.frame) {
-        if (!plan.skips(Effect::depth_of_field)) {
-            options.lens = find_lens(s.scene, s.now->pose.cameras[s.camera(frame)]);
-        }
-        if (!plan.skips(Effect::motion_blur)) shutter = s.find_open_shutter(frame);
-        if (shutter) options.light_lasts = !s.light_breaks.changes(shutter->open, shutter->close);
+        SampleOptions options = s.find_sample_options(frame, plan);
         total.add_to(stats.seconds.total);
         const TracedRays by_frame = s.traced() - before;
         std::unique_ptr<CarriedLight> carried;
@@ -181,32 +212,8 @@ FrameOutput SequenceState::render(std::int64_t frame, const FrameRequest& reques
         before = s.traced() - by_frame;
         total = {};
         s.leave_out(plan.effects);
-        const std::uint32_t random_frame = s.noise_key(frame);
-        options.blended = s.blended;
         options.record_maps = request.maps;
-        if (shutter) options.at_sample = open_shutter(s, *shutter, frame);
-        const Image<Outline> outlines = find_visible_outlines(s, centers, out);
-        const VisibleLimits limits{out.threshold,
-                                   out.perception.aleph,
-                                   out.alpha,
-                                   out.indirect_luminance,
-                                   outlines,
-                                   s.scene.viewing,
-                                   plan.effects.left_out_thresholds()};
-        if (!out.threshold.empty()) options.limits = &limits;
-        std::optional<MomentRisk> risk;
-        if (carried != nullptr) risk = find_risk(s, frame);
-        if (risk) options.risk = &*risk;
-        const LightingContext lighting = s.lighting();
-        const IndirectContext context{.lighting = lighting,
-                                      .view = out.view,
-                                      .settings = plan.settings,
-                                      .accuracy = out.alpha,
-                                      .frame = random_frame,
-                                      .max_radius = scene_radius(*s.shading),
-                                      .progress = request.progress,
-                                      .carried = carried.get()};
-        shade(context, centers, s.exposure, options, out);
+        s.shade(frame, centers, plan, carried.get(), options, request.progress, out);
     }
     if (request.maps) {
         fill_geometry_maps(*s.shading, centers, out);

@@ -5,15 +5,35 @@
 #include <filesystem>
 #include <functional>
 #include <memory>
+#include <span>
 #include <string>
 
 #include "engine/scene/scene.h"
 #include "render/frame_output.h"
+#include "render/picture_part.h"
 #include "render/settings.h"
 
 namespace aleph {
 
 struct SequenceState;
+
+/// What a part of a frame's picture took.
+struct PartTime {
+    double fill = 0.0, shade = 0.0;          ///< s
+    std::uint64_t samples = 0, records = 0;  ///< irradiance values
+};
+
+struct PartTimes {
+    std::int64_t frame = 0;       ///< whose picture it is: for a copy, the frame that is rendered
+    double before = 0.0;          ///< s, of all stages before light and samples, for the whole frame
+    std::vector<PartTime> parts;  ///< by settings
+};
+
+/// What the light of a frame took, with nothing shaded; s.
+struct LightTime {
+    double fill = 0.0;     ///< for this frame
+    double moments = 0.0;  ///< of the key moments that no frame before it needed
+};
 
 /// Renders frames of one scene. It keeps the ray structures between frames, so that only what moves is updated; a frame
 /// does not depend on the frames rendered before it.
@@ -29,6 +49,18 @@ class Sequence {
 
     /// @throws InputError if the camera has an aperture without a focus distance, or if this has been moved from
     FrameOutput render(std::int64_t frame, const FrameRequest& request = {});
+
+    /// Times a part of a frame's picture with each of some settings, in their order. Its light is computed for the part
+    /// alone, and not read from key moments.
+    /// @param settings  that differ from the sequence's in what RenderSettings::error sets
+    /// @param go_on     whether the next settings are to be timed; asked after all but the last
+    /// @throws InputError as `render`
+    PartTimes time_part(std::int64_t frame, const PicturePart& part, std::span<const RenderSettings> settings,
+                        const std::function<bool(const PartTimes&)>& go_on);
+
+    /// Times the light of a frame.
+    /// @throws InputError as `render`
+    LightTime time_light(std::int64_t frame);
 
     /// The effects plan of a frame, as `render` makes it for its picture: costs as much as the stages before shading.
     /// @throws InputError as `render`

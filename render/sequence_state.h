@@ -9,6 +9,7 @@
 #include "motion/model_motion.h"
 #include "render/camera_span.h"
 #include "render/estimate_moments.h"
+#include "render/frame.h"
 #include "render/frame_output.h"
 #include "render/holds.h"
 #include "render/light_breaks.h"
@@ -67,6 +68,9 @@ struct SequenceState {
     bool reads_moments() const;
     std::unique_ptr<CarriedLight> carry_light(std::int64_t frame, const FramePlan& plan,
                                               std::vector<MomentStatistics>& filled);
+    SampleOptions find_sample_options(std::int64_t frame, const FramePlan& plan);
+    void shade(std::int64_t frame, const SampleHits& centers, const FramePlan& plan, const CarriedLight* carried,
+               SampleOptions options, const FrameProgress& progress, FrameOutput& out);
     const CacheFingerprint& fingerprint();
     LightingContext lighting() const { return {*shading, lights, rays}; }
     /// Paths do not follow the map.

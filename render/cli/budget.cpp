@@ -15,8 +15,7 @@ namespace aleph {
 namespace {
 
 constexpr double pilot_errors[] = {most_budget_error, 4.0, 2.0, 1.0, 0.5, 0.25, least_budget_error};
-constexpr double pilot_share = 0.05;  // of the budget
-constexpr double pilot_growth = 2.5;  // of a pilot's seconds to the next, at most about that
+constexpr double pilot_share = 0.15;  // of the budget
 
 }  // namespace
 
@@ -48,29 +47,31 @@ RenderSettings settings_for_error(const Scene& scene, const SceneOptions& option
 }
 
 BudgetStatistics apply_budget(PreparedScene& prepared, const SceneOptions& options, double budget, double spent) {
-    const std::vector<std::int64_t> frames = choose_pilot_frames(prepared.frames);
-    const double scale = find_pilot_scale(prepared.settings.width);
     const CostCoefficients coefficients = fitted_coefficients();
+    PilotRequest request{prepared.scene, options.camera, choose_pilot_frames(prepared.frames), {}, {}};
+    for (const double error : pilot_errors) {
+        request.settings.push_back(settings_for_error(prepared.scene, options, error));
+    }
+    const auto ratios_of = [&](int rendered) {
+        return find_cost_ratios(prepared.scene, request.settings.front(), prepared.frames, request.frames, rendered);
+    };
     BudgetStatistics result;
     result.asked = budget;
-    std::vector<PilotRun> runs;
-    CostRatios ratios;
     StageClock clock;
-    for (const double error : pilot_errors) {
-        double last = 0.0;
-        const RenderSettings settings = settings_for_error(prepared.scene, options, error);
-        const Pilot pilot = render_pilot(prepared.scene, settings, options.camera, frames, scale);
-        clock.add_to(last);
-        result.pilot += last;
-        runs.push_back(pilot.run);
-        ratios = find_cost_ratios(prepared.scene, settings, prepared.frames, frames, pilot.rendered, scale);
-        const double left = budget - spent - result.pilot;
-        if (predict_seconds(runs, ratios, coefficients, error) > left) break;
-        if (result.pilot + pilot_growth * last > pilot_share * budget) break;
-    }
+    request.go_on = [&](const PilotSeconds& measured, double next) {
+        clock.add_to(result.pilot);
+        if (result.pilot + next > pilot_share * budget) return false;
+        if (measured.parts.empty()) return true;
+        const double least = measured.parts.back().error;
+        const double seconds = predict_seconds(measured, ratios_of(0), coefficients, least).sum();
+        return seconds + spent + result.pilot < budget;
+    };
+    const Pilot pilot = run_pilot(request);
+    clock.add_to(result.pilot);
+    const CostRatios ratios = ratios_of(pilot.rendered);
     const double before = spent + result.pilot;
-    result.error = choose_error(runs, ratios, coefficients, budget - before);
-    result.predicted = before + predict_seconds(runs, ratios, coefficients, result.error);
+    result.error = choose_error(pilot.seconds, ratios, coefficients, budget - before);
+    result.predicted = before + predict_seconds(pilot.seconds, ratios, coefficients, result.error).sum();
     prepared.settings = settings_for_error(prepared.scene, options, result.error);
     return result;
 }

@@ -20,8 +20,9 @@ void refuse_beside_budget(const SceneOptions& options, const std::string& cache)
 /// The settings with which the frames would have this error: as --error would set them.
 RenderSettings settings_for_error(const Scene& scene, const SceneOptions& options, double error);
 
-/// Renders pilots at falling errors and chooses the error. A pilot at a smaller error is rendered only while all of
-/// them are expected to take at most a twentieth of the budget, and if the budget is predicted to reach its error.
+/// Measures some of the frames (cost_pilot.h) at falling errors and chooses the error. Beyond the least that a
+/// prediction needs, it goes on while all measurements are expected to take at most .15 of the budget, and while the
+/// budget is predicted to reach the last error measured.
 /// @param spent  seconds since the program began, which count as well
 /// @param prepared  gets the settings of the error
 /// @return without `took`

@@ -1,5 +1,5 @@
-// The cost model of `aleph render --budget`: fits its exponents to frames of some scenes, and checks what it predicts
-// for frames of others.
+// The cost model of `aleph render --budget`: fits its coefficients to frames of some scenes, and checks what it
+// predicts for frames of others.
 
 #include <fmt/format.h>
 
@@ -10,6 +10,8 @@
 #include "engine/load/load_scene.h"
 #include "render/cli/options.h"
 #include "render/cost_pilot.h"
+#include "render/measure.h"
+#include "scenes/studies/cost_fit.h"
 #include "scenes/studies/study_frame.h"
 #include "scenes/studies/study_options.h"
 #include "scenes/studies/study_table.h"
@@ -19,139 +21,96 @@ namespace aleph {
 namespace {
 
 struct CostOptions {
-    StudyOptions study{.size = "160x120", .gather = 0, .spp = 0, .threads = 1};
-    std::vector<std::string> fit, check, errors = {"4", "2", "1", ".5"};
+    StudyOptions study{.size = "320x240", .gather = 0, .spp = 0, .threads = 1};
+    std::vector<std::string> fit, check, errors = {"10", "4", "2", "1", ".5"};
     bool markdown = false;
 };
 
-/// One frame at several errors, of which the largest is first.
-struct MeasuredFrame {
-    std::string name;
-    std::vector<PilotRun> full, pilot;
-    CostRatios ratios;
-};
-
-/// Seconds of a processor: the clock's of every part, scaled to the processor time of all.
-PilotRun measure(const Scene& scene, const RenderSettings& settings, std::int64_t frame, double scale) {
-    const double before = processor_seconds();
-    Pilot pilot = render_pilot(scene, settings, "", {frame}, scale);
-    const double clock = pilot.run.seconds.sum() + pilot.run.start;
-    const double factor = (processor_seconds() - before) / std::max(clock, 1e-9);
-    CostParts& parts = pilot.run.seconds;
-    for (double* part : {&parts.constant, &parts.pixels, &parts.fill, &parts.moments, &parts.shade, &pilot.run.start}) {
-        *part *= factor;
-    }
-    return pilot.run;
+/// Seconds of a frame rendered whole.
+CostParts measure_whole(const Scene& scene, const RenderSettings& settings, std::int64_t number) {
+    CostParts parts;
+    StageClock clock;
+    Sequence sequence(scene, settings);
+    clock.add_to(parts.start);
+    double seconds = 0.0;
+    const FrameStatistics stats = sequence.render(number).statistics;
+    clock.add_to(seconds);
+    parts.fill = stats.seconds.fill;
+    parts.shade = stats.seconds.shade;
+    for (const MomentStatistics& moment : stats.moments) parts.moments += moment.seconds;
+    parts.before = seconds - parts.fill - parts.shade - parts.moments;
+    return parts;
 }
 
 MeasuredFrame measure_frame(const std::string& text, const CostOptions& options) {
     const FrameOfScene which = parse_frame_of_scene(text);
     const Scene scene = load_scene(which.file);
     const std::int64_t number = which.frame.value_or(0);
+    const RenderSettings settings = scene_settings(scene, which.file, options.study.size, {});
     MeasuredFrame frame;
     frame.name = fmt::format("{} {}", scene_name(which.file), number);
-    const RenderSettings settings = scene_settings(scene, which.file, options.study.size, {});
-    const double scale = find_pilot_scale(settings.width);
-    frame.ratios = find_cost_ratios(scene, settings, {static_cast<int>(number)}, {number}, 1, scale);
+    PilotRequest request{scene, "", {number}, {}, [](const PilotSeconds&, double) { return true; }};
     for (const std::string& error : options.errors) {
-        const RenderSettings asked = with_settings(settings, {"error=" + error});
-        frame.pilot.push_back(measure(scene, asked, number, scale));
-        frame.full.push_back(measure(scene, asked, number, 1.0));
+        request.settings.push_back(with_settings(settings, {"error=" + error}));
     }
+    StageClock clock;
+    frame.pilot = run_pilot(request).seconds;
+    clock.add_to(frame.pilot_took);
+    for (const RenderSettings& asked : request.settings) frame.whole.push_back(measure_whole(scene, asked, number));
     return frame;
 }
 
-/// A mean of exponents, weighted by the seconds that they explain.
-struct MeanExponent {
-    double sum = 0.0, weight = 0.0;
-
-    /// Of seconds that grow from `low` to `high` while what they depend on grows by `ratio`.
-    void add(double low, double high, double ratio, double total) {
-        if (low <= 0.0 || high <= 0.0) return;
-        sum += high / total * std::log(high / low) / std::log(ratio);
-        weight += high / total;
-    }
-    double value() const { return weight > 0.0 ? sum / weight : 0.0; }
-};
-
-CostCoefficients fit(const std::vector<MeasuredFrame>& frames) {
-    const auto fit_part = [&](double CostParts::*part, CostCoefficients& fitted) {
-        MeanExponent size, error;
-        for (const MeasuredFrame& frame : frames) {
-            for (std::size_t i = 0; i < frame.full.size(); ++i) {
-                const CostParts& full = frame.full[i].seconds;
-                size.add(frame.pilot[i].seconds.*part, full.*part, frame.ratios.pixels, full.sum());
-                if (i == 0) continue;
-                error.add(frame.pilot[i - 1].seconds.*part, frame.pilot[i].seconds.*part,
-                          frame.pilot[i - 1].error / frame.pilot[i].error, frame.pilot[i].seconds.sum());
-            }
-        }
-        fitted.size.*part = size.value();
-        fitted.error.*part = std::max(0.0, error.value());
-    };
-    CostCoefficients fitted{};
-    for (double CostParts::*part : {&CostParts::pixels, &CostParts::fill, &CostParts::moments, &CostParts::shade}) {
-        fit_part(part, fitted);
-    }
-    fitted.error.pixels = 0.0;
-    return fitted;
+/// The pilot up to the error of an index.
+PilotSeconds end_pilot(PilotSeconds pilot, std::size_t last) {
+    pilot.parts.resize(last + 1);
+    return pilot;
 }
 
-void print_fit(const CostCoefficients& fitted, bool markdown) {
-    const StudyTable table({"exponent", "pixels", "fill", "moments", "shade"}, 1, markdown);
-    const auto add = [&](const char* name, const CostParts& parts) {
-        table.add({name, fmt::format("{:.2f}", parts.pixels), fmt::format("{:.2f}", parts.fill),
-                   fmt::format("{:.2f}", parts.moments), fmt::format("{:.2f}", parts.shade)});
-    };
-    add("of pixels", fitted.size);
-    add("of 1 / error", fitted.error);
-    fmt::print("\n");
-}
-
-/// Predictions from a pilot at the error itself, and from one that ends `skipped` errors before it.
+/// Predictions from pilots that end at the error itself, and at the one before.
 void print_check(const std::vector<MeasuredFrame>& frames, const CostCoefficients& fitted, bool markdown) {
-    const StudyTable table({"frame", "error", "pilot", "measured", "predicted", "ratio", "from the error before",
-                            "ratio", "from two before", "ratio"},
-                           1, markdown);
+    const StudyTable table({"frame", "error", "measured", "predicted", "ratio", "from the error before", "ratio"}, 1,
+                           markdown);
+    double worst = 1.0, worst_before = 1.0;
     for (const MeasuredFrame& frame : frames) {
-        for (std::size_t i = 0; i < frame.full.size(); ++i) {
-            const double measured = frame.full[i].seconds.sum() + frame.full[i].start;
-            std::vector<std::string> cells = {
-                frame.name, fmt::format("{:g}", frame.full[i].error),
-                fmt::format("{:.3f}", frame.pilot[i].seconds.sum() + frame.pilot[i].start),
-                fmt::format("{:.2f}", measured)};
-            for (std::size_t skipped = 0; skipped < 3; ++skipped) {
-                if (skipped > i) {
-                    cells.insert(cells.end(), {"", ""});
-                    continue;
-                }
-                const std::vector<PilotRun> runs(
-                    frame.pilot.begin(),
-                    frame.pilot.end() - static_cast<std::ptrdiff_t>(frame.pilot.size() - 1 - i + skipped));
-                const double predicted = predict_seconds(runs, frame.ratios, fitted, frame.full[i].error);
+        for (std::size_t i = 0; i < frame.whole.size(); ++i) {
+            const double measured = frame.whole[i].sum(), error = frame.pilot.parts[i].error;
+            std::vector<std::string> cells = {frame.name, fmt::format("{:g}", error), fmt::format("{:.2f}", measured)};
+            const auto add = [&](std::size_t last, double& largest) {
+                const double predicted = predict_seconds(end_pilot(frame.pilot, last), {}, fitted, error).sum();
+                const double ratio = predicted / measured;
+                largest = std::max({largest, ratio, 1.0 / ratio});
                 cells.push_back(fmt::format("{:.2f}", predicted));
-                cells.push_back(fmt::format("{:.2f}", predicted / measured));
+                cells.push_back(fmt::format("{:.2f}", ratio));
+            };
+            add(i, worst);
+            if (i >= 2) {
+                add(i - 1, worst_before);
+            } else {
+                cells.insert(cells.end(), {"", ""});
             }
             table.add(cells);
         }
     }
-    fmt::print("\n");
+    fmt::print("\nLargest factor between prediction and measurement: {:.2f}; from the error before: {:.2f}.\n\n", worst,
+               worst_before);
 }
 
-void print_parts(const std::vector<MeasuredFrame>& frames, bool markdown) {
-    const StudyTable table({"frame", "picture", "error", "start", "constant", "pixels", "fill", "moments", "shade"}, 2,
+/// By what takes the seconds: measured, and predicted.
+void print_parts(const std::vector<MeasuredFrame>& frames, const CostCoefficients& fitted, bool markdown) {
+    const StudyTable table({"frame", "error", "start", "before light", "fill", "moments", "shade", "pilot"}, 1,
                            markdown);
     for (const MeasuredFrame& frame : frames) {
-        const auto add = [&](const char* picture, const PilotRun& run) {
-            std::vector<std::string> cells = {frame.name, picture};
-            for (const double value : {run.error, run.start, run.seconds.constant, run.seconds.pixels, run.seconds.fill,
-                                       run.seconds.moments, run.seconds.shade}) {
-                cells.push_back(fmt::format("{:.3g}", value));
+        for (std::size_t i = 0; i < frame.whole.size(); ++i) {
+            const double error = frame.pilot.parts[i].error;
+            const CostParts predicted = predict_seconds(end_pilot(frame.pilot, i), {}, fitted, error);
+            std::vector<std::string> cells = {frame.name, fmt::format("{:g}", error)};
+            for (double CostParts::*part :
+                 {&CostParts::start, &CostParts::before, &CostParts::fill, &CostParts::moments, &CostParts::shade}) {
+                cells.push_back(fmt::format("{:.3f} / {:.3f}", frame.whole[i].*part, predicted.*part));
             }
+            cells.push_back(i == 0 ? fmt::format("{:.2f}", frame.pilot_took) : "");
             table.add(cells);
-        };
-        for (const PilotRun& run : frame.pilot) add("pilot", run);
-        for (const PilotRun& run : frame.full) add("full", run);
+        }
     }
     fmt::print("\n");
 }
@@ -160,16 +119,18 @@ void run_cost(const CostOptions& options) {
     std::vector<MeasuredFrame> fit_frames, check_frames;
     for (const std::string& text : options.fit) fit_frames.push_back(measure_frame(text, options));
     for (const std::string& text : options.check) check_frames.push_back(measure_frame(text, options));
-    const CostCoefficients fitted = fit_frames.empty() ? fitted_coefficients() : fit(fit_frames);
-    fmt::print("Seconds of a processor by part:\n\n");
-    print_parts(fit_frames, options.markdown);
-    print_parts(check_frames, options.markdown);
-    fmt::print("Exponents:\n\n");
-    print_fit(fitted, options.markdown);
-    fmt::print("Seconds of the frames that were fitted:\n\n");
-    print_check(fit_frames, fitted, options.markdown);
-    fmt::print("Seconds of the others:\n\n");
-    print_check(check_frames, fitted, options.markdown);
+    const CostCoefficients fitted = fit_frames.empty() ? fitted_coefficients() : fit_coefficients(fit_frames);
+    fmt::print(
+        "Coefficients: shade {:.2f}, overlap {:.2f}, fill {:.2f}, moments {:.2f}, exponents of samples {:.2f} and of "
+        "light {:.2f}\n\n",
+        fitted.shade, fitted.overlap, fitted.fill, fitted.moments, fitted.shade_exponent, fitted.light_exponent);
+    for (const auto& [frames, title] :
+         {std::pair{&fit_frames, "frames that were fitted"}, std::pair{&check_frames, "others"}}) {
+        if (frames->empty()) continue;
+        fmt::print("Seconds of the {}, measured / predicted:\n\n", title);
+        print_parts(*frames, fitted, options.markdown);
+        print_check(*frames, fitted, options.markdown);
+    }
 }
 
 }  // namespace
@@ -178,9 +139,10 @@ void run_cost(const CostOptions& options) {
 int main(int argc, char** argv) {
     CLI::App app{
         "Fits the cost model of `aleph render --budget` and checks it on frames that it was not fitted to: seconds of "
-        "a processor, measured and predicted from a small picture at the error itself or at larger ones."};
+        "a clock for a frame rendered whole, and predicted from a part of its pixels and two small pictures. Let "
+        "nothing else run beside it."};
     aleph::CostOptions options;
-    app.add_option("frames", options.fit, "SCENE@FRAME to fit; none: the exponents of the program are checked");
+    app.add_option("frames", options.fit, "SCENE@FRAME to fit; none: the coefficients of the program are checked");
     app.add_option("--check", options.check, "SCENE@FRAME to predict")->delimiter(',');
     app.add_option("--errors", options.errors, "errors to ask for, the largest first")
         ->delimiter(',')

@@ -15,41 +15,72 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// Pilots at the errors 4 and 1.
-std::vector<PilotRun> two_runs() {
-    return {{4.0, {0.01, 0.02, 0.1, 0.2, 0.3}, 0.05}, {1.0, {0.01, 0.02, 0.3, 0.4, 1.2}, 0.05}};
+constexpr CostCoefficients coefficients = {
+    .shade = 0.8, .overlap = 2.0, .fill = 0.1, .moments = 0.5, .shade_exponent = 2.0, .light_exponent = 1.0};
+
+/// A tenth of the pixels at the errors 4 and 1.
+PilotSeconds two_errors() {
+    return {.start = 0.05,
+            .before = 0.02,
+            .share = 0.1,
+            .moments = 2.0,
+            .parts = {{4.0, 0.01, 0.03}, {1.0, 0.02, 0.07}},
+            .light = {{16.0, 0.01, 0.1}, {4.0, 0.02, 0.3}}};
 }
 
-const CostCoefficients exponents = {{0.0, 1.0, 0.8, 0.7, 0.9}, {0.0, 0.0, 0.8, 0.8, 1.0}};
-
-TEST(CostModel, GivesThePilotBack) {
-    EXPECT_NEAR(predict_seconds(two_runs(), {}, exponents, 4.0), 0.68, 1e-12);
-    EXPECT_NEAR(predict_seconds(two_runs(), {}, exponents, 1.0), 1.98, 1e-12);
+TEST(CostModel, APartIsScaledByItsShare) {
+    const CostParts seconds = predict_seconds(two_errors(), {}, coefficients, 4.0);
+    EXPECT_DOUBLE_EQ(seconds.start, 0.05);
+    EXPECT_DOUBLE_EQ(seconds.before, 0.02);
+    EXPECT_NEAR(seconds.shade, 0.3 / 0.8, 1e-12);
 }
 
-TEST(CostModel, IsAPowerLawBetweenAndBelowThePilots) {
-    const std::vector<PilotRun> runs = {{4.0, {0, 0, 0, 0, 1.0}, 0.0}, {1.0, {0, 0, 0, 0, 4.0}, 0.0}};
-    EXPECT_NEAR(predict_seconds(runs, {}, exponents, 2.0), 2.0, 1e-12);
-    EXPECT_NEAR(predict_seconds(runs, {}, exponents, 0.5), 8.0, 1e-12);
-    EXPECT_NEAR(predict_seconds(runs, {}, exponents, 8.0), 1.0, 1e-12);
+TEST(CostModel, LightGrowsFromSmallPicturesAsAPowerOfTheirPixels) {
+    const CostParts seconds = predict_seconds(two_errors(), {}, coefficients, 4.0);
+    EXPECT_NEAR(seconds.fill, 0.02 * 2.0, 1e-12);    // twice as much in four times as many pixels
+    EXPECT_NEAR(seconds.moments, 0.3 * 3.0, 1e-12);  // three times
+    PilotSeconds steep = two_errors();
+    steep.light[0].moments = 1e-9;
+    EXPECT_NEAR(predict_seconds(steep, {}, coefficients, 4.0).moments, 0.3 * std::pow(4.0, 1.3), 1e-12);
+    PilotSeconds single = two_errors();
+    single.light.resize(1);
+    EXPECT_NEAR(predict_seconds(single, {}, coefficients, 4.0).moments, 0.1 * std::pow(16.0, 0.8), 1e-12);
+    single.light.clear();
+    EXPECT_EQ(predict_seconds(single, {}, coefficients, 4.0).moments, 0.0);
 }
 
-TEST(CostModel, EachPartGrowsByItsRatios) {
-    const CostRatios ratios{16.0, 10.0, 3.0};
-    const std::vector<PilotRun> runs = {{1.0, {1.0, 2.0, 3.0, 4.0, 5.0}, 6.0}};
-    EXPECT_NEAR(predict_seconds(runs, ratios, exponents, 1.0),
-                6.0 + 10.0 * (1.0 + 2.0 * 16.0 + 3.0 * std::pow(16.0, 0.8) + 5.0 * std::pow(16.0, 0.9)) +
-                    3.0 * 4.0 * std::pow(16.0, 0.7),
-                1e-9);
+TEST(CostModel, LightOfThePartTellsHowItGrowsWithSmallerErrors) {
+    const CostParts seconds = predict_seconds(two_errors(), {}, coefficients, 1.0);
+    EXPECT_NEAR(seconds.fill, 0.04 + 0.1 * 0.1, 1e-12);
+    EXPECT_NEAR(seconds.moments, 0.9 + 0.5 * 2.0 * 0.1, 1e-12);
+    PilotSeconds by_frame = two_errors();
+    by_frame.moments = 0.0;
+    EXPECT_NEAR(predict_seconds(by_frame, {}, coefficients, 1.0).fill, 0.04 + 0.1 / 2.0, 1e-12);
+    EXPECT_NEAR(predict_seconds(by_frame, {}, coefficients, 1.0).shade, 0.7, 1e-12);
+}
+
+TEST(CostModel, GrowthIsAPowerLawBetweenAndBelowTheErrors) {
+    PilotSeconds pilot = two_errors();
+    pilot.parts = {{4.0, 0.0, 0.03}, {2.0, 0.0, 0.04}, {0.5, 0.0, 0.19}};  // grows by 0.01, then by 0.16
+    const auto shade = [&](double error) { return 0.08 * predict_seconds(pilot, {}, coefficients, error).shade; };
+    EXPECT_NEAR(shade(8.0), 0.03, 1e-12);
+    EXPECT_NEAR(shade(1.0), 0.03 + 0.04, 1e-12);
+    EXPECT_NEAR(shade(0.25), 0.03 + 0.16 * 4.0, 1e-12);
+}
+
+TEST(CostModel, SumsGrowByTheirCounts) {
+    const CostParts one = predict_seconds(two_errors(), {}, coefficients, 0.7);
+    const CostParts many = predict_seconds(two_errors(), {10.0, 3.0}, coefficients, 0.7);
+    EXPECT_NEAR(many.sum(), one.start + 10.0 * (one.before + one.fill + one.shade) + 3.0 * one.moments, 1e-9);
 }
 
 TEST(CostModel, NeverFallsWhereTheErrorDoes) {
-    std::vector<PilotRun> noisy = two_runs();
-    noisy.push_back({2.0, {0.01, 0.02, 0.01, 0.9, 0.0}, 0.05});  // a disturbed pilot, out of order
-    for (const CostCoefficients& coefficients : {exponents, fitted_coefficients()}) {
+    PilotSeconds noisy = two_errors();
+    noisy.parts.push_back({2.0, 0.9, 0.0});  // a disturbed measurement, out of order
+    for (const CostCoefficients& chosen : {coefficients, fitted_coefficients()}) {
         double before = 0.0;
         for (double error = 20.0; error > 0.01; error /= 1.1) {
-            const double seconds = predict_seconds(noisy, {16.0, 10.0, 3.0}, coefficients, error);
+            const double seconds = predict_seconds(noisy, {10.0, 3.0}, chosen, error).sum();
             EXPECT_GE(seconds, before * (1.0 - 1e-12)) << error;
             before = seconds;
         }
@@ -58,31 +89,39 @@ TEST(CostModel, NeverFallsWhereTheErrorDoes) {
 
 TEST(CostModel, RefusesWhatIsNoCost) {
     const double nan = std::nan("");
-    EXPECT_THROW(predict_seconds({}, {}, exponents, 1.0), std::invalid_argument);
+    PilotSeconds none = two_errors();
+    none.parts.clear();
+    EXPECT_THROW(predict_seconds(none, {}, coefficients, 1.0), std::invalid_argument);
     for (const double error : {0.0, -1.0, nan, infinity}) {
-        EXPECT_THROW(predict_seconds(two_runs(), {}, exponents, error), std::invalid_argument) << error;
+        EXPECT_THROW(predict_seconds(two_errors(), {}, coefficients, error), std::invalid_argument) << error;
     }
     for (const double seconds : {-1.0, nan, infinity}) {
-        EXPECT_THROW(predict_seconds({{1.0, {0, 0, 0, 0, seconds}, 0.0}}, {}, exponents, 1.0), std::invalid_argument)
-            << seconds;
+        PilotSeconds part = two_errors(), light = two_errors(), before = two_errors(), start = two_errors();
+        part.parts[1].shade = seconds;
+        light.light[0].moments = seconds;
+        before.before = start.start = seconds;
+        for (const PilotSeconds& pilot : {part, light, before, start}) {
+            EXPECT_THROW(predict_seconds(pilot, {}, coefficients, 1.0), std::invalid_argument) << seconds;
+        }
     }
 }
 
 TEST(ChooseError, IsTheSmallestThatFits) {
-    for (const double seconds : {0.7, 0.9, 1.5, 3.0, 8.0}) {
-        const double error = choose_error(two_runs(), {}, exponents, seconds);
-        EXPECT_LE(predict_seconds(two_runs(), {}, exponents, error), seconds);
+    const auto predict = [](double error) { return predict_seconds(two_errors(), {}, coefficients, error).sum(); };
+    for (const double seconds : {1.5, 2.0, 5.0, 20.0}) {
+        const double error = choose_error(two_errors(), {}, coefficients, seconds);
+        EXPECT_LE(predict(error), seconds);
         const double step = error <= 1.0 ? 0.01 : 0.1;
-        EXPECT_GT(predict_seconds(two_runs(), {}, exponents, error - step), seconds) << error;
+        EXPECT_GT(predict(error - step), seconds) << error;
     }
 }
 
 TEST(ChooseError, StaysInItsRange) {
-    EXPECT_EQ(choose_error(two_runs(), {}, exponents, 1e9), least_budget_error);
-    EXPECT_EQ(choose_error(two_runs(), {}, exponents, infinity), least_budget_error);
-    EXPECT_EQ(choose_error(two_runs(), {}, exponents, 1e-9), most_budget_error);
-    EXPECT_EQ(choose_error(two_runs(), {}, exponents, -5.0), most_budget_error);
-    EXPECT_EQ(choose_error(two_runs(), {}, exponents, std::nan("")), most_budget_error);
+    EXPECT_EQ(choose_error(two_errors(), {}, coefficients, 1e9), least_budget_error);
+    EXPECT_EQ(choose_error(two_errors(), {}, coefficients, infinity), least_budget_error);
+    EXPECT_EQ(choose_error(two_errors(), {}, coefficients, 1e-9), most_budget_error);
+    EXPECT_EQ(choose_error(two_errors(), {}, coefficients, -5.0), most_budget_error);
+    EXPECT_EQ(choose_error(two_errors(), {}, coefficients, std::nan("")), most_budget_error);
 }
 
 TEST(CostPilot, TakesFramesFromTheWholeList) {
@@ -91,10 +130,7 @@ TEST(CostPilot, TakesFramesFromTheWholeList) {
     EXPECT_EQ(choose_pilot_frames({0, 1, 2, 3, 4, 5, 6, 7, 8}), (std::vector<std::int64_t>{1, 4, 7}));
 }
 
-TEST(CostPilot, IsAQuarterButNotTiny) {
-    EXPECT_EQ(find_pilot_scale(640), 0.25);
-    EXPECT_EQ(find_pilot_scale(64), 0.5);
-    EXPECT_EQ(find_pilot_scale(16), 1.0);
+TEST(CostPilot, ASizeKeepsAPixel) {
     const PictureSize wide = scale_size({65536, 1}, 0.25);
     EXPECT_EQ(wide.width, 16384);
     EXPECT_EQ(wide.height, 1);
