@@ -16,7 +16,7 @@ constexpr double light_scales[] = {0.25, 0.5};
 constexpr int least_width = 32;    // pixels, of a small picture, unless the frame is smaller
 constexpr int part_block = 4;      // pixels: decisions read the pixels around
 constexpr int blocks_of_all = 75;  // a picture of fewer than four times as many is measured whole
-constexpr int most_every = 64;
+constexpr int most_every = 8;
 constexpr double light_growth = 4.0;  // seconds, from one small picture to the next
 constexpr double part_growth = 2.0;   // seconds, from one error to the next
 
@@ -42,7 +42,7 @@ LightSeconds time_light(const PilotRequest& request, double scale) {
     return seconds;
 }
 
-/// One block of so many: all of a small picture, an eighth of 320x240, a sixteenth of 640x480.
+/// One block of so many: all of a small picture, an eighth from 320x240 on.
 int choose_every(const RenderSettings& settings) {
     const int blocks = settings.width * settings.height / (part_block * part_block);
     int every = 1;

@@ -22,7 +22,7 @@ namespace {
 
 struct CostOptions {
     StudyOptions study{.size = "320x240", .gather = 0, .spp = 0, .threads = 1};
-    std::vector<std::string> fit, check, errors = {"10", "4", "2", "1", ".5"};
+    std::vector<std::string> fit, check, sets, errors = {"10", "4", "2", "1", ".5"};
     bool markdown = false;
 };
 
@@ -46,7 +46,7 @@ MeasuredFrame measure_frame(const std::string& text, const CostOptions& options)
     const FrameOfScene which = parse_frame_of_scene(text);
     const Scene scene = load_scene(which.file);
     const std::int64_t number = which.frame.value_or(0);
-    const RenderSettings settings = scene_settings(scene, which.file, options.study.size, {});
+    const RenderSettings settings = scene_settings(scene, which.file, options.study.size, options.sets);
     MeasuredFrame frame;
     frame.name = fmt::format("{} {}", scene_name(which.file), number);
     PilotRequest request{scene, "", {number}, {}, [](const PilotSeconds&, double) { return true; }};
@@ -148,6 +148,7 @@ int main(int argc, char** argv) {
         ->delimiter(',')
         ->capture_default_str();
     app.add_option("--size", options.study.size, "WIDTHxHEIGHT of the frames in pixels")->capture_default_str();
+    aleph::add_set_option(app, options.sets);
     aleph::add_value(app, "-t,--threads", options.study.threads, "number of threads; 0: all");
     app.add_flag("--markdown", options.markdown, "print the tables as Markdown");
     return aleph::run_study(app, options.study, argc, argv, [&] { aleph::run_cost(options); });
