@@ -11,6 +11,7 @@
 #include "render/cli/progress.h"
 #include "render/cli/scene_options.h"
 #include "render/cli/study_output.h"
+#include "render/study/error_sheet.h"
 #include "render/study/prepared_study.h"
 #include "render/study/study_file.h"
 
@@ -19,7 +20,7 @@ namespace aleph {
 namespace {
 
 struct StudyCommandOptions {
-    std::string file, frames, size, output, reference;
+    std::string file, frames, size, output, reference, errors;
     std::vector<std::string> sweeps, sets, viewers, judges;
     int passes = 0, spp = 0, repeats = 0, seeds = 0, threads = 0;
     bool quiet = false, markdown = false, viewer_test = false;
@@ -126,6 +127,7 @@ int run(const StudyCommandOptions& options, const std::string& command_line) {
     Study study = make_study(options);
     override_study(options, study);
     const PreparedStudy prepared = prepare_study(std::move(study));
+    if (!options.errors.empty()) check_variant_name(prepared, options.errors);
     if (!options.quiet) {
         for (const PreparedStudyScene& scene : prepared.scenes) {
             for (const std::string& warning : scene.scene.warnings)
@@ -142,7 +144,7 @@ int run(const StudyCommandOptions& options, const std::string& command_line) {
     }
     print_study(prepared, results, options.markdown, std::cout);
     const StudyContext context{command_line, study_date(), thread_count()};
-    write_study(prepared, results, context, folder, options.viewer_test, options.quiet);
+    write_study(prepared, results, context, folder, options.viewer_test, options.errors, options.quiet);
     return exit_done;
 }
 
@@ -191,6 +193,11 @@ void add_study_options(CLI::App& study, StudyCommandOptions& options) {
         "--viewer-test", options.viewer_test,
         "also write viewer-test.html: a test in which viewers say which of two sequences had the errors, the "
         "reference or a variant; several consecutive --frames make sequences");
+    study
+        .add_option(
+            "--errors", options.errors,
+            "also write errors.png: where the errors of this variant lie, in visible thresholds of every viewer")
+        ->type_name("VARIANT");
     study.add_flag("--markdown", options.markdown, "print the table as Markdown");
     study.add_flag("-q,--quiet", options.quiet, "print no progress and no list of files");
 }

@@ -11,6 +11,7 @@
 #include "engine/base/atomic_file.h"
 #include "engine/base/errors.h"
 #include "engine/base/files.h"
+#include "render/study/error_sheet.h"
 #include "render/study/report_page.h"
 #include "render/study/study_plot.h"
 #include "render/study/viewer_page.h"
@@ -108,7 +109,7 @@ void print_study(const PreparedStudy& prepared, const StudyResults& results, boo
 }
 
 void write_study(const PreparedStudy& prepared, const StudyResults& results, const StudyContext& context,
-                 const std::filesystem::path& folder, bool viewer_test, bool quiet) {
+                 const std::filesystem::path& folder, bool viewer_test, const std::string& errors, bool quiet) {
     const nlohmann::ordered_json json = study_json(prepared, results, context);
     write_file(folder / "study.json",
                json.dump(1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n");
@@ -124,6 +125,10 @@ void write_study(const PreparedStudy& prepared, const StudyResults& results, con
     }
     const bool plotted = draw_plot(folder / "study.png", prepared, results);
     if (plotted) files += ", study.png";
+    if (!errors.empty()) {
+        write_error_sheet(folder / "errors.png", prepared, results, errors);
+        files += ", errors.png";
+    }
     if (quiet) return;
     std::cerr << fmt::format("aleph: {} runs made, {} found finished; wrote {} in {}\n", results.made, results.found,
                              files, printable(folder.string(), 400));

@@ -51,13 +51,17 @@ double yee_percent(const ChannelImage& picture, const ChannelImage& reference, d
 
 }  // namespace
 
+ChannelImage expose_like(const ChannelImage& picture, const ChannelImage& reference) {
+    const auto found = picture.metadata.find("exposureFactor");
+    const double* exposure = found == picture.metadata.end() ? nullptr : std::get_if<double>(&found->second);
+    return exposure ? with_exposure(reference, *exposure) : reference;
+}
+
 MetricValues measure_errors(const ChannelImage& picture, const FrameTruth& truth, const std::vector<Metric>& metrics) {
     const auto wants = [&](const char* name) {
         return std::ranges::find(metrics, name, &Metric::name) != metrics.end();
     };
-    const auto found = picture.metadata.find("exposureFactor");
-    const double* exposure = found == picture.metadata.end() ? nullptr : std::get_if<double>(&found->second);
-    const ChannelImage reference = exposure ? with_exposure(truth.reference, *exposure) : truth.reference;
+    const ChannelImage reference = expose_like(picture, truth.reference);
     MetricValues all;
     const LuminanceError error = compute_luminance_error(picture, reference);
     for (const Metric& metric : metrics) {

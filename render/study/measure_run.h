@@ -17,6 +17,9 @@ struct FrameTruth {
     double display_white = 100.0;          ///< cd/m2 of a value of 1
 };
 
+/// The reference at the picture's exposure, if the picture says which.
+ChannelImage expose_like(const ChannelImage& picture, const ChannelImage& reference);
+
 using MetricValues = std::map<std::string, double>;
 
 /// The metrics of errors; those that do not apply (indirect light of a traced picture, FLIP without its tool) are

@@ -114,6 +114,7 @@ class StudyRunner {
             done_ += frames_per_pass * study_.reference.passes;
             JudgingFrame& frame = results_.frames[first + i];
             frame.quality = measure_reference(truths[i]);
+            frame.thresholds = truths[i].thresholds;
             frame.reference = reference_picture_path(own.settings, scene.frames[i], options);
         }
         return truths;
