@@ -165,8 +165,8 @@ answers 0 'spp=2' aleph study first.json "${study[@]}" --sweep spp=1,2 -o swept
 is [ "$(wc -l <swept/study.csv)" = 3 ]
 is grep -q '"share_beyond"' swept/study.json
 answers 2 'no variant is called nope' aleph study first.json "${study[@]}" --sweep spp=1,2 -o swept --errors nope
-answers 0 'errors.png' aleph study first.json "${study[@]}" --sweep spp=1,2 -o swept --errors spp=2
-is [ -s swept/errors.png ]
+answers 0 'errors.jpg' aleph study first.json "${study[@]}" --sweep spp=1,2 -o swept --errors spp=2
+is [ -s swept/errors.jpg ]
 answers 0 '0 runs made, 2 found finished' aleph study first.json "${study[@]}" --sweep spp=1,2 -o swept
 echo '{"scenes": [{"scene": "first.json", "frames": "0"}], "size": "16x12", "sweeps": {"spp": [1]}}' >typo.json
 answers 2 '/sweeps' aleph study typo.json

@@ -196,7 +196,7 @@ void add_study_options(CLI::App& study, StudyCommandOptions& options) {
     study
         .add_option(
             "--errors", options.errors,
-            "also write errors.png: where the errors of this variant lie, in visible thresholds of every viewer")
+            "also write errors.jpg: where the errors of this variant lie, in visible thresholds of every viewer")
         ->type_name("VARIANT");
     study.add_flag("--markdown", options.markdown, "print the table as Markdown");
     study.add_flag("-q,--quiet", options.quiet, "print no progress and no list of files");

@@ -126,8 +126,8 @@ void write_study(const PreparedStudy& prepared, const StudyResults& results, con
     const bool plotted = draw_plot(folder / "study.png", prepared, results);
     if (plotted) files += ", study.png";
     if (!errors.empty()) {
-        write_error_sheet(folder / "errors.png", prepared, results, errors);
-        files += ", errors.png";
+        write_error_sheet(folder / "errors.jpg", prepared, results, errors);
+        files += ", errors.jpg";
     }
     if (quiet) return;
     std::cerr << fmt::format("aleph: {} runs made, {} found finished; wrote {} in {}\n", results.made, results.found,

@@ -22,7 +22,7 @@ void print_study(const PreparedStudy& prepared, const StudyResults& results, boo
 /// Writes study.json, study.csv, study.png (where gnuplot is installed) and report.html (where the page was built), and
 /// says which on standard error.
 /// @param viewer_test  also writes viewer-test.html
-/// @param errors       name of a variant, for errors.png; may be empty
+/// @param errors       name of a variant, for errors.jpg; may be empty
 /// @throws OutputError
 void write_study(const PreparedStudy& prepared, const StudyResults& results, const StudyContext& context,
                  const std::filesystem::path& folder, bool viewer_test, const std::string& errors, bool quiet);
