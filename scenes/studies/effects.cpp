@@ -16,7 +16,6 @@
 #include "scenes/studies/study_frame.h"
 #include "scenes/studies/study_options.h"
 #include "scenes/studies/study_table.h"
-#include "scenes/studies/study_tools.h"
 
 namespace aleph {
 

@@ -12,8 +12,8 @@
 #include "perception/sanitize.h"
 #include "perception/threshold.h"
 #include "render/cli/options.h"
+#include "render/sequence.h"
 #include "scenes/studies/study_options.h"
-#include "scenes/studies/study_tools.h"
 
 namespace aleph {
 

@@ -18,7 +18,7 @@
 #include "scenes/studies/study_frame.h"
 #include "scenes/studies/study_options.h"
 #include "scenes/studies/study_table.h"
-#include "scenes/studies/study_tools.h"
+#include "scenes/studies/threshold_maps.h"
 
 namespace aleph {
 
