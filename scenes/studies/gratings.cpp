@@ -9,7 +9,6 @@
 #include <numbers>
 
 #include "engine/base/errors.h"
-#include "engine/load/load_scene.h"
 #include "perception/castle.h"
 #include "render/cli/options.h"
 #include "scenes/studies/elevation_chart.h"
@@ -17,6 +16,7 @@
 #include "scenes/studies/study_options.h"
 #include "scenes/studies/study_table.h"
 #include "scenes/studies/vision_formulas.h"
+#include "scenes/studies/vision_frames.h"
 #include "scenes/studies/vision_maps.h"
 
 namespace aleph {
@@ -49,31 +49,37 @@ GratingErrors run_all(GratingRun run, double highest, double lowest, int step) {
     return errors;
 }
 
+/// The largest errors of both guides, in bright and in dim light.
+GratingErrors run_lights(Vision vision, Bands bands, double highest, double lowest, int step) {
+    GratingErrors errors;
+    for (const Guide guide : {Guide::spatial, Guide::full}) {
+        for (const auto& [mean, contrast] : {std::pair{0.5, 0.8}, std::pair{0.02, 0.5}}) {
+            GratingRun run;
+            run.grating = {.mean = mean, .contrast = contrast};
+            run.perception = {.guide = guide, .vision = vision, .bands = bands};
+            errors.merge(run_all(run, highest, lowest, step));
+        }
+    }
+    return errors;
+}
+
 void print_gratings(const GratingsOptions& options) {
     fmt::print(
-        "Moving gratings of .15 to 80 deg/s: the largest difference of the map from its known answer. R is absolute, "
-        "the others relative.\n\n");
-    const StudyTable table({"vision", "guide", "bands", "c/deg", "mean, cd/m2", "contrast", "R", "aleph, by formulas",
-                            "aleph, by double functions", "aleph from", "to", "pixels"},
+        "Gratings of 50 and 2 cd/m2, contrast .8 and .5, that move at .15 to 80 deg/s, guides spatial and full: the "
+        "largest difference from the known answer, absolute of R, relative of the others.\n\n");
+    const StudyTable table({"vision", "bands", "c/deg", "R", "aleph, by formulas", "aleph, by double functions",
+                            "adaptation", "aleph from", "to", "pixels"},
                            3, options.markdown);
     for (std::size_t v = 0; v < all_visions.size(); ++v) {
-        for (const Guide guide : {Guide::spatial, Guide::full}) {
-            for (const Bands bands : {Bands::printed, Bands::measured}) {
-                for (const auto& [highest, lowest] : {std::pair{16.0, 1.0}, std::pair{0.5, 0.25}}) {
-                    for (const auto& [mean, contrast] : {std::pair{0.5, 0.8}, std::pair{0.02, 0.5}}) {
-                        GratingRun run;
-                        run.grating = {.mean = mean, .contrast = contrast};
-                        run.perception = {.guide = guide, .vision = all_visions[v], .bands = bands};
-                        const GratingErrors e = run_all(run, highest, lowest, options.step);
-                        table.add({vision_names[v], guide == Guide::spatial ? "spatial" : "full",
-                                   bands == Bands::printed ? "printed" : "measured",
-                                   fmt::format("{:g} to {:g}", highest, lowest),
-                                   fmt::format("{:g}", run.viewing.display_white * mean), fmt::format("{:g}", contrast),
-                                   fmt::format("{:.1e}", e.response), fmt::format("{:.1e}", e.aleph_written),
-                                   fmt::format("{:.1e}", e.aleph_scalar), fmt::format("{:.2f}", e.aleph_lowest),
-                                   fmt::format("{:.1f}", e.aleph_highest), fmt::format("{}", e.compared)});
-                    }
-                }
+        for (const Bands bands : {Bands::printed, Bands::measured}) {
+            for (const auto& [highest, lowest] : {std::pair{16.0, 1.0}, std::pair{0.5, 0.25}}) {
+                const GratingErrors e = run_lights(all_visions[v], bands, highest, lowest, options.step);
+                table.add({vision_names[v], bands == Bands::printed ? "printed" : "measured",
+                           fmt::format("{:g} to {:g}", highest, lowest), fmt::format("{:.1e}", e.response),
+                           fmt::format("{:.1e}", e.aleph_written), fmt::format("{:.1e}", e.aleph_scalar),
+                           all_visions[v] == Vision::castle ? fmt::format("{:.1e}", e.adaptation) : "-",
+                           fmt::format("{:.2f}", e.aleph_lowest), fmt::format("{:.1f}", e.aleph_highest),
+                           fmt::format("{}", e.compared)});
             }
         }
     }
@@ -152,63 +158,13 @@ void print_ratios(const char* title, bool follows, bool markdown) {
     fmt::print("\n");
 }
 
-std::string quantiles(const std::vector<double>& values) {
-    return fmt::format("{:.3g} / {:.3g} / {:.3g} / {:.3g}", quantile(values, 0.1), quantile(values, 0.5),
-                       quantile(values, 0.9), quantile(values, 0.99));
-}
-
-double percent_below_one(const std::vector<double>& values) {
-    const auto below = std::ranges::count_if(values, [](double value) { return value < 1.0; });
-    return 100.0 * static_cast<double>(below) / static_cast<double>(values.size());
-}
-
-/// SCENE@FRAME, where a name without a suffix is a folder of scenes/.
-FrameOfScene parse_scene(const std::string& text) {
-    FrameOfScene which = parse_frame_of_scene(text);
-    if (which.file.find_first_of("./") == std::string::npos)
-        which.file = fmt::format("scenes/{}/scene.json", which.file);
-    return which;
-}
-
-void print_frame(const std::string& text, const GratingsOptions& options, const StudyTable& table) {
-    const FrameOfScene which = parse_scene(text);
-    const Scene scene = load_scene(which.file);
-    StudyOptions study = options.study;
-    const VisionMaps maps =
-        compute_vision_maps(scene, study_settings(scene, which.file, study), which.frame.value_or(0));
-    for (const SpeedClass& speed : speed_classes) {
-        std::array<std::vector<double>, all_visions.size()> aleph, threshold;
-        for (std::size_t v = 0; v < all_visions.size(); ++v) {
-            aleph[v] = pick_pixels(maps.aleph[v], maps.velocity, speed);
-            threshold[v] = pick_pixels(maps.threshold[v], maps.velocity, speed);
-        }
-        if (aleph[0].empty()) continue;
-        const double share = 100.0 * static_cast<double>(aleph[0].size()) / static_cast<double>(maps.velocity.size());
-        const std::vector<double> laird = ratios(aleph[1], aleph[0]), castle = ratios(aleph[2], aleph[0]);
-        const std::vector<double> threshold_ratio = ratios(threshold[2], threshold[0]);
-        table.add({fmt::format("{} {}", scene_name(which.file), which.frame.value_or(0)), speed.name,
-                   fmt::format("{:.1f}", share), quantiles(aleph[0]), quantiles(aleph[1]), quantiles(aleph[2]),
-                   quantiles(laird), quantiles(castle), fmt::format("{:.2f}", rank_correlation(aleph[1], aleph[0])),
-                   fmt::format("{:.2f}", rank_correlation(aleph[2], aleph[0])),
-                   fmt::format("{:.0f}", percent_below_one(castle)), quantiles(threshold_ratio),
-                   fmt::format("{:.0f}", percent_below_one(threshold_ratio))});
-    }
-}
-
-void print_frames(const GratingsOptions& options) {
-    fmt::print("Maps of frames, {}; quantiles at 10 / 50 / 90 / 99 % of the pixels\n\n", options.study.size);
-    const StudyTable table(
-        {"frame", "pixels", "%", "aleph, thesis", "laird", "castle", "laird / thesis", "castle / thesis",
-         "rank correlation, laird", "castle", "castle below thesis, %", "threshold, castle / thesis", "below 1, %"},
-        2, options.markdown);
-    for (const std::string& text : options.scenes) print_frame(text, options, table);
-    fmt::print("\n");
-}
-
 void run_gratings(const GratingsOptions& options) {
     if (options.step < 1) throw InputError("", "--step", "expected at least 1");
+    if (!options.picture.empty() && !options.picture.ends_with(".png")) {
+        throw InputError(options.picture, "", "expected a name that ends with .png");
+    }
     if (!options.scenes.empty()) {
-        print_frames(options);
+        print_vision_frames(options.scenes, options.study, options.markdown);
     } else {
         print_gratings(options);
         print_models(options);
