@@ -16,7 +16,8 @@ namespace {
 /// Values of the pixels of one class in one frame.
 struct ClassValues {
     std::string frame, speed;
-    double percent = 0.0;  ///< of the frame's pixels
+    double percent = 0.0;         ///< of the frame's pixels
+    std::vector<double> retinal;  ///< v_R, deg/s
     std::array<std::vector<double>, all_visions.size()> aleph, threshold;
 };
 
@@ -37,6 +38,7 @@ std::vector<ClassValues> collect(const std::vector<std::string>& frames, const S
                 values.threshold[v] = pick_pixels(maps.threshold[v], maps.velocity, speed);
             }
             if (values.aleph[0].empty()) continue;
+            values.retinal = pick_pixels(maps.retinal, maps.velocity, speed);
             values.frame = fmt::format("{} {}", scene_name(which.file), number);
             values.speed = speed.name;
             values.percent =
@@ -65,10 +67,10 @@ void print_vision_frames(const std::vector<std::string>& frames, const StudyOpti
         "Maps of frames, {}, guide of the scene, by image velocity: slow is below 1, fast from 10 deg/s. Quantiles: 10 "
         "/ 50 / 90 / 99 % of the pixels.\n\naleph:\n\n",
         options.size);
-    const StudyTable values({"frame", "pixels", "%", "thesis", "laird", "castle"}, 2, markdown);
+    const StudyTable values({"frame", "pixels", "%", "v_R, deg/s", "thesis", "laird", "castle"}, 2, markdown);
     for (const ClassValues& c : all) {
-        values.add({c.frame, c.speed, fmt::format("{:.1f}", c.percent), quantiles(c.aleph[0]), quantiles(c.aleph[1]),
-                    quantiles(c.aleph[2])});
+        values.add({c.frame, c.speed, fmt::format("{:.1f}", c.percent), quantiles(c.retinal), quantiles(c.aleph[0]),
+                    quantiles(c.aleph[1]), quantiles(c.aleph[2])});
     }
     fmt::print("\nPixel by pixel, over the thesis. Stricter is below 1:\n\n");
     const StudyTable compared({"frame", "pixels", "aleph, laird", "stricter, %", "rank correlation", "aleph, castle",

@@ -45,6 +45,7 @@ VisionMaps compute_vision_maps(const Scene& scene, const RenderSettings& setting
         maps.threshold[i] = compute_threshold(maps.aleph[i], adaptation, all_visions[i]);
     }
     maps.velocity = std::move(out.velocity);
+    maps.retinal = std::move(out.perception.retinal_velocity);
     return maps;
 }
 

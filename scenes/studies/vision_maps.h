@@ -16,6 +16,7 @@ inline constexpr std::array all_visions = {Vision::thesis, Vision::laird, Vision
 /// Of one frame, from its quick estimate; nothing is rendered.
 struct VisionMaps {
     Image<float> velocity;                                     ///< of the image, deg/s
+    Image<float> retinal;                                      ///< v_R, deg/s: the same for every model
     std::array<Image<float>, all_visions.size()> aleph;        ///< by model
     std::array<Image<float>, all_visions.size()> threshold{};  ///< of an error that lasts, cd/m2
 };
