@@ -1,0 +1,63 @@
+#include "scenes/studies/elevation_chart.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "engine/base/atomic_file.h"
+#include "perception/castle_row.h"
+#include "perception/sensitivity.h"
+#include "render/study/other_program.h"
+
+namespace aleph {
+
+double model_elevation(Vision vision, double rho, double retinal, double tracked, double luminance, double persistence,
+                       const FrameRate& frame_rate) {
+    if (vision == Vision::castle) {
+        return castle_elevation(rho, retinal, tracked, luminance, persistence, frame_rate);
+    }
+    return elevation(rho, retinal, vision == Vision::laird ? laird_2006 : daly_1998);
+}
+
+std::string elevation_chart_program() {
+    constexpr double slowest = 0.1, fastest = 100.0;  // deg/s
+    constexpr int steps = 200;
+    std::string text =
+        "set terminal pngcairo size 1000,380 font \"DejaVu Sans,10\"\nset output \"chart.png\"\nset encoding utf8\n"
+        "set logscale xy\nset grid\nset xrange [0.1:100]\nset yrange [1:300]\nset xlabel \"image velocity, deg/s\"\n"
+        "set ylabel \"elevation f\"\nset key top left\nset multiplot layout 1,3\n";
+    for (const double rho : {16.0, 4.0, 1.0}) {
+        const std::string name = fmt::format("$at{:g}", rho);
+        text += name + " << END\n";
+        for (int i = 0; i <= steps; ++i) {
+            const double v = slowest * std::pow(fastest / slowest, static_cast<double>(i) / steps);
+            text += fmt::format("{}", v);
+            for (const Vision vision : {Vision::thesis, Vision::laird, Vision::castle}) {
+                text += fmt::format(" {}", model_elevation(vision, rho, retinal_velocity(v, tracking_efficiency),
+                                                           tracked_velocity(v, tracking_efficiency), 100.0, 1.0, {}));
+            }
+            text += "\n";
+        }
+        text += "END\n";
+        text += fmt::format("set title \"{:g} cycles per degree\"\n", rho);
+        text += fmt::format(
+            "plot {0} using 1:2 with lines lw 2 title \"thesis\", {0} using 1:3 with lines lw 2 title \"laird\", {0} "
+            "using 1:4 with lines lw 2 title \"castle\"\n",
+            name);
+    }
+    return text + "unset multiplot\n";
+}
+
+bool draw_elevation_chart(const std::filesystem::path& png) {
+    if (!find_program("gnuplot")) return false;
+    const TemporaryFolder folder;
+    if (run_program_in(folder.path(), {"gnuplot", "-"}, elevation_chart_program()).code != 0) return false;
+    const std::filesystem::path drawn = folder.path() / "chart.png";
+    if (!std::filesystem::is_regular_file(drawn)) return false;
+    write_atomically(png, [&](const std::filesystem::path& temporary) {
+        std::filesystem::copy_file(drawn, temporary, std::filesystem::copy_options::overwrite_existing);
+    });
+    return true;
+}
+
+}  // namespace aleph

@@ -1,0 +1,141 @@
+#include "scenes/studies/vision_formulas.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace aleph {
+
+namespace {
+
+constexpr double pi = std::numbers::pi;
+
+double kelly_gain(double v, double c2) {
+    return 6.1 + 7.3 * std::pow(std::abs(std::log10(c2 * v / 3.0)), 3.0);
+}
+
+/// (5.9), with the peak of (5.10).
+double kelly_elevation(double rho, double v, double c1, double c2, double (*sensitivity)(double, double)) {
+    const double peak = 45.9 / (c2 * v + 2.0) / (2.0 * pi * c1);
+    if (rho <= peak) return 1.0;
+    return std::max(1.0, sensitivity(peak, v) / std::max(1.0, sensitivity(rho, v)));
+}
+
+double square(double x) {
+    return x * x;
+}
+
+/// The sustained channel's constants.
+constexpr double sustained_width = 0.000213047, sustained_cut = 0.100207;
+constexpr double sustained_area = 157.103, sustained_corner = 0.702338;
+
+double sustained_peak_frequency(double l) {
+    return 1.78119 * std::pow(1.0 + 91.5718 / l, -0.256682);
+}
+
+double critical_area(double rho, double area, double corner) {
+    return area / (1.0 + square(rho / corner));
+}
+
+double sustained(double rho, double l) {
+    const double gain =
+        56.4947 * std::pow(1.0 + 7.54726 / l, -0.144532) * (1.0 - std::exp(-9.66862e9 * std::log1p(5.58341e-7 / l)));
+    const double peak = sustained_peak_frequency(l);
+    double shape = std::exp(-std::numbers::ln10 * square(std::log10(rho / peak)) / std::pow(2.0, sustained_width));
+    if (rho < peak) shape = std::max(shape, 1.0 - sustained_cut);
+    const double area = critical_area(rho, sustained_area, sustained_corner);
+    return gain * shape * rho * std::sqrt(area / (1.0 + area));
+}
+
+double transient(double rho, double l) {
+    const double gain = 2748.09 * std::pow(l, 0.193434);
+    double shape = std::exp(-std::numbers::ln10 * square(std::log10(rho / 0.000316696)) / std::pow(2.0, 2.6761));
+    if (rho < 0.000316696) shape = std::max(shape, 1.0 - 0.000241177);
+    const double area = critical_area(rho, 3.81611, 3.01389);
+    return gain * shape * rho * std::sqrt(area / (1.0 + area));
+}
+
+/// Share of its contrast that a pattern keeps behind a blur of `width` degrees.
+double blur_transfer(double rho, double width) {
+    if (width == 0.0) return 1.0;
+    const double w = pi / (2.0 * width);
+    return w * w / (w * w + 4.0 * rho * rho);
+}
+
+double hold(double rho, const EyeMotion& motion) {
+    const auto eye = [&](double v) { return motion.persistence * (0.001648 * v + 0.079818); };
+    return blur_transfer(rho, motion.persistence * motion.tracked / motion.frame_rate) *
+           blur_transfer(rho, eye(motion.tracked)) / blur_transfer(rho, eye(0.0));
+}
+
+constexpr PublishedCastle castle_rows[] = {
+    {0, {12.5306, 25.0311, 51.4673, 104.9921, 134.2779, 98.5628, 38.1997}},
+    {0.15, {12.5162, 24.9592, 51.0977, 103.1121, 128.4570, 88.8558, 31.0812}},
+    {1, {12.4153, 24.5561, 49.2684, 92.8022, 98.8221, 49.2230, 10.2200}},
+    {5, {15.2119, 36.5246, 72.3910, 76.4278, 26.0463, 1.8460, 0.0128}},
+    {20, {55.5783, 77.6964, 38.2112, 4.1075, 0.0483, 0.0000, 0.0000}},
+};
+
+}  // namespace
+
+double written_retinal_velocity(double v, double s) {
+    return std::max(std::abs(v - std::min(s * v + 0.15, 80.0)), 0.15);
+}
+
+double written_tracked_velocity(double v, double s) {
+    return std::min(s * v, 80.0);
+}
+
+double written_thesis_sensitivity(double rho, double v) {
+    constexpr double c0 = 1.14, c1 = 0.67, c2 = 1.7;
+    v = std::max(v, 0.15);
+    return kelly_gain(v, c2) * c0 * c2 * v * square(2.0 * pi * rho * c1) *
+           std::exp(-4.0 * pi * c1 * rho * (c2 * v + 2.0) / 45.9);
+}
+
+double written_laird_sensitivity(double rho, double v) {
+    constexpr double c0 = 0.6329, c1 = 0.8404, c2 = 0.7986;
+    v = std::max(v, 0.3);
+    return kelly_gain(v, c2) * c0 * c1 * c2 * v * square(2.0 * pi * rho * c1) *
+           std::exp(-4.0 * pi * c1 * rho * (c2 * v + 2.0) / 45.9);
+}
+
+double written_castle_sensitivity(double rho, double omega, double luminance) {
+    const double peak = std::max(0.0, 2.41482 * std::log10(luminance) + 4.7036);
+    const double away = std::pow(omega, 0.1898) - std::pow(peak, 0.1898);
+    return std::exp(-std::pow(omega, 1.3314) / 10.5795) * sustained(rho, luminance) +
+           std::exp(-away * away / 0.0844836) * transient(rho, luminance);
+}
+
+double written_castle_peak(double luminance) {
+    // Above the parabola's peak, d log S / d log rho falls from above 0 without end.
+    const double start = sustained_peak_frequency(luminance);
+    const auto slope = [&](double rho) {
+        const double q = square(rho / sustained_corner);
+        const double area = critical_area(rho, sustained_area, sustained_corner);
+        return 1.0 - 2.0 * std::log10(rho / start) / std::pow(2.0, sustained_width) - q / (1.0 + q) / (1.0 + area);
+    };
+    double low = std::log(start), high = std::log(100.0 * start);
+    for (int i = 0; i < 40; ++i) {
+        const double middle = 0.5 * (low + high);
+        (slope(std::exp(middle)) > 0.0 ? low : high) = middle;
+    }
+    return sustained(std::exp(low), luminance);
+}
+
+double written_elevation(Vision vision, double rho, const EyeMotion& motion) {
+    if (vision == Vision::thesis) {
+        return kelly_elevation(rho, std::max(motion.retinal, 0.15), 0.67, 1.7, written_thesis_sensitivity);
+    }
+    if (vision == Vision::laird) {
+        return kelly_elevation(rho, std::max(motion.retinal, 0.3), 0.8404, 0.7986, written_laird_sensitivity);
+    }
+    const double seen = written_castle_sensitivity(rho, rho * motion.retinal, motion.luminance) * hold(rho, motion);
+    return std::max(1.0, written_castle_peak(motion.luminance) / std::max(1.0, seen));
+}
+
+std::span<const PublishedCastle> published_castle() {
+    return castle_rows;
+}
+
+}  // namespace aleph

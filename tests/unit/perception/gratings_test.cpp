@@ -1,0 +1,164 @@
+// The vision model on moving gratings, whose bands have a closed form, and known answers of the models themselves.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "perception/castle.h"
+#include "perception/castle_row.h"
+#include "perception/sensitivity.h"
+#include "scenes/studies/grating_run.h"
+#include "scenes/studies/vision_formulas.h"
+#include "scenes/studies/vision_maps.h"
+#include "tests/support/numbers.h"
+#include "tests/support/perception_reference.h"
+
+namespace aleph {
+namespace {
+
+constexpr double density = 31.0;  // pixels per degree
+constexpr double velocities[] = {0.15, 1, 5, 20, 80};
+
+struct Light {
+    double mean, contrast;
+};
+constexpr Light lights[] = {{0.5, 0.8}, {0.02, 0.5}};
+
+/// A range of frequencies, cycles per degree, and what the map may differ by without castle, relative.
+struct Frequencies {
+    double highest, lowest, tolerance;
+};
+// The picture is in float. Its rounding, 6e-8 of the mean, falls into the finest band, whose f is up to 250. A grating
+// of low frequency has next to nothing of its own there, and aleph is near 1: the error is 250 * 6e-8 over contrast
+// times the sum of the bands, at least .1: 3e-4 for a contrast of .5.
+constexpr Frequencies frequencies[] = {{16.0, 1.0, 1e-4}, {0.5, 0.25, 3e-4}};
+
+/// Every frequency of a range, and every velocity.
+GratingErrors run_gratings(const Light& light, const Frequencies& range, Vision vision, Guide guide, Bands bands) {
+    GratingErrors errors;
+    for (double rho = range.highest; rho >= range.lowest; rho *= 0.5) {
+        for (const double velocity : velocities) {
+            const Grating grating{nearest_half_cycles(rho, density), light.mean, light.contrast};
+            errors.merge(run_grating({.grating = grating,
+                                      .velocity = velocity,
+                                      .perception = {.guide = guide, .vision = vision, .bands = bands}},
+                                     17));
+        }
+    }
+    return errors;
+}
+
+TEST(Gratings, ClosedFormOfTheBandsAgreesWithASlowPyramid) {
+    for (const int half_cycles : {17, 132, 529, 1024}) {
+        const Grating grating{.half_cycles = half_cycles};
+        DoubleImage picture(Grating::width, 1);
+        for (int x = 0; x < Grating::width; ++x) picture(x, 0) = std::cos(grating.angular() * x);
+        const auto pyramid = reference_pyramid(picture, band_count + 1);
+        for (int level = 0; level <= band_count; ++level) {
+            const DoubleImage full = reference_full_size(pyramid, level);
+            for (int x = 0; x < Grating::width; ++x) {
+                ASSERT_NEAR(expanded_level(level, grating.angular(), x), full(x, 0), 1e-12)
+                    << half_cycles << " half cycles, level " << level << ", pixel " << x;
+            }
+        }
+    }
+}
+
+/// Calls check(errors, range) for every light, range of frequencies, guide and set of bands.
+template <class Check>
+void for_each_map(Vision vision, const Check& check) {
+    for (const Light& light : lights) {
+        for (const Frequencies& range : frequencies) {
+            for (const Guide guide : {Guide::spatial, Guide::full}) {
+                for (const Bands bands : {Bands::printed, Bands::measured}) {
+                    const GratingErrors errors = run_gratings(light, range, vision, guide, bands);
+                    EXPECT_LT(errors.response, 2e-5);
+                    EXPECT_GT(errors.compared, 5 * errors.left_out);
+                    if (guide == Guide::full) {
+                        EXPECT_GT(errors.aleph_highest, 3.0);  // the answers are not all 1
+                    }
+                    check(errors, range);
+                }
+            }
+        }
+    }
+}
+
+TEST(Gratings, MapsOfThesisAndLairdAreTheKnownAnswer) {
+    for (const Vision vision : {Vision::thesis, Vision::laird}) {
+        for_each_map(vision, [](const GratingErrors& errors, const Frequencies& range) {
+            EXPECT_LT(errors.aleph_written, range.tolerance);
+            EXPECT_LT(errors.aleph_scalar, range.tolerance);
+        });
+    }
+}
+
+// Rows of castle interpolate a table over luminance: castle_row.h promises 2e-3, gratings find 2.7e-4.
+TEST(Gratings, MapsOfCastleAreTheKnownAnswer) {
+    for_each_map(Vision::castle, [](const GratingErrors& errors, const Frequencies&) {
+        EXPECT_LT(errors.aleph_written, 5e-4);
+        EXPECT_LT(errors.aleph_scalar, 5e-4);
+        EXPECT_LT(errors.adaptation, 1e-6);
+    });
+}
+
+TEST(Gratings, ScalarModelsAreTheWrittenFormulas) {
+    const FrameRate frame_rate{};
+    for (double rho = 16.0; rho >= 0.25; rho *= 0.5) {
+        for (double v = 0.1; v < 200.0; v *= 1.3) {
+            const EyeMotion motion{.retinal = retinal_velocity(v, 0.82), .tracked = tracked_velocity(v, 0.82)};
+            const double thesis = written_elevation(Vision::thesis, rho, motion);
+            const double laird = written_elevation(Vision::laird, rho, motion);
+            EXPECT_NEAR(elevation(rho, motion.retinal) / thesis, 1.0, 1e-12) << rho << " " << v;
+            EXPECT_NEAR(elevation(rho, motion.retinal, laird_2006) / laird, 1.0, 1e-12) << rho << " " << v;
+            for (const double luminance : {0.05, 1.0, 100.0, 2000.0}) {
+                EyeMotion lit = motion;
+                lit.luminance = luminance;
+                const double castle = castle_elevation(rho, lit.retinal, lit.tracked, luminance, 1.0, frame_rate);
+                EXPECT_NEAR(castle / written_elevation(Vision::castle, rho, lit), 1.0, 1e-9) << rho << " " << v;
+            }
+        }
+    }
+}
+
+TEST(Gratings, WrittenCastleGivesThePublishedSensitivity) {
+    for (const PublishedCastle& row : published_castle()) {
+        for (int i = 0; i < 7; ++i) {
+            const double rho = std::ldexp(0.25, i);
+            const double written = written_castle_sensitivity(rho, rho * row.velocity, 100.0);
+            EXPECT_NEAR(written, row.sensitivity[i], 0.50001e-4) << row.velocity << " deg/s, " << rho;
+        }
+    }
+}
+
+TEST(Gratings, PeakFrequencyFallsAsOneOverVelocityPlusTwoOverC2) {
+    for (const KellyModel& model : {daly_1998, laird_2006}) {
+        const double product = csf_rho_numerator / (2.0 * pi * model.c1 * model.c2);
+        for (double v = 0.3; v < 1e3; v *= 1.4) {
+            EXPECT_NEAR(csf_peak_frequency(v, model) * (v + 2.0 / model.c2) / product, 1.0, 1e-12) << v;
+        }
+    }
+}
+
+TEST(Gratings, LairdPeaksWhereItsConstantsSay) {
+    // 45.9 / (.7986 * .3 + 2) / (2 pi .8404) cycles per degree, and the printed formula there.
+    EXPECT_NEAR(csf_peak_frequency(0.15, laird_2006), 3.88133, 1e-5);
+    const double peak = csf_peak_frequency(0.3, laird_2006);
+    EXPECT_NEAR(csf_max(0.15, laird_2006) / written_laird_sensitivity(peak, 0.3), 1.0, 1e-12);
+    EXPECT_GT(csf_max(0.3, laird_2006), written_laird_sensitivity(1.001 * peak, 0.3));
+    EXPECT_GT(csf_max(0.3, laird_2006), written_laird_sensitivity(0.999 * peak, 0.3));
+}
+
+TEST(VisionMaps, RankCorrelationAndQuantilesOfKnownValues) {
+    EXPECT_DOUBLE_EQ(rank_correlation({1, 5, 9}, {2, 20, 200}), 1.0);
+    EXPECT_DOUBLE_EQ(rank_correlation({1, 5, 9}, {3, 2, 1}), -1.0);
+    EXPECT_DOUBLE_EQ(rank_correlation({1, 2, 2, 3}, {1, 3, 2, 4}), 4.5 / std::sqrt(4.5 * 5.0));  // with a tie
+    EXPECT_EQ(rank_correlation({1, 1, 1}, {1, 2, 3}), 0.0);
+    EXPECT_EQ(quantile({5, 1, 3, 2, 4}, 0.5), 3.0);
+    EXPECT_EQ(quantile({5, 1, 3, 2, 4}, 0.0), 1.0);
+    EXPECT_EQ(quantile({5, 1, 3, 2, 4}, 1.0), 5.0);
+}
+
+}  // namespace
+}  // namespace aleph
