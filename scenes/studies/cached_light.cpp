@@ -92,7 +92,8 @@ void gather_late(const IrradianceCache& cache, const IndirectContext& context, c
 
 }  // namespace
 
-CachedLight compute_cached_light(const StudyFrame& frame, const RenderSettings& settings, const Image<float>& alpha) {
+CachedLight compute_cached_light(const StudyFrame& frame, const RenderSettings& settings, const Image<float>& alpha,
+                                 bool smooth) {
     const LightingContext lighting = frame.lighting();
     DirectGrid direct(scene_radius(frame.shading));
     const IndirectContext context{.lighting = lighting,
@@ -109,7 +110,7 @@ CachedLight compute_cached_light(const StudyFrame& frame, const RenderSettings& 
     FrameTally tally{Image<float>(alpha.width, alpha.height), Image<float>(alpha.width, alpha.height), {}};
     double start = processor_seconds();
     fill_cache(cache, context, frame.centers, tally);
-    cache.finish();
+    if (smooth) cache.finish();
     out.fill_seconds = processor_seconds() - start;
     out.records = std::move(tally.records);
     out.record_count = tally.counts.records;

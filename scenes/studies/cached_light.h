@@ -25,6 +25,8 @@ struct CachedLight {
 
 /// Fills a cache and reads it at every pixel centre, as a frame with one sample per pixel does.
 /// @param alpha  accuracy of every pixel
-CachedLight compute_cached_light(const StudyFrame& frame, const RenderSettings& settings, const Image<float>& alpha);
+/// @param smooth  whether records near each other are averaged at the end, as for a frame
+CachedLight compute_cached_light(const StudyFrame& frame, const RenderSettings& settings, const Image<float>& alpha,
+                                 bool smooth = true);
 
 }  // namespace aleph
