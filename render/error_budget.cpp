@@ -59,4 +59,16 @@ Image<float> compute_sampling_tolerance(const VisibleLimits& limits, const Rende
     return tolerance;
 }
 
+SamplingPlan make_sampling_plan(const VisibleLimits* limits, const RenderSettings& settings, double exposure) {
+    SamplingPlan plan;
+    plan.rule = settings.sampling;
+    plan.test = settings.variance_test;
+    plan.most = settings.spp;
+    if (limits == nullptr) return plan;
+    plan.tolerance = compute_sampling_tolerance(*limits, settings, exposure);
+    plan.aleph = limits->aleph;
+    plan.outlines = limits->outlines;
+    return plan;
+}
+
 }  // namespace aleph

@@ -5,6 +5,7 @@
 
 #include "engine/base/viewing.h"
 #include "render/outlines.h"
+#include "render/progressive.h"
 #include "render/sample_shading.h"
 #include "render/settings.h"
 #include "render/stopping_rule.h"
@@ -40,5 +41,8 @@ std::optional<SystematicTolerance> compute_systematic_tolerance(const VisibleLim
 /// threshold of the nine around it.
 /// @return empty for rules that need none
 Image<float> compute_sampling_tolerance(const VisibleLimits& limits, const RenderSettings& settings, double exposure);
+
+/// @param limits  null: not known, which Sampling::uniform alone allows
+SamplingPlan make_sampling_plan(const VisibleLimits* limits, const RenderSettings& settings, double exposure);
 
 }  // namespace aleph

@@ -45,7 +45,6 @@ class FrameShading {
         if (options.record_maps && !by_paths_) uses_ = Image<RecordUse>(context_.view.width, context_.view.height);
         const bool as_centers = !options.at_sample && !options.blended && !(options.lens.radius > 0.0);
         if (place_.centered && as_centers) first_ = &centers;
-        if (options.part != nullptr && first_ != nullptr) leave_part();
     }
 
     /// Of pixel samples, the first alone: where others need light beside them, they get it before they are added.
@@ -55,8 +54,8 @@ class FrameShading {
         if (first_ == nullptr) {
             cast_first_ = cast_sample(context_.lighting.rays, context_.view, place_, &out_.counts.rays.primary);
             first_ = &cast_first_;
-            if (options_.part != nullptr) leave_part();
         }
+        if (options_.part != nullptr) leave_part();
         if (options_.risk != nullptr) context_.carried = &checked_.emplace(context_, *options_.risk, *first_);
         fill_fewer_bounces(*first_);
         if (checked_) checked_->check(cache_, context_, out_);
@@ -68,27 +67,14 @@ class FrameShading {
 
     void shade(double exposure) {
         const RenderSettings& settings = context_.settings;
-        SamplingPlan plan;
-        plan.rule = settings.sampling;
-        plan.test = settings.variance_test;
-        plan.most = settings.spp;
+        SamplingPlan plan = make_sampling_plan(options_.limits, settings, exposure);
         plan.part = options_.part;
-        if (options_.limits != nullptr) {
-            plan.tolerance = compute_sampling_tolerance(*options_.limits, settings, exposure);
-            plan.aleph = options_.limits->aleph;
-            plan.outlines = options_.limits->outlines;
-            systematic_ = compute_systematic_tolerance(*options_.limits, settings, exposure);
-        }
+        if (options_.limits) systematic_ = compute_systematic_tolerance(*options_.limits, settings, exposure);
         sample_by_stages(plan, pixels_, [&](std::span<const PixelRange> ranges) { take(ranges); });
     }
 
-    void count_samples() {
-        for (const PixelSamples& pixel : pixels_.pixels) {
-            out_.counts.samples += static_cast<std::uint64_t>(pixel.taken());
-        }
-    }
-
     void resolve(double exposure) {
+        if (options_.part != nullptr) return count_samples(pixels_, out_);
         const bool with_variance = context_.settings.integrator == Integrator::path && context_.settings.spp > 1;
         resolve_pixels(pixels_, exposure, !by_paths_, with_variance, out_);
         if (!uses_.empty()) resolve_uses(uses_, pixels_, out_);
@@ -96,12 +82,9 @@ class FrameShading {
     }
 
   private:
-    /// First samples of other pixels count as misses, so that no light is computed for them.
     void leave_part() {
         if (first_ != &cast_first_) cast_first_ = *first_;
-        for (std::size_t i = 0; i < cast_first_.hits.pixels.size(); ++i) {
-            if (options_.part->pixels[i] == 0) cast_first_.hits.pixels[i].instance = no_index;
-        }
+        forget_others(*options_.part, cast_first_.hits);
         first_ = &cast_first_;
     }
 
@@ -308,11 +291,7 @@ ShadedFrame shade_frame(const IndirectContext& context, const SampleHits& center
     clock.add_to(out.fill_seconds);
     if (options.light_only) return out;
     shading.shade(exposure);
-    if (options.part == nullptr) {
-        shading.resolve(exposure);
-    } else {
-        shading.count_samples();
-    }
+    shading.resolve(exposure);
     clock.add_to(out.shade_seconds);
     return out;
 }

@@ -23,4 +23,10 @@ double find_share(const PicturePart& part) {
     return static_cast<double>(pixels) / static_cast<double>(part.size());
 }
 
+void forget_others(const PicturePart& part, Image<Hit>& hits) {
+    for (std::size_t i = 0; i < hits.size(); ++i) {
+        if (part.pixels[i] == 0) hits.pixels[i].instance = no_index;
+    }
+}
+
 }  // namespace aleph

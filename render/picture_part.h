@@ -4,6 +4,7 @@
 #include <cstdint>
 
 #include "engine/base/image.h"
+#include "engine/rays/hit.h"
 
 namespace aleph {
 
@@ -16,5 +17,8 @@ PicturePart choose_part(int width, int height, int every, int block);
 
 /// Its share of all pixels, 0 to 1.
 double find_share(const PicturePart& part);
+
+/// Hits of other pixels become misses, so that no light is computed for them.
+void forget_others(const PicturePart& part, Image<Hit>& hits);
 
 }  // namespace aleph

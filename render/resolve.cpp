@@ -21,6 +21,10 @@ void resolve_pixels(const Image<PixelSamples>& pixels, double exposure, bool wit
     }
 }
 
+void count_samples(const Image<PixelSamples>& pixels, ShadedFrame& out) {
+    for (const PixelSamples& pixel : pixels.pixels) out.counts.samples += static_cast<std::uint64_t>(pixel.taken());
+}
+
 void resolve_uses(const Image<RecordUse>& uses, const Image<PixelSamples>& pixels, ShadedFrame& out) {
     out.cache_count = out.cache_radius = Image<float>(uses.width, uses.height);
     for (std::size_t p = 0; p < uses.size(); ++p) {

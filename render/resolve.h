@@ -14,6 +14,9 @@ namespace aleph {
 void resolve_pixels(const Image<PixelSamples>& pixels, double exposure, bool with_indirect, bool with_variance,
                     ShadedFrame& out);
 
+/// Only the number of samples, for a picture that nobody sees.
+void count_samples(const Image<PixelSamples>& pixels, ShadedFrame& out);
+
 /// Fills the images of the records that were used.
 void resolve_uses(const Image<RecordUse>& uses, const Image<PixelSamples>& pixels, ShadedFrame& out);
 
