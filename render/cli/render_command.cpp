@@ -18,6 +18,7 @@ void render_within(const std::string& budget, const SceneOptions& options, const
     refuse_beside_budget(options, cache);
     PreparedScene prepared = prepare_scene(options);
     prepare_frames_output(prepared, options, request);
+    if (!options.quiet) std::cerr << "aleph: measuring parts of frames, to choose the error\n";
     {
         const ThreadLimit limit(options.threads);
         StageClock since = chosen.clock;
