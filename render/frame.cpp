@@ -21,7 +21,7 @@ namespace {
 
 constexpr double fill_share = 0.3;            // of a frame's time, for progress only
 constexpr std::size_t task_ranges = 64;       // pixels of a task
-constexpr int progressive_light_samples = 2;  // of direct light, per pixel sample
+constexpr int progressive_light_samples = 4;  // of direct light, per pixel sample
 constexpr int slice_samples = 1 << 17;        // that may wait for light at a time: more only for the sake of threads
 constexpr std::size_t slice_ranges = 64 * task_ranges;
 
