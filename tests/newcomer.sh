@@ -164,6 +164,7 @@ answers 2 '-1: expected 0' aleph study first.json "${study[@]}" --sweep spp=1,2 
 answers 0 'spp=2' aleph study first.json "${study[@]}" --sweep spp=1,2 -o swept
 is [ "$(wc -l <swept/study.csv)" = 3 ]
 is grep -q '"share_beyond"' swept/study.json
+is grep -q '"file": "runs/' swept/study.json
 answers 2 'no variant is called nope' aleph study first.json "${study[@]}" --sweep spp=1,2 -o swept --errors nope
 answers 0 'errors.jpg' aleph study first.json "${study[@]}" --sweep spp=1,2 -o swept --errors spp=2
 is [ -s swept/errors.jpg ]

@@ -143,7 +143,7 @@ int run(const StudyCommandOptions& options, const std::string& command_line) {
             run_study(prepared, folder, [&](double share, const std::string& what) { progress.update(share, what); });
     }
     print_study(prepared, results, options.markdown, std::cout);
-    const StudyContext context{command_line, study_date(), thread_count()};
+    const StudyContext context{command_line, study_date(), thread_count(), folder};
     write_study(prepared, results, context, folder, options.viewer_test, options.errors, options.quiet);
     return exit_done;
 }

@@ -1,6 +1,7 @@
 #pragma once
 // The results of a study as files: JSON and CSV.
 
+#include <filesystem>
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 
@@ -13,6 +14,7 @@ struct StudyContext {
     std::string command;  ///< of the user
     std::string date;     ///< "2026-01-31T12:00:00Z" (study_date)
     int threads = 1;
+    std::filesystem::path folder;  ///< of the files; those of pictures are told relative to it
 };
 
 /// Now, or SOURCE_DATE_EPOCH where the environment has it.

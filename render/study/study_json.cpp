@@ -18,6 +18,7 @@ namespace aleph {
 namespace {
 
 using Json = nlohmann::ordered_json;
+namespace fs = std::filesystem;
 
 /// null where a value is not finite: JSON has no such numbers.
 Json number_json(double value) {
@@ -51,7 +52,7 @@ Json parts_json(const std::vector<std::pair<std::string, double>>& parts, const 
     return json;
 }
 
-Json variant_json(const VariantResult& variant, const std::vector<Metric>& metrics) {
+Json variant_json(const VariantResult& variant, const std::vector<Metric>& metrics, const fs::path& folder) {
     Json json{{"id", variant.name},
               {"settings", settings_json(variant.settings)},
               {"metrics", values_json(variant.metrics, metrics)},
@@ -64,7 +65,7 @@ Json variant_json(const VariantResult& variant, const std::vector<Metric>& metri
                                   {"stages", parts_json(frame.stages, "stage", "seconds")},
                                   {"rays", parts_json(frame.rays, "kind", "count")},
                                   {"plan", Json::parse(frame.plan)},
-                                  {"file", frame.picture}});
+                                  {"file", fs::path(frame.picture).lexically_proximate(folder).generic_string()}});
     }
     return json;
 }
@@ -98,12 +99,12 @@ Json metric_json(const Metric& metric) {
             {"cost", metric.cost}};
 }
 
-Json frames_json(const StudyResults& results) {
+Json frames_json(const StudyResults& results, const fs::path& folder) {
     Json json = Json::array();
     for (const JudgingFrame& frame : results.frames) {
         json.push_back({{"scene", frame.scene},
                         {"frame", frame.frame},
-                        {"reference", frame.reference.string()},
+                        {"reference", frame.reference.lexically_proximate(folder).generic_string()},
                         {"reference_share_beyond_by_noise", number_json(frame.quality.share_by_noise)},
                         {"reference_noise_p99", number_json(frame.quality.percentile_99)}});
     }
@@ -148,7 +149,7 @@ Json study_json(const PreparedStudy& prepared, const StudyResults& results, cons
     const RenderSettings base = with_settings_of(prepared.scenes.front(), study, {}).settings;
     json["width"] = base.width;
     json["height"] = base.height;
-    json["frames"] = frames_json(results);
+    json["frames"] = frames_json(results, context.folder);
     json["reference"] = {{"kind", study.reference.kind},
                          {"passes", study.reference.passes},
                          {"spp", study.reference.spp},
@@ -167,7 +168,7 @@ Json study_json(const PreparedStudy& prepared, const StudyResults& results, cons
     for (const Metric& metric : prepared.metrics) json["metrics"].push_back(metric_json(metric));
     json["variants"] = Json::array();
     for (const VariantResult& variant : results.variants)
-        json["variants"].push_back(variant_json(variant, prepared.metrics));
+        json["variants"].push_back(variant_json(variant, prepared.metrics, context.folder));
     return json;
 }
 
