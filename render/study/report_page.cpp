@@ -88,6 +88,7 @@ class ReportWriter {
     bool several() const { return scenes_.size() > 1; }
 
     void label_frames() {
+        if (scenes_.size() == 1) json_["scene"] = *scenes_.begin();
         json_["frames"] = Json::array();
         for (const JudgingFrame& frame : results_.frames)
             json_["frames"].push_back(frame_label(frame.scene, frame.frame, several()));

@@ -4,6 +4,8 @@ import { number, settingText } from './format.js';
 
 const line = parts => parts.filter(part => part !== undefined && part !== null && part !== '').join(', ');
 
+const counted = (count, one, many = `${one}s`) => `${count} ${count === 1 ? one : many}`;
+
 /** @param {object} study */
 export function showHead(study) {
   document.title = study.title ?? 'Study';
@@ -12,9 +14,9 @@ export function showHead(study) {
   const host = study.host ?? {};
   const build = study.build ?? {};
   const facts = [
-    ['Scene', line([study.scene, study.frames.length > 0 && `frames ${study.frames.join(', ')}`, `${study.width} × ${study.height} pixels`])],
-    ['Reference', study.reference && line([study.reference.kind, study.reference.passes && `${study.reference.passes} passes`])],
-    ['Machine', line([host.processor ?? host.name, host.threads && `${host.threads} threads`])],
+    ['Scene', line([study.scene, study.frames.length > 0 && `${study.frames.length === 1 ? 'frame' : 'frames'} ${study.frames.join(', ')}`, `${study.width} × ${study.height} pixels`])],
+    ['Reference', study.reference && line([study.reference.kind, study.reference.passes && counted(study.reference.passes, 'pass', 'passes')])],
+    ['Machine', line([host.processor ?? host.name, host.threads && counted(host.threads, 'thread')])],
     ['Build', line([build.version, build.type, build.instructions])],
     ['Made', study.date && dateText(study.date)],
   ].filter(([, text]) => text);
@@ -27,7 +29,7 @@ export function showHead(study) {
     ['Display', study.display_white && line([`white is ${number(study.display_white)} cd/m²`,
       study.exposure && `radiance is multiplied by ${number(study.exposure)}`])],
     ['Settings varied', study.axes.map(axis => `${axis.setting}: ${axis.values.map(settingText).join(', ')}`).join('; ')],
-    ['Host', line([host.name, host.processor, host.threads && `${host.threads} threads`, host.memory_mib && `${number(host.memory_mib)} MiB`])],
+    ['Host', line([host.name, host.processor, host.threads && counted(host.threads, 'thread'), host.memory_mib && `${number(host.memory_mib)} MiB`])],
     ['Compiler', build.compiler],
   ].filter(([, value]) => value);
   fill(byId('details-body'), make('dl', { class: 'facts details' }, ...details.map(fact)));

@@ -63,6 +63,7 @@ describe('the page', () => {
     const page = await openPage({}, { study: bare, layers: [] });
     for (const part of ['pictures', 'pixel', 'effort', 'plan']) assert.equal(await page.$eval(`#${part}`, node => node.hidden), true, part);
     assert.deepEqual(await selectedRows(page), ['only']);
+    assert.match(await page.$eval('#facts', node => node.textContent), /frame 1, 8 × 8 pixels/);
   });
 
   it('says so where it has no data, or data of another version', async () => {

@@ -139,6 +139,7 @@ TEST(ReportPage, HoldsPicturesAndMaps) {
     const Json data = data_of(page);
     EXPECT_EQ(data["title"], "</script><b>") << "a text does not end the script";
     EXPECT_EQ(data["frames"], Json::array({7}));
+    EXPECT_EQ(data["scene"], "noise");
     EXPECT_EQ(data["layers_left_out"], 0);
     EXPECT_EQ(data["pictures"][0]["maps"]["threshold.Y"]["channels"], 1);
     const Json picture = data["variants"][1]["frames"][0]["picture"];
@@ -172,6 +173,7 @@ TEST(ReportPage, SeveralScenesHaveNamedFrames) {
     draft.results.frames[1].scene = "other";
     const Json data = data_of(make_report(page_draft, draft.json, draft.results));
     EXPECT_EQ(data["frames"], Json::array({"noise 7", "other 7"}));
+    EXPECT_FALSE(data.contains("scene")) << "the frames name theirs";
     EXPECT_EQ(data["variants"][0]["frames"][0]["frame"], "noise 7");
 }
 
