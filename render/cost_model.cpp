@@ -75,8 +75,7 @@ void check(const PilotSeconds& pilot, double error) {
 // build/study_cost scenes/cornell/scene.json@15 scenes/pool/scene.json@20 scenes/boomerang/scene.json@45 --size 320x240
 // -t 1
 CostCoefficients fitted_coefficients() {
-    return {
-        .shade = 0.88, .overlap = 1.7, .fill = 0.12, .moments = 0.72, .shade_exponent = 1.85, .light_exponent = 2.2};
+    return {.shade = 0.94, .overlap = 1.7, .fill = 0.18, .moments = 0.64, .shade_exponent = 1.9, .light_exponent = 2.2};
 }
 
 CostParts predict_seconds(const PilotSeconds& pilot, const CostRatios& ratios, const CostCoefficients& coefficients,

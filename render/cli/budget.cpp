@@ -14,7 +14,7 @@ namespace aleph {
 
 namespace {
 
-constexpr double pilot_errors[] = {most_budget_error, 4.0, 2.0, 1.0, 0.5, 0.25, least_budget_error};
+constexpr double pilot_errors[] = {most_budget_error, 2.0, 1.0, 0.5, 0.25, least_budget_error};
 constexpr double pilot_share = 0.15;  // of the budget
 
 }  // namespace

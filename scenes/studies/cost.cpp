@@ -22,7 +22,7 @@ namespace {
 
 struct CostOptions {
     StudyOptions study{.size = "320x240", .gather = 0, .spp = 0, .threads = 1};
-    std::vector<std::string> fit, check, sets, errors = {"10", "4", "2", "1", ".5"};
+    std::vector<std::string> fit, check, sets, errors = {"10", "2", "1", ".5"};
     bool markdown = false;
 };
 
