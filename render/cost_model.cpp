@@ -72,8 +72,8 @@ void check(const PilotSeconds& pilot, double error) {
 
 }  // namespace
 
-// build/study_cost scenes/cornell/scene.json@15 scenes/pool/scene.json@20 scenes/boomerang/scene.json@45 --size 320x240
-// -t 1
+// Means of four fits: build/study_cost scenes/cornell/scene.json@15 scenes/pool/scene.json@20
+// scenes/boomerang/scene.json@45 --size 320x240 -t 1
 CostCoefficients fitted_coefficients() {
     return {.shade = 0.94, .overlap = 1.7, .fill = 0.18, .moments = 0.64, .shade_exponent = 1.9, .light_exponent = 2.2};
 }
