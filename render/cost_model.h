@@ -3,10 +3,9 @@
 //
 // Three things are measured:
 // - the stages before light and samples, for whole frames: they do not depend on the error;
-// - a part of the pixels, spread over the picture, at several errors: their samples, and their light without that of
-// key
+// - a part of the pixels, spread over the picture, at several errors: their samples, and their light without key
 //   moments. The picture has its own resolution, because a small picture asks for other samples: more of its pixels
-//   show several things, and contrasts of other sizes;
+//   show several things, and its contrasts have other sizes;
 // - light in two small pictures at the largest error. What this costs grows as a power of the number of pixels.
 // At smaller errors the seconds of light grow by what those of the part do.
 

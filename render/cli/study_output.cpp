@@ -123,7 +123,7 @@ void write_study(const PreparedStudy& prepared, const StudyResults& results, con
         write_file(folder / "viewer-test.html", make_viewer_test(viewer_template(), prepared, results, context));
         files += ", viewer-test.html";
     }
-    const bool plotted = draw_plot(folder / "study.png", prepared, results);
+    const bool plotted = draw_with_gnuplot(folder / "study.png", plot_program(prepared, results));
     if (plotted) files += ", study.png";
     if (!errors.empty()) {
         write_error_sheet(folder / "errors.jpg", prepared, results, errors);

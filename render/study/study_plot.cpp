@@ -99,10 +99,10 @@ std::string plot_program(const PreparedStudy& prepared, const StudyResults& resu
     return text + "\n";
 }
 
-bool draw_plot(const std::filesystem::path& png, const PreparedStudy& prepared, const StudyResults& results) {
+bool draw_with_gnuplot(const std::filesystem::path& png, const std::string& program) {
     if (!find_program("gnuplot")) return false;
     const TemporaryFolder folder;
-    if (run_program_in(folder.path(), {"gnuplot", "-"}, plot_program(prepared, results)).code != 0) return false;
+    if (run_program_in(folder.path(), {"gnuplot", "-"}, program).code != 0) return false;
     const std::filesystem::path drawn = folder.path() / "plot.png";
     if (!std::filesystem::is_regular_file(drawn)) return false;
     write_atomically(png, [&](const std::filesystem::path& temporary) {

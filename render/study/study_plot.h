@@ -13,9 +13,10 @@ namespace aleph {
 /// error of 0 stands at the lower edge.
 std::string plot_program(const PreparedStudy& prepared, const StudyResults& results);
 
-/// Draws it.
+/// Runs gnuplot.
+/// @param program  whose output is "plot.png"
 /// @return false if gnuplot is not installed, or failed
 /// @throws OutputError
-bool draw_plot(const std::filesystem::path& png, const PreparedStudy& prepared, const StudyResults& results);
+bool draw_with_gnuplot(const std::filesystem::path& png, const std::string& program);
 
 }  // namespace aleph

@@ -4,10 +4,8 @@
 
 #include <cmath>
 
-#include "engine/base/atomic_file.h"
 #include "perception/castle_row.h"
 #include "perception/sensitivity.h"
-#include "render/study/other_program.h"
 
 namespace aleph {
 
@@ -23,7 +21,7 @@ std::string elevation_chart_program() {
     constexpr double slowest = 0.1, fastest = 100.0;  // deg/s
     constexpr int steps = 200;
     std::string text =
-        "set terminal pngcairo size 1000,380 font \"DejaVu Sans,10\"\nset output \"chart.png\"\nset encoding utf8\n"
+        "set terminal pngcairo size 1000,380 font \"DejaVu Sans,10\"\nset output \"plot.png\"\nset encoding utf8\n"
         "set logscale xy\nset grid\nset xrange [0.1:100]\nset yrange [1:300]\nset xlabel \"image velocity, deg/s\"\n"
         "set ylabel \"elevation f\"\nset key top left\nset multiplot layout 1,3\n";
     for (const double rho : {16.0, 4.0, 1.0}) {
@@ -46,18 +44,6 @@ std::string elevation_chart_program() {
             name);
     }
     return text + "unset multiplot\n";
-}
-
-bool draw_elevation_chart(const std::filesystem::path& png) {
-    if (!find_program("gnuplot")) return false;
-    const TemporaryFolder folder;
-    if (run_program_in(folder.path(), {"gnuplot", "-"}, elevation_chart_program()).code != 0) return false;
-    const std::filesystem::path drawn = folder.path() / "chart.png";
-    if (!std::filesystem::is_regular_file(drawn)) return false;
-    write_atomically(png, [&](const std::filesystem::path& temporary) {
-        std::filesystem::copy_file(drawn, temporary, std::filesystem::copy_options::overwrite_existing);
-    });
-    return true;
 }
 
 }  // namespace aleph

@@ -1,7 +1,6 @@
 #pragma once
-// A chart of the elevations of the three models of vision over velocity, drawn by gnuplot where it is installed.
+// A chart of the elevations of the three models of vision over velocity.
 
-#include <filesystem>
 #include <string>
 
 #include "engine/base/frame_rate.h"
@@ -13,13 +12,9 @@ namespace aleph {
 double model_elevation(Vision vision, double rho, double retinal, double tracked, double luminance, double persistence,
                        const FrameRate& frame_rate);
 
-/// The chart as a program for gnuplot: f at 16, 4 and 1 cycles per degree over image velocity, which the eye follows
-/// with an efficiency of .82; castle at 100 cd/m2, on a display that holds its frames, 30 per second.
+/// The chart as a program for gnuplot (draw_with_gnuplot): f at 16, 4 and 1 cycles per degree over image velocity,
+/// which the eye follows with an efficiency of .82; castle at 100 cd/m2, on a display that holds its frames, 30 per
+/// second.
 std::string elevation_chart_program();
-
-/// Draws it.
-/// @return false if gnuplot is not installed, or failed
-/// @throws OutputError
-bool draw_elevation_chart(const std::filesystem::path& png);
 
 }  // namespace aleph

@@ -11,6 +11,7 @@
 #include "engine/base/errors.h"
 #include "perception/castle.h"
 #include "render/cli/options.h"
+#include "render/study/study_plot.h"
 #include "scenes/studies/elevation_chart.h"
 #include "scenes/studies/grating_run.h"
 #include "scenes/studies/study_options.h"
@@ -174,7 +175,7 @@ void run_gratings(const GratingsOptions& options) {
                      options.markdown);
     }
     if (options.picture.empty()) return;
-    if (draw_elevation_chart(options.picture)) {
+    if (draw_with_gnuplot(options.picture, elevation_chart_program())) {
         fmt::print("The chart: {}\n", options.picture);
     } else {
         fmt::print("No chart: gnuplot is not installed, or failed\n");

@@ -126,7 +126,7 @@ TEST(StudyResults, ChartsAreDrawnWhereGnuplotIs) {
         << "markup characters stand for themselves:\n"
         << program;
     const ScratchFolder folder;
-    if (!draw_plot(folder / "plot.png", draft.prepared, draft.results)) GTEST_SKIP() << "gnuplot is not installed";
+    if (!draw_with_gnuplot(folder / "plot.png", program)) GTEST_SKIP() << "gnuplot is not installed";
     EXPECT_GT(std::filesystem::file_size(folder / "plot.png"), 2000u);
 }
 
