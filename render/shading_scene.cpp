@@ -98,7 +98,7 @@ PosedInstance make_instance(const ShadingScene& shading, const RayScene& rays, i
     if (!deformed.positions.empty()) posed.deformed = &deformed;
     // Rays leave out instances without volume or with bad points, so these must not emit light or count for the scene's
     // size.
-    posed.visible = pose.shown[i] != 0 && is_traceable(world, shading.anchor) && are_traceable(deformed.positions);
+    posed.visible = pose.shown[i] != 0 && is_traceable(world) && are_traceable(deformed.positions);
     if (posed.visible) posed.rounding = abs_of(posed.linear) * abs_of(glm::mat3(glm::inverse(glm::dmat3(world))));
     return posed;
 }

@@ -42,6 +42,13 @@ golden() {
   return "$code"
 }
 
+processors() {
+  local code=0
+  bash "$here/golden/processors.sh" || code=$?
+  record "$build" processors "$code"
+  return "$code"
+}
+
 newcomer() {
   local code=0
   bash "$here/newcomer.sh" "$build/aleph" || code=$?
@@ -62,12 +69,13 @@ checked() {
 }
 
 rm -rf "$build/results" "$root/build-address/results" "$root/build-thread/results"
-# Chromium opens the page of study reports.
-needed "set-up" bash "$root/scenes/setup.sh" chromium
+# Chromium opens the page of study reports; qemu stands in for another processor.
+needed "set-up" bash "$root/scenes/setup.sh" chromium qemu-user
 needed "configure" configure
 needed "build" cmake --build "$build" --parallel "$jobs"
 checked "$build" "tests" run_tests "$build"
 checked "$build" "golden images" golden
+checked "$build" "other processors" processors
 checked "$build" "newcomer" newcomer
 if [ "${1:-}" != quick ]; then
   checked "$root/build-address" "address sanitizer" bash "$here/sanitizers.sh" address

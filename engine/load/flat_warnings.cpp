@@ -11,7 +11,7 @@
 #include "engine/base/errors.h"
 #include "engine/load/source_file.h"
 #include "engine/pose/parts.h"
-#include "engine/rays/ray_scene.h"
+#include "engine/scene/transforms.h"
 
 namespace aleph {
 
@@ -45,7 +45,7 @@ void add_flat_warnings(Scene& scene) {
     for (const std::int64_t frame : {range.first, range.first + (range.last - range.first) / 2, range.last}) {
         const ScenePose posed = place_nodes(scene, scene.frame_rate.seconds_of(frame));
         for (std::size_t n = 0; n < flat.size(); ++n)
-            flat[n] = flat[n] != 0 && !is_traceable(posed.world[n], glm::dvec3(posed.world[n][3])) &&
+            flat[n] = flat[n] != 0 && !has_full_rank(posed.world[n]) &&
                       !has_warning(scene, scene.nodes[n], posed.world[n]);
     }
     std::size_t first = 0, count = 0;

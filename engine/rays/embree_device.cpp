@@ -2,8 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <cstdlib>
 #include <new>
 #include <stdexcept>
+#include <string_view>
+
+#include "engine/base/errors.h"
 
 namespace aleph {
 namespace {
@@ -13,7 +17,19 @@ namespace {
     throw std::runtime_error(fmt::format("Embree: {} (error {})", text, static_cast<int>(code)));
 }
 
+/// Empty: what suits the processor.
+std::string read_kernels() {
+    const char* const given = std::getenv("ALEPH_ISA");
+    if (given == nullptr || *given == '\0') return "";
+    for (const std::string_view known : {"sse4.2", "avx", "avx2", "avx512"})
+        if (given == known) return fmt::format("isa={}", known);
+    throw InputError("", "environment variable ALEPH_ISA",
+                     fmt::format("\"{}\" is none of sse4.2, avx, avx2, avx512", printable(given)));
+}
+
 }  // namespace
+
+EmbreeDevice::EmbreeDevice() : EmbreeDevice(read_kernels().c_str()) {}
 
 EmbreeDevice::EmbreeDevice(const char* configuration) : device_(rtcNewDevice(configuration)) {
     if (device_ == nullptr) throw_error(rtcGetDeviceError(nullptr), "cannot start on this machine");
@@ -66,11 +82,10 @@ EmbreeGeometry EmbreeDevice::make_geometry(RTCGeometryType type) const {
     return geometry;
 }
 
-void* EmbreeDevice::make_buffer(RTCGeometry geometry, RTCBufferType type, RTCFormat format, std::size_t stride,
-                                std::size_t count) const {
-    void* const buffer = rtcSetNewGeometryBuffer(geometry, type, 0, format, stride, count);
-    if (buffer == nullptr) fail();
-    return buffer;
+EmbreeBvh EmbreeDevice::make_bvh() const {
+    EmbreeBvh bvh(rtcNewBVH(device_));
+    if (bvh == nullptr) fail();
+    return bvh;
 }
 
 }  // namespace aleph

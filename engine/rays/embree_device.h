@@ -7,7 +7,6 @@
 #include <cstddef>
 #include <memory>
 #include <mutex>
-#include <span>
 #include <string>
 
 namespace aleph {
@@ -15,15 +14,21 @@ namespace aleph {
 struct ReleaseEmbree {
     void operator()(RTCScene scene) const { rtcReleaseScene(scene); }
     void operator()(RTCGeometry geometry) const { rtcReleaseGeometry(geometry); }
+    void operator()(RTCBVH bvh) const { rtcReleaseBVH(bvh); }
 };
 using EmbreeScene = std::unique_ptr<RTCSceneTy, ReleaseEmbree>;
+using EmbreeBvh = std::unique_ptr<RTCBVHTy, ReleaseEmbree>;
 using EmbreeGeometry = std::unique_ptr<RTCGeometryTy, ReleaseEmbree>;
 
 /// Every function throws std::bad_alloc where Embree is out of memory, and std::runtime_error for its other errors.
 class EmbreeDevice {
   public:
-    /// @param configuration  Embree's, such as "isa=avx2"; null: what suits the processor
-    explicit EmbreeDevice(const char* configuration = nullptr);
+    /// With the kernels that suit the processor, or those of the environment variable ALEPH_ISA: sse4.2, avx, avx2 or
+    /// avx512. Pictures do not depend on them.
+    /// @throws InputError: ALEPH_ISA is something else
+    EmbreeDevice();
+    /// @param configuration  Embree's, such as "isa=avx2"
+    explicit EmbreeDevice(const char* configuration);
     ~EmbreeDevice();
     EmbreeDevice(const EmbreeDevice&) = delete;
     EmbreeDevice& operator=(const EmbreeDevice&) = delete;
@@ -33,11 +38,7 @@ class EmbreeDevice {
     EmbreeScene make_scene(RTCSceneFlags flags, RTCBuildQuality quality) const;
     EmbreeGeometry make_geometry(RTCGeometryType type) const;
 
-    /// A buffer that Embree allocates, with the padding that its wide loads need.
-    template <class T>
-    std::span<T> make_buffer(RTCGeometry geometry, RTCBufferType type, RTCFormat format, std::size_t count) const {
-        return {static_cast<T*>(make_buffer(geometry, type, format, sizeof(T), count)), count};
-    }
+    EmbreeBvh make_bvh() const;
 
     /// Throws the first error that Embree has reported, on any thread, since the last check. To be called after
     /// functions of Embree that return nothing, such as rtcCommitScene.
@@ -45,8 +46,6 @@ class EmbreeDevice {
 
   private:
     static void keep_error(void* self, RTCError code, const char* text);
-    void* make_buffer(RTCGeometry geometry, RTCBufferType type, RTCFormat format, std::size_t stride,
-                      std::size_t count) const;
     [[noreturn]] void fail() const;
 
     RTCDevice device_;

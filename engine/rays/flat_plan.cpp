@@ -15,8 +15,6 @@ namespace {
 constexpr double max_reach = 32.0;
 /// Rounding then changes a size by at most 6e-5, and rays start at most a thousandth of the size above the surface.
 constexpr double max_reach_in_sizes = 1024.0;
-/// Beyond, rays in the object's own space come near Embree's limits; whether they stay within depends on the anchor.
-constexpr double min_scale = 1e-6;
 /// m. Differences of such coordinates are far below max_coordinate.
 constexpr double max_place = 1e15;
 constexpr std::size_t free_triangles = std::size_t{1} << 18;
@@ -35,12 +33,6 @@ double largest(const glm::dvec3& v) {
 /// False for NaN.
 bool is_near(const glm::dvec3& p) {
     return std::abs(p.x) < max_place && std::abs(p.y) < max_place && std::abs(p.z) < max_place;
-}
-
-bool keeps_size(const glm::dmat4& world) {
-    if (!has_full_rank(world)) return false;
-    const glm::dmat3 inverse = glm::inverse(glm::dmat3(world));
-    return std::max({largest(inverse[0]), largest(inverse[1]), largest(inverse[2])}) * min_scale <= 1.0;
 }
 
 std::vector<std::uint8_t> find_still_meshes(const Scene& scene, const PosePlan& plan) {
@@ -128,7 +120,8 @@ std::vector<Candidate> find_candidates(const Scene& scene, const PosePlan& poses
     for (std::size_t i = 0; i < plan.instances.size(); ++i) {
         const Instance& instance = plan.instances[i];
         const glm::dmat4& world = plan.world[instance.node];
-        if (poses.moving[instance.node] != 0 || still[instance.mesh] == 0 || plan.shown[i] == 0 || !keeps_size(world))
+        if (poses.moving[instance.node] != 0 || still[instance.mesh] == 0 || plan.shown[i] == 0 ||
+            !has_full_rank(world))
             continue;
         Bounds& box = bounds[instance.mesh];
         if (box.empty())

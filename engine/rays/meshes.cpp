@@ -43,46 +43,39 @@ void check_mesh(const Mesh& mesh, std::size_t index) {
     }
 }
 
-/// @param places  indices into the node's meshes; they become Embree's geometry numbers
-EmbreeScene build_mesh_scene(const EmbreeDevice& device, const Scene& scene, const std::vector<int>& meshes,
-                             const std::vector<unsigned>& places,
-                             const std::vector<std::unique_ptr<const AlphaCutout>>& cutouts) {
-    EmbreeScene built = device.make_scene(RTC_SCENE_FLAG_ROBUST, RTC_BUILD_QUALITY_HIGH);
+/// @param places  indices into the node's meshes
+std::unique_ptr<TriangleTree> build_tree(const EmbreeDevice& device, const Scene& scene, const std::vector<int>& meshes,
+                                         const std::vector<unsigned>& places,
+                                         const std::vector<std::unique_ptr<const AlphaCutout>>& cutouts) {
+    std::vector<TreeMesh> parts;
     for (const unsigned place : places) {
         const Mesh& mesh = scene.meshes[meshes[place]];
-        if (mesh.triangles.empty()) continue;
-        const TriangleGeometry made =
-            make_triangle_geometry(device, mesh.positions.size(), mesh.triangles, cutouts[meshes[place]].get());
-        std::ranges::copy(mesh.positions, made.points.begin());
-        rtcCommitGeometry(made.geometry.get());
-        rtcAttachGeometryByID(built.get(), made.geometry.get(), place);
+        parts.push_back(
+            {{static_cast<int>(place), false, cutouts[meshes[place]].get()}, mesh.positions, mesh.triangles});
     }
-    rtcCommitScene(built.get());
-    device.check();
-    return built;
+    return std::make_unique<TriangleTree>(device, parts, TriangleTree::Kind::still);
 }
 
-/// The tree of all flat instances; Embree's geometry numbers are those of the instances. Null: there are none.
-EmbreeScene build_flat_scene(const EmbreeDevice& device, const Scene& scene, const FlatPlan& plan,
-                             const std::vector<std::unique_ptr<const AlphaCutout>>& cutouts) {
-    EmbreeScene built;
+/// The tree of all flat instances. Null: there are none.
+std::unique_ptr<TriangleTree> build_flat_tree(const EmbreeDevice& device, const Scene& scene, const FlatPlan& plan,
+                                              const std::vector<std::unique_ptr<const AlphaCutout>>& cutouts) {
+    std::vector<std::vector<glm::vec3>> points;
+    std::vector<TreeMesh> parts;
     for (std::size_t i = 0; i < plan.flat.size(); ++i) {
         if (plan.flat[i] == 0) continue;
-        if (built == nullptr) built = device.make_scene(RTC_SCENE_FLAG_ROBUST, RTC_BUILD_QUALITY_HIGH);
         const auto [node, index] = plan.instances[i];
         const Mesh& mesh = scene.meshes[index];
-        const glm::dmat3 linear(plan.world[node]);
-        const glm::dvec3 place = glm::dvec3(plan.world[node][3]) - plan.origin;
-        const TriangleGeometry made =
-            make_triangle_geometry(device, mesh.positions.size(), mesh.triangles, cutouts[index].get());
-        std::ranges::transform(mesh.positions, made.points.begin(),
+        const glm::dmat4& world = plan.world[node];
+        const glm::dmat3 linear(world);
+        const glm::dvec3 place = glm::dvec3(world[3]) - plan.origin;
+        std::vector<glm::vec3>& placed = points.emplace_back(mesh.positions.size());
+        std::ranges::transform(mesh.positions, placed.begin(),
                                [&](const glm::vec3& p) { return glm::vec3(linear * glm::dvec3(p) + place); });
-        rtcCommitGeometry(made.geometry.get());
-        rtcAttachGeometryByID(built.get(), made.geometry.get(), static_cast<unsigned>(i));
+        parts.push_back(
+            {{static_cast<int>(i), orientation_sign(world) < 0.0, cutouts[index].get()}, placed, mesh.triangles});
     }
-    if (built != nullptr) rtcCommitScene(built.get());
-    device.check();
-    return built;
+    if (parts.empty()) return nullptr;
+    return std::make_unique<TriangleTree>(device, parts, TriangleTree::Kind::still);
 }
 
 /// Up to so many objects that stand still are kept in one top-level scene with the moving ones: sorting them again
@@ -109,7 +102,7 @@ class ObjectMaker {
   public:
     ObjectMaker(MeshStructures& structures, const Scene& scene, const PosePlan& plan, const FlatPlan& flat)
         : structures_(structures), scene_(scene), plan_(plan), flat_(flat), kinds_(scene, plan_) {
-        structures_.flat_scene = build_flat_scene(*structures_.device, scene_, flat_, structures_.cutouts);
+        structures_.flat_tree = build_flat_tree(*structures_.device, scene_, flat_, structures_.cutouts);
     }
 
     void add_node(int node) {
@@ -121,13 +114,13 @@ class ObjectMaker {
                 add(node, place, kinds_.changes[mesh] != 0 || kinds_.comes_and_goes[mesh] != 0).deforming =
                     deforming(meshes[place], place);
             } else if (kinds_.comes_and_goes[mesh] != 0) {
-                add(node, place, true).mesh_scene = rigid_scene(meshes, {place});
+                add(node, place, true).tree = rigid_tree(meshes, {place});
             } else if (const int i = first_instance_ + static_cast<int>(place);
                        flat_.flat[i] == 0 && flat_.shown[i] != 0) {
                 rigid.push_back(place);
             }
         }
-        if (!rigid.empty()) add(node, rigid.front(), false).mesh_scene = rigid_scene(meshes, rigid);
+        if (!rigid.empty()) add(node, rigid.front(), false).tree = rigid_tree(meshes, rigid);
         first_instance_ += static_cast<int>(meshes.size());
     }
 
@@ -151,18 +144,17 @@ class ObjectMaker {
             deforming_.try_emplace({mesh, place}, static_cast<int>(structures_.deforming.size()));
         if (is_new) {
             const auto m = static_cast<std::size_t>(mesh);
-            structures_.deforming.emplace_back(scene_.meshes[m], mesh, place, kinds_.changes[m] != 0,
+            structures_.deforming.emplace_back(scene_.meshes[m], mesh, static_cast<int>(place), kinds_.changes[m] != 0,
                                                structures_.cutouts[m].get());
         }
         return found->second;
     }
 
-    RTCScene rigid_scene(const std::vector<int>& meshes, const std::vector<unsigned>& places) {
-        RTCScene& built = rigid_[{meshes, places}];
+    const TriangleTree* rigid_tree(const std::vector<int>& meshes, const std::vector<unsigned>& places) {
+        const TriangleTree*& built = rigid_[{meshes, places}];
         if (built == nullptr) {
-            structures_.mesh_scenes.push_back(
-                build_mesh_scene(*structures_.device, scene_, meshes, places, structures_.cutouts));
-            built = structures_.mesh_scenes.back().get();
+            structures_.trees.push_back(build_tree(*structures_.device, scene_, meshes, places, structures_.cutouts));
+            built = structures_.trees.back().get();
         }
         return built;
     }
@@ -175,19 +167,8 @@ class ObjectMaker {
     int first_instance_ = 0;
     std::vector<MeshStructures::Object> still_;
     std::map<std::pair<int, unsigned>, int> deforming_;
-    std::map<std::pair<std::vector<int>, std::vector<unsigned>>, RTCScene> rigid_;
+    std::map<std::pair<std::vector<int>, std::vector<unsigned>>, const TriangleTree*> rigid_;
 };
-
-void note_flat(MeshStructures& structures, const FlatPlan& plan) {
-    structures.flat = plan.flat;
-    structures.flat_origin = plan.origin;
-    structures.mirrored.resize(plan.flat.size(), 0);
-    for (std::size_t i = 0; i < plan.flat.size(); ++i) {
-        if (plan.flat[i] == 0) continue;
-        ++structures.flat_count;
-        structures.mirrored[i] = orientation_sign(plan.world[plan.instances[i].node]) < 0.0;
-    }
-}
 
 }  // namespace
 
@@ -209,7 +190,9 @@ MeshStructures::MeshStructures(const Scene& scene, const PosePlan& plan, std::un
         any_blended = any_blended || cutouts[i]->blended;
     }
     const FlatPlan flat_plan = make_flat_plan(scene, plan, flatten);
-    note_flat(*this, flat_plan);
+    flat = flat_plan.flat;
+    flat_origin = flat_plan.origin;
+    flat_count = static_cast<std::size_t>(std::ranges::count(flat, 1));
     ObjectMaker maker(*this, scene, plan, flat_plan);
     for (std::size_t n = 0; n < scene.nodes.size(); ++n) maker.add_node(static_cast<int>(n));
     maker.finish();

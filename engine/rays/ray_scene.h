@@ -19,11 +19,14 @@ namespace aleph {
 /// Rays with a component of this size or more are refused, in m or as a direction.
 inline constexpr float max_ray_component = 1e9f;
 
-/// Whether an instance can be traced: its transform keeps volume, and every valid ray stays within Embree's limits in
-/// the object's own space (beyond them Embree ends the process).
-bool is_traceable(const glm::dmat4& world, const glm::dvec3& anchor);
+/// Geometry with a coordinate of this size or more is refused, in m or in the object's own space.
+inline constexpr float max_coordinate = 1.84e18f;
 
-/// Whether the posed points of a deforming mesh can be traced: finite in single precision, and within Embree's limits.
+/// Whether an instance can be traced: its transform keeps volume and is below max_coordinate. One whose points would be
+/// beyond it in the world cannot either.
+bool is_traceable(const glm::dmat4& world);
+
+/// Whether the posed points of a deforming mesh can be traced: finite and below max_coordinate.
 bool are_traceable(const std::vector<glm::dvec3>& positions);
 
 class RayScene {

@@ -5,7 +5,6 @@
 #include <limits>
 #include <numeric>
 
-#include "engine/rays/filters.h"
 #include "engine/rays/state.h"
 
 namespace aleph {
@@ -58,42 +57,15 @@ std::vector<std::uint32_t> sort_neighbours(const std::vector<glm::uvec3>& triang
 
 }  // namespace
 
-DeformingMesh::DeformingMesh(const Mesh& of, int index, unsigned geometry_number, bool can_change,
-                             const AlphaCutout* holes)
+DeformingMesh::DeformingMesh(const Mesh& of, int index, int place_in_node, bool can_change, const AlphaCutout* holes)
     : mesh(index),
-      geometry(geometry_number),
+      place(place_in_node),
       changes(can_change),
       vertex_count(of.positions.size()),
       triangles(of.triangles),
       cutout(holes) {}
 
-TriangleGeometry make_triangle_geometry(const EmbreeDevice& device, std::size_t vertex_count,
-                                        const std::vector<glm::uvec3>& triangles, const AlphaCutout* cutout) {
-    TriangleGeometry made{device.make_geometry(RTC_GEOMETRY_TYPE_TRIANGLE), {}};
-    RTCGeometry geometry = made.geometry.get();
-    made.points = device.make_buffer<glm::vec3>(geometry, RTC_BUFFER_TYPE_VERTEX, RTC_FORMAT_FLOAT3, vertex_count);
-    std::ranges::copy(
-        triangles,
-        device.make_buffer<glm::uvec3>(geometry, RTC_BUFFER_TYPE_INDEX, RTC_FORMAT_UINT3, triangles.size()).begin());
-    if (cutout == nullptr) {
-        rtcSetGeometryIntersectFilterFunction(geometry, keep_lowest_of_nearest);
-        return made;
-    }
-    rtcSetGeometryUserData(geometry, const_cast<AlphaCutout*>(cutout));  // the filters only read it
-    rtcSetGeometryIntersectFilterFunction(geometry, keep_lowest_of_nearest_but_holes);
-    rtcSetGeometryOccludedFilterFunction(geometry, pass_holes);
-    return made;
-}
-
-// Embree refits only in scenes of this kind; the tree itself is still built with care.
-RefitMesh::RefitMesh(const EmbreeDevice& device, const DeformingMesh& mesh)
-    : device_(device),
-      mesh_(mesh),
-      scene_(device.make_scene(static_cast<RTCSceneFlags>(RTC_SCENE_FLAG_ROBUST | RTC_SCENE_FLAG_DYNAMIC),
-                               RTC_BUILD_QUALITY_LOW)) {
-    rtcCommitScene(scene_.get());
-    device_.check();
-}
+RefitMesh::RefitMesh(const EmbreeDevice& device, const DeformingMesh& mesh) : device_(device), mesh_(mesh) {}
 
 RefitMesh::Change RefitMesh::update(const std::vector<glm::dvec3>& positions) {
     if (positions.size() != mesh_.vertex_count || mesh_.triangles.empty()) return Change::unusable;
@@ -108,21 +80,17 @@ RefitMesh::Change RefitMesh::update(const std::vector<glm::dvec3>& positions) {
     }
     current_ = true;
     if (!moved) return Change::none;
-    if (!is_filled() || measure_spread() > max_spread_growth * spread_) build();
-    std::ranges::copy(points_, triangles_.points.begin());
-    rtcUpdateGeometryBuffer(triangles_.geometry.get(), RTC_BUFFER_TYPE_VERTEX, 0);
-    rtcCommitGeometry(triangles_.geometry.get());
-    rtcCommitScene(scene_.get());
-    device_.check();
+    if (!is_filled() || measure_spread() > max_spread_growth * spread_) {
+        build();
+    } else {
+        tree_->move(points_, mesh_.triangles);
+    }
     return Change::moved;
 }
 
 void RefitMesh::build() {
-    if (is_filled()) rtcDetachGeometry(scene_.get(), mesh_.geometry);
-    triangles_ = {};
-    triangles_ = make_triangle_geometry(device_, mesh_.vertex_count, mesh_.triangles, mesh_.cutout);
-    rtcSetGeometryBuildQuality(triangles_.geometry.get(), RTC_BUILD_QUALITY_REFIT);
-    rtcAttachGeometryByID(scene_.get(), triangles_.geometry.get(), mesh_.geometry);
+    const TreeMesh mesh{{mesh_.place, false, mesh_.cutout}, points_, mesh_.triangles};
+    tree_ = std::make_unique<TriangleTree>(device_, std::span(&mesh, 1), TriangleTree::Kind::refitted);
     neighbours_ = sort_neighbours(mesh_.triangles, points_);
     spread_ = measure_spread();
 }

@@ -8,13 +8,12 @@
 
 #include "engine/rays/embree_device.h"
 #include "engine/rays/flat_plan.h"
+#include "engine/rays/object_layer.h"
 #include "engine/rays/ray_scene.h"
 #include "engine/rays/refit.h"
+#include "engine/rays/triangle_tree.h"
 
 namespace aleph {
-
-/// Embree silently drops geometry beyond this; we refuse it with an error.
-inline constexpr float max_coordinate = 1.844e18f;
 
 /// Embree's structures of every mesh, built once and shared by the RayScenes of neighbouring frames, and which
 /// instances they belong to. What stands still is in one flat tree (FlatPlan); other meshes are in object space.
@@ -22,11 +21,10 @@ struct MeshStructures {
     /// Meshes of one node that are placed together.
     struct Object {
         int node;            ///< scene node that carries these meshes
-        int first_instance;  ///< ScenePose::instances index of the node's first mesh; Embree's geometry number is
-                             ///< added
+        int first_instance;  ///< ScenePose::instances index of the node's first mesh; TreePart::instance is added
         int instance;        ///< of those, the one that says whether the object is shown
-        RTCScene mesh_scene = nullptr;  ///< null: deforming, each RayScene has its own
-        int deforming = no_index;       ///< into `deforming`
+        const TriangleTree* tree = nullptr;  ///< null: deforming, each RayScene has its own
+        int deforming = no_index;            ///< into `deforming`
     };
 
     /// @param flatten  false: every node has its own tree, for comparison
@@ -38,45 +36,21 @@ struct MeshStructures {
 
     std::unique_ptr<EmbreeDevice> device;
     int packet_width = 1;  ///< 16, 8, or 1: the widest packets that the processor traces as such
-    std::vector<EmbreeScene> mesh_scenes;
-    EmbreeScene flat_scene;              ///< null: nothing is flat. Embree's geometry numbers are those of instances
-    std::vector<std::uint8_t> flat;      ///< per instance: in the flat tree
-    std::vector<std::uint8_t> mirrored;  ///< per instance: in the flat tree, where its triangles show the other side
-    glm::dvec3 flat_origin{0.0};         ///< m, world: the flat tree's coordinates are relative to it
-    std::size_t flat_count = 0;          ///< instances in it
+    std::vector<std::unique_ptr<const AlphaCutout>> cutouts;  ///< as Scene::meshes; null: no holes
+    std::vector<std::unique_ptr<TriangleTree>> trees;
+    std::unique_ptr<TriangleTree> flat_tree;  ///< null: nothing is flat
+    std::vector<std::uint8_t> flat;           ///< per instance: in the flat tree
+    glm::dvec3 flat_origin{0.0};              ///< m, world: the flat tree's coordinates are relative to it
+    std::size_t flat_count = 0;               ///< instances in it
     /// First what can move, deform, come or go, then what never does; in the order of the scene within both.
     std::vector<Object> objects;
     std::size_t moving_count = 0;
     /// How many of them share the first top-level scene: the moving ones, or all where there are few.
     std::size_t first_layer_count = 0;
     std::vector<DeformingMesh> deforming;
-    std::vector<std::unique_ptr<const AlphaCutout>> cutouts;  ///< as Scene::meshes; null: no holes
     bool any_cutout = false;
     bool any_blended = false;  ///< of the cutouts
     std::size_t degenerate_triangles = 0;
-
-    /// The ScenePose::instances index of a hit, from Embree's numbers.
-    int instance_of(unsigned object, unsigned geometry) const {
-        const int first = object == RTC_INVALID_GEOMETRY_ID ? 0 : objects[object].first_instance;
-        return first + static_cast<int>(geometry);
-    }
-};
-
-/// One object's place in its layer's top-level scene.
-struct Placement {
-    EmbreeGeometry geometry;
-    bool enabled = false;
-    bool skipped = false;  ///< shown, but no ray can meet it
-    std::array<float, 12> transform{};
-};
-
-/// A top-level scene. Where many objects stand still they have their own, so that Embree does not sort them again for
-/// each that moves. The moving ones have the low numbers: Embree looks at every number up to the last when it commits.
-struct Layer {
-    EmbreeScene top;
-    std::size_t first = 0;              ///< its first object; Embree's instance number is the object's
-    std::vector<Placement> placements;  ///< of the objects from `first`
-    std::size_t enabled = 0, skipped = 0;
 };
 
 struct RayScene::State {
@@ -86,11 +60,12 @@ struct RayScene::State {
 
     std::shared_ptr<const MeshStructures> meshes;
     std::vector<std::unique_ptr<RefitMesh>> refits;  ///< as MeshStructures::deforming
-    Layer moving, still;
-    std::array<const Layer*, 2> layers() const { return {&still, &moving}; }
+    /// Where many objects stand still they have a tree of their own, so that it is not built again for each that moves.
+    std::unique_ptr<ObjectLayer> moving, still;
+    std::array<const ObjectLayer*, 2> layers() const { return {still.get(), moving.get()}; }
     std::vector<float> alpha;  ///< per material, now; empty where no mesh has an alpha mask
     glm::dvec3 anchor{0.0};
-    glm::vec3 flat_shift{0.0f};  ///< m: to be added to the origins of rays for the flat tree
+    glm::dvec3 flat_shift{0.0};  ///< m: to be added to the origins of rays for the flat tree
     bool placed = false;         ///< by an update
     std::atomic<std::uint64_t> rays_traced{0}, invalid_rays{0};
 };

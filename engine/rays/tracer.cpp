@@ -7,20 +7,16 @@
 #include <cmath>
 
 #include "engine/base/errors.h"
-#include "engine/rays/filters.h"
 #include "engine/rays/ray_scene.h"
 #include "engine/rays/state.h"
+#include "engine/rays/traversal.h"
 
 namespace aleph {
 
 namespace {
 
-/// The direction with components that are next to nothing made 0: a denormal one of a wrong sign makes Embree's
-/// coherent packets lose hits of the other rays.
-glm::vec3 embree_direction(const glm::vec3& direction) {
-    const auto clean = [](float v) { return std::abs(v) < 1e-30f ? 0.0f : v; };
-    return {clean(direction.x), clean(direction.y), clean(direction.z)};
-}
+/// Directions that are shorter count as none.
+constexpr float min_direction = 1e-30f;
 
 /// Without branches: it is asked for every ray. NaN fails every comparison.
 bool is_valid(const Ray& ray) {
@@ -28,29 +24,29 @@ bool is_valid(const Ray& ray) {
         return (std::abs(v.x) < max_ray_component) & (std::abs(v.y) < max_ray_component) &
                (std::abs(v.z) < max_ray_component);
     };
-    const glm::vec3 d = embree_direction(ray.direction);
+    const glm::vec3& d = ray.direction;
     return fits(ray.origin) & fits(ray.direction) & (ray.near >= 0.0f) & (ray.near < max_ray_component) &
-           (ray.far >= ray.near) & ((d.x != 0.0f) | (d.y != 0.0f) | (d.z != 0.0f));
+           (ray.far >= ray.near) &
+           ((std::abs(d.x) > min_direction) | (std::abs(d.y) > min_direction) | (std::abs(d.z) > min_direction));
 }
 
-/// Traces rays through the flat tree and the layers, one after the other, until trace(tree) returns false.
-/// @param place  place(shift) moves the origins of the rays to the coordinates of the next tree, m
-template <class Place, class Trace>
-void visit_trees(const RayScene::State& state, const Place& place, const Trace& trace) {
-    if (RTCScene flat = state.meshes->flat_scene.get(); flat != nullptr && state.placed) {
-        place(state.flat_shift);
-        if (!trace(flat)) return;
+Hit make_hit(const RayLane& lane) {
+    if (lane.nearest.empty()) return {};
+    const Crossing& met = lane.nearest.result();
+    return {met.instance, static_cast<int>(met.primitive), met.u, met.v, static_cast<float>(met.distance)};
+}
+
+void trace_lane(const RayScene::State& state, Blend blend, bool occlusion, RayLane& lane) {
+    Traversal traversal(state, &lane, blend, occlusion);
+    if (state.meshes->flat_tree != nullptr && state.placed)
+        trace_triangles(*state.meshes->flat_tree, lane.origin + state.flat_shift, lane.direction, traversal, lane);
+    for (const ObjectLayer* layer : state.layers()) {
+        glm::dvec3 start;
+        if (layer->enabled() == 0 || lane.blocked ||
+            !enter_tree(layer->extent(), lane.origin, lane.direction, lane, lane.entry, start))
+            continue;
+        trace_single(layer->scene(), make_embree_ray(start, lane.direction, lane, lane.entry), traversal);
     }
-    if (state.still.enabled + state.moving.enabled == 0) return;
-    place(glm::vec3(0.0f));
-    for (const Layer* layer : state.layers())
-        if (layer->enabled > 0 && !trace(layer->top.get())) return;
-}
-
-Hit make_hit(const MeshStructures& meshes, unsigned object, unsigned geometry, unsigned primitive, float u, float v,
-             float distance) {
-    if (geometry == RTC_INVALID_GEOMETRY_ID) return {};
-    return {meshes.instance_of(object, geometry), static_cast<int>(primitive), u, v, distance};
 }
 
 /// Embree's packet types by width.
@@ -58,163 +54,110 @@ template <int Width>
 struct Packet;
 template <>
 struct Packet<8> {
-    using Rays = RTCRay8;
     using RayHits = RTCRayHit8;
     static constexpr auto intersect = rtcIntersect8;
-    static constexpr auto occluded = rtcOccluded8;
 };
 template <>
 struct Packet<16> {
-    using Rays = RTCRay16;
     using RayHits = RTCRayHit16;
     static constexpr auto intersect = rtcIntersect16;
-    static constexpr auto occluded = rtcOccluded16;
 };
 
-struct PacketCounts {
-    std::uint64_t traced = 0, invalid = 0;
-};
-
-/// Origins of a packet's rays, relative to the anchor.
+/// A packet on its way through the trees, one after the other.
 template <int Width>
-struct alignas(64) Origins {
-    float x[Width], y[Width], z[Width];
-
-    template <class Rays>
-    void place(const glm::vec3& shift, Rays& packet) const {
-        for (int lane = 0; lane < Width; ++lane) {
-            packet.org_x[lane] = x[lane] + shift.x;
-            packet.org_y[lane] = y[lane] + shift.y;
-            packet.org_z[lane] = z[lane] + shift.z;
+class PacketTracer {
+  public:
+    PacketTracer(const RayScene::State& state, Blend blend) : state_(state), blend_(blend) {
+        for (int i = 0; i < Width; ++i) {
+            packet_.ray.time[i] = 0.0f;
+            packet_.ray.mask[i] = ~0u;
+            packet_.ray.id[i] = packet_.ray.flags[i] = 0;
         }
     }
+
+    /// @param rays  at most Width; invalid ones are left out
+    void trace(std::span<const Ray> rays) {
+        count_ = static_cast<int>(rays.size());
+        for (int i = 0; i < count_; ++i) {
+            valid_[i] = is_valid(rays[i]);
+            lanes_[i].set(rays[i]);
+        }
+        if (state_.meshes->flat_tree != nullptr && state_.placed) {
+            const TriangleTree& tree = *state_.meshes->flat_tree;
+            trace(tree.scene(), tree.extent(), state_.flat_shift, [](RayLane& lane, const glm::dvec3& start) {
+                lane.local.set(start, lane.direction);
+                return &lane.object_entry;
+            });
+        }
+        for (const ObjectLayer* layer : state_.layers())
+            if (layer->enabled() > 0)
+                trace(layer->scene(), layer->extent(), glm::dvec3(0.0),
+                      [](RayLane& lane, const glm::dvec3&) { return &lane.entry; });
+    }
+
+    const RayLane& lane(std::size_t i) const { return lanes_[i]; }
+    int invalid() const { return static_cast<int>(std::count(valid_, valid_ + count_, false)); }
+
+  private:
+    /// @param shift    to the tree's coordinates, m
+    /// @param prepare  prepare(lane, start) keeps what the callbacks need, and says where the entry is kept
+    template <class Prepare>
+    void trace(RTCScene scene, const TreeExtent& extent, const glm::dvec3& shift, const Prepare& prepare) {
+        bool any = false;
+        for (int i = 0; i < Width; ++i) {
+            RayLane& lane = lanes_[i];
+            Entry entry;
+            glm::dvec3 start;
+            active_[i] =
+                i < count_ && valid_[i] && enter_tree(extent, lane.origin + shift, lane.direction, lane, entry, start)
+                    ? -1
+                    : 0;
+            RTCRay ray{};
+            if (active_[i] != 0) {
+                any = true;
+                *prepare(lane, start) = entry;
+                ray = make_embree_ray(start, lane.direction, lane, entry);
+            }
+            packet_.ray.org_x[i] = ray.org_x;
+            packet_.ray.org_y[i] = ray.org_y;
+            packet_.ray.org_z[i] = ray.org_z;
+            packet_.ray.dir_x[i] = ray.dir_x;
+            packet_.ray.dir_y[i] = ray.dir_y;
+            packet_.ray.dir_z[i] = ray.dir_z;
+            packet_.ray.tnear[i] = ray.tnear;
+            packet_.ray.tfar[i] = ray.tfar;
+            packet_.hit.geomID[i] = packet_.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
+        }
+        if (!any) return;
+        Traversal traversal(state_, lanes_, blend_, false);
+        Packet<Width>::intersect(active_, scene, &traversal.embree, &packet_);
+    }
+
+    const RayScene::State& state_;
+    Blend blend_;
+    int count_ = 0;
+    bool valid_[Width];
+    alignas(64) int active_[Width];
+    alignas(64) typename Packet<Width>::RayHits packet_;
+    RayLane lanes_[Width];
 };
 
-/// Fills a packet but for the origins; invalid rays are switched off.
-/// @param rays  as many as there are lanes; those from `present` on are switched off too
-template <int Width, class Rays>
-void fill(const Ray* rays, int present, Rays& packet, Origins<Width>& origins, int* valid, PacketCounts& counts) {
-    for (int lane = 0; lane < Width; ++lane) {
-        const Ray& ray = rays[lane];
-        const glm::vec3 direction = embree_direction(ray.direction);
-        origins.x[lane] = ray.origin.x;
-        origins.y[lane] = ray.origin.y;
-        origins.z[lane] = ray.origin.z;
-        packet.dir_x[lane] = direction.x;
-        packet.dir_y[lane] = direction.y;
-        packet.dir_z[lane] = direction.z;
-        packet.tnear[lane] = ray.near;
-        packet.tfar[lane] = ray.far;
-    }
-    int good_count = 0;
-    for (int lane = 0; lane < Width; ++lane) {
-        const bool good = is_valid(rays[lane]) & (lane < present);
-        good_count += good ? 1 : 0;
-        valid[lane] = good ? -1 : 0;
-    }
-    for (int lane = 0; good_count < Width && lane < Width; ++lane) {
-        if (valid[lane] != 0) continue;
-        origins.x[lane] = origins.y[lane] = origins.z[lane] = packet.tnear[lane] = 0.0f;
-        packet.dir_x[lane] = packet.dir_y[lane] = packet.dir_z[lane] = 0.0f;
-        packet.tfar[lane] = std::numeric_limits<float>::infinity();
-    }
-    counts.traced += static_cast<std::uint64_t>(good_count);
-    counts.invalid += static_cast<std::uint64_t>(present - good_count);
-}
-
-/// The same for a last packet that is not full.
-template <int Width, class Rays>
-void fill(std::span<const Ray> rays, Rays& packet, Origins<Width>& origins, int* valid, PacketCounts& counts) {
-    if (rays.size() == Width) return fill<Width>(rays.data(), Width, packet, origins, valid, counts);
-    std::array<Ray, Width> padded;
-    std::copy(rays.begin(), rays.end(), padded.begin());
-    fill<Width>(padded.data(), static_cast<int>(rays.size()), packet, origins, valid, counts);
-}
-
-/// What no ray of ours changes.
-template <int Width, class Rays>
-void fill_constants(Rays& packet) {
-    for (int lane = 0; lane < Width; ++lane) {
-        packet.time[lane] = 0.0f;
-        packet.mask[lane] = ~0u;
-        packet.id[lane] = static_cast<unsigned>(lane);
-        packet.flags[lane] = 0;
-    }
-}
-
 template <int Width>
-PacketCounts intersect_packets(const RayScene::State& state, Blend blend, std::span<const Ray> all, std::span<Hit> hits,
-                               std::span<glm::vec3> normals, bool coherent) {
-    PacketCounts counts;
-    alignas(64) int valid[Width];
-    alignas(64) typename Packet<Width>::RayHits packet;
-    Origins<Width> origins;
-    fill_constants<Width>(packet.ray);
-    for (std::size_t begin = 0; begin < all.size(); begin += Width) {
-        const std::span<const Ray> rays = all.subspan(begin, std::min<std::size_t>(Width, all.size() - begin));
-        fill<Width>(rays, packet.ray, origins, valid, counts);
-        for (int lane = 0; lane < Width; ++lane)
-            packet.hit.geomID[lane] = packet.hit.instID[0][lane] = RTC_INVALID_GEOMETRY_ID;
-        FilterContext context(state, blend, coherent, &packet.hit);
-        context.common.set_rays(rays);
-        std::copy_n(packet.ray.tfar, Width, context.far.begin());
-        visit_trees(
-            state, [&](const glm::vec3& shift) { origins.place(shift, packet.ray); },
-            [&](RTCScene tree) {
-                Packet<Width>::intersect(valid, tree, &context.common.embree, &packet);
-                return true;
-            });
-        for (std::size_t lane = 0; lane < rays.size(); ++lane) {
-            hits[begin + lane] =
-                make_hit(*state.meshes, packet.hit.instID[0][lane], packet.hit.geomID[lane], packet.hit.primID[lane],
-                         packet.hit.u[lane], packet.hit.v[lane], context.distance[lane]);
+std::uint64_t intersect_packets(const RayScene::State& state, Blend blend, std::span<const Ray> rays,
+                                std::span<Hit> hits, std::span<glm::vec3> normals) {
+    std::uint64_t invalid = 0;
+    PacketTracer<Width> tracer(state, blend);
+    for (std::size_t begin = 0; begin < rays.size(); begin += Width) {
+        const std::size_t count = std::min<std::size_t>(Width, rays.size() - begin);
+        tracer.trace(rays.subspan(begin, count));
+        invalid += static_cast<std::uint64_t>(tracer.invalid());
+        for (std::size_t i = 0; i < count; ++i) {
+            hits[begin + i] = make_hit(tracer.lane(i));
+            if (!normals.empty() && !tracer.lane(i).nearest.empty())
+                normals[begin + i] = tracer.lane(i).nearest.result().normal;
         }
-        for (std::size_t lane = 0; begin + lane < normals.size() && lane < Width; ++lane)
-            normals[begin + lane] = {packet.hit.Ng_x[lane], packet.hit.Ng_y[lane], packet.hit.Ng_z[lane]};
     }
-    return counts;
-}
-
-template <int Width>
-PacketCounts occluded_packets(const RayScene::State& state, Blend blend, std::span<const Ray> all,
-                              std::span<std::uint8_t> blocked) {
-    PacketCounts counts;
-    // Never "coherent": with that flag this Embree's occlusion packets can loop for ever over instances.
-    RayContext context(state, blend, false);
-    alignas(64) int valid[Width];
-    alignas(64) typename Packet<Width>::Rays packet;
-    Origins<Width> origins;
-    fill_constants<Width>(packet);
-    for (std::size_t begin = 0; begin < all.size(); begin += Width) {
-        const std::span<const Ray> rays = all.subspan(begin, std::min<std::size_t>(Width, all.size() - begin));
-        fill<Width>(rays, packet, origins, valid, counts);
-        context.set_rays(rays);
-        visit_trees(
-            state, [&](const glm::vec3& shift) { origins.place(shift, packet); },
-            [&](RTCScene tree) {
-                Packet<Width>::occluded(valid, tree, &context.embree, &packet);
-                int open = 0;  // a ray that is stopped has a negative end and is over
-                for (int lane = 0; lane < Width; ++lane) {
-                    valid[lane] = packet.tfar[lane] < 0.0f ? 0 : valid[lane];
-                    open |= valid[lane];
-                }
-                return open != 0;
-            });
-        for (std::size_t lane = 0; lane < rays.size(); ++lane) blocked[begin + lane] = packet.tfar[lane] < 0.0f;
-    }
-    return counts;
-}
-
-RTCRay make_ray(const Ray& ray) {
-    const glm::vec3 direction = embree_direction(ray.direction);
-    return {ray.origin.x, ray.origin.y, ray.origin.z, ray.near, direction.x, direction.y,
-            direction.z,  0.0f,         ray.far,      ~0u,      0,           0};
-}
-
-void place_origin(const glm::vec3& origin, RTCRay& ray) {
-    ray.org_x = origin.x;
-    ray.org_y = origin.y;
-    ray.org_z = origin.z;
+    return invalid;
 }
 
 }  // namespace
@@ -232,21 +175,11 @@ Hit Tracer::intersect(const Ray& ray, glm::vec3* normal) {
         return {};
     }
     ++traced_;
-    RTCRayHit query{make_ray(ray), {}};
-    query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-    query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
-    FilterContext context(state_, blend_, false, &query.hit);
-    context.common.set_rays({&ray, 1});
-    context.far[0] = ray.far;
-    visit_trees(
-        state_, [&](const glm::vec3& shift) { place_origin(ray.origin + shift, query.ray); },
-        [&](RTCScene tree) {
-            rtcIntersect1(tree, &context.common.embree, &query);
-            return true;
-        });
-    if (normal != nullptr) *normal = {query.hit.Ng_x, query.hit.Ng_y, query.hit.Ng_z};
-    return make_hit(*state_.meshes, query.hit.instID[0], query.hit.geomID, query.hit.primID, query.hit.u, query.hit.v,
-                    context.distance[0]);
+    RayLane lane;
+    lane.set(ray);
+    trace_lane(state_, blend_, false, lane);
+    if (normal != nullptr && !lane.nearest.empty()) *normal = lane.nearest.result().normal;
+    return make_hit(lane);
 }
 
 bool Tracer::occluded(const Ray& ray) {
@@ -255,44 +188,31 @@ bool Tracer::occluded(const Ray& ray) {
         return false;
     }
     ++traced_;
-    RayContext context(state_, blend_, false);
-    context.set_rays({&ray, 1});
-    RTCRay query = make_ray(ray);
-    visit_trees(
-        state_, [&](const glm::vec3& shift) { place_origin(ray.origin + shift, query); },
-        [&](RTCScene tree) {
-            rtcOccluded1(tree, &context.embree, &query);
-            return query.tfar >= 0.0f;
-        });
-    return query.tfar < 0.0f;
+    RayLane lane;
+    lane.set(ray);
+    trace_lane(state_, blend_, true, lane);
+    return lane.blocked;
 }
 
 void Tracer::intersect(std::span<const Ray> rays, std::span<Hit> hits, bool coherent, std::span<glm::vec3> normals) {
     ALEPH_CHECK(rays.size() == hits.size() && (normals.empty() || normals.size() == hits.size()),
                 fmt::format("{} rays, {} hits, {} normals", rays.size(), hits.size(), normals.size()));
-    if (state_.meshes->packet_width == 1) {  // Embree would split packets, and the filters would see one lane
+    const int width = coherent ? state_.meshes->packet_width : 1;
+    if (width == 1) {
         for (std::size_t i = 0; i < rays.size(); ++i)
             hits[i] = intersect(rays[i], normals.empty() ? nullptr : &normals[i]);
         return;
     }
-    const PacketCounts counts = state_.meshes->packet_width == 16
-                                    ? intersect_packets<16>(state_, blend_, rays, hits, normals, coherent)
-                                    : intersect_packets<8>(state_, blend_, rays, hits, normals, coherent);
-    traced_ += counts.traced;
-    invalid_ += counts.invalid;
+    const std::uint64_t invalid = width == 16 ? intersect_packets<16>(state_, blend_, rays, hits, normals)
+                                              : intersect_packets<8>(state_, blend_, rays, hits, normals);
+    traced_ += rays.size() - invalid;
+    invalid_ += invalid;
 }
 
 void Tracer::occluded(std::span<const Ray> rays, std::span<std::uint8_t> blocked) {
     ALEPH_CHECK(rays.size() == blocked.size(),
                 std::to_string(rays.size()) + " rays, " + std::to_string(blocked.size()));
-    if (state_.meshes->packet_width == 1) {
-        for (std::size_t i = 0; i < rays.size(); ++i) blocked[i] = occluded(rays[i]);
-        return;
-    }
-    const PacketCounts counts = state_.meshes->packet_width == 16 ? occluded_packets<16>(state_, blend_, rays, blocked)
-                                                                  : occluded_packets<8>(state_, blend_, rays, blocked);
-    traced_ += counts.traced;
-    invalid_ += counts.invalid;
+    for (std::size_t i = 0; i < rays.size(); ++i) blocked[i] = occluded(rays[i]) ? 1 : 0;
 }
 
 }  // namespace aleph

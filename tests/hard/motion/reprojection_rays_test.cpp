@@ -148,8 +148,8 @@ TEST(ReprojectionRays, RP19_BarycentricPointsLieOnTheirTriangles) {
     }
     EXPECT_GT(count, 1000u);
     EXPECT_LT(worst, 1e-6L);
-    // The case is hard: computed along the ray the point is off by a good part of a metre.
-    EXPECT_GT(worst_by_distance, 0.1L);
+    // Where Embree's own distance is off by a good part of a metre: 500 m along slivers that are seen edge-on.
+    EXPECT_LT(worst_by_distance, 1e-4L);
 }
 
 /// A scene at two times, with the points that are hidden at the second.

@@ -8,6 +8,8 @@
 
 #include "engine/base/errors.h"
 #include "engine/pose/pose.h"
+#include "engine/surface/shapes.h"
+#include "tests/support/keyed_track.h"
 #include "tests/support/render_scenes.h"
 #include "tests/unit/engine/rays/many_instances.h"
 
@@ -64,28 +66,53 @@ TEST(RayScene, KF18_FlattenedInstancesAreLeftOutAndCounted) {
         const glm::vec3 anchor(stage.shading.anchor);
         EXPECT_NE(tracer.intersect({-anchor, {0.0f, 0.0f, -1.0f}}).instance, 0);
     }
-    // It has volume, but is so small that rays in its own space would be beyond Embree's limits.
-    for (const double scale : {1e-12, 1e-20, 1e-30, 1e-200}) {
+}
+
+TEST(RayScene, KF19_TinyInstancesWithVolumeAreMet) {
+    for (const double scale : {1e-3, 1e-8, 1e-12}) {
         Scene scene = make_many();
         scene.nodes[0].scale = glm::dvec3(scale);
         const Stage stage(scene);
-        EXPECT_EQ(stage.rays.skipped_instances(), 1u) << scale;
+        EXPECT_EQ(stage.rays.skipped_instances(), 0u) << scale;
         Tracer tracer(stage.rays);
-        EXPECT_NE(tracer.intersect({-glm::vec3(stage.shading.anchor), {0.0f, 0.0f, -1.0f}}).instance, 0);
+        const glm::vec3 anchor(stage.shading.anchor);
+        // Rays of the largest valid size, too.
+        EXPECT_EQ(tracer.intersect({-anchor, {0.0f, 0.0f, -1.0f}}).instance, 0) << scale;
+        EXPECT_EQ(tracer.intersect({-anchor, {0.0f, 0.0f, -9.9e8f}}).instance, 0) << scale;
+        EXPECT_EQ(tracer.intersect({glm::vec3(9.9e8f), glm::vec3(9.9e8f)}).instance, no_index) << scale;
     }
-    // Small, but with volume, and rays of the largest valid size.
-    Scene tiny = make_many();
-    tiny.nodes[0].scale = glm::dvec3(1e-8);
-    const Stage stage(tiny);
-    EXPECT_EQ(stage.rays.skipped_instances(), 0u);
-    Tracer tracer(stage.rays);
-    const glm::vec3 anchor(stage.shading.anchor);
-    EXPECT_EQ(tracer.intersect({-anchor, {0.0f, 0.0f, -1.0f}}).instance, 0);
-    EXPECT_EQ(tracer.intersect({-anchor, {0.0f, 0.0f, -9.9e8f}}).instance, 0);
-    EXPECT_EQ(tracer.intersect({glm::vec3(9.9e8f), glm::vec3(9.9e8f)}).instance, no_index);
-    Scene scene = make_many();
-    scene.nodes[0].scale = glm::dvec3(1e-3);
-    EXPECT_EQ(Stage(scene).rays.skipped_instances(), 0u);
+    // Smaller than the rounding of a distance: a point, which does not disturb anything else.
+    for (const double scale : {1e-20, 1e-30, 1e-200, 1e-300}) {
+        Scene scene = make_many();
+        scene.nodes[0].scale = glm::dvec3(scale);
+        const Stage stage(scene);
+        EXPECT_EQ(stage.rays.skipped_instances(), 0u) << scale;
+        const glm::vec3 beside = glm::vec3(1e-6f, 0.0f, 0.0f) - glm::vec3(stage.shading.anchor);
+        EXPECT_NE(Tracer(stage.rays).intersect({beside, {0.0f, 0.0f, -1.0f}}).instance, 0) << scale;
+    }
+}
+
+TEST(RayScene, KF19_ALargeMeshAtATinyScaleIsMet) {
+    // A box of 1e9 m at a scale of 1e-9: 1 m in the world.
+    Shape box;
+    box.kind = Shape::Kind::box;
+    box.size = glm::dvec3(1e9);
+    for (const bool moves : {false, true}) {
+        Scene scene;
+        scene.meshes = {make_shape_mesh(box)};
+        scene.nodes.resize(1);
+        scene.nodes[0].meshes = {0};
+        scene.nodes[0].scale = glm::dvec3(1e-9);
+        if (moves)
+            scene.nodes[0].translation = keyed<glm::dvec3>({0.0, 1.0}, {glm::dvec3(0.0), glm::dvec3(1.0, 0.0, 0.0)});
+        RayScene rays(scene);
+        rays.update(pose(scene, 0.0), glm::dvec3(0.0));
+        EXPECT_EQ(rays.skipped_instances(), 0u);
+        const Hit hit = Tracer(rays).intersect({{0.2f, 0.1f, 5.0f}, {0.0f, 0.0f, -1.0f}});
+        EXPECT_EQ(hit.instance, 0);
+        EXPECT_NEAR(hit.distance, 4.5f, 1e-5f);
+        EXPECT_EQ(Tracer(rays).intersect({{0.6f, 0.1f, 5.0f}, {0.0f, 0.0f, -1.0f}}).instance, no_index);
+    }
 }
 
 TEST(RayScene, HiddenNodesAreNotMet) {
