@@ -23,7 +23,7 @@ void trace_placement(const Placement& placement, const Traversal& outer, RayLane
     Traversal traversal(outer, lane);
     traversal.first_instance = placement.object.first_instance;
     trace_triangles(*placement.object.tree, placement.to_tree * (lane.origin - placement.place),
-                    placement.to_tree * lane.direction, traversal, lane);
+                    placement.to_tree * lane.direction, traversal);
 }
 
 void intersect_objects(const RTCIntersectFunctionNArguments* arguments) {

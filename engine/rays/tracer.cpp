@@ -39,13 +39,13 @@ Hit make_hit(const RayLane& lane) {
 void trace_lane(const RayScene::State& state, Blend blend, bool occlusion, RayLane& lane) {
     Traversal traversal(state, &lane, blend, occlusion);
     if (state.meshes->flat_tree != nullptr && state.placed)
-        trace_triangles(*state.meshes->flat_tree, lane.origin + state.flat_shift, lane.direction, traversal, lane);
+        trace_triangles(*state.meshes->flat_tree, lane.origin + state.flat_shift, lane.direction, traversal);
     for (const ObjectLayer* layer : state.layers()) {
         glm::dvec3 start;
         if (layer->enabled() == 0 || lane.blocked ||
             !enter_tree(layer->extent(), lane.origin, lane.direction, lane, lane.entry, start))
             continue;
-        trace_single(layer->scene(), make_embree_ray(start, lane.direction, lane, lane.entry), traversal);
+        trace_single(layer->scene(), start, lane.direction, lane.entry, traversal);
     }
 }
 
@@ -116,7 +116,7 @@ class PacketTracer {
             if (active_[i] != 0) {
                 any = true;
                 *prepare(lane, start) = entry;
-                ray = make_embree_ray(start, lane.direction, lane, entry);
+                set_embree_ray(start, lane.direction, lane, entry, ray);
             }
             packet_.ray.org_x[i] = ray.org_x;
             packet_.ray.org_y[i] = ray.org_y;

@@ -140,10 +140,10 @@ float embree_far(const RayLane& lane, const Entry& entry) {
     return static_cast<float>((lane.limit() - entry.start) * entry.unit * (1.0 + 0x1p-20));
 }
 
-RTCRay make_embree_ray(const glm::dvec3& start, const glm::dvec3& direction, const RayLane& lane, const Entry& entry) {
+void set_embree_ray(const glm::dvec3& start, const glm::dvec3& direction, const RayLane& lane, const Entry& entry,
+                    RTCRay& ray) {
     const auto as_float = [](double v) { return static_cast<float>(v); };
     const double inverse = invert(entry.unit);
-    RTCRay ray;
     ray.org_x = as_float(start.x);
     ray.org_y = as_float(start.y);
     ray.org_z = as_float(start.z);
@@ -155,26 +155,27 @@ RTCRay make_embree_ray(const glm::dvec3& start, const glm::dvec3& direction, con
     ray.time = 0.0f;
     ray.mask = ~0u;
     ray.id = ray.flags = 0;
-    return ray;
 }
 
-void trace_triangles(const TriangleTree& tree, const glm::dvec3& origin, const glm::dvec3& direction,
-                     Traversal& traversal, RayLane& lane) {
-    glm::dvec3 start;
-    if (!enter_tree(tree.extent(), origin, direction, lane, lane.object_entry, start)) return;
-    lane.local.set(start, direction);
-    trace_single(tree.scene(), make_embree_ray(start, direction, lane, lane.object_entry), traversal);
-}
-
-void trace_single(RTCScene scene, const RTCRay& ray, Traversal& traversal) {
+void trace_single(RTCScene scene, const glm::dvec3& start, const glm::dvec3& direction, const Entry& entry,
+                  Traversal& traversal) {
     RTCRayHit query;
-    query.ray = ray;
+    set_embree_ray(start, direction, traversal.lanes[0], entry, query.ray);
     if (traversal.occlusion) {
         rtcOccluded1(scene, &traversal.embree, &query.ray);
     } else {
         query.hit.geomID = query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
         rtcIntersect1(scene, &traversal.embree, &query);
     }
+}
+
+void trace_triangles(const TriangleTree& tree, const glm::dvec3& origin, const glm::dvec3& direction,
+                     Traversal& traversal) {
+    RayLane& lane = traversal.lanes[0];
+    glm::dvec3 start;
+    if (!enter_tree(tree.extent(), origin, direction, lane, lane.object_entry, start)) return;
+    lane.local.set(start, direction);
+    trace_single(tree.scene(), start, direction, lane.object_entry, traversal);
 }
 
 void intersect_blocks(const RTCIntersectFunctionNArguments* arguments) {

@@ -89,7 +89,8 @@ struct RayLane {
 bool enter_tree(const TreeExtent& extent, const glm::dvec3& origin, const glm::dvec3& direction, const RayLane& lane,
                 Entry& entry, glm::dvec3& start);
 /// A ray for Embree, which only has to meet the right boxes.
-RTCRay make_embree_ray(const glm::dvec3& start, const glm::dvec3& direction, const RayLane& lane, const Entry& entry);
+void set_embree_ray(const glm::dvec3& start, const glm::dvec3& direction, const RayLane& lane, const Entry& entry,
+                    RTCRay& ray);
 /// Distance for Embree's boxes: a little more than the true one.
 float embree_far(const RayLane& lane, const Entry& entry);
 
@@ -108,12 +109,13 @@ struct Traversal {
 };
 
 /// Traces the traversal's only ray through one of Embree's trees.
-void trace_single(RTCScene scene, const RTCRay& ray, Traversal& traversal);
+void trace_single(RTCScene scene, const glm::dvec3& start, const glm::dvec3& direction, const Entry& entry,
+                  Traversal& traversal);
 
 /// Traces the traversal's only ray through a tree of triangles.
 /// @param origin, direction  in the tree's coordinates
 void trace_triangles(const TriangleTree& tree, const glm::dvec3& origin, const glm::dvec3& direction,
-                     Traversal& traversal, RayLane& lane);
+                     Traversal& traversal);
 
 /// Embree's callbacks of TriangleTree.
 void intersect_blocks(const RTCIntersectFunctionNArguments* arguments);
