@@ -61,8 +61,8 @@ struct Tally {
     }
 
     static bool is_sentence(const std::string& message, const fs::path& path) {
-        return message.find(path.filename().string()) != std::string::npos &&
-               message.find('\n') == std::string::npos && message.size() < 1000;
+        return message.find(path.filename().string()) != std::string::npos && message.find('\n') == std::string::npos &&
+               message.size() < 1000;
     }
 
     void add(const fs::path& path, const std::string& name) {
