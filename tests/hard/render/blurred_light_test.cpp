@@ -92,6 +92,34 @@ TEST(MotionBlur, MC27_IndirectLightOfALampThatFadesIn) {
     expect_same_light(scene, 0.5);
 }
 
+/// Light is linear: while a lamp goes from 0 to twice its power, its light is on average that of its power. Most of the
+/// picture is under a plate, so that it shows indirect light alone.
+TEST(MotionBlur, MC27_IndirectLightOfAFadeIsThatOfItsMean) {
+    constexpr int size = columns * rows;
+    Scene still = make_sliding_box();
+    still.nodes.pop_back();  // the box
+    Scene fading = still;
+    fading.lights[0].intensity.values = {0.0, 4.0};  // over a second, of which the shutter sees half
+    std::vector<Mean> ratios(size);
+    Mean of_all;
+    for (std::uint32_t seed = 0; seed < 48; ++seed) {
+        const std::vector<double> found = render_luminance(fading, Integrator::cache, seed),
+                                  expected = render_luminance(still, Integrator::cache, seed);
+        double sum = 0.0, expected_sum = 0.0;
+        for (int i = 0; i < size; ++i) {
+            ratios[i].add(found[i] / expected[i]);
+            sum += found[i];
+            expected_sum += expected[i];
+        }
+        of_all.add(sum / expected_sum);
+    }
+    int beyond = 0;
+    for (const Mean& ratio : ratios) beyond += std::abs(ratio.mean() - 1.0) > 3.0 * ratio.error() + 0.01;
+    EXPECT_LE(beyond, 4);  // of 192; by chance 0.8
+    EXPECT_NEAR(of_all.mean(), 1.0, 3.0 * of_all.error());
+    EXPECT_LT(of_all.error(), 0.015);
+}
+
 TEST(MotionBlur, DT01_BlurredFramesAreEqualForAnyNumberOfThreadsAndAlone) {
     Scene scene = make_sliding_box();
     scene.cameras[0].shutter = {-0.5, 0.5};

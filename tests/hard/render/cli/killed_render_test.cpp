@@ -23,10 +23,10 @@ namespace fs = std::filesystem;
 
 /// A box that slides for longer than a test takes.
 void write_scene(const fs::path& path) {
-    std::ofstream(path) << R"({"aleph": 1, "exposure": 1, "frames": [1, 100000], "nodes": [
+    std::ofstream(path) << R"({"aleph": 1, "exposure": 1, "frames": [1, 5000], "nodes": [
         {"translation": [0, 1, 5], "camera": {"fov": 40}}, {"translation": [0, 3, 1], "light": {"type": "point", "intensity": 30}},
         {"shape": {"type": "quad", "size": [9, 9]}, "rotation": {"axis": [1, 0, 0], "degrees": -90}},
-        {"shape": {"type": "box", "size": [1, 1, 1]}, "translation": {"keys": [[1, [-1, 0.5, 0]], [100000, [1, 0.5, 0]]]}}]})";
+        {"shape": {"type": "box", "size": [1, 1, 1]}, "translation": {"keys": [[1, [-1, 0.5, 0]], [5000, [1, 0.5, 0]]]}}]})";
 }
 
 /// Starts a render of these frames into the folder.
@@ -94,7 +94,7 @@ TEST(KilledRender, OU07_EarlierFramesStayWholeAndASecondRunCompletesThem) {
         SCOPED_TRACE(signal);
         const ScratchFolder output, again;
         FolderEvents events(output.path());
-        const pid_t child = start_render(folder / "scene.json", output.path(), "1-100000");
+        const pid_t child = start_render(folder / "scene.json", output.path(), "1-5000");
         events.wait(IN_MOVED_TO, 1);
         events.wait(kind, times);
         ::kill(child, signal);
