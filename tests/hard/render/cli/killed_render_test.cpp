@@ -2,6 +2,7 @@
 
 #include <fcntl.h>
 #include <gtest/gtest.h>
+#include <poll.h>
 #include <signal.h>
 #include <sys/inotify.h>
 #include <sys/wait.h>
@@ -30,10 +31,12 @@ void write_scene(const fs::path& path) {
 }
 
 /// Starts a render of these frames into the folder.
-pid_t start_render(const fs::path& scene, const fs::path& folder, const std::string& frames) {
+/// @param alive  a descriptor that the program keeps open until it ends
+pid_t start_render(const fs::path& scene, const fs::path& folder, const std::string& frames, int alive = -1) {
     const std::string program = program_path("aleph"), output = folder / "f.######.exr";
     const pid_t child = ::fork();
     if (child == 0) {
+        if (alive >= 0) ::fcntl(alive, F_SETFD, 0);
         ::execl(program.c_str(), "aleph", "render", scene.c_str(), "--frames", frames.c_str(), "-o", output.c_str(),
                 "--size", "32x24", "--spp", "1", "--gather", "16", "-q", nullptr);
         ::_exit(127);
@@ -65,9 +68,13 @@ class FolderEvents {
     FolderEvents& operator=(const FolderEvents&) = delete;
 
     /// Waits until a temporary file has appeared, or has got its final name, so many times.
-    void wait(std::uint32_t kind, int times) {
+    /// @param alive  closed where the program has ended, which is a failure
+    void wait(std::uint32_t kind, int times, int alive) {
         alignas(inotify_event) char buffer[4096];
         while (times > 0) {
+            pollfd ready[2] = {{file_, POLLIN, 0}, {alive, POLLIN, 0}};
+            ::poll(ready, 2, -1);
+            ASSERT_TRUE((ready[0].revents & POLLIN) != 0) << "no such file appeared";
             const ssize_t size = ::read(file_, buffer, sizeof buffer);
             ASSERT_GT(size, 0);
             for (ssize_t at = 0; at < size;) {
@@ -94,9 +101,13 @@ TEST(KilledRender, OU07_EarlierFramesStayWholeAndASecondRunCompletesThem) {
         SCOPED_TRACE(signal);
         const ScratchFolder output, again;
         FolderEvents events(output.path());
-        const pid_t child = start_render(folder / "scene.json", output.path(), "1-5000");
-        events.wait(IN_MOVED_TO, 1);
-        events.wait(kind, times);
+        int alive[2];
+        ASSERT_EQ(::pipe2(alive, O_CLOEXEC), 0);
+        const pid_t child = start_render(folder / "scene.json", output.path(), "1-5000", alive[1]);
+        ::close(alive[1]);
+        events.wait(IN_MOVED_TO, 1, alive[0]);
+        events.wait(kind, times, alive[0]);
+        ::close(alive[0]);
         ::kill(child, signal);
         const int status = wait_for(child);
         ASSERT_TRUE(WIFSIGNALED(status)) << "it ended by itself";
