@@ -40,10 +40,12 @@ Rgb glossy_reflectance(const SurfaceMaterial& material, float cosine) {
 
 Rgb evaluate_glossy(const SurfaceMaterial& material, const glm::vec3& view, const glm::vec3& light) {
     if (!(view.z > 0.0f && light.z > 0.0f) || material.is_mirror()) return Rgb(0.0f);
-    const glm::vec3 h = glm::normalize(view + light);
+    // The angle to h from the length of the sum: the same for both directions, also where they are not exactly unit.
+    const glm::vec3 sum = view + light;
+    const float length = glm::length(sum);
     const glm::vec2 widths = material.widths();
-    return glossy_reflectance(material, glm::dot(view, h)) *
-           (ggx_d(widths, h) * smith_g2(widths, view, light) / (4.0f * view.z * light.z));
+    return glossy_reflectance(material, 0.5f * length) *
+           (ggx_d(widths, sum / length) * smith_g2(widths, view, light) / (4.0f * view.z * light.z));
 }
 
 glm::vec3 sample_glossy(const SurfaceMaterial& material, const glm::vec3& view, const glm::vec2& u) {

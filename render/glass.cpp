@@ -51,11 +51,13 @@ GlassValue evaluate_glass(const SurfaceMaterial& material, const glm::vec3& view
     const bool passes = light.z < 0.0f;
     if (passes && material.volume) return evaluate_refracted(material, view, light);
     const glm::vec3 mirrored = passes ? flip(light) : light;
-    const glm::vec3 h = glm::normalize(view + mirrored);
+    // The angle to h from the length of the sum: the same for both directions, also where they are not exactly unit.
+    const glm::vec3 sum = view + mirrored;
+    const float length = glm::length(sum);
     const glm::vec2 widths = material.widths();
-    const float reflected = reflectance(material, glm::dot(view, h));
+    const float reflected = reflectance(material, 0.5f * length);
     const float share = passes ? 1.0f - reflected : reflected;
-    const float d = share * ggx_d(widths, h) / (4.0f * view.z);
+    const float d = share * ggx_d(widths, sum / length) / (4.0f * view.z);
     return {(passes ? material.glass_tint : Rgb(1.0f)) * (d * material.glass * smith_g2(widths, view, mirrored)),
             d * smith_g1(widths, view)};
 }

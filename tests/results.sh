@@ -26,7 +26,7 @@ record_skip() {
 run_tests() {
   local folder=$1 code=0 failed=$1/Testing/Temporary/LastTestsFailed.log name
   shift
-  rm -rf "$folder/results" "$failed"
+  rm -rf "$failed"
   "${launcher[@]}" ctest --test-dir "$folder" --parallel "$jobs" --output-on-failure "$@" || code=$?
   [ -e "$failed" ] || return "$code"
   while IFS=: read -r _ name; do

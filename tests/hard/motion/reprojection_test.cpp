@@ -38,9 +38,12 @@ TEST(Reprojection, RP02_TinyMotion) {
             const double from = distance, to = distance + metres;
             scene.nodes[0].translation = ramp(glm::dvec3(from, 0.0, 0.0), glm::dvec3(to, 0.0, 0.0));
             scene.nodes[1].translation = glm::dvec3(distance, 0.0, 0.0);
+            const double expected = 200.0 * (to - from);
+            ASSERT_NEAR(expected, pixels, distance < 1e6 ? 1e-2 * pixels : 3e-8);
             const PointMotion motion = motion_of_point(scene);
-            EXPECT_NEAR(motion.displacement.x, pixels, distance < 1e6 ? 1e-8 : 1e-6) << pixels << " at " << distance;
+            EXPECT_NEAR(motion.displacement.x, expected, 1e-10) << pixels << " at " << distance;
             EXPECT_NEAR(motion.displacement.y, 0.0, 1e-10) << pixels << " at " << distance;
+            EXPECT_NEAR(motion.path_length, expected, 1e-10) << pixels << " at " << distance;
         }
     }
 }

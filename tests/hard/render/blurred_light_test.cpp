@@ -92,6 +92,38 @@ TEST(MotionBlur, MC27_IndirectLightOfALampThatFadesIn) {
     expect_same_light(scene, 0.5);
 }
 
+/// Light is linear: while a lamp goes from 0 to twice its power, its light is on average that of its power. Most of the
+/// picture is under a plate, so that it shows indirect light alone.
+TEST(MotionBlur, MC27_IndirectLightOfAFadeIsThatOfItsMean) {
+    constexpr int size = columns * rows;
+    Scene still = make_sliding_box();
+    still.nodes.pop_back();  // the box
+    Scene fading = still;
+    fading.lights[0].intensity.values = {0.0, 4.0};  // over a second, of which the shutter sees half
+    std::vector<Mean> found(size), expected(size);
+    Mean found_sum, expected_sum;
+    const auto add = [](const std::vector<double>& picture, std::vector<Mean>& pixels, Mean& all) {
+        double sum = 0.0;
+        for (int i = 0; i < size; ++i) {
+            pixels[i].add(picture[i]);
+            sum += picture[i];
+        }
+        all.add(sum);
+    };
+    for (std::uint32_t seed = 0; seed < 48; ++seed) {
+        add(render_luminance(fading, Integrator::cache, seed), found, found_sum);
+        add(render_luminance(still, Integrator::path, seed + 48), expected, expected_sum);
+    }
+    const auto deviation = [](const Mean& a, const Mean& b) {
+        return std::abs(a.mean() - b.mean()) / std::hypot(a.error(), b.error());
+    };
+    int beyond = 0;
+    for (int i = 0; i < size; ++i) beyond += deviation(found[i], expected[i]) > 3.0;
+    EXPECT_LE(beyond, 4);  // of 192; by chance 0.6
+    EXPECT_LT(deviation(found_sum, expected_sum), 3.0);
+    EXPECT_LT(std::hypot(found_sum.error(), expected_sum.error()), 0.02 * expected_sum.mean());
+}
+
 TEST(MotionBlur, DT01_BlurredFramesAreEqualForAnyNumberOfThreadsAndAlone) {
     Scene scene = make_sliding_box();
     scene.cameras[0].shutter = {-0.5, 0.5};

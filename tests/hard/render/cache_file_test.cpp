@@ -2,8 +2,14 @@
 
 #include "render/cache_file.h"
 
+#include <fcntl.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <signal.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cstdlib>
 
 #include "engine/base/atomic_file.h"
 #include "engine/base/errors.h"
@@ -62,6 +68,67 @@ TEST(CacheFile, IC22_FramesAreEqualWithAndWithoutIt) {
     RenderSettings more_samples = settings;
     more_samples.light_samples = 7;
     EXPECT_NO_THROW(Sequence(scene, more_samples).load_light(folder / "light"));
+}
+
+/// Renders a frame with the file.
+std::string render_with(const std::filesystem::path& file, std::int64_t frame) {
+    const Scene scene = make_shot_with_mover();
+    Sequence sequence(scene, file_settings());
+    sequence.load_light(file);
+    const std::string bytes = frame_bytes(sequence, scene, file_settings(), frame);
+    sequence.save_light(file);
+    return bytes;
+}
+
+/// Not a test: a process that renders a frame with the file again and again, and writes its letter to descriptor 3 each
+/// time, until nobody reads it.
+TEST(CacheFile, DISABLED_RenderForever) {
+    const char* job = std::getenv("ALEPH_TEST_JOB");  // letter, frame, path
+    ASSERT_NE(job, nullptr);
+    ::signal(SIGPIPE, SIG_IGN);
+    do render_with(job + 4, std::atoi(job + 1));
+    while (::write(3, job, 1) == 1);
+}
+
+/// Another process of this program, at its work until the pipe closes.
+pid_t start_rendering(const std::string& job, int pipe_end) {
+    const pid_t child = ::fork();
+    if (child == 0) {
+        ::setenv("ALEPH_TEST_JOB", job.c_str(), 1);
+        ::dup2(pipe_end, 3);
+        ::execl("/proc/self/exe", "writer", "--gtest_also_run_disabled_tests", "--gtest_brief=1",
+                "--gtest_filter=CacheFile.DISABLED_RenderForever", nullptr);
+        ::_exit(127);
+    }
+    return child;
+}
+
+/// Both add their own moments to one file. No process ever finds it damaged, and no frame changes.
+TEST(CacheFile, IC22_TwoProcessesWriteOneFile) {
+    const ScratchFolder folder;
+    const std::filesystem::path file = folder / "light";
+    const std::string early = render_with(folder / "early", 3), late = render_with(folder / "late", 13);
+    int ends[2];
+    ASSERT_EQ(::pipe2(ends, O_CLOEXEC), 0);
+    const pid_t writers[2] = {start_rendering("a 3 " + file.string(), ends[1]),
+                              start_rendering("b13 " + file.string(), ends[1])};
+    ::close(ends[1]);
+    int rounds[2] = {0, 0};
+    for (char letter = 0; (rounds[0] < 20 || rounds[1] < 20) && ::read(ends[0], &letter, 1) == 1;) {
+        ++rounds[letter - 'a'];
+        EXPECT_NO_THROW(Sequence(make_shot_with_mover(), file_settings()).load_light(file));
+    }
+    ::close(ends[0]);
+    for (const pid_t writer : writers) {
+        int status = -1;
+        ::waitpid(writer, &status, 0);
+        EXPECT_EQ(status, 0);
+    }
+    EXPECT_GE(std::min(rounds[0], rounds[1]), 20);
+    EXPECT_TRUE(render_with(file, 3) == early);
+    EXPECT_TRUE(render_with(file, 13) == late);
+    const auto files = std::filesystem::directory_iterator(folder.path());
+    EXPECT_EQ(std::distance(begin(files), end(files)), 3) << "temporary files are left";
 }
 
 TEST(CacheFile, IC22_OtherScenesSettingsAndBuildsAreRefused) {

@@ -111,13 +111,42 @@ TEST(DepthOfField, FX12_MC28_ATinyApertureIsAPinhole) {
     EXPECT_LE(differing, 4);  // samples at an edge
 }
 
-TEST(DepthOfField, MC28_ExtremeLensesAreFinite) {
+/// Next to the camera, only the middle of the lens sees the disc: nearly none of it.
+TEST(DepthOfField, MC28_FocusNextToTheCameraSpreadsTheDiscToNothing) {
     const Stage stage(make_disc_scene(3.0, 0.7f), picture_width, picture_height);
-    for (const auto& [aperture, focus] : {std::pair(0.5, 1e-4), std::pair(100.0, 3.0), std::pair(1e9, 1e-4),
-                                          std::pair(1e-30, 1e-30), std::pair(0.3, 1e-300)}) {
-        const ShadedFrame out = shade_through(stage, aperture, focus, 4);
-        for (const Rgb& pixel : out.color.pixels) ASSERT_TRUE(is_finite(pixel));
+    for (const auto& [aperture, focus] : {std::pair(0.5, 1e-4), std::pair(1e9, 1e-4), std::pair(0.3, 1e-300)}) {
+        const ShadedFrame out = shade_through(stage, aperture, focus, 16);
+        EXPECT_LT(measure(out.coverage).sum, 1.0) << aperture << " " << focus;
+        for (const Rgb& pixel : out.color.pixels) ASSERT_TRUE(pixel.x >= 0.0f && pixel.x <= 1.0f);
         EXPECT_EQ(out.counts.invalid_samples, 0u) << aperture << " " << focus;
+    }
+}
+
+/// A disc in focus is sharp through a lens that is larger than the scene.
+TEST(DepthOfField, MC28_ALensLargerThanTheSceneIsSharpInFocus) {
+    const Stage stage(make_disc_scene(3.0, 0.7f), picture_width, picture_height);
+    const ShadedFrame sharp = shade_through(stage, 0.0, 1.0), lens = shade_through(stage, 100.0, 3.0);
+    double difference = 0.0;
+    for (std::size_t i = 0; i < sharp.color.size(); ++i) {
+        difference += std::abs(sharp.color.pixels[i].x - lens.color.pixels[i].x);
+        EXPECT_EQ(lens.color.pixels[i].x, lens.coverage.pixels[i]);
+    }
+    EXPECT_LT(difference, 1.0);
+    EXPECT_GT(measure(sharp.coverage).sum, 100.0);
+}
+
+/// Lens and focus shrink together: on the disc, the lens is as wide as the disc is far. In the middle of the picture,
+/// the disc's share of that circle.
+TEST(DepthOfField, MC28_ATinyLensInATinyDistanceHasItsCircleOfConfusion) {
+    const Stage stage(make_disc_scene(3.0, 0.7f), picture_width, picture_height);
+    for (const double size : {1.0, 1e-9, 1e-30}) {
+        const ShadedFrame out = shade_through(stage, size, size, 256);
+        const double circle = 3.0 * std::abs(1.0 / size - 1.0 / 3.0) * size;
+        double sum = 0.0;
+        for (int y = picture_height / 2 - 4; y < picture_height / 2 + 4; ++y)
+            for (int x = picture_width / 2 - 4; x < picture_width / 2 + 4; ++x) sum += out.color(x, y).x / 64.0;
+        const double expected = 0.49 / (circle * circle);
+        EXPECT_NEAR(sum, expected, 0.03 * expected) << size;  // 3 standard errors of 16384 samples
     }
 }
 

@@ -78,6 +78,7 @@ TEST(KeyMoments, IC14_LightOfAnotherTimeIsNotUsed) {
     const double moments = relative_rms(render_alone(scene, shot_settings(10), 5), truth);
     std::printf("relative error: own fill %.4f, key moments %.4f\n", own, moments);
     EXPECT_LT(moments, own + 0.01);
+    EXPECT_LT(moments, 0.03);
 }
 
 TEST(KeyMoments, IC14_WhereNothingMovesOneMomentServesAllFrames) {
@@ -91,26 +92,23 @@ TEST(KeyMoments, IC20_WhatIsAtRestDoesNotFlicker) {
     RenderSettings settings = shot_settings(10);
     settings.gather = 256;
     Sequence sequence(scene, settings);
-    std::vector<double> changes;
+    double largest = 0.0;
     Image<Rgb> before;
+    Image<float> threshold;
     for (int frame = 0; frame < 30; ++frame) {
         const FrameOutput out = sequence.render(frame, {.frame = true, .maps = frame == 0, .progress = {}});
-        static Image<float> threshold;
         if (frame == 0) threshold = out.threshold;
         const Image<Rgb>& now = out.shaded.color;
         for (int y = 0; frame > 0 && y < now.height; ++y) {
             for (int x = 0; x < now.width / 2; ++x) {  // the mover is in the right half
                 const double change = std::abs(luminance(now(x, y)) - luminance(before(x, y)));
-                changes.push_back(change * scene.viewing.display_white / threshold(x, y));
+                largest = std::max(largest, change * scene.viewing.display_white / threshold(x, y));
             }
         }
         before = now;
     }
-    std::ranges::sort(changes);
-    const double nearly_all = changes[changes.size() * 999 / 1000];
-    std::printf("change at rest from frame to frame, thresholds: 99.9 %% %.4f, largest %.4f\n", nearly_all,
-                changes.back());
-    EXPECT_LT(nearly_all, 0.1);
+    std::printf("change at rest from frame to frame, thresholds: largest %.4f\n", largest);
+    EXPECT_LT(largest, 0.1);
 }
 
 TEST(KeyMoments, FX10_WhereOnlyTheCameraMovesLightIsCarriedOver) {
@@ -181,6 +179,7 @@ void expect_as_own_fill(const Track<glm::dvec3>& place) {
     const double moments = relative_rms(render_alone(scene, shot_settings(10), 5), truth);
     std::printf("relative error: own fill %.4f, key moments %.4f\n", own, moments);
     EXPECT_LT(moments, 1.3 * own);
+    EXPECT_LT(moments, 0.03);
 }
 
 TEST(KeyMoments, IC14_AnObjectThatTouchesTheFloorBetweenMoments) {

@@ -42,13 +42,23 @@ TEST(PathValues, MC01_TheVarianceOfAPixelKeepsItsDigits) {
     EXPECT_EQ(equal.variance(), 0.0);
 }
 
-TEST(PathValues, MC13_TenMillionSamplesKeepTheirMean) {
+TEST(PathValues, MC13_AHundredMillionSamplesKeepTheirMean) {
     PixelSamples sum;
-    for (int i = 0; i < 10'000'000; ++i) sum.add(make_sample(Rgb(0.7f), i % 2 == 0));
+    constexpr int count = 100'000'000;
+    for (int i = 0; i < count; ++i) sum.add(make_sample(Rgb(0.7f), i % 2 == 0));
     EXPECT_NEAR(sum.mean().x, 0.7f, 1e-6 * 0.7);
     EXPECT_LT(sum.variance(), 1e-20);
     EXPECT_GE(sum.variance(), 0.0);
     EXPECT_EQ(sum.coverage(), 0.5f);
+}
+
+TEST(PathValues, MC13_SmallSamplesAreNotLostBesideASpark) {
+    PixelSamples sum;
+    constexpr int count = 1'000'000;
+    sum.add(make_sample(Rgb(1e8f)));
+    for (int i = 0; i < count; ++i) sum.add(make_sample(Rgb(0.7f)));
+    const double expected = (1e8 + static_cast<double>(0.7f) * count) / (count + 1.0);
+    EXPECT_NEAR(sum.mean().x, expected, 1e-6 * expected);
 }
 
 /// Left a floor whose material can be spoiled, right a good one behind a wall: light cannot get from one to the other.

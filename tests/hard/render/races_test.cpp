@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/support/frame_bytes.h"
+#include "tests/support/shot_scenes.h"
 #include "tests/support/with_threads.h"
 
 namespace aleph {
@@ -28,6 +29,28 @@ TEST(Races, DT08_EveryStageOfAFrameWithItsCache) {
         });
     };
     EXPECT_TRUE(render(4) == render(1));
+}
+
+/// Light of key moments, of two bounces, read while the shutter is open: by the cache, and by paths.
+TEST(Races, DT08_KeyMomentsAndAnOpenShutter) {
+    Scene scene = make_shot_with_mover();
+    scene.cameras[0].shutter = {-0.5, 0.5};
+    RenderSettings settings = tiny_settings();
+    settings.width = 32;
+    settings.height = 24;
+    settings.light_step = 5;
+    settings.bounces = 2;
+    for (const Integrator integrator : {Integrator::cache, Integrator::path}) {
+        settings.integrator = integrator;
+        const auto render = [&](int threads) {
+            return with_threads(threads, [&] {
+                Sequence sequence(scene, settings);
+                std::string files = frame_bytes(sequence, scene, settings, 3);
+                return files + frame_bytes(sequence, scene, settings, 7);
+            });
+        };
+        EXPECT_TRUE(render(4) == render(1));
+    }
 }
 
 TEST(Races, DT08_SequencesSideBySide) {

@@ -42,14 +42,18 @@ Scene make_scene_seen_along_z(double half_height) {
 
 using Truth = std::function<double(int x, int y)>;
 
-/// Frame 0 with several seeds against the truth, in each pixel and in the mean.
-void expect_mean(const Scene& scene, RenderSettings settings, const Truth& truth, double darkest_error = 1e-5) {
+/// A frame with several seeds against the truth, in each pixel and in the mean. Each sequence has rendered frame 0
+/// before.
+void expect_mean(const Scene& scene, RenderSettings settings, const Truth& truth, double darkest_error = 1e-5,
+                 std::int64_t frame = 0) {
     constexpr std::uint32_t seeds = 12;
     const std::size_t count = static_cast<std::size_t>(settings.width) * static_cast<std::size_t>(settings.height);
     std::vector<Mean> pixels(count);
     Mean picture;
     for (settings.seed = 0; settings.seed < seeds; ++settings.seed) {
-        const ShadedFrame out = Sequence(scene, settings).render(0).shaded;
+        Sequence sequence(scene, settings);
+        ShadedFrame out = sequence.render(0).shaded;
+        if (frame != 0) out = sequence.render(frame).shaded;
         double sum = 0.0;
         for (std::size_t i = 0; i < count; ++i) {
             const double y = luminance(out.color.pixels[i]);
@@ -152,8 +156,10 @@ double intensity_of(int light) {
     return light % 7 == 0 ? 4e-3 : 1e-3;
 }
 
-glm::dvec3 place_light(int light) {
-    return {0.06 * (light % 32) - 0.96, 0.06 * (light / 32) - 0.96, 0.8 + 0.3 * std::sin(1.7 * light)};
+/// @param moved  m along x: even lights, and odd ones the other way
+glm::dvec3 place_light(int light, double moved = 0.0) {
+    return {0.06 * (light % 32) - 0.96 + (light % 2 == 0 ? moved : -moved), 0.06 * (light / 32) - 0.96,
+            0.8 + 0.3 * std::sin(1.7 * light)};
 }
 
 /// A floor under a thousand lamps without shadows, seen from above.
@@ -166,19 +172,38 @@ Scene make_many_lights() {
     return scene;
 }
 
-double sum_of_lights(int x, int y) {
+double sum_of_moved_lights(int x, int y, double moved) {
     constexpr int side = 4;
     double sum = 0.0;
     for (int p = 0; p < side * side; ++p) {
         const glm::dvec3 point((x + (p % side + 0.5) / side - 0.5 * lit_width) * lit_pixel,
                                (0.5 * lit_height - y - (p / side + 0.5) / side) * lit_pixel, 0.0);
         for (int i = 0; i < lit_points; ++i) {
-            const glm::dvec3 way = place_light(i) - point;
+            const glm::dvec3 way = place_light(i, moved) - point;
             const double square = glm::dot(way, way);
             sum += 0.6 / pi * intensity_of(i) * way.z / (square * std::sqrt(square)) / (side * side);
         }
     }
     return sum;
+}
+
+double sum_of_lights(int x, int y) {
+    return sum_of_moved_lights(x, y, 0.0);
+}
+
+/// Even lights go to the right by 0.8 m in ten frames, odd ones to the left.
+TEST_P(SamplingRules, MC23_AThousandMovingLights) {
+    if (GetParam() == Sampling::threshold) return;  // as below
+    Scene scene = make_many_lights();
+    for (int i = 0; i < lit_points; ++i) {
+        scene.nodes[scene.nodes.size() - lit_points + static_cast<std::size_t>(i)].translation =
+            keyed<glm::dvec3>({0.0, 10.0 / frame_rate}, {place_light(i), place_light(i, 0.8)});
+    }
+    RenderSettings settings = settings_of(GetParam(), lit_width, lit_height);
+    settings.light_samples = 4;
+    settings.plan = EffectsPlanning::off;
+    expect_mean(
+        scene, settings, [](int x, int y) { return sum_of_moved_lights(x, y, 0.4); }, 1e-5, 5);
 }
 
 TEST_P(SamplingRules, MC23_AThousandLights) {

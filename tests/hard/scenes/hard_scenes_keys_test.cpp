@@ -72,9 +72,32 @@ TEST(HardScenes, KF18_FlattenedIsLeftOut) {
     EXPECT_TRUE(hard.pixels_on(output, "gone").empty());
     EXPECT_GT(mean_luminance(output.shaded.color), 0.01);
 }
-TEST(HardScenes, KF19_TinyScaleLooksLikeABox) {
+/// A box of any size scaled to 1 m: the picture of a box of 1 m.
+TEST(HardScenes, KF19_TinyAndHugeScalesLookLikeABox) {
     HardScene hard("tiny_scale");
-    EXPECT_GT(hard.pixels_on(hard.render(0), "thing").size(), 50u);
+    const auto render = [&](double size) {
+        Scene scene = hard.scene;
+        Node& thing = scene.nodes[hard.node("thing")];
+        for (glm::vec3& p : scene.meshes[thing.meshes.front()].positions) p = glm::vec3(glm::dvec3(p) * (size / 1e8));
+        thing.scale = glm::dvec3(1.0 / size);
+        Sequence sequence(scene, small_settings());
+        return sequence.render(0, {.frame = true, .maps = true, .progress = {}});
+    };
+    const FrameOutput expected = render(1.0);
+    const std::vector<std::size_t> pixels = hard.pixels_on(expected, "thing");
+    ASSERT_GT(pixels.size(), 50u);
+    for (const double size : {1e-8, 1e-4, 1e4, 1e8}) {
+        SCOPED_TRACE(size);
+        const FrameOutput found = render(size);
+        ASSERT_EQ(hard.pixels_on(found, "thing"), pixels);
+        double error = 0.0;
+        for (const std::size_t i : pixels) {
+            EXPECT_NEAR(found.depth.pixels[i], expected.depth.pixels[i], 1e-5);
+            EXPECT_LT(glm::length(found.normal.pixels[i] - expected.normal.pixels[i]), 1e-5f);
+            error += luminance(found.shaded.color.pixels[i]) - luminance(expected.shaded.color.pixels[i]);
+        }
+        EXPECT_NEAR(error / static_cast<double>(pixels.size()), 0.0, 0.01 * mean_luminance(expected.shaded.color));
+    }
 }
 TEST(HardScenes, KF20_ScaleThroughZeroHasNoMotionThere) {
     HardScene hard("scale_through_zero");

@@ -226,6 +226,24 @@ TEST(Deforming, SkinnedPointsTurnWithTheirJoint) {
     EXPECT_GT(glm::length(seen.motion.displacement(width / 2 + 12, height / 2)), 1.0);
 }
 
+/// The inverse of the node's transform is as exact for any scale, uneven or mirrored too.
+TEST(Deforming, KF19_SkinsOnNodesOfTinyAndHugeScale) {
+    for (const double s : {1e-30, 1e-14, 1e-6, 1.0, 1e6, 1e14, 1e30}) {
+        for (const glm::dvec3& shape : {glm::dvec3(1.0), glm::dvec3(-2.0, 1.0, 0.5)}) {
+            Scene scene = make_skin_scene();
+            scene.nodes[0].translation = std::min(s, 1.0) * glm::dvec3(5.0, -3.0, 2.0);
+            scene.nodes[0].rotation = glm::angleAxis(0.7, glm::normalize(glm::dvec3(1.0, 2.0, -1.0)));
+            scene.nodes[0].scale = s * shape;
+            const ScenePose posed = pose(scene, 0.0);
+            ASSERT_EQ(posed.meshes[0].positions.size(), scene.meshes[0].positions.size());
+            for (std::size_t v = 0; v < posed.meshes[0].positions.size(); ++v) {
+                const glm::dvec3 world(posed.world[0] * glm::dvec4(posed.meshes[0].positions[v], 1.0));
+                EXPECT_LT(glm::length(world - bent_by(scene.meshes[0].positions[v], 0.0)), 1e-6) << s;
+            }
+        }
+    }
+}
+
 TEST(Deforming, RP07_PathsOfTurningJointsAreArcs) {
     Scene scene = make_skin_scene();
     scene.nodes[2].axis_rotation =

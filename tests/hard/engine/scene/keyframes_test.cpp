@@ -235,15 +235,28 @@ TEST(Keyframes, KF15_AnHourOfFramesIsAnHour) {
     EXPECT_EQ((FrameRate{30, 1}.seconds_of(-3)), -0.1);
 }
 
+/// For a million frames: the time of a frame is the double nearest to the exact fraction, and keys at frames are met,
+/// whether their times are a list or start and period.
 TEST(Keyframes, KF16_EveryFrameMeetsItsKey) {
+    constexpr std::int64_t frames = 1'000'000;
     for (const FrameRate rate :
          {FrameRate{24000, 1001}, FrameRate{30000, 1001}, FrameRate{60000, 1001}, FrameRate{30, 1}}) {
-        TimeSampling sampling;
-        sampling.period = rate.seconds_of(1);
-        for (std::int64_t frame = 0; frame <= 1'000'000; frame += frame < 1000 ? 1 : 37) {
-            const SampleSpan span = find_samples(sampling, 1'000'001, rate.seconds_of(frame));
-            ASSERT_EQ(span.floor, static_cast<std::size_t>(frame));
-            ASSERT_EQ(span.fraction, 0.0);
+        TimeSampling uniform, listed;
+        uniform.period = rate.seconds_of(1);
+        listed.kind = TimeSampling::Kind::acyclic;
+        for (std::int64_t frame = 0; frame <= frames; ++frame) {
+            // In 64 bits of digits: twice the distance to the exact time is at most the distance to the next double.
+            const double seconds = rate.seconds_of(frame);
+            const auto exact = static_cast<long double>(frame * rate.denominator) / rate.numerator;
+            ASSERT_LE(2.0L * std::abs(seconds - exact), std::nextafter(seconds, infinity) - seconds) << frame;
+            listed.times.push_back(seconds);
+        }
+        for (std::int64_t frame = 0; frame <= frames; ++frame) {
+            for (const TimeSampling* sampling : {&uniform, &listed}) {
+                const SampleSpan span = find_samples(*sampling, frames + 1, rate.seconds_of(frame));
+                ASSERT_EQ(span.floor, static_cast<std::size_t>(frame));
+                ASSERT_EQ(span.fraction, 0.0);
+            }
         }
     }
 }

@@ -184,6 +184,35 @@ TEST(CommandLine, CompareAgainstAThresholdMapAsJson) {
     EXPECT_EQ(run_aleph({"compare", files.a, files.b, "--threshold", map}).code, 0);
 }
 
+/// The median of the picture, cd/m2, where every threshold of vision is above it or below.
+TEST(CommandLine, CS14_AnUnlikelyUnitOfLightGivesAWarning) {
+    const ScratchFolder folder;
+    const std::vector<std::pair<double, std::string>> cases{{0.0, ""}, {0.99e-3, "0.00099"}, {1.01e-3, ""},
+                                                            {1.0, ""}, {0.99e4, ""},         {1.01e4, "1.01e+04"}};
+    for (const auto& [median, said] : cases) {
+        // More than half of the picture shines; the rest is a hundred times as bright.
+        std::ofstream(folder / "lit.json") << R"({"aleph": 1, "exposure": 0.5, "frames": [0, 1], "nodes": [
+            {"translation": [0, 0, 5], "camera": {"fov": 40}},
+            {"translation": [51, 0, 1], "shape": {"type": "quad", "size": [100, 100]},
+             "material": {"base_color": [0, 0, 0], "specular": 0, "emission": [1, 1, 1], "emission_strength": )"
+                                           << median * 2.0 << R"(}},
+            {"shape": {"type": "quad", "size": [100, 100]},
+             "material": {"base_color": [0, 0, 0], "specular": 0, "emission": [1, 1, 1], "emission_strength": )"
+                                           << median * 0.02 << "}}], \"viewing\": {\"display_white\": 100}}";
+        std::vector<std::string> render{"render", folder / "lit.json",  "--size", "8x6", "--spp", "1",
+                                        "-o",     folder / "f.####.exr"};
+        const Outcome outcome = run_aleph(render);
+        EXPECT_EQ(outcome.code, 0) << outcome.err;
+        const std::string warning = "warning: frame 0: the median luminance is " + said + " cd/m2, outside 1e-3 to 1e4";
+        EXPECT_EQ(outcome.err.find("the median luminance") != std::string::npos, !said.empty()) << outcome.err;
+        if (said.empty()) continue;
+        EXPECT_NE(outcome.err.find(warning), std::string::npos) << outcome.err;
+        EXPECT_EQ(outcome.err.find("median"), outcome.err.rfind("median")) << "once for both frames";
+        render.emplace_back("-q");
+        EXPECT_EQ(run_aleph(render).err, "");
+    }
+}
+
 TEST(CommandLine, OU03_WhatHdrFilesCannotHoldIsCounted) {
     const ScratchFolder folder;
     // Red of 1e46, beyond single precision, in two frames of 48 pixels.

@@ -41,10 +41,11 @@ TEST(RasterMotion, KeepsEightBitsOfACoordinate) {
     EXPECT_NE(quantize_coordinate(0.3f), 0.3f);
 }
 
-TEST(RasterMotion, ErrsByHalfAStepOfTheTriangle) {
+TEST(RasterMotion, RP20_ErrsByHalfAStepOfTheTriangle) {
     const double small = largest_error(20.0), large = largest_error(180.0);
     EXPECT_GT(large, 0.5 * 180.0 / 255.0) << "two coordinates err";
-    EXPECT_LT(large, 180.0 / 255.0 * 1.5);
+    const double longest_edge = 180.0 * std::sqrt(2.0);
+    EXPECT_LT(large, longest_edge / 256.0);
     EXPECT_NEAR(small / large, 20.0 / 180.0, 0.04) << "the error grows with the triangle";
 }
 
