@@ -41,11 +41,13 @@ float cryptomatte_id(std::string_view name) {
 }
 
 std::string cryptomatte_manifest(const std::vector<std::string>& names) {
-    nlohmann::ordered_json manifest = nlohmann::ordered_json::object();
+    std::string manifest = "{";
     for (const std::string& name : names) {
-        manifest[name] = fmt::format("{:08x}", std::bit_cast<std::uint32_t>(cryptomatte_id(name)));
+        if (manifest.size() > 1) manifest += ',';
+        manifest += nlohmann::json(name).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+        manifest += fmt::format(":\"{:08x}\"", std::bit_cast<std::uint32_t>(cryptomatte_id(name)));
     }
-    return manifest.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
+    return manifest + '}';
 }
 
 std::string cryptomatte_prefix(std::string_view layer) {

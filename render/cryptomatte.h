@@ -16,6 +16,7 @@ std::uint32_t murmur_hash(std::string_view text);
 float cryptomatte_id(std::string_view name);
 
 /// {"name": "8 hexadecimal digits", ...}: the names and the bits of their cryptomatte_id.
+/// @param names  each once
 std::string cryptomatte_manifest(const std::vector<std::string>& names);
 
 /// "cryptomatte/<7 hexadecimal digits of the layer's hash>/", with which the layer's attributes begin.

@@ -38,11 +38,11 @@ void add_color(ChannelImage& file, const std::string& prefix, const Image<Rgb>& 
 void add_cryptomatte(ChannelImage& file, const Image<Hit>& hits, const Scene& scene) {
     if (hits.empty()) return;
     constexpr const char* layer = "CryptoObject";
-    const std::vector<std::string> paths = node_paths(scene);
+    const NodePaths paths(scene);
     std::vector<std::string> shown;
     std::vector<float> ids;
     for (const Instance& instance : list_instances(scene)) {
-        const std::string& path = paths[instance.node];
+        const std::string path = paths[instance.node];
         if (shown.empty() || shown.back() != path) shown.push_back(path);
         ids.push_back(cryptomatte_id(path));
     }

@@ -1,6 +1,7 @@
 #pragma once
 // Names of nodes that are unique in a scene.
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -12,6 +13,38 @@ namespace aleph {
 std::string name_or_number(const std::string& name, const char* kind, std::size_t index);
 
 /// "/group/child" per node: the names from the root down. Nodes with equal paths get "#2", "#3", ... in node order.
-std::vector<std::string> node_paths(const Scene& scene);
+/// Paths of more than `longest_path` bytes are shortened in the middle: their first and last `kept_of_path` bytes, or
+/// a few fewer so that no character is split, with "...", the 64-bit FNV-1a hash of the whole path in 16 hexadecimal
+/// digits, and "..." between them.
+///
+/// Paths are made when they are asked for: what is kept, and the work for one path, do not grow with the depth.
+class NodePaths {
+  public:
+    static constexpr std::size_t longest_path = 512, kept_of_path = 240;
+
+    /// @param scene  outlives this object
+    explicit NodePaths(const Scene& scene);
+
+    std::string operator[](std::size_t node) const;
+
+    /// Number of nodes above a node.
+    std::size_t depth(std::size_t node) const { return marks_[node].depth; }
+
+  private:
+    struct Mark {
+        std::uint64_t hash = 0;     ///< of the whole path
+        std::uint64_t length = 0;   ///< of the whole path, bytes
+        std::uint32_t count = 1;    ///< above 1: the number after "#"
+        std::uint32_t depth = 0;    ///< number of nodes above
+        int start_node = no_index;  ///< the highest node, from the root down to this one, with a path of kept_of_path
+                                    ///< bytes or more
+    };
+
+    std::string start_of(int node) const;
+    std::string end_of(int node, std::size_t bytes) const;
+
+    const Scene& scene_;
+    std::vector<Mark> marks_;
+};
 
 }  // namespace aleph

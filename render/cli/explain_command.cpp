@@ -42,7 +42,7 @@ Scene load_or_list_missing(const std::string& file, const LoadLimits& limits) {
 
 /// Names that are not UTF-8 are written with replacement characters.
 std::string to_text(const nlohmann::ordered_json& value) {
-    return value.dump(1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+    return value.dump(1, ' ', false, nlohmann::ordered_json::error_handler_t::replace).append("\n");
 }
 
 int explain(const ExplainOptions& options) {

@@ -9,7 +9,6 @@
 #include "engine/scene/points.h"
 #include "engine/scene_file/fields.h"
 #include "render/cli/explain.h"
-#include "render/node_paths.h"
 
 namespace aleph {
 
@@ -59,12 +58,9 @@ bool is_area_light(const Scene& scene, const Node& node) {
     });
 }
 
-ordered_json describe_node(const Scene& scene, std::size_t index, const std::string& path) {
+ordered_json describe_node(const Scene& scene, std::size_t index, const NodePaths& paths) {
     const Node& node = scene.nodes[index];
-    ordered_json out = {{"path", path}, {"name", node.name}};
-    int depth = 0;
-    for (int parent = node.parent; parent != no_index; parent = scene.nodes[parent].parent) ++depth;
-    out["depth"] = depth;
+    ordered_json out = {{"path", paths[index]}, {"name", node.name}, {"depth", paths.depth(index)}};
     if (node.include != no_index) out["from"] = scene.includes[node.include].path;
     if (!node.meshes.empty()) {
         std::size_t triangles = 0;

@@ -2,10 +2,10 @@
 // Parts of `aleph explain`: single nodes, materials and images as JSON.
 
 #include <nlohmann/json.hpp>
-#include <string>
 
 #include "engine/base/bounds.h"
 #include "engine/scene/scene.h"
+#include "render/node_paths.h"
 
 namespace aleph {
 
@@ -19,7 +19,7 @@ const char* how_it_deforms(const Scene& scene, const Mesh& mesh);
 /// Whether a mesh of the node has a material that gives light at some time.
 bool is_area_light(const Scene& scene, const Node& node);
 
-nlohmann::ordered_json describe_node(const Scene& scene, std::size_t index, const std::string& path);
+nlohmann::ordered_json describe_node(const Scene& scene, std::size_t index, const NodePaths& paths);
 nlohmann::ordered_json describe_materials(const Scene& scene);
 nlohmann::ordered_json describe_images(const Scene& scene);
 

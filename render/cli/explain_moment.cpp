@@ -56,7 +56,7 @@ ordered_json describe_points(const Scene& scene, const ScenePose& posed_scene, c
 
 ordered_json explain_moment(const Scene& scene, double seconds) {
     const ScenePose posed_scene = pose(scene, seconds);
-    const std::vector<std::string> paths = node_paths(scene);
+    const NodePaths paths(scene);
     std::vector<Bounds> bounds(scene.nodes.size());
     for (const Instance& instance : posed_scene.instances)
         add_instance(bounds[instance.node], scene, posed_scene, instance);

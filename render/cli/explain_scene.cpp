@@ -206,13 +206,13 @@ ordered_json explain_scene(const Scene& scene, const RenderSettings& settings, c
     out["environment"] = describe_environment(scene);
     out["counts"] = count_elements(scene);
     out["bounds"] = describe_bounds(scene);
-    const std::vector<std::string> paths = node_paths(scene);
+    const NodePaths paths(scene);
     ordered_json objects = ordered_json::array();
     std::vector<ordered_json> ids(scene.nodes.size(), ordered_json::array());
     const std::vector<Instance> instances = list_instances(scene);
     for (std::size_t id = 0; id < instances.size(); ++id) ids[instances[id].node].push_back(id);
     for (const std::size_t i : tree_order(scene)) {
-        objects.push_back(describe_node(scene, i, paths[i]));
+        objects.push_back(describe_node(scene, i, paths));
         if (!ids[i].empty()) objects.back()["object_ids"] = ids[i];
     }
     ordered_json materials = describe_materials(scene);

@@ -53,9 +53,14 @@ std::string tracks_text(const ordered_json& tracks) {
     return text;
 }
 
+/// Levels of the tree that are indented. Lines of deeper objects begin with their depth.
+constexpr std::size_t max_indent = 32;
+
 std::string object_text(const ordered_json& object) {
     const std::string path = object["path"];
-    std::string text(2 * object["depth"].get<std::size_t>() + 2, ' ');
+    const std::size_t depth = object["depth"];
+    std::string text(2 * std::min(depth, max_indent) + 2, ' ');
+    if (depth > max_indent) text += fmt::format("[depth {}] ", depth);
     text += printable(path.substr(path.rfind('/') + 1), 80);
     std::vector<std::string> parts;
     if (object.contains("triangles")) {
