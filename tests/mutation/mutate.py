@@ -19,8 +19,12 @@ FOLDERS = {
     "perception": ["perception"],
     "cache": ["render/irradiance_", "render/record_index", "render/cache_fill", "render/gather.", "render/pixel_filter"],
 }
-PROGRAMS = ["test_base", "test_perception", "test_pose", "test_motion", "test_subdivide", "test_render", "test_cache",
-            "test_key_moments"]
+PROGRAMS = {
+    "engine": ["test_base", "test_pose", "test_motion", "test_subdivide", "test_render"],
+    "motion": ["test_motion", "test_pose", "test_render"],
+    "perception": ["test_perception"],
+    "cache": ["test_render", "test_cache", "test_key_moments"],
+}
 OPERATOR = re.compile(r"(?<=[\w)\]}]) (<=|>=|==|!=|<|>|\+|-|\*|/)(?= |$)")
 # Where an operator is no expression of values: preprocessor, templates, declarations of operators, static assertions.
 SKIPPED = re.compile(r"^\s*(#|//|\*|template|using|requires|static_assert|case )|operator|\bconcept\b|<=>|sizeof\.\.\.")
@@ -62,7 +66,7 @@ def make_tree(only):
     return sites, kinds
 
 
-def build(jobs):
+def build(programs, jobs):
     flags = f"-std=c++20 -w -include {ROOT}/tests/mutation/mutants.h"
     tree, folder = WORK / "tree", WORK / "build"
     subprocess.run(["cmake", "-S", tree, "-B", folder, "-G", "Ninja", "-DCMAKE_BUILD_TYPE=Release", "-DALEPH_REPORT=OFF",
@@ -70,7 +74,7 @@ def build(jobs):
                    check=True, stdout=subprocess.DEVNULL)
     dropped = set()
     while True:  # lines that no longer compile are put back
-        made = subprocess.run(["ninja", "-C", folder, "-j", str(jobs), "-k", "0", *PROGRAMS], capture_output=True, text=True)
+        made = subprocess.run(["ninja", "-C", folder, "-j", str(jobs), "-k", "0", *programs], capture_output=True, text=True)
         if made.returncode == 0:
             return dropped
         wrong = {(path, int(line)) for path, line in re.findall(rf"{tree}/(\S+?):(\d+):\d+:? (?:error|  required)", made.stdout)}
@@ -101,9 +105,10 @@ def main():
     parser.add_argument("--only", choices=FOLDERS)
     options = parser.parse_args()
     sites, kinds = make_tree(options.only)
-    dropped = build(options.jobs)
+    programs = sorted({program for kind in FOLDERS if options.only in (None, kind) for program in PROGRAMS[kind]})
+    dropped = build(programs, options.jobs)
     reached, seconds = {}, {}
-    for program in PROGRAMS:
+    for program in programs:
         seen = WORK / f"{program}.seen"
         seen.unlink(missing_ok=True)
         start = time.time()
