@@ -20,7 +20,7 @@ std::string name_or_number(const std::string& name, const char* kind, std::size_
 /// Paths are made when they are asked for: what is kept, and the work for one path, do not grow with the depth.
 class NodePaths {
   public:
-    static constexpr std::size_t longest_path = 512, kept_of_path = 240;
+    static constexpr std::size_t longest_path = 256, kept_of_path = 115;
 
     /// @param scene  outlives this object
     explicit NodePaths(const Scene& scene);

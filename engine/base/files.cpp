@@ -32,4 +32,10 @@ Bytes read_regular_file(const fs::path& path, const std::string& file, const std
     return bytes;
 }
 
+std::string lower_extension(const std::filesystem::path& path) {
+    std::string extension = path.extension().string();
+    for (char& c : extension) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+    return extension;
+}
+
 }  // namespace aleph

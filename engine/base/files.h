@@ -18,4 +18,7 @@ inline constexpr std::uint64_t max_file_bytes = 0x7fffffff;
 /// @throws InputError
 Bytes read_regular_file(const std::filesystem::path& path, const std::string& file, const std::string& place);
 
+/// The ending of a file's name in lower case: ".abc" of "Shot.ABC". Empty where there is none.
+std::string lower_extension(const std::filesystem::path& path);
+
 }  // namespace aleph

@@ -7,6 +7,7 @@
 
 #include "engine/alembic/alembic.h"
 #include "engine/base/errors.h"
+#include "engine/base/files.h"
 #include "engine/gltf/gltf.h"
 #include "engine/json/close_names.h"
 #include "engine/scene/append.h"
@@ -70,7 +71,7 @@ void append_file(Scene& scene, int index, const std::filesystem::path& path, con
                  const LoadLimits& limits) {
     const Include include = scene.includes[index];
     const int parent = add_axes_node(scene, index);
-    if (path.extension() != ".abc" && path.extension() != ".ABC") {
+    if (lower_extension(path) != ".abc") {
         append_gltf(path, scene, parent, index, limits, include.animations ? &*include.animations : nullptr);
     } else {
         if (include.animations) {

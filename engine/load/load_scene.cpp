@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 #include <system_error>
 
 #include "engine/alembic/alembic.h"
@@ -31,16 +30,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::string extension_of(const fs::path& path) {
-    std::string extension = path.extension().string();
-    std::transform(extension.begin(), extension.end(), extension.begin(),
-                   [](char c) { return static_cast<char>(std::tolower(static_cast<unsigned char>(c))); });
-    return extension;
-}
-
 /// @param accepted  the kinds of file that are allowed there, for the message
 void check_asset_name(const fs::path& path, const std::string& file, const std::string& place, const char* accepted) {
-    const std::string extension = extension_of(path);
+    const std::string extension = lower_extension(path);
     if (extension == ".gltf" || extension == ".glb" || extension == ".abc") return;
     throw InputError(file, place,
                      fmt::format("files of the kind \"{}\" are not read; expected {}", printable(extension), accepted));
@@ -82,7 +74,7 @@ void load_images(SceneText& text, const fs::path& folder, const std::string& fil
 }
 
 AlembicTiming append_asset(const fs::path& path, Scene& scene, int parent_node, int include, const LoadLimits& limits) {
-    if (extension_of(path) == ".abc") return append_alembic(path, scene, parent_node, include);
+    if (lower_extension(path) == ".abc") return append_alembic(path, scene, parent_node, include);
     append_gltf(path, scene, parent_node, include, limits);
     return {};
 }
@@ -166,7 +158,7 @@ fs::path folder_of(const fs::path& file) {
 Scene load_scene(const std::filesystem::path& path, const LoadLimits& limits) {
     const std::string file = path.string();
     Scene scene =
-        extension_of(path) == ".json" ? load_scene_file(path, file, limits) : load_asset_file(path, file, limits);
+        lower_extension(path) == ".json" ? load_scene_file(path, file, limits) : load_asset_file(path, file, limits);
     check_camera_axes(scene);
     add_rotation_warnings(scene);
     add_mesh_warnings(scene);
@@ -179,7 +171,7 @@ Scene load_scene(const std::filesystem::path& path, const LoadLimits& limits) {
 
 void save_scene(const Scene& scene, const std::filesystem::path& path) {
     const std::string file = path.string();
-    if (extension_of(path) != ".json") {
+    if (lower_extension(path) != ".json") {
         throw InputError(file, "", "the name of a scene file must end in .json: load_scene tells files apart by it");
     }
     Scene own = without_includes(scene, file);

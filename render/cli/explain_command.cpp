@@ -40,15 +40,45 @@ Scene load_or_list_missing(const std::string& file, const LoadLimits& limits) {
     }
 }
 
+/// Lines after the first with more spaces before them.
+std::string indented(const std::string& text, std::size_t spaces) {
+    std::string out;
+    for (const char c : text) {
+        out += c;
+        if (c == '\n') out.append(spaces, ' ');
+    }
+    return out;
+}
+
 /// Names that are not UTF-8 are written with replacement characters.
 std::string to_text(const nlohmann::ordered_json& value) {
-    return value.dump(1, ' ', false, nlohmann::ordered_json::error_handler_t::replace).append("\n");
+    return value.dump(1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
+}
+
+/// Prints an object as to_text of all of it, with the text of one element of its lists at a time in memory.
+void print_json(const nlohmann::ordered_json& object) {
+    const char* before = "{";
+    for (const auto& [key, value] : object.items()) {
+        std::cout << before << "\n " << to_text(key) << ": ";
+        before = ",";
+        if (!value.is_array() || value.empty()) {
+            std::cout << indented(to_text(value), 1);
+            continue;
+        }
+        const char* between = "[";
+        for (const auto& element : value) {
+            std::cout << between << "\n  " << indented(to_text(element), 2);
+            between = ",";
+        }
+        std::cout << "\n ]";
+    }
+    std::cout << "\n}\n";
 }
 
 int explain(const ExplainOptions& options) {
     Scene scene = load_or_list_missing(options.scene, options.limits);
     if (options.moment) {
-        std::cout << to_text(explain_moment(scene, options.at));
+        print_json(explain_moment(scene, options.at));
     } else {
         RenderSettings settings;
         apply_settings(settings, scene.settings, options.scene);
@@ -59,7 +89,11 @@ int explain(const ExplainOptions& options) {
             options.frames.empty() ? choose_planned_frames(scene) : parse_frame_list(options.frames);
         std::ranges::sort(frames);
         const nlohmann::ordered_json explained = explain_scene(scene, settings, options.camera, frames);
-        std::cout << (options.json ? to_text(explained) : explain_text(explained, options.objects));
+        if (options.json) {
+            print_json(explained);
+        } else {
+            std::cout << explain_text(explained, options.objects);
+        }
     }
     std::cout.flush();
     if (!std::cout) throw OutputError("standard output", "could not be written");
@@ -91,7 +125,9 @@ void add_explain_command(CLI::App& app, Command& command) {
     explain_app->footer(
         "The effects plan says which effects a frame is rendered with, why, and how much those that are left out can "
         "change: --force and --forbid override it, --plan off simulates everything.\n"
-        "If files that the scene names are missing, all of them are listed.\n\n"
+        "If files that the scene names are missing, all of them are listed.\n"
+        "Paths of more than 256 bytes are shortened in the middle, where the hash of the whole path tells them apart; "
+        "the text indents 32 levels.\n\n"
         "Examples:\n"
         "  aleph explain scenes/pool/scene.json              objects, animation, counts, bounds, warnings\n"
         "  aleph explain scenes/pool/scene.json --frames 20 --error 1   the plan of a frame at an error\n"

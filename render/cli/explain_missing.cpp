@@ -43,7 +43,7 @@ void add_gltf_files(const fs::path& path, const LoadLimits& limits, std::vector<
 }
 
 bool is_gltf(const fs::path& path) {
-    const std::string extension = path.extension().string();
+    const std::string extension = lower_extension(path);
     return extension == ".gltf" || extension == ".glb";
 }
 
@@ -80,7 +80,7 @@ std::vector<MissingFile> list_missing_files(const fs::path& path, const LoadLimi
     std::vector<MissingFile> missing;
     try {
         if (is_gltf(path)) add_gltf_files(path, limits, missing);
-        if (path.extension() == ".json") add_scene_files(path, limits, missing);
+        if (lower_extension(path) == ".json") add_scene_files(path, limits, missing);
     } catch (const InputError&) {  // loading says what is wrong with the file
     }
     return missing;

@@ -7,6 +7,7 @@
 
 #include "engine/base/atomic_file.h"
 #include "engine/base/errors.h"
+#include "engine/base/files.h"
 #include "render/cli/frame_pattern.h"
 
 namespace aleph {
@@ -20,8 +21,7 @@ namespace fs = std::filesystem;
 }
 
 std::optional<OutputFormat> find_format(const fs::path& path) {
-    std::string extension = path.extension().string();
-    for (char& c : extension) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+    const std::string extension = lower_extension(path);
     if (extension == ".exr") return OutputFormat::exr;
     if (extension == ".png") return OutputFormat::png;
     if (extension == ".hdr") return OutputFormat::hdr;

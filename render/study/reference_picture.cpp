@@ -10,6 +10,7 @@
 #include "engine/scene/scene_hash.h"
 #include "render/compare_luminance.h"
 #include "render/frame_files.h"
+#include "render/program_build.h"
 #include "render/sequence.h"
 #include "render/study/processor_time.h"
 
@@ -107,7 +108,8 @@ void add_indirect(ChannelImage& image, const ShadedFrame& shaded) {
 std::filesystem::path reference_picture_path(const RenderSettings& given, std::int64_t frame,
                                              const ReferencePictureOptions& options) {
     const RenderSettings settings = reference_settings(given, options);
-    const std::string what = hash_bytes(options.identity + " " + describe_settings(settings, options)).substr(0, 16);
+    const std::string what =
+        hash_bytes(program_build() + " " + options.identity + " " + describe_settings(settings, options)).substr(0, 16);
     return std::filesystem::path(options.folder) / fmt::format("{}-{}-{}x{}-{}-{}.exr", options.name, frame,
                                                                settings.width, settings.height, options.kind, what);
 }

@@ -38,7 +38,7 @@ ChannelImage load_or_render_reference_picture(const Scene& scene, const RenderSe
                                               const ReferencePictureOptions& options,
                                               const ReferenceProgress& progress = {});
 
-/// The file that keeps it.
+/// The file that keeps it. Other builds of the program (program_build) have other files.
 std::filesystem::path reference_picture_path(const RenderSettings& settings, std::int64_t frame,
                                              const ReferencePictureOptions& options);
 

@@ -24,21 +24,23 @@ struct DemoOptions {
     double accuracy = 0.1;
 };
 
-std::vector<Panel> make_panels(const FrameOutput& guided, const FrameOutput& unguided) {
+std::vector<Panel> make_panels(const FrameOutput& guided, const FrameOutput& unguided,
+                               const ViewingConditions& viewing) {
     const Image<Rgb>&a = guided.shaded.color, &b = unguided.shaded.color;
     Image<float> difference(a.width, a.height);
     for (std::size_t i = 0; i < difference.size(); ++i) {
-        difference.pixels[i] = 100.0f * std::abs(luminance(a.pixels[i]) - luminance(b.pixels[i])) /
-                               std::max(guided.threshold.pixels[i], 1e-6f);
+        const float change = std::abs(luminance(a.pixels[i]) - luminance(b.pixels[i]));
+        difference.pixels[i] =
+            static_cast<float>(viewing.display_white) * change / std::max(guided.threshold.pixels[i], 1e-6f);
     }
     return {color_panel(fmt::format("guided: {} irradiance values", guided.statistics.counts.records), a),
             color_panel(fmt::format("unguided: {} irradiance values", unguided.statistics.counts.records), b),
-            map_panel("difference over what a viewer tolerates, 0 to 1", difference, {}),
-            map_panel("Aleph map, 1 to 250 (log): error that goes unseen", guided.perception.aleph, {1.0, 250.0, true}),
+            map_panel("difference over what a viewer tolerates", difference, {}),
+            map_panel("Aleph map (log): error that goes unseen", guided.perception.aleph, {1.0, 250.0, true}),
             records_panel("guided: where irradiance was computed", guided.shaded.records),
             records_panel("unguided: where irradiance was computed", unguided.shaded.records),
-            map_panel("saliency, 0 to 1: where one looks", guided.perception.saliency, {}),
-            map_panel("image velocity, 0 to 10 deg/s", guided.velocity, {0.0, 10.0})};
+            map_panel("saliency: where one looks", guided.perception.saliency, {}),
+            map_panel("image velocity, deg/s", guided.velocity, {0.0, 10.0})};
 }
 
 /// Statistics of one frame, rendered in both ways.
@@ -69,7 +71,7 @@ std::vector<Pair> render_pairs(const Scene& scene, RenderSettings settings, cons
         const FrameOutput guided = render(guided_sequence, "guided", frame);
         const FrameOutput unguided = render(unguided_sequence, "unguided", frame);
         pairs.push_back({guided.statistics, unguided.statistics});
-        if (frame == frames.back()) write_sheet(study.picture, make_panels(guided, unguided), 4, 480);
+        if (frame == frames.back()) write_sheet(study.picture, make_panels(guided, unguided, scene.viewing), 4, 480);
     }
     return pairs;
 }

@@ -2,6 +2,7 @@
 
 #include "engine/load/load_scene.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -168,6 +169,20 @@ TEST_F(LoadScene, FilesThatASceneNamesAndThatCannotBeRead) {
         ADD_FAILURE();
     } catch (const InputError& error) {
         EXPECT_EQ(error.file(), (folder_ / "broken.gltf").string());
+    }
+}
+
+TEST_F(LoadScene, EndingsOfNamesCountInAnyCase) {
+    for (const char* name : {"old.abc", "old.Abc", "old.ABC"}) {
+        const fs::path file = write(name, "\x89HDF\r\n");
+        for (const fs::path& path : {file, write_scene(fmt::format("\"include\": \"{}\"", name))}) {
+            try {
+                load_scene(path);
+                ADD_FAILURE() << name;
+            } catch (const InputError& error) {
+                EXPECT_NE(error.reason().find("abcconvert"), std::string::npos) << name << ": " << error.what();
+            }
+        }
     }
 }
 
