@@ -5,8 +5,8 @@
 
 #include "engine/load/load_scene.h"
 #include "render/cli/explain.h"
-#include "tests/support/child_cost.h"
 #include "tests/support/gltf_draft.h"
+#include "tests/support/load_cost.h"
 #include "tests/support/scratch_folder.h"
 
 namespace aleph {
@@ -47,7 +47,7 @@ TEST(MissingFiles, S13_11_RefusedTextsAreNotParsedForTheirMissingFiles) {
     for (int i = 0; i < 200; ++i) includes += fmt::format("{}\"{}hostile.gltf\"", i == 0 ? "" : ",", i % 2 ? "./" : "");
     write_text(folder / "scene.json", "{\"aleph\": 1, \"include\": [" + includes + "]}");
     for (const char* name : {"hostile.gltf", "hostile.glb", "scene.json"}) {
-        const ChildCost cost = run_in_child([&] { explain(folder / name, {}); });
+        const LoadCost cost = load_cost([&] { explain(folder / name, {}); });
         EXPECT_TRUE(cost.refused) << name;
         EXPECT_NE(cost.message.find("MiB"), std::string::npos) << cost.message;
         expect_bounded(cost, name);
