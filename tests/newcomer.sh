@@ -34,6 +34,15 @@ silent() {
   "$@" >output 2>&1 && [ ! -s output ] || fail "expected success without a word: $*"
 }
 
+# killed_after PATTERN COMMAND...: starts it and kills it once a file of that name is there. If it ends first, the checks
+# that follow hold too.
+killed_after() {
+  "${@:2}" >output 2>&1 &
+  until compgen -G "$1" >/dev/null || ! kill -0 $! 2>/dev/null; do sleep 0.05; done
+  kill -KILL $! 2>/dev/null
+  wait $! 2>/dev/null
+}
+
 # is COMMAND...: a condition.
 is() {
   checks=$((checks + 1))
@@ -69,14 +78,7 @@ answers 1 "/proc/x.exr" aleph render first.json --frames 0 --size 4000x3000 -o /
 answers 1 "/proc/s.json" aleph render first.json --frames 0 --size 4000x3000 -o x.exr --stats /proc/s.json
 
 # Statistics of finished frames outlive the program.
-aleph render first.json --size 64x48 --spp 4 -q -o killed/ --stats killed.json &
-render=$!
-for _ in {1..200}; do
-  [ -e killed.json ] && break
-  sleep 0.05
-done
-kill -KILL "$render" 2>/dev/null
-wait "$render" 2>/dev/null
+killed_after killed.json aleph render first.json --size 64x48 --spp 4 -q -o killed/ --stats killed.json
 is [ "$(tail -1 killed.json)" = "}" ]
 is grep -q '"frame": 0' killed.json
 
@@ -172,8 +174,7 @@ answers 0 '0 runs made, 2 found finished' aleph study first.json "${study[@]}" -
 echo '{"scenes": [{"scene": "first.json", "frames": "0"}], "size": "16x12", "sweeps": {"spp": [1]}}' >typo.json
 answers 2 '/sweeps' aleph study typo.json
 echo '{"scenes": [{"scene": "first.json", "frames": "0-5"}], "size": "64x48", "sweep": {"spp": [4, 8, 16]}, "repeats": 2}' >long.json
-aleph study long.json -q -o killed >output 2>&1 &
-sleep 1 && kill -9 $! && wait 2>/dev/null
+killed_after "killed/runs/*.json" aleph study long.json -q -o killed
 answers 0 'spp=16' aleph study long.json -o killed
 answers 0 'spp=16' aleph study long.json -o whole
 numbers() { cut -d, -f5,7,9,11,13,15,17,19 "$1/study.csv"; }

@@ -20,7 +20,9 @@ std::atomic<std::ptrdiff_t> held;
     bytes.fetch_add(size, std::memory_order_relaxed);
     const auto now = static_cast<std::ptrdiff_t>(size) + held.fetch_add(static_cast<std::ptrdiff_t>(size));
     std::size_t most = peak.load(std::memory_order_relaxed);
-    while (now > static_cast<std::ptrdiff_t>(most) && !peak.compare_exchange_weak(most, static_cast<std::size_t>(now))) {}
+    while (now > static_cast<std::ptrdiff_t>(most) &&
+           !peak.compare_exchange_weak(most, static_cast<std::size_t>(now))) {
+    }
     return block;
 }
 

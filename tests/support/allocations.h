@@ -1,6 +1,6 @@
 #pragma once
-// Counts what a piece of work allocates, by all threads: the same numbers on every machine, whatever else it does. A program
-// that counts has allocations.cpp among its sources.
+// Counts what a piece of work allocates, by all threads: the same numbers on every machine, whatever else it does. A
+// program that counts has allocations.cpp among its sources.
 
 #include <cstddef>
 #include <functional>

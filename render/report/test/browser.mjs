@@ -9,12 +9,15 @@ const here = path.dirname(fileURLToPath(import.meta.url));
 const packages = fs.existsSync(path.join(process.cwd(), 'node_modules')) ? process.cwd() : path.dirname(here);
 const require = createRequire(path.join(packages, 'package.json'));
 
+/** Milliseconds after which a wait counts as a hang: ten times what a slow machine takes. */
+export const hang = 300000;
+
 const chromium = process.env.CHROMIUM ?? '/usr/bin/chromium';
 
 /** Starts the browser. */
 export async function launch() {
   const { default: puppeteer } = await import(pathToFileURL(require.resolve('puppeteer-core')).href);
-  return puppeteer.launch({ executablePath: chromium, headless: true, args: ['--no-sandbox', '--disable-gpu', '--force-device-scale-factor=1'] });
+  return puppeteer.launch({ executablePath: chromium, headless: true, timeout: hang, protocolTimeout: hang, args: ['--no-sandbox', '--disable-gpu', '--force-device-scale-factor=1'] });
 }
 
 /**
@@ -23,6 +26,7 @@ export async function launch() {
  */
 export async function open(browser, file, { width = 1280, height = 900, dark = false, calm = false, ready = '[data-ready="true"]' } = {}) {
   const page = await browser.newPage();
+  page.setDefaultTimeout(hang);
   const troubles = [];
   const requests = [];
   page.on('console', message => {
@@ -36,8 +40,8 @@ export async function open(browser, file, { width = 1280, height = 900, dark = f
     { name: 'prefers-reduced-motion', value: calm ? 'reduce' : 'no-preference' },
   ]);
   const address = pathToFileURL(path.resolve(file)).href;
-  await page.goto(address);
-  await page.waitForSelector(ready, { timeout: 30000 });
+  await page.goto(address, { timeout: hang });
+  await page.waitForSelector(ready);
   const isOutside = url => url !== address && !url.startsWith('data:') && !url.startsWith('blob:');
   return { page, troubles, outside: () => requests.filter(isOutside) };
 }
@@ -57,7 +61,14 @@ export function shownPanes(page) {
 /** Waits until the panes show these ids in this order. */
 export async function waitForPanes(page, ids) {
   await page.waitForFunction(list => document.querySelector('#panes').dataset.drawn?.split('|').slice(1).join('|') === list,
-    { timeout: 20000 }, ids.join('|'));
+    {}, ids.join('|'));
+}
+
+/** Does something that draws the panes again, and waits until they are drawn. */
+export async function redraw(page, act) {
+  await page.evaluate(() => { delete document.querySelector('#panes').dataset.drawn; });
+  await act();
+  await page.waitForSelector('#panes[data-drawn]');
 }
 
 /** Selected variants, as the table shows them. */
@@ -87,7 +98,7 @@ export async function readWalk(page, x, y, variant, frame) {
   await page.waitForFunction((pixel, id, number) => {
     const { dataset } = document.querySelector('#walk');
     return dataset.pixel === pixel && dataset.variant === id && dataset.frame === number;
-  }, { timeout: 10000 }, `${x},${y}`, variant, String(frame));
+  }, {}, `${x},${y}`, variant, String(frame));
   return Object.fromEntries(await page.$$eval('#walk [data-channel]', nodes =>
     nodes.map(node => [node.dataset.channel, Number(node.dataset.value)])));
 }

@@ -43,5 +43,3 @@ export async function openPage(options, data = sample) {
   opened.push(result);
   return result.page;
 }
-
-export const settle = () => new Promise(resolve => setTimeout(resolve, 200));

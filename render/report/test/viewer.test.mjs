@@ -117,7 +117,7 @@ describe('the viewer test', () => {
     await page.keyboard.press('Enter');
     for (let i = 0; i < 4; ++i) {
       await page.waitForFunction(number => document.querySelector('#progress').textContent.startsWith(`Trial ${number} `)
-        && !document.querySelector('#answer-1').disabled, { timeout: 10000 }, i + 1);
+        && !document.querySelector('#answer-1').disabled, {}, i + 1);
       await page.keyboard.press(i % 2 ? '1' : '2');
     }
     await page.waitForSelector('#results:not([hidden])');
