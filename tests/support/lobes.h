@@ -3,6 +3,7 @@
 
 #include "render/scatter.h"
 #include "tests/support/render_scenes.h"
+#include "tests/support/trial.h"
 
 namespace aleph {
 

@@ -6,6 +6,7 @@
 
 #include "render/direct_light.h"
 #include "tests/support/render_scenes.h"
+#include "tests/support/trial.h"
 
 namespace aleph {
 
@@ -96,11 +97,6 @@ inline Mean estimate(const Stage& stage, const ViewedSurface& surface, int count
         mean.add(luminance(estimator(stage, task, surface, random)));
     }
     return mean;
-}
-
-/// In standard errors of both.
-inline double deviation(const Mean& a, const Mean& b) {
-    return std::abs(a.mean() - b.mean()) / std::hypot(a.error(), b.error());
 }
 
 }  // namespace aleph

@@ -9,6 +9,7 @@
 
 #include "engine/surface/shapes.h"
 #include "render/frame.h"
+#include "tests/support/mean.h"
 
 namespace aleph {
 
@@ -206,25 +207,5 @@ inline RenderSettings path_settings(int bounces, int spp, std::uint32_t seed = 0
     settings.seed = seed;
     return settings;
 }
-
-/// Mean and standard error of independent values.
-class Mean {
-  public:
-    void add(double value) {
-        ++count_;
-        const double delta = value - mean_;
-        mean_ += delta / static_cast<double>(count_);
-        squares_ += delta * (value - mean_);
-    }
-    double mean() const { return mean_; }
-    double error() const {
-        const double n = static_cast<double>(count_);
-        return std::sqrt(squares_ / (n * (n - 1.0)));
-    }
-
-  private:
-    std::size_t count_ = 0;
-    double mean_ = 0.0, squares_ = 0.0;
-};
 
 }  // namespace aleph

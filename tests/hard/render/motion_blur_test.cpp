@@ -7,6 +7,7 @@
 #include "tests/support/keyed_track.h"
 #include "tests/support/paths.h"
 #include "tests/support/render_scenes.h"
+#include "tests/support/trial.h"
 
 namespace aleph {
 namespace {
@@ -52,45 +53,47 @@ bool is_in_square(const glm::dvec2& p) {
 void expect_coverage(const Scene& scene, const glm::dvec2& shutter, const Shape2d& covers) {
     constexpr std::uint32_t seeds = 16;
     constexpr int times = 4096;
-    std::vector<Mean> coverage(width * height), red(width * height);
-    Mean all;
-    for (std::uint32_t seed = 0; seed < seeds; ++seed) {
-        Sequence sequence(scene, blur_settings(seed));
-        const FrameOutput out = sequence.render(0);
-        double sum = 0.0;
-        for (std::size_t i = 0; i < coverage.size(); ++i) {
-            coverage[i].add(out.shaded.coverage.pixels[i]);
-            red[i].add(out.shaded.color.pixels[i].x);
-            sum += out.shaded.coverage.pixels[i];
-        }
-        all.add(sum);
-    }
-    int beyond = 0;
-    double truth_sum = 0.0;
-    for (int y = 0; y < height; ++y) {
-        for (int x = 0; x < width; ++x) {
-            int inside = 0;
-            for (int t = 0; t < times; ++t) {
-                const glm::vec2 offset = lattice_point(t, times, {0.0f, 0.5f});
-                const glm::dvec2 point((x + offset.x - 0.5 * width) / pixels_per_metre,
-                                       (0.5 * height - y - offset.y) / pixels_per_metre);
-                const double time = std::fmod((t + 0.5) * 0.41421356237309505, 1.0);
-                if (covers(point, shutter.x + (shutter.y - shutter.x) * time)) ++inside;
+    EXPECT_TRUE(holds([&](Trial& trial) {
+        std::vector<Mean> coverage(width * height), red(width * height);
+        Mean all;
+        for (std::uint32_t run = 0; run < trial.times(seeds); ++run) {
+            Sequence sequence(scene, blur_settings(run + trial.seed));
+            const FrameOutput out = sequence.render(0);
+            double sum = 0.0;
+            for (std::size_t i = 0; i < coverage.size(); ++i) {
+                coverage[i].add(out.shaded.coverage.pixels[i]);
+                red[i].add(out.shaded.color.pixels[i].x);
+                sum += out.shaded.coverage.pixels[i];
             }
-            const double truth = static_cast<double>(inside) / times;
-            const double variance = truth * (1.0 - truth) / spp;  // of independent samples
-            truth_sum += truth;
-            const Mean& found = coverage[static_cast<std::size_t>(y) * width + x];
-            // Where few seeds met the square, their spread says little.
-            const double tolerance = 3.0 * std::max(found.error(), std::sqrt(variance / seeds)) + 1e-3;
-            if (std::abs(found.mean() - truth) > tolerance) ++beyond;
-            EXPECT_NEAR(found.mean(), truth, 2.0 * tolerance) << x << " " << y;
-            EXPECT_NEAR(red[static_cast<std::size_t>(y) * width + x].mean(), 2.0 * found.mean(), 1e-5);
+            all.add(sum);
         }
-    }
-    EXPECT_LE(beyond, width * height / 100);
-    EXPECT_NEAR(all.mean(), truth_sum, 3.0 * all.error() + 2e-3 * truth_sum);
-    EXPECT_GT(truth_sum, 5.0);
+        int beyond = 0;
+        double truth_sum = 0.0;
+        for (int y = 0; y < height; ++y) {
+            for (int x = 0; x < width; ++x) {
+                int inside = 0;
+                for (int t = 0; t < times; ++t) {
+                    const glm::vec2 offset = lattice_point(t, times, {0.0f, 0.5f});
+                    const glm::dvec2 point((x + offset.x - 0.5 * width) / pixels_per_metre,
+                                           (0.5 * height - y - offset.y) / pixels_per_metre);
+                    const double time = std::fmod((t + 0.5) * 0.41421356237309505, 1.0);
+                    if (covers(point, shutter.x + (shutter.y - shutter.x) * time)) ++inside;
+                }
+                const double truth = static_cast<double>(inside) / times;
+                const double variance = truth * (1.0 - truth) / spp;  // of independent samples
+                truth_sum += truth;
+                const Mean& found = coverage[static_cast<std::size_t>(y) * width + x];
+                // Where few seeds met the square, their spread says little.
+                const double tolerance = 3.0 * std::max(found.error(), std::sqrt(variance / trial.times(seeds))) + 1e-3;
+                if (std::abs(found.mean() - truth) > tolerance) ++beyond;
+                EXPECT_NEAR(found.mean(), truth, 2.0 * tolerance) << x << " " << y;
+                EXPECT_NEAR(red[static_cast<std::size_t>(y) * width + x].mean(), 2.0 * found.mean(), 1e-5);
+            }
+        }
+        trial.at_most(beyond, 0.0, width * height / 100);
+        trial.near(all, truth_sum, 2e-3 * truth_sum);
+        EXPECT_GT(truth_sum, 5.0);
+    }));
 }
 
 TEST(MotionBlur, MC27_AMovingSquareCoversItsShareOfTheTime) {
@@ -221,12 +224,14 @@ TEST(MotionBlur, FX15_LightThatChangesWhereNothingInViewMoves) {
         } else {
             scene.lights[0].intensity = keyed<double>({0.0, at(1)}, {0.0, 1.5});
         }
-        Mean mean;
-        for (std::uint32_t seed = 0; seed < 16; ++seed) {
-            mean.add(Sequence(scene, blur_settings(seed)).render(0).shaded.color(12, 8).x);
-        }
-        EXPECT_NEAR(mean.mean(), 0.75, 3.0 * mean.error() + 1e-4);
-        EXPECT_LT(mean.error(), 0.02);
+        EXPECT_TRUE(holds([&](Trial& trial) {
+            Mean mean;
+            for (std::uint32_t run = 0; run < trial.times(16u); ++run) {
+                mean.add(Sequence(scene, blur_settings(run + trial.seed)).render(0).shaded.color(12, 8).x);
+            }
+            trial.near(mean, 0.75, 1e-4);
+            EXPECT_LT(mean.error(), 0.02);
+        }));
     }
 }
 
@@ -234,28 +239,29 @@ TEST(MotionBlur, MC27_AChangeOfTopologyShowsBothMeshes) {
     // A surface of one triangle in frame 0, of two in frame 1.
     Scene scene = load_scene(source_folder() / "scenes" / "hard" / "changing_topology.json");
     scene.environment.reset();
-    constexpr std::uint32_t seeds = 16;
-    std::vector<Mean> blurred(width * height), still(width * height);
-    for (std::uint32_t seed = 0; seed < seeds; ++seed) {
-        scene.cameras[0].shutter = {0.0, 0.0};
-        Sequence frames(scene, blur_settings(seed));
-        const Image<Rgb> first = frames.render(0).shaded.color, second = frames.render(1).shaded.color;
-        scene.cameras[0].shutter = {0.0, 2.0};
-        const Image<Rgb> both = Sequence(scene, blur_settings(seed + 100)).render(0).shaded.color;
-        for (std::size_t i = 0; i < blurred.size(); ++i) {
-            blurred[i].add(luminance(both.pixels[i]));
-            still[i].add(0.5 * (luminance(first.pixels[i]) + luminance(second.pixels[i])));
+    EXPECT_TRUE(holds([&](Trial& trial) {
+        std::vector<Mean> blurred(width * height), still(width * height);
+        for (std::uint32_t seed = trial.seed; seed < trial.seed + trial.times(16u); ++seed) {
+            scene.cameras[0].shutter = {0.0, 0.0};
+            Sequence frames(scene, blur_settings(seed));
+            const Image<Rgb> first = frames.render(0).shaded.color, second = frames.render(1).shaded.color;
+            scene.cameras[0].shutter = {0.0, 2.0};
+            const Image<Rgb> both = Sequence(scene, blur_settings(seed + 100)).render(0).shaded.color;
+            for (std::size_t i = 0; i < blurred.size(); ++i) {
+                blurred[i].add(luminance(both.pixels[i]));
+                still[i].add(0.5 * (luminance(first.pixels[i]) + luminance(second.pixels[i])));
+            }
         }
-    }
-    int beyond = 0;
-    Mean difference;
-    for (std::size_t i = 0; i < blurred.size(); ++i) {
-        const double error = std::hypot(blurred[i].error(), still[i].error());
-        if (std::abs(blurred[i].mean() - still[i].mean()) > 3.0 * error + 1e-5) ++beyond;
-        difference.add(blurred[i].mean() - still[i].mean());
-    }
-    EXPECT_LE(beyond, width * height / 50);  // 0.9 % of Student's t of 15 degrees of freedom are
-    EXPECT_NEAR(difference.mean(), 0.0, 3.0 * difference.error());
+        int beyond = 0;
+        Mean difference;
+        for (std::size_t i = 0; i < blurred.size(); ++i) {
+            const double error = std::hypot(blurred[i].error(), still[i].error());
+            if (std::abs(blurred[i].mean() - still[i].mean()) > 3.0 * error + 1e-5) ++beyond;
+            difference.add(blurred[i].mean() - still[i].mean());
+        }
+        trial.at_most(beyond, 0.0, width * height / 50);  // 0.9 % of Student's t of 15 degrees of freedom are
+        trial.near(difference, 0.0);
+    }));
 }
 
 }  // namespace

@@ -20,10 +20,14 @@ TEST(PathLights, MC10_ADiscAtAnyDistanceHasItsFormFactor) {
         Scene scene;
         const int lamp = add_lambert(scene, glm::dvec3(0.0), glm::dvec3(1.0));
         add_mesh(scene, make_disc_facing_down(0.5f, 128, lamp), {0.0, distance, 0.0});
-        const Mean found = estimate(Stage(std::move(scene)), make_floor(glm::vec3(0.0f)), 4000, by_paths(1, 1));
+        const Stage stage(std::move(scene));
         const double expected = 0.25 / (0.25 + distance * distance);
-        EXPECT_NEAR(found.mean(), expected, 0.01 * expected);
-        EXPECT_LT(found.mean(), 1.0 + 3.0 * found.error() + 1e-5);
+        EXPECT_TRUE(holds([&](Trial& trial) {
+            const Mean found =
+                estimate(stage, make_floor(glm::vec3(0.0f)), trial.times(4000), by_paths(1, 1), trial.seed);
+            EXPECT_NEAR(found.mean(), expected, 0.01 * expected);
+            trial.at_most(found, 1.0 + 1e-5);
+        }));
     }
 }
 
@@ -34,10 +38,14 @@ TEST(PathLights, MC10_ASquareNearbyIsSampledBySolidAngle) {
         Scene scene;
         const int lamp = add_lambert(scene, glm::dvec3(0.0), glm::dvec3(1.0));
         add_mesh(scene, make_quad(1.0, 1.0, lamp), {0.0, distance, 0.0}, z_to_down);
-        const Mean found = estimate(Stage(std::move(scene)), make_floor(glm::vec3(0.0f)), 40'000, by_paths(0, 1));
+        const Stage stage(std::move(scene));
         const double x = 0.5 / distance, a = std::sqrt(1.0 + x * x), expected = 4.0 / pi * x / a * std::atan(x / a);
-        EXPECT_NEAR(found.mean(), expected, 0.01 * expected);
-        EXPECT_LE(found.mean(), 1.0 + 3.0 * found.error());
+        EXPECT_TRUE(holds([&](Trial& trial) {
+            const Mean found =
+                estimate(stage, make_floor(glm::vec3(0.0f)), trial.times(40'000), by_paths(0, 1), trial.seed);
+            EXPECT_NEAR(found.mean(), expected, 0.01 * expected);
+            trial.at_most(found, 1.0);
+        }));
     }
 }
 
@@ -79,38 +87,34 @@ TEST(PathLights, MC11_TrianglesWithoutAreaGiveNoLightAndTakeNone) {
     add_mesh(scene, nothing, {0.0, 1.0, 0.0}, z_to_down);
     const Stage stage(std::move(scene));
     EXPECT_EQ(stage.lights.count(), 1);
-    const Mean found = estimate(stage, make_floor(glm::vec3(0.0f)), 4000, by_paths(0, 1));
     const double x = 0.5, a = std::sqrt(1.0 + x * x), expected = 4.0 / pi * x / a * std::atan(x / a);
-    EXPECT_NEAR(found.mean(), expected, 3.0 * found.error() + 1e-5);
+    EXPECT_TRUE(holds([&](Trial& trial) {
+        trial.near(estimate(stage, make_floor(glm::vec3(0.0f)), trial.times(4000), by_paths(0, 1), trial.seed),
+                   expected, 1e-5);
+    }));
 }
 
 TEST(PathLights, MC22_ThePenumbraOfASquareLampHasItsClosedForm) {
     const Stage stage(Penumbra::make_scene());
-    int beyond = 0;
     constexpr int points = 49;
     for (int i = 0; i < points; ++i) {
         const double x = -0.6 + 1.2 * i / (points - 1);
         const double expected = Penumbra::at(x, 0.0);
         for (const auto& [estimator, samples] :
              {std::pair(by_paths(0, 1), 1500), std::pair(by_direct_samples(8), 150)}) {
-            const Mean found = estimate(stage, make_floor({static_cast<float>(x), 0.0f, 0.0f}, 0.6f), samples,
-                                        estimator, static_cast<std::uint32_t>(i));
-            if (std::abs(found.mean() - expected) > 3.0 * found.error() + 1e-5) ++beyond;
-            EXPECT_NEAR(found.mean(), expected, 5.0 * found.error() + 1e-5) << x;
+            EXPECT_TRUE(holds([&](Trial& trial) {
+                trial.near(estimate(stage, make_floor({static_cast<float>(x), 0.0f, 0.0f}, 0.6f), trial.times(samples),
+                                    estimator, static_cast<std::uint32_t>(i) + trial.seed),
+                           expected, 1e-5);
+            })) << x;
         }
     }
-    EXPECT_LE(beyond, 2);
 }
 
 enum class Crowd { equal, one_bright, one_visible, coincident, far_and_near };
 
-struct Lit {
-    Mean found;
-    double expected = 0.0;
-};
-
 /// A floor under many point lights of the same total, and the sum of what those bring.
-Lit light_by(int count, Crowd crowd, int samples, const Estimator& estimator) {
+std::pair<Scene, double> make_crowd(int count, Crowd crowd) {
     Scene scene;
     const int side = static_cast<int>(std::ceil(std::sqrt(count)));
     double expected = 0.0;
@@ -134,8 +138,7 @@ Lit light_by(int count, Crowd crowd, int samples, const Estimator& estimator) {
         add_mesh(scene, make_quad(20.0, 20.0, add_lambert(scene, glm::dvec3(0.0), glm::dvec3(0.0), true)),
                  {0.0, 1.4, 0.0}, z_to_up);
     }
-    const Stage stage(std::move(scene));
-    return {estimate(stage, make_floor(glm::vec3(0.0f), 0.6f), samples, estimator), expected};
+    return {std::move(scene), expected};
 }
 
 TEST(PathLights, FX14_MC23_AThousandLightsGiveTheirSum) {
@@ -143,10 +146,16 @@ TEST(PathLights, FX14_MC23_AThousandLightsGiveTheirSum) {
          {std::pair(Crowd::equal, 4000), std::pair(Crowd::one_bright, 4000), std::pair(Crowd::one_visible, 30'000),
           std::pair(Crowd::coincident, 4000), std::pair(Crowd::far_and_near, 4000)}) {
         SCOPED_TRACE(static_cast<int>(crowd));
+        auto [scene, sum] = make_crowd(1000, crowd);
+        const Stage stage(std::move(scene));
+        const double expected = sum;
         for (const Estimator& estimator : {by_paths(0, 1), by_direct_samples(1)}) {
-            const Lit lit = light_by(1000, crowd, samples, estimator);
-            EXPECT_NEAR(lit.found.mean(), lit.expected, 3.0 * lit.found.error() + 1e-5 * lit.expected);
-            EXPECT_LT(lit.found.error(), 0.2 * lit.expected);
+            EXPECT_TRUE(holds([&, samples = samples](Trial& trial) {
+                const Mean found =
+                    estimate(stage, make_floor(glm::vec3(0.0f), 0.6f), trial.times(samples), estimator, trial.seed);
+                trial.near(found, expected, 1e-5 * expected);
+                EXPECT_LT(found.error(), 0.2 * expected);
+            }));
         }
     }
 }

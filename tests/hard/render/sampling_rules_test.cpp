@@ -5,6 +5,7 @@
 #include "render/sequence.h"
 #include "tests/support/keyed_track.h"
 #include "tests/support/penumbra.h"
+#include "tests/support/trial.h"
 
 namespace aleph {
 namespace {
@@ -48,36 +49,38 @@ void expect_mean(const Scene& scene, RenderSettings settings, const Truth& truth
                  std::int64_t frame = 0) {
     constexpr std::uint32_t seeds = 12;
     const std::size_t count = static_cast<std::size_t>(settings.width) * static_cast<std::size_t>(settings.height);
-    std::vector<Mean> pixels(count);
-    Mean picture;
-    for (settings.seed = 0; settings.seed < seeds; ++settings.seed) {
-        Sequence sequence(scene, settings);
-        ShadedFrame out = sequence.render(0).shaded;
-        if (frame != 0) out = sequence.render(frame).shaded;
-        double sum = 0.0;
-        for (std::size_t i = 0; i < count; ++i) {
-            const double y = luminance(out.color.pixels[i]);
-            pixels[i].add(y);
-            sum += y;
+    EXPECT_TRUE(holds([&](Trial& trial) {
+        std::vector<Mean> pixels(count);
+        Mean picture;
+        for (settings.seed = trial.seed; settings.seed < trial.seed + trial.times(seeds); ++settings.seed) {
+            Sequence sequence(scene, settings);
+            ShadedFrame out = sequence.render(0).shaded;
+            if (frame != 0) out = sequence.render(frame).shaded;
+            double sum = 0.0;
+            for (std::size_t i = 0; i < count; ++i) {
+                const double y = luminance(out.color.pixels[i]);
+                pixels[i].add(y);
+                sum += y;
+            }
+            picture.add(sum);
         }
-        picture.add(sum);
-    }
-    double truth_sum = 0.0;
-    std::size_t beyond = 0;
-    for (int y = 0; y < settings.height; ++y) {
-        for (int x = 0; x < settings.width; ++x) {
-            const double expected = truth(x, y);
-            truth_sum += expected;
-            const Mean& found = pixels[static_cast<std::size_t>(y) * settings.width + x];
-            // Where few samples met anything, their spread says little.
-            const double error = std::max(found.error(), darkest_error * std::sqrt(expected * (1.0 - expected)));
-            if (std::abs(found.mean() - expected) > 3.0 * error + 1e-5) ++beyond;
+        double truth_sum = 0.0;
+        std::size_t beyond = 0;
+        for (int y = 0; y < settings.height; ++y) {
+            for (int x = 0; x < settings.width; ++x) {
+                const double expected = truth(x, y);
+                truth_sum += expected;
+                const Mean& found = pixels[static_cast<std::size_t>(y) * settings.width + x];
+                // Where few samples met anything, their spread says little.
+                const double error = std::max(found.error(), darkest_error * std::sqrt(expected * (1.0 - expected)));
+                if (std::abs(found.mean() - expected) > 3.0 * error + 1e-5) ++beyond;
+            }
         }
-    }
-    const double chance = 0.012 * static_cast<double>(count);  // Student's t of 11 degrees of freedom
-    EXPECT_LE(static_cast<double>(beyond), chance + 3.0 * std::sqrt(chance));
-    EXPECT_NEAR(picture.mean(), truth_sum, 3.0 * picture.error() + 1e-4 * truth_sum);
-    EXPECT_GT(truth_sum, 1.0);
+        const double chance = 0.012 * static_cast<double>(count);  // Student's t of 11 degrees of freedom
+        trial.at_most(static_cast<double>(beyond), std::sqrt(chance), chance);
+        trial.near(picture, truth_sum, 1e-4 * truth_sum);
+        EXPECT_GT(truth_sum, 1.0);
+    }));
 }
 
 /// How many pixels of frame 0, rendered to an error of one threshold, differ from the truth by more than it.

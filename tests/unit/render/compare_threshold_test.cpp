@@ -14,6 +14,7 @@
 #include "engine/base/errors.h"
 #include "render/compare.h"
 #include "tests/support/numbers.h"
+#include "tests/support/trial.h"
 
 namespace aleph {
 namespace {
@@ -126,34 +127,36 @@ TEST(CompareNoise, PictureOfNoiseAloneIsBeyondAsOftenAsTheNormalDistributionSays
     constexpr int width = 200, height = 150;
     const double n = width * height;
     for (const double sigma : {0.3, 0.7, 1.5}) {  // in thresholds
-        const ChannelImage truth = grey(width, height, 0.5f);
-        const ChannelImage reference = noisy(width, height, 0.5f, static_cast<float>(0.01 * sigma), 11);
-        const ChannelImage map{{{"threshold.Y", Image<float>(width, height, 1.0f)}}, {}};
-        const CompareResult result = compare_images(truth, reference, {}, &map);
-        const double p = two_sided(1.0 / sigma);
-        EXPECT_NEAR(result.threshold->noise->expected / n, p, 1e-5);
-        EXPECT_NEAR(static_cast<double>(result.threshold->beyond) / n, p, 3.0 * std::sqrt(p * (1.0 - p) / n)) << sigma;
-        const double q = two_sided(3.0 + 1.0 / sigma);
-        EXPECT_NEAR(static_cast<double>(result.threshold->noise->certain) / n, q,
-                    3.0 * std::sqrt(q * (1.0 - q) / n) + 1.0 / n);
-        EXPECT_NEAR(result.threshold->noise->percentile_99, sigma, 0.0051 * sigma);
-        const double far = two_sided(3.0);
-        EXPECT_NEAR(static_cast<double>(result.luminance->far) / n, far, 3.0 * std::sqrt(far * (1.0 - far) / n));
-        EXPECT_LT(std::abs(result.luminance->bias), 3.0 * result.luminance->bias_error);
-        // Each squared normal number has variance 2.
-        EXPECT_NEAR(result.luminance->relative_mse / result.luminance->noise_mse, 1.0, 3.0 * std::sqrt(2.0 / n) + 0.01);
+        EXPECT_TRUE(holds([&](Trial& trial) {
+            const ChannelImage truth = grey(width, height, 0.5f);
+            const ChannelImage reference =
+                noisy(width, height, 0.5f, static_cast<float>(0.01 * sigma), 11 + trial.seed);
+            const ChannelImage map{{{"threshold.Y", Image<float>(width, height, 1.0f)}}, {}};
+            const CompareResult result = compare_images(truth, reference, {}, &map);
+            const double p = two_sided(1.0 / sigma);
+            EXPECT_NEAR(result.threshold->noise->expected / n, p, 1e-5);
+            trial.counts(static_cast<double>(result.threshold->beyond), n, p);
+            trial.counts(static_cast<double>(result.threshold->noise->certain), n, two_sided(3.0 + 1.0 / sigma), 1.0);
+            EXPECT_NEAR(result.threshold->noise->percentile_99, sigma, 0.0051 * sigma);
+            trial.counts(static_cast<double>(result.luminance->far), n, two_sided(3.0));
+            trial.near(result.luminance->bias, result.luminance->bias_error, 0.0, 0.0);
+            // Each squared normal number has variance 2.
+            trial.near(result.luminance->relative_mse / result.luminance->noise_mse, std::sqrt(2.0 / n), 1.0, 0.01);
+        })) << sigma;
     }
 }
 
 TEST(CompareNoise, TwoNoisyPicturesShareTheirStandardErrors) {
     constexpr int width = 200, height = 150;
     const double n = width * height;
-    const ChannelImage a = noisy(width, height, 0.5f, 0.01f, 3), b = noisy(width, height, 0.5f, 0.02f, 4);
     CompareSettings settings;
     settings.standard_errors = 2.0;
     settings.share = 100.0;
-    const double p = two_sided(2.0), far = static_cast<double>(compare_images(a, b, settings).luminance->far);
-    EXPECT_NEAR(far / n, p, 3.0 * std::sqrt(p * (1.0 - p) / n));
+    EXPECT_TRUE(holds([&](Trial& trial) {
+        const ChannelImage a = noisy(width, height, 0.5f, 0.01f, 3 + trial.seed),
+                           b = noisy(width, height, 0.5f, 0.02f, 4 + trial.seed);
+        trial.counts(static_cast<double>(compare_images(a, b, settings).luminance->far), n, two_sided(2.0));
+    }));
 }
 
 TEST(CompareNoise, StandardErrorsReplaceTheChannels) {

@@ -9,6 +9,7 @@
 #include "tests/support/directions.h"
 #include "tests/support/numbers.h"
 #include "tests/support/render_scenes.h"
+#include "tests/support/trial.h"
 
 namespace aleph {
 namespace {
@@ -32,10 +33,11 @@ struct Lighting {
     Rgb quick_at(const SurfacePoint& point, const SurfaceMaterial& material, int samples) {
         return estimate_direct_light(stage.lighting(), task, {point, material, up}, samples);
     }
-    Mean mean_at(const glm::vec3& position, const SurfaceMaterial& material, const glm::vec3& view, int samples,
-                 int runs) {
+    /// At the origin.
+    Mean mean_of(const SurfaceMaterial& material, const glm::vec3& view, int samples, int runs,
+                 std::uint32_t seed = 0) {
         Mean mean;
-        for (int i = 0; i < runs; ++i) mean.add(at(position, material, view, samples, static_cast<std::uint32_t>(i)).x);
+        for (int i = 0; i < runs; ++i) mean.add(at(glm::vec3(0.0f), material, view, samples, seed++).x);
         return mean;
     }
     Stage stage;
@@ -102,10 +104,12 @@ double square_factor(double size, double height) {
 TEST(DirectLight, SquareLampOverhead) {
     for (const double height : {0.5, 1.5, 4.0}) {
         Lighting lighting(make_square_lamp(z_to_down, false, 2.0, height));
-        const Mean mean = lighting.mean_at(glm::vec3(0.0f), make_lambert(0.6f), up, {16}, 300);
         const double expected = 0.6 * 5.0 * square_factor(2.0, height);
-        EXPECT_NEAR(mean.mean(), expected, 3.0 * mean.error());
-        EXPECT_NEAR(mean.mean(), expected, 0.01 * expected);
+        EXPECT_TRUE(holds([&](Trial& trial) {
+            const Mean mean = lighting.mean_of(make_lambert(0.6f), up, 16, trial.times(300), trial.seed);
+            trial.near(mean, expected);
+            EXPECT_NEAR(mean.mean(), expected, 0.01 * expected);
+        }));
         // The quick estimate's fixed pattern is biased, but close.
         const Rgb quick = lighting.quick_at(make_point(glm::vec3(0.0f), up), make_lambert(0.6f), 16);
         EXPECT_NEAR(quick.x, expected, 0.1 * expected);
@@ -116,29 +120,30 @@ TEST(DirectLight, OffsetRaysEndBeforeTheLamp) {
     // Far from the anchor, rays start half a millimetre off the surface. They must not reach the lamp because of that.
     Lighting lighting(make_square_lamp(z_to_down, false, 2.0, 0.5));
     SurfacePoint point = make_point(glm::vec3(0.0f), up, 5e-4f);
-    Mean mean;
-    for (std::uint32_t seed = 0; seed < 100; ++seed) {
-        RandomStream random({seed, 1, 2, 3});
-        mean.add(compute_direct_light(lighting.stage.lighting(), lighting.task, {point, make_lambert(0.6f), up}, {16},
-                                      random)
-                     .x);
-    }
     const double expected = 0.6 * 5.0 * square_factor(2.0, 0.5);
-    EXPECT_NEAR(mean.mean(), expected, 3.0 * mean.error() + 1e-3 * expected);
+    EXPECT_TRUE(holds([&](Trial& trial) {
+        Mean mean;
+        for (std::uint32_t run = 0; run < trial.times(100u); ++run) {
+            RandomStream random({run + trial.seed, 1, 2, 3});
+            const ViewedSurface surface{point, make_lambert(0.6f), up};
+            mean.add(compute_direct_light(lighting.stage.lighting(), lighting.task, surface, {16}, random).x);
+        }
+        trial.near(mean, expected, 1e-3 * expected);
+    }));
     const Rgb quick = lighting.quick_at(point, make_lambert(0.6f), 16);
     EXPECT_NEAR(quick.x, expected, 0.1 * expected);
 }
 
 TEST(DirectLight, EmittersShineFromTheirFrontOrFromBoth) {
-    const auto light_below = [](const glm::dquat& turn, bool double_sided) {
-        Lighting lighting(make_square_lamp(turn, double_sided));
-        return lighting.mean_at(glm::vec3(0.0f), make_lambert(0.6f), up, {16}, 100);
-    };
-    EXPECT_EQ(light_below(z_to_up, false).mean(), 0.0);
-    const Mean front = light_below(z_to_down, false);
-    for (const Mean& mean : {light_below(z_to_up, true), light_below(z_to_down, true)}) {
-        EXPECT_NEAR(mean.mean(), front.mean(), 3.0 * std::hypot(mean.error(), front.error()));
-    }
+    EXPECT_TRUE(holds([&](Trial& trial) {
+        const auto light_below = [&](const glm::dquat& turn, bool double_sided) {
+            Lighting lighting(make_square_lamp(turn, double_sided));
+            return lighting.mean_of(make_lambert(0.6f), up, 16, trial.times(100), trial.seed);
+        };
+        EXPECT_EQ(light_below(z_to_up, false).mean(), 0.0);
+        const Mean front = light_below(z_to_down, false);
+        for (const Mean& mean : {light_below(z_to_up, true), light_below(z_to_down, true)}) trial.near(mean, front);
+    }));
 }
 
 TEST(DirectLight, EnvironmentOnAnOpenLambertPlaneIsAlbedoTimesRadiance) {
@@ -179,10 +184,13 @@ TEST(DirectLight, WhiteMetalInAWhiteFurnace) {
         for (const float cosine : {1.0f, 0.6f, 0.15f}) {
             const SurfaceMaterial metal = make_metal(alpha);
             const glm::vec3 view(std::sqrt(1.0f - cosine * cosine), cosine, 0.0f);
-            const Mean mean = lighting.mean_at(glm::vec3(0.0f), metal, view, 64, 200);
             const double expected = albedo_of(metal, make_basis(up).to_local(view));
-            EXPECT_NEAR(mean.mean(), expected, 3.0 * mean.error() + 1e-3) << alpha << ' ' << cosine;
-            EXPECT_LE(mean.mean(), 1.0 + 3.0 * mean.error() + 1e-4) << alpha << ' ' << cosine;
+            EXPECT_TRUE(holds([&](Trial& trial) {
+                const Mean mean = lighting.mean_of(metal, view, 64, trial.times(200), trial.seed);
+                trial.near(mean, expected, 1e-3);
+                trial.at_most(mean, 1.0 + 1e-4);
+            })) << alpha
+                << ' ' << cosine;
         }
     }
 }
@@ -196,34 +204,36 @@ TEST(DirectLight, LightAndLobeSamplingAgreeWithTheirCombination) {
         const Basis basis = make_basis(up);
         const glm::vec3 local_view = basis.to_local(view);
         const SurfacePoint point = make_point(glm::vec3(0.0f), up);
-        std::mt19937 engine(5);
-        std::uniform_real_distribution<float> unit(0.0f, 0x1.fffffep-1f);
-        Mean lamp_only, lobe_only;
-        for (int i = 0; i < 100'000; ++i) {
-            const LightSample sample = sample_light(lighting.stage.shading, lighting.stage.lights, 0,
-                                                    {point.position, up}, {unit(engine), unit(engine)});
-            const float cosine = glm::dot(up, sample.direction);
-            lamp_only.add(cosine > 0.0f ? (evaluate_glossy(metal, local_view, basis.to_local(sample.direction)) *
-                                           sample.incoming * cosine)
-                                              .x
-                                        : 0.0);
-            const glm::vec3 local = sample_glossy(metal, local_view, {unit(engine), unit(engine)});
-            double found = 0.0;
-            if (local.z > 0.0f &&
-                lighting.task.tracer.intersect({point.ray_origin(), basis.to_world(local)}).instance == 0) {
-                found =
-                    evaluate_glossy(metal, local_view, local).x * 5.0 * local.z / pdf_glossy(metal, local_view, local);
+        EXPECT_TRUE(holds([&](Trial& trial) {
+            std::mt19937 engine(5 + trial.seed);
+            std::uniform_real_distribution<float> unit(0.0f, 0x1.fffffep-1f);
+            Mean lamp_only, lobe_only;
+            for (int i = 0; i < trial.times(100'000); ++i) {
+                const LightSample sample = sample_light(lighting.stage.shading, lighting.stage.lights, 0,
+                                                        {point.position, up}, {unit(engine), unit(engine)});
+                const float cosine = glm::dot(up, sample.direction);
+                lamp_only.add(cosine > 0.0f ? (evaluate_glossy(metal, local_view, basis.to_local(sample.direction)) *
+                                               sample.incoming * cosine)
+                                                  .x
+                                            : 0.0);
+                const glm::vec3 local = sample_glossy(metal, local_view, {unit(engine), unit(engine)});
+                double found = 0.0;
+                if (local.z > 0.0f &&
+                    lighting.task.tracer.intersect({point.ray_origin(), basis.to_world(local)}).instance == 0) {
+                    found = evaluate_glossy(metal, local_view, local).x * 5.0 * local.z /
+                            pdf_glossy(metal, local_view, local);
+                }
+                lobe_only.add(found);
             }
-            lobe_only.add(found);
-        }
-        const Mean both = lighting.mean_at(glm::vec3(0.0f), metal, view, 16, 2000);
-        EXPECT_GT(both.mean(), 0.1);
-        EXPECT_NEAR(both.mean(), lamp_only.mean(), 3.0 * std::hypot(both.error(), lamp_only.error())) << alpha;
-        EXPECT_NEAR(both.mean(), lobe_only.mean(), 3.0 * std::hypot(both.error(), lobe_only.error())) << alpha;
-        // Per ray (16 + 16 per run), the combination is never much worse than the better of the two.
-        const double rays_both = 2000.0 * 32.0, rays_one = 100'000.0;
-        const double better = std::min(lamp_only.error(), lobe_only.error()) * std::sqrt(rays_one);
-        EXPECT_LT(both.error() * std::sqrt(rays_both), 2.0 * better) << alpha;
+            const Mean both = lighting.mean_of(metal, view, 16, trial.times(2000), trial.seed);
+            EXPECT_GT(both.mean(), 0.1);
+            trial.near(both, lamp_only);
+            trial.near(both, lobe_only);
+            // Per ray (16 + 16 per run), the combination is never much worse than the better of the two.
+            const double rays_both = 2000.0 * 32.0, rays_one = 100'000.0;
+            const double better = std::min(lamp_only.error(), lobe_only.error()) * std::sqrt(rays_one);
+            EXPECT_LT(both.error() * std::sqrt(rays_both), 2.0 * better);
+        })) << alpha;
     }
 }
 
@@ -236,13 +246,17 @@ TEST(DirectLight, MC23_AThousandLightsShareTheSamplesOfSixteen) {
         expected += 0.6 / pi * 0.1 * at.y / std::pow(glm::dot(at, at), 1.5);
     }
     Lighting lighting(std::move(scene));
-    const Mean found = lighting.mean_at(glm::vec3(0.0f), make_lambert(0.6f), up, 2, 100);
-    EXPECT_NEAR(found.mean(), expected, 3.0 * found.error());
-    EXPECT_EQ(lighting.task.counts.shadow, 100u * 2u * 16u);
+    EXPECT_TRUE(holds([&](Trial& trial) {
+        const int runs = trial.times(100);
+        lighting.task.counts = {};
+        trial.near(lighting.mean_of(make_lambert(0.6f), up, 2, runs, trial.seed), expected);
+        EXPECT_EQ(lighting.task.counts.shadow, static_cast<unsigned>(runs) * 2u * 16u);
+    }));
+    lighting.task.counts = {};
     // The quick estimate has the same points at every surface.
     const SurfacePoint point = make_point(glm::vec3(0.0f), up);
     const Rgb quick = lighting.quick_at(point, make_lambert(0.6f), 4);
-    EXPECT_EQ(lighting.task.counts.shadow, 100u * 2u * 16u + 4u * 16u);
+    EXPECT_EQ(lighting.task.counts.shadow, 4u * 16u);
     EXPECT_EQ(quick, lighting.quick_at(point, make_lambert(0.6f), 4));
     EXPECT_NEAR(quick.x, expected, 0.05 * expected);
 }

@@ -28,16 +28,21 @@ Mean mean_of(const Stage& stage, const RenderSettings& settings) {
     return mean;
 }
 
-void expect_value(const Mean& mean, double expected) {
-    EXPECT_NEAR(mean.mean(), expected, 3.0 * mean.error() + 1e-4 * expected);
-    EXPECT_NEAR(mean.mean(), expected, 0.01 * expected);
+void expect_value(const Stage& stage, RenderSettings settings, double expected) {
+    EXPECT_TRUE(holds([&](Trial& trial) {
+        settings.seed = trial.seed;
+        settings.spp = settings.light_samples = trial.times(64);
+        const Mean mean = mean_of(stage, settings);
+        trial.near(mean, expected, 1e-4 * expected);
+        EXPECT_NEAR(mean.mean(), expected, 0.01 * expected);
+    }));
 }
 
 TEST(Path, MC14_AClosedSphereAddsUpAllItsBounces) {
     const Stage stage(make_furnace(0.8), 16, 12);
     RenderSettings settings = path_settings(100, 64);
     settings.path_depth = 100;
-    expect_value(mean_of(stage, settings), 5.0);
+    expect_value(stage, settings, 5.0);
 }
 
 TEST(Path, MC14_EachBounceAddsItsTerm) {
@@ -60,7 +65,7 @@ TEST(Path, MC14_WithoutLossTheDepthIsTheLight) {
         SCOPED_TRACE(depth);
         RenderSettings settings = path_settings(100, 64);
         settings.path_depth = depth;
-        expect_value(mean_of(stage, settings), depth + 1.0);
+        expect_value(stage, settings, depth + 1.0);
     }
 }
 
@@ -88,18 +93,21 @@ TEST(Path, MC14_AWallOfAllLobesGainsNoLight) {
         scene.materials[0].double_sided = true;
         scene.environment = Track<glm::dvec3>(glm::dvec3(1.0));  // behind the glass
         const Stage stage(std::move(scene), 16, 12);
-        RenderSettings settings = path_settings(100, 32);
-        settings.path_depth = 3;
-        const Mean mean = mean_of(stage, settings);
-        EXPECT_LT(mean.mean(), 4.0 + 3.0 * mean.error());
-        // The same without sampling lights, at the pixels' centres: the sphere looks the same all over.
         const SampleHits hits = cast_centers(stage.rays, stage.view, nullptr);
-        Mean lobes;
-        for (int i = 0; i < 16 * 12; ++i) {
-            const PixelSurface surface = make_pixel_surface(stage.shading, stage.view, hits, i % 16, i / 16);
-            lobes.add(1.0 + estimate(stage, surface, 32, by_lobes(3), static_cast<std::uint32_t>(i)).mean());
-        }
-        EXPECT_LT(deviation(mean, lobes), 3.0) << mean.mean() << " " << lobes.mean();
+        EXPECT_TRUE(holds([&](Trial& trial) {
+            RenderSettings settings = path_settings(100, trial.times(32), trial.seed);
+            settings.path_depth = 3;
+            const Mean mean = mean_of(stage, settings);
+            trial.at_most(mean, 4.0);
+            // The same without sampling lights, at the pixels' centres: the sphere looks the same all over.
+            Mean lobes;
+            for (int i = 0; i < 16 * 12; ++i) {
+                const PixelSurface surface = make_pixel_surface(stage.shading, stage.view, hits, i % 16, i / 16);
+                const auto seed = static_cast<std::uint32_t>(i) + trial.seed;
+                lobes.add(1.0 + estimate(stage, surface, trial.times(32), by_lobes(3), seed).mean());
+            }
+            trial.near(mean, lobes);
+        }));
     }
 }
 
@@ -130,12 +138,14 @@ TEST(Path, MC19_RouletteIsUnbiased) {
     const Stage stage(std::move(scene));
     const ViewedSurface surface{
         make_point({0.0f, -0.5f, 0.0f}, {0.0f, 1.0f, 0.0f}), make_lambert(0.6f), {0.0f, 1.0f, 0.0f}};
-    const Mean early = estimate(stage, surface, 20'000, by_paths(1000, 1000, 0), 1);
-    const Mean never = estimate(stage, surface, 5'000, by_paths(30, 30, 1000), 2);
-    EXPECT_LT(deviation(early, never), 3.0);
-    EXPECT_NEAR(early.mean(), 1.5, 3.0 * early.error());
-    EXPECT_NEAR(never.mean(), 1.5, 3.0 * never.error());
-    EXPECT_GT(early.error() * std::sqrt(4.0), never.error());  // the price
+    EXPECT_TRUE(holds([&](Trial& trial) {
+        const Mean early = estimate(stage, surface, trial.times(20'000), by_paths(1000, 1000, 0), 1 + trial.seed);
+        const Mean never = estimate(stage, surface, trial.times(5'000), by_paths(30, 30, 1000), 2 + trial.seed);
+        trial.near(early, never);
+        trial.near(early, 1.5);
+        trial.near(never, 1.5);
+        EXPECT_GT(early.error() * std::sqrt(4.0), never.error());  // the price
+    }));
 }
 
 TEST(Path, VarianceTellsTheErrorOfThePixel) {

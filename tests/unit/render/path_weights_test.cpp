@@ -86,16 +86,19 @@ TEST_P(PathWeights, BothWaysAloneGiveTheSameMean) {
          {make_lambert(0.8f), make_metal(0.3f), make_plastic(), make_rough_sheet(), volume, make_coated()}) {
         SCOPED_TRACE(seed);
         const ViewedSurface surface{make_point(glm::vec3(0.0f), up, 1e-4f), material, view};
-        const Mean paths = estimate(stage, surface, count, by_paths(depth, depth), seed);
-        const Mean lobes = estimate(stage, surface, 2 * count, by_lobes(depth), seed + 100);
-        EXPECT_GT(paths.mean(), 0.05);
-        EXPECT_LT(deviation(paths, lobes), 3.0) << paths.mean() << " " << lobes.mean();
-        // Samples of a constant environment lie above the surface, so that glass finds the rest by its lobe.
-        if (GetParam() != Surroundings::constant || !material.has_glass()) {
-            const Mean lights = estimate(stage, surface, 2 * count, by_lights(depth), seed + 200);
-            EXPECT_LT(deviation(paths, lights), 3.0) << paths.mean() << " " << lights.mean();
-        }
-        EXPECT_LT(paths.error(), 0.05 * paths.mean());
+        EXPECT_TRUE(holds([&](Trial& trial) {
+            const auto mean_of = [&](int samples, const Estimator& estimator, std::uint32_t stream) {
+                return estimate(stage, surface, trial.times(samples), estimator, seed + stream + trial.seed);
+            };
+            const Mean paths = mean_of(count, by_paths(depth, depth), 0);
+            trial.near(paths, mean_of(2 * count, by_lobes(depth), 100));
+            // Samples of a constant environment lie above the surface, so that glass finds the rest by its lobe.
+            if (GetParam() != Surroundings::constant || !material.has_glass()) {
+                trial.near(paths, mean_of(2 * count, by_lights(depth), 200));
+            }
+            EXPECT_GT(paths.mean(), 0.05);
+            EXPECT_LT(paths.error(), 0.05 * paths.mean());
+        }));
         ++seed;
     }
 }
@@ -127,12 +130,15 @@ TEST_P(PathWeights, SharedSamplesOfDirectLightHaveTheSameMean) {
     for (const SurfaceMaterial& material : {make_lambert(0.8f), make_metal(0.3f), make_plastic(), make_coated()}) {
         SCOPED_TRACE(seed);
         const ViewedSurface surface{make_point(glm::vec3(0.0f), up, 1e-4f), material, view};
-        const Mean lobes = estimate(stage, surface, 6000, by_lobes(1), seed + 100);
-        for (const int count : {1, 4}) {
-            const Mean shared = estimate(stage, surface, 2400 / count, by_direct_samples_and_lobes(count), seed);
-            EXPECT_LT(deviation(shared, lobes), 3.0) << shared.mean() << " " << lobes.mean();
-            EXPECT_LT(shared.error(), 0.05 * shared.mean());
-        }
+        EXPECT_TRUE(holds([&](Trial& trial) {
+            const Mean lobes = estimate(stage, surface, trial.times(6000), by_lobes(1), seed + 100 + trial.seed);
+            for (const int count : {1, 4}) {
+                const Mean shared = estimate(stage, surface, trial.times(2400) / count,
+                                             by_direct_samples_and_lobes(count), seed + trial.seed);
+                trial.near(shared, lobes);
+                EXPECT_LT(shared.error(), 0.05 * shared.mean());
+            }
+        }));
         ++seed;
     }
 }
@@ -144,10 +150,11 @@ TEST(PathWeights, AMirrorAndASmoothSheetFindLampsByThemselves) {
     const glm::vec3 view = glm::normalize(glm::vec3(-0.4f, 0.9f, 0.2f));
     for (const SurfaceMaterial& material : {make_metal(0.0f), sheet}) {
         const ViewedSurface surface{make_point(glm::vec3(0.0f), {0.0f, 1.0f, 0.0f}, 1e-4f), material, view};
-        const Mean paths = estimate(stage, surface, 5000, by_paths(2, 3), 1);
-        const Mean lobes = estimate(stage, surface, 10'000, by_lobes(3), 2);
-        EXPECT_LE(std::abs(paths.mean() - lobes.mean()), 3.0 * std::hypot(paths.error(), lobes.error()) + 1e-6);
-        EXPECT_GT(paths.mean(), 0.1);
+        EXPECT_TRUE(holds([&](Trial& trial) {
+            const Mean paths = estimate(stage, surface, trial.times(5000), by_paths(2, 3), 1 + trial.seed);
+            trial.near(paths, estimate(stage, surface, trial.times(10'000), by_lobes(3), 2 + trial.seed), 1e-6);
+            EXPECT_GT(paths.mean(), 0.1);
+        }));
     }
 }
 
@@ -172,9 +179,10 @@ TEST(PathWeights, LightPassesAThinSheet) {
     const ViewedSurface floor{
         make_point({0.2f, 0.0f, 0.1f}, {0.0f, 1.0f, 0.0f}, 1e-4f), make_lambert(0.6f), {0.0f, 1.0f, 0.0f}};
     for (const Stage* stage : {&clear, &rough}) {
-        const Mean paths = estimate(*stage, floor, 20'000, by_paths(4, 4), 1);
-        const Mean lobes = estimate(*stage, floor, 100'000, by_lobes(4), 2);
-        EXPECT_LT(deviation(paths, lobes), 3.0) << paths.mean() << " " << lobes.mean();
+        EXPECT_TRUE(holds([&](Trial& trial) {
+            trial.near(estimate(*stage, floor, trial.times(20'000), by_paths(4, 4), 1 + trial.seed),
+                       estimate(*stage, floor, trial.times(100'000), by_lobes(4), 2 + trial.seed));
+        }));
     }
     // Light straight from the lamp: each sample is what an open floor would get, times the share that passes.
     Scene open = make_sheet_scene(0.0);

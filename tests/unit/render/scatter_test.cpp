@@ -78,18 +78,21 @@ TEST(Scatter, MC14_NothingScattersMoreThanArrives) {
                 EXPECT_NEAR(glm::length(sample.direction), 1.0f, 1e-5f);
                 return 1.0;
             };
-            Mean mean = mean_scattered(lit, 2000, 1, weigh);
-            // Of a thousand means one is beyond 3 standard errors: a second look, with other and more samples.
-            if (mean.mean() > 1.001 + 3.0 * mean.error()) mean = mean_scattered(lit, 50'000, 2, weigh);
-            EXPECT_LE(mean.mean(), 1.001 + 3.0 * mean.error()) << entry.name << ", cosine " << cosine;
+            EXPECT_TRUE(holds([&](Trial& trial) {
+                trial.at_most(mean_scattered(lit, trial.times(2000), 1 + trial.seed, weigh), 1.001);
+            })) << entry.name
+                << ", cosine " << cosine;
         }
     }
 }
 
 void expect_albedo(const SurfaceMaterial& material, float cosine, double albedo, const char* what) {
     const ViewedSurface surface = make_viewed(material, direction_of(cosine));
-    const Mean mean = mean_scattered(LitSurface(surface), 20'000, 2, [](const auto&) { return 1.0; });
-    EXPECT_NEAR(mean.mean(), albedo, 3.0 * mean.error() + 1e-5) << what << ", cosine " << cosine;
+    EXPECT_TRUE(holds([&](Trial& trial) {
+        const auto one = [](const auto&) { return 1.0; };
+        trial.near(mean_scattered(LitSurface(surface), trial.times(20'000), 2 + trial.seed, one), albedo, 1e-5);
+    })) << what
+        << ", cosine " << cosine;
 }
 
 double coat_at(double cosine) {
@@ -119,11 +122,13 @@ TEST(Scatter, SheenTakesItsAlbedoFromTheLayerBelow) {
             const ViewedSurface layered =
                 make_viewed(with_sheen(make_lambert(0.5f), roughness, 0.6f), direction_of(cosine));
             const auto one = [](const auto&) { return 1.0; };
-            const Mean a = mean_scattered(LitSurface(alone), 40'000, 3, one);
-            const Mean b = mean_scattered(LitSurface(layered), 40'000, 4, one);
-            EXPECT_NEAR(a.mean(), 0.6 * sheen, 3.0 * a.error() + 2e-3) << roughness << ' ' << cosine;
-            EXPECT_NEAR(b.mean(), 0.6 * sheen + (1.0 - 0.6 * sheen) * 0.5, 3.0 * b.error() + 2e-3)
-                << roughness << ' ' << cosine;
+            EXPECT_TRUE(holds([&](Trial& trial) {
+                const int count = trial.times(40'000);
+                trial.near(mean_scattered(LitSurface(alone), count, 3 + trial.seed, one), 0.6 * sheen, 2e-3);
+                trial.near(mean_scattered(LitSurface(layered), count, 4 + trial.seed, one),
+                           0.6 * sheen + (1.0 - 0.6 * sheen) * 0.5, 2e-3);
+            })) << roughness
+                << ' ' << cosine;
         }
     }
 }
@@ -176,10 +181,10 @@ Moments integrate_scattered(const LitSurface& lit) {
     return sums;
 }
 
-std::array<Mean, moment_count> sample_moments(const LitSurface& lit, int count) {
+std::array<Mean, moment_count> sample_moments(const LitSurface& lit, int count, std::uint32_t seed) {
     std::array<Mean, moment_count> means;
     const LobeShares shares = share_lobes(lit, LobeSet::all);
-    RandomStream random({5, 0, 0, 0});
+    RandomStream random({5 + seed, 0, 0, 0});
     for (int i = 0; i < count; ++i) {
         const float pick = random.next();
         const glm::vec2 u = random.next_2d();
@@ -199,10 +204,11 @@ TEST(Scatter, SamplesAndIntegralAgree) {
             const ViewedSurface surface = make_viewed(entry.material, direction_of(cosine));
             const LitSurface lit(surface);
             const Moments integrals = integrate_scattered(lit);
-            const std::array<Mean, moment_count> means = sample_moments(lit, 30'000);
             for (int m = 0; m < moment_count; ++m) {
-                EXPECT_NEAR(means[m].mean(), integrals[m], 3.0 * means[m].error() + 1e-3)
-                    << entry.name << ", cosine " << cosine << ": " << moment_names[m];
+                EXPECT_TRUE(holds([&](Trial& trial) {
+                    trial.near(sample_moments(lit, trial.times(30'000), trial.seed)[m], integrals[m], 1e-3);
+                })) << entry.name
+                    << ", cosine " << cosine << ": " << moment_names[m];
             }
         }
     }

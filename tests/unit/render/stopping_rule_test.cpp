@@ -13,6 +13,7 @@
 #include "render/error_budget.h"
 #include "render/progressive.h"
 #include "tests/support/render_scenes.h"
+#include "tests/support/trial.h"
 
 namespace aleph {
 namespace {
@@ -56,26 +57,27 @@ SamplingPlan make_plan(Sampling rule, int most, int width, int height, float tol
 
 /// Pictures of 10,000 pixels: a mean that is biased towards early calm runs would show beside their spread.
 void expect_unbiased(const Distribution& draw, double mean, float tolerance) {
-    constexpr int width = 100, height = 100, most = 512, seeds = 6;
+    constexpr int width = 100, height = 100, most = 512;
     for (const Sampling rule : rules) {
         SCOPED_TRACE(static_cast<int>(rule));
         const SamplingPlan plan = make_plan(rule, most, width, height, tolerance, 8.0f);
-        Mean pictures;
-        std::set<int> numbers;
-        for (std::uint32_t seed = 0; seed < seeds; ++seed) {
-            double sum = 0.0;
-            for (const PixelSamples& pixel : sample_picture(plan, width, height, seed, draw).pixels) {
-                sum += luminance(pixel.mean()) / (width * height);
-                numbers.insert(pixel.taken());
+        EXPECT_TRUE(holds([&](Trial& trial) {
+            Mean pictures;
+            std::set<int> numbers;
+            for (std::uint32_t run = 0; run < trial.times(12u); ++run) {
+                double sum = 0.0;
+                for (const PixelSamples& pixel : sample_picture(plan, width, height, run + trial.seed, draw).pixels) {
+                    sum += luminance(pixel.mean()) / (width * height);
+                    numbers.insert(pixel.taken());
+                }
+                pictures.add(sum);
             }
-            pictures.add(sum);
-        }
-        const double spread = pictures.error() * std::sqrt(static_cast<double>(seeds));
-        EXPECT_NEAR(pictures.mean(), mean, 3.0 * spread);
-        EXPECT_LT(spread, 0.25 * mean);
-        if (rule == Sampling::threshold) {
-            EXPECT_GT(numbers.size(), 1u);
-        }
+            trial.near(pictures, mean);
+            EXPECT_LT(pictures.error(), 0.1 * mean);
+            if (rule == Sampling::threshold) {
+                EXPECT_GT(numbers.size(), 1u);
+            }
+        }));
     }
 }
 
@@ -186,16 +188,18 @@ TEST(StoppingRule, TheProtocolDividesTheMostSamplesByAleph) {
 
 TEST(PixelSamples, HalvesTellTheErrorOfTheMean) {
     // Independent samples: on average over many pixels, a quarter of the squared difference of halves is the variance.
-    double told = 0.0;
-    constexpr int pixels = 4000, samples = 32;
-    for (std::uint32_t pixel = 0; pixel < pixels; ++pixel) {
-        PixelSamples sum;
-        for (std::uint32_t i = 0; i < samples; ++i) sum.add(grey(RandomStream({1, 2, pixel, i}).next()));
-        EXPECT_EQ(sum.error().samples, samples);
-        told += static_cast<double>(sum.error().total) / pixels;
-    }
-    const double variance = 1.0 / 12.0 / samples;
-    EXPECT_NEAR(told, variance, 3.0 * variance * std::sqrt(2.0 / pixels));
+    EXPECT_TRUE(holds([](Trial& trial) {
+        Mean told;
+        constexpr int samples = 32;
+        for (std::uint32_t pixel = 0; pixel < trial.times(4000u); ++pixel) {
+            PixelSamples sum;
+            for (std::uint32_t i = 0; i < samples; ++i)
+                sum.add(grey(RandomStream({1 + trial.seed, 2, pixel, i}).next()));
+            EXPECT_EQ(sum.error().samples, samples);
+            told.add(static_cast<double>(sum.error().total));
+        }
+        trial.near(told, 1.0 / 12.0 / samples);
+    }));
 }
 
 TEST(PixelSamples, IrradianceIsSharedOnOneFaceOnly) {
