@@ -55,7 +55,7 @@ SamplingPlan make_plan(Sampling rule, int most, int width, int height, float tol
     return plan;
 }
 
-/// Pictures of 10,000 pixels: a mean that is biased towards early calm runs would show beside their spread.
+/// Pictures of 10,000 pixels: a mean that is biased towards early calm runs would show beside its error.
 void expect_unbiased(const Distribution& draw, double mean, float tolerance) {
     constexpr int width = 100, height = 100, most = 512;
     for (const Sampling rule : rules) {
