@@ -9,6 +9,7 @@
 #include "engine/rays/alpha_cutout.h"
 #include "engine/rays/ray_scene.h"
 #include "tests/support/deforming_scenes.h"
+#include "tests/support/trial.h"
 
 namespace aleph {
 namespace {
@@ -33,8 +34,8 @@ struct Placed {
 };
 
 /// Rays downwards through random points of the sheets.
-std::vector<Ray> make_rays(std::size_t count = ray_count) {
-    std::mt19937 random(7);
+std::vector<Ray> make_rays(std::size_t count = ray_count, std::uint32_t seed = 0) {
+    std::mt19937 random(7 + seed);
     std::uniform_real_distribution<float> place(-0.95f, 0.95f);
     std::vector<Ray> rays(count);
     for (Ray& ray : rays) {
@@ -50,21 +51,27 @@ std::vector<Hit> cast(const RayScene& scene, const std::vector<Ray>& rays, Blend
     return hits;
 }
 
-/// Share of the hits on an instance; no_index: that miss.
-double share_on(const std::vector<Hit>& hits, int instance) {
-    return static_cast<double>(std::ranges::count(hits, instance, &Hit::instance)) / static_cast<double>(hits.size());
+/// Hits on an instance; no_index: rays that miss.
+double count_on(const std::vector<Hit>& hits, int instance) {
+    return static_cast<double>(std::ranges::count(hits, instance, &Hit::instance));
 }
 
-/// Three standard errors of a share.
-double tolerance(double p, std::size_t count = ray_count) {
-    return 3.0 * std::sqrt(p * (1.0 - p) / static_cast<double>(count));
+double share_on(const std::vector<Hit>& hits, int instance) {
+    return count_on(hits, instance) / static_cast<double>(hits.size());
+}
+
+std::vector<Ray> make_rays(const Trial& trial) {
+    return make_rays(trial.times(ray_count), trial.seed);
 }
 
 TEST(AlphaBlend, StopsItsShareOfTheRays) {
     const std::vector<Ray> rays = make_rays();
     for (const double alpha : {0.02, 0.3, 0.5, 0.97}) {
         const Placed one(make_blended(alpha, 1));
-        EXPECT_NEAR(share_on(cast(one.rays, rays), 0), alpha, tolerance(alpha));
+        EXPECT_TRUE(holds([&](Trial& trial) {
+            const std::vector<Hit> hits = cast(one.rays, make_rays(trial));
+            trial.counts(count_on(hits, 0), static_cast<double>(hits.size()), alpha);
+        }));
     }
     for (const double alpha : {0.0, 1.0}) {
         const Placed one(make_blended(alpha, 1));
@@ -75,13 +82,16 @@ TEST(AlphaBlend, StopsItsShareOfTheRays) {
 TEST(AlphaBlend, LayersAreIndependent) {
     constexpr double alpha = 0.3;
     const Placed three(make_blended(alpha, 3));
-    const std::vector<Hit> hits = cast(three.rays, make_rays());
-    double passed = 1.0;
-    for (int layer = 0; layer < 3; ++layer) {
-        EXPECT_NEAR(share_on(hits, layer), passed * alpha, tolerance(passed * alpha)) << layer;
-        passed *= 1.0 - alpha;
-    }
-    EXPECT_NEAR(share_on(hits, no_index), passed, tolerance(passed));
+    EXPECT_TRUE(holds([&](Trial& trial) {
+        const std::vector<Hit> hits = cast(three.rays, make_rays(trial));
+        const double all = static_cast<double>(hits.size());
+        double passed = 1.0;
+        for (int layer = 0; layer < 3; ++layer) {
+            trial.counts(count_on(hits, layer), all, passed * alpha);
+            passed *= 1.0 - alpha;
+        }
+        trial.counts(count_on(hits, no_index), all, passed);
+    }));
 }
 
 TEST(AlphaBlend, CoincidentSurfacesAreIndependentToo) {
@@ -93,32 +103,39 @@ TEST(AlphaBlend, CoincidentSurfacesAreIndependentToo) {
     scene.nodes[0].meshes = {0, 0};
     const Placed placed(scene);
     const double open = std::pow(0.7, 4);
-    EXPECT_NEAR(share_on(cast(placed.rays, make_rays()), no_index), open, tolerance(open));
+    EXPECT_TRUE(holds([&](Trial& trial) {
+        const std::vector<Hit> hits = cast(placed.rays, make_rays(trial));
+        trial.counts(count_on(hits, no_index), static_cast<double>(hits.size()), open);
+    }));
 }
 
 TEST(AlphaBlend, ShadowsArePartial) {
     const Placed two(make_blended(0.4, 2));
-    const std::vector<Ray> rays = make_rays();
-    std::vector<std::uint8_t> blocked(rays.size());
-    Tracer(two.rays, Blend::random).occluded(rays, blocked);
-    const double lit = static_cast<double>(std::ranges::count(blocked, 0)) / static_cast<double>(rays.size());
-    EXPECT_NEAR(lit, 0.36, tolerance(0.36));
+    EXPECT_TRUE(holds([&](Trial& trial) {
+        const std::vector<Ray> rays = make_rays(trial);
+        std::vector<std::uint8_t> blocked(rays.size());
+        Tracer(two.rays, Blend::random).occluded(rays, blocked);
+        trial.counts(static_cast<double>(std::ranges::count(blocked, 0)), static_cast<double>(rays.size()), 0.36);
+    }));
 }
 
 TEST(AlphaBlend, NearlyEqualRaysAreIndependent) {
     const Placed one(make_blended(0.5, 1));
-    std::vector<Ray> rays(ray_count);
-    for (std::size_t i = 0; i < rays.size(); ++i) {  // neighbouring floats, in direction and in origin
-        rays[i].origin = {0.25f, 0.25f, 5.0f};
-        rays[i].direction = {0.0f, 0.0f, -1.0f};
-        rays[i].direction.x = 1e-3f + static_cast<float>(i / 2) * 1e-9f;
-        if (i % 2 == 1) rays[i].origin.y = std::nextafter(0.25f, 1.0f);
-    }
-    const std::vector<Hit> hits = cast(one.rays, rays);
-    EXPECT_NEAR(share_on(hits, 0), 0.5, tolerance(0.5));
-    std::size_t alike = 0;
-    for (std::size_t i = 0; i < rays.size(); i += 2) alike += hits[i].instance == hits[i + 1].instance;
-    EXPECT_NEAR(static_cast<double>(alike) / (ray_count / 2), 0.5, tolerance(0.5, ray_count / 2));
+    EXPECT_TRUE(holds([&](Trial& trial) {
+        std::vector<Ray> rays(trial.times(ray_count));
+        for (std::size_t i = 0; i < rays.size(); ++i) {  // neighbouring floats, in direction and in origin
+            rays[i].origin = {0.25f, 0.25f, 5.0f};
+            rays[i].direction = {0.0f, 0.0f, -1.0f};
+            rays[i].direction.x = 1e-3f + static_cast<float>(i / 2 + trial.seed % 1000) * 1e-9f;
+            if (i % 2 == 1) rays[i].origin.y = std::nextafter(0.25f, 1.0f);
+        }
+        const std::vector<Hit> hits = cast(one.rays, rays);
+        const double all = static_cast<double>(rays.size());
+        trial.counts(count_on(hits, 0), all, 0.5);
+        std::size_t alike = 0;
+        for (std::size_t i = 0; i < rays.size(); i += 2) alike += hits[i].instance == hits[i + 1].instance;
+        trial.counts(static_cast<double>(alike), all / 2.0, 0.5);
+    }));
 }
 
 TEST(AlphaBlend, TextureVertexColourAndFactorMultiply) {
@@ -133,18 +150,19 @@ TEST(AlphaBlend, TextureVertexColourAndFactorMultiply) {
     for (const glm::vec3& p : mesh.positions) mesh.uv[0].emplace_back(0.5f * (p.x + 1.0f), 0.5f * (1.0f - p.y));
     mesh.colors.assign(mesh.positions.size(), glm::vec4(1.0f, 1.0f, 1.0f, 0.5f));
     const Placed placed(scene);
-    const std::vector<Ray> rays = make_rays();
-    const std::vector<Hit> hits = cast(placed.rays, rays);
-    for (const bool right : {false, true}) {
-        std::size_t count = 0, met = 0;
-        for (std::size_t i = 0; i < rays.size(); ++i) {
-            if ((rays[i].origin.x > 0.0f) != right) continue;
-            ++count;
-            met += hits[i].instance == 0;
+    EXPECT_TRUE(holds([&](Trial& trial) {
+        const std::vector<Ray> rays = make_rays(trial);
+        const std::vector<Hit> hits = cast(placed.rays, rays);
+        for (const bool right : {false, true}) {
+            std::size_t count = 0, met = 0;
+            for (std::size_t i = 0; i < rays.size(); ++i) {
+                if ((rays[i].origin.x > 0.0f) != right) continue;
+                ++count;
+                met += hits[i].instance == 0;
+            }
+            trial.counts(static_cast<double>(met), static_cast<double>(count), right ? 0.4 : 0.08);
         }
-        const double expected = right ? 0.4 : 0.08;
-        EXPECT_NEAR(static_cast<double>(met) / static_cast<double>(count), expected, tolerance(expected, count));
-    }
+    }));
 }
 
 TEST(AlphaBlend, OneRayHasOneAnswer) {
