@@ -69,6 +69,10 @@ bool is_shown(const Scene& scene, const ScenePose& posed, std::size_t instance) 
     return posed.visible[of.node] != 0 && evaluate_whole(scene.meshes[of.mesh].present, posed.seconds) != 0.0;
 }
 
+bool is_always_present(const Mesh& mesh) {
+    return !is_animated(mesh.present) && evaluate_whole(mesh.present, 0.0) != 0.0;
+}
+
 MaterialValues pose_material(const Material& material, double seconds) {
     MaterialValues values;
     values.base_color = Rgb(glm::min(not_negative(material.base_color, seconds), glm::dvec3(1.0)));

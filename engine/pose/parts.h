@@ -13,6 +13,9 @@ void place_node(const Scene& scene, int node, double seconds, ScenePose& posed);
 /// Whether the instance's node is visible and its mesh present, at posed.seconds.
 bool is_shown(const Scene& scene, const ScenePose& posed, std::size_t instance);
 
+/// Whatever the sampling of its track.
+bool is_always_present(const Mesh& mesh);
+
 MaterialValues pose_material(const Material& material, double seconds);
 LightValues pose_light(const Scene& scene, int node, const glm::dmat4& world, double seconds);
 CameraValues pose_camera(const Scene& scene, int node, const glm::dmat4& world, double seconds);

@@ -38,7 +38,7 @@ bool is_near(const glm::dvec3& p) {
 std::vector<std::uint8_t> find_still_meshes(const Scene& scene, const PosePlan& plan) {
     std::vector<std::uint8_t> still(scene.meshes.size());
     for (std::size_t m = 0; m < still.size(); ++m)
-        still[m] = !scene.meshes[m].triangles.empty() && scene.meshes[m].present == Track<double>(1.0);
+        still[m] = !scene.meshes[m].triangles.empty() && is_always_present(scene.meshes[m]);
     for (const Deformer& deformer : plan.deformers) still[deformer.mesh] = 0;
     return still;
 }

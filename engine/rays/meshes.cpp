@@ -8,6 +8,7 @@
 
 #include "engine/base/errors.h"
 #include "engine/base/flush_denormals.h"
+#include "engine/pose/parts.h"
 #include "engine/pose/plan.h"
 #include "engine/rays/state.h"
 #include "engine/scene/transforms.h"
@@ -92,7 +93,7 @@ struct MeshKinds {
         }
         // A mesh that is never present must not share an object with others either.
         for (std::size_t m = 0; m < scene.meshes.size(); ++m)
-            comes_and_goes[m] = scene.meshes[m].present != Track<double>(1.0);
+            comes_and_goes[m] = !is_always_present(scene.meshes[m]);
     }
     std::vector<std::uint8_t> deforms, changes, comes_and_goes;
 };
