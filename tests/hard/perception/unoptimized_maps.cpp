@@ -1,0 +1,10 @@
+// Writes all_maps() of a build without optimization to the standard output, as bytes.
+
+#include <cstdio>
+
+#include "tests/support/all_maps.h"
+
+int main() {
+    const std::vector<float> maps = aleph::all_maps();
+    return std::fwrite(maps.data(), sizeof(float), maps.size(), stdout) == maps.size() ? 0 : 1;
+}
