@@ -45,7 +45,7 @@ class AlembicTruth : public testing::TestWithParam<std::string> {
   protected:
     void SetUp() override {
         if (!std::filesystem::exists(archive_path(GetParam())))
-            GTEST_SKIP() << "not here: " << archive_path(GetParam());
+            GTEST_SKIP() << missing_asset(archive_path(GetParam()));
     }
 };
 

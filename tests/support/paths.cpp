@@ -10,6 +10,10 @@ std::filesystem::path assets_folder() {
     return source_folder().parent_path() / "shared" / "assets";
 }
 
+std::string missing_asset(const std::filesystem::path& file) {
+    return "files of other programs are not here: " + file.string();
+}
+
 std::filesystem::path build_folder() {
     return ALEPH_BUILD_DIR;
 }

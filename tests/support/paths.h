@@ -12,6 +12,9 @@ std::filesystem::path source_folder();
 /// Files that other programs wrote. They are not part of the repository: the folder may be absent.
 std::filesystem::path assets_folder();
 
+/// The reason of a skipped test; tests/results.sh knows its first words.
+std::string missing_asset(const std::filesystem::path& file);
+
 /// Folder of the build, which holds the programs.
 std::filesystem::path build_folder();
 

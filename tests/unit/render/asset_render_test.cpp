@@ -25,7 +25,7 @@ RenderSettings small_settings() {
 
 TEST(AssetRender, TruckRollsItsWheelsAndNothingElse) {
     const std::filesystem::path file = assets / "CesiumMilkTruck.glb";
-    if (!std::filesystem::exists(file)) GTEST_SKIP() << "third-party file not here: " << file;
+    if (!std::filesystem::exists(file)) GTEST_SKIP() << missing_asset(file);
     const Scene scene = load_scene(file);
     Sequence sequence(scene, small_settings());
     const FrameOutput output = sequence.render(3, {.frame = true, .maps = true, .progress = {}});
@@ -75,7 +75,7 @@ TEST(AssetRender, TruckRollsItsWheelsAndNothingElse) {
 
 TEST(AssetRender, CornellBoxBleedsColour) {
     const std::filesystem::path file = assets / "CornellBox.glb";
-    if (!std::filesystem::exists(file)) GTEST_SKIP() << "third-party file not here: " << file;
+    if (!std::filesystem::exists(file)) GTEST_SKIP() << missing_asset(file);
     const Scene scene = load_scene(file);
     RenderSettings settings = small_settings();
     settings.gather = 256;

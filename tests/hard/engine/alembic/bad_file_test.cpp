@@ -14,7 +14,7 @@ namespace {
 
 TEST(AlembicBadFile, MalformedArchivesOfTheReferenceLibrary) {
     const std::filesystem::path folder = assets_folder() / "abc/malformed";
-    if (!std::filesystem::exists(folder)) GTEST_SKIP() << "not here: " << folder;
+    if (!std::filesystem::exists(folder)) GTEST_SKIP() << missing_asset(folder);
     int files = 0, refused = 0;
     for (const auto& entry : std::filesystem::directory_iterator(folder)) {
         if (entry.path().extension() != ".abc") continue;

@@ -152,7 +152,7 @@ TEST(AlembicInclude, HangsBelowANodeOfASceneFile) {
 /// Archives of others: what there is to see.
 TEST(AlembicForeign, WhatThereIsToSee) {
     for (const std::string& name : foreign_archives)
-        if (!std::filesystem::exists(archive_path(name))) GTEST_SKIP() << "not here: " << archive_path(name);
+        if (!std::filesystem::exists(archive_path(name))) GTEST_SKIP() << missing_asset(archive_path(name));
     const Scene cube = load("indexedTextureCoordinates");
     EXPECT_EQ(mesh_of(cube, "CubeShape").triangles.size(), 12u);
     EXPECT_EQ(mesh_of(cube, "CubeShape").vertex_points.size(), mesh_of(cube, "CubeShape").uv[0].size());

@@ -24,7 +24,7 @@ Scene load(const std::string& name) {
 }
 
 #define SKIP_WITHOUT(name) \
-    if (!fs::exists(assets / (name))) GTEST_SKIP() << "not here: " << (assets / (name))
+    if (!fs::exists(assets / (name))) GTEST_SKIP() << missing_asset(assets / (name))
 
 TEST(GltfAssets, MilkTruckHasItsWheelsTwiceAndTurning) {
     SKIP_WITHOUT("gltf/CesiumMilkTruck.glb");

@@ -23,7 +23,7 @@ Scene load(const fs::path& name) {
 }
 
 #define SKIP_WITHOUT(name) \
-    if (!fs::exists(assets / (name))) GTEST_SKIP() << "not here: " << (assets / (name))
+    if (!fs::exists(assets / (name))) GTEST_SKIP() << missing_asset(assets / (name))
 
 /// Cubic keys of a rotation are floats, off from length 1 by 6e-8; the reader scales them, the formula above does not.
 constexpr double pose_tolerance = 1e-8;

@@ -211,7 +211,7 @@ TEST_F(LoadScene, ManyIncludesOfOneFileLoadAndSave) {
 
 TEST_F(LoadScene, RealFilesLoadAsScenesAndAsIncludes) {
     const fs::path assets = assets_folder();
-    if (!fs::exists(assets)) GTEST_SKIP() << "the shared asset files are not here";
+    if (!fs::exists(assets)) GTEST_SKIP() << missing_asset(assets);
     for (const char* name : {"gltf/CesiumMilkTruck.glb", "gltf/CornellBox.glb", "room/room.glb"}) {
         const Scene scene = load_scene(assets / name);
         EXPECT_NO_THROW(find_camera(scene, "")) << name;
