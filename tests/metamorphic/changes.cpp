@@ -1,6 +1,7 @@
 #include "tests/metamorphic/changes.h"
 
 #include <algorithm>
+#include <stdexcept>
 #include <unordered_map>
 
 #include "engine/scene/visit.h"
@@ -40,6 +41,28 @@ void scale_points(std::vector<glm::vec3>& points, double factor) {
 void delay(TimeSampling& sampling, double seconds) {
     if (sampling.kind == TimeSampling::Kind::uniform) sampling.start += seconds;
     for (double& time : sampling.times) time += seconds;
+}
+
+/// Samples at t become samples at -t.
+void reverse(TimeSampling& sampling, std::size_t count) {
+    std::vector<double> times;
+    for (std::size_t i = count; i-- > 0;) times.push_back(-sample_time(sampling, i));
+    sampling.kind = TimeSampling::Kind::acyclic;
+    sampling.times = std::move(times);
+}
+
+template <class T>
+void reverse(Track<T>& track) {
+    if (track.key_count() < 2) return;
+    reverse(track.sampling, track.key_count());
+    std::ranges::reverse(track.values);
+    if (track.interpolation != Interpolation::cubic) return;
+    for (std::size_t i = 0; i < track.values.size(); ++i)
+        if (i % 3 != 1) track.values[i] = track.values[i] * -1.0;  // tangents
+}
+
+void reverse(OperationStack&) {
+    throw std::logic_error("operation stacks cannot be reversed");
 }
 
 }  // namespace
@@ -103,6 +126,17 @@ void delay(Scene& scene, std::int64_t frames) {
     for (std::int64_t& cut : scene.cuts) cut += frames;
     for (CameraKey& key : scene.camera_keys) key.frame += frames;
     if (scene.range) *scene.range = {scene.range->first + frames, scene.range->last + frames};
+}
+
+void reverse_time(Scene& scene) {
+    const auto back = [](const auto& seen) { reverse(const_cast<std::decay_t<decltype(seen)>&>(seen)); };
+    for (const Node& node : scene.nodes) visit_tracks(node, back);
+    for (const Camera& camera : scene.cameras) visit_tracks(camera, back);
+    for (const Mesh& mesh : scene.meshes) visit_tracks(mesh, back);
+    for (PointCache& cache : scene.point_caches) {
+        reverse(cache.sampling, cache.positions.size());
+        std::ranges::reverse(cache.positions);
+    }
 }
 
 void place_below(Scene& scene, const glm::dvec3& translation, const glm::dquat& rotation) {

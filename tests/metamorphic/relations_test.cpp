@@ -184,6 +184,39 @@ TEST(Relations, LaterInTime) {
                                         .random_too = {"camera_cut", "creeping", "curtain", "sky", "slow_camera"}});
 }
 
+// The motion of the last frame leads from the frame before it. Backwards in time it is the first frame, whose motion
+// leads to the next.
+TEST(Relations, TimeReversed) {
+    double largest = 0.0, fastest = 0.0;
+    int scenes = 0;
+    for (const Authored& authored : authored_scenes()) {
+        SCOPED_TRACE(authored.name);
+        Scene scene = authored.scene;
+        const bool steps = std::ranges::any_of(scene.nodes, [](const Node& n) { return is_animated(n.visible); }) ||
+                           std::ranges::any_of(scene.meshes, [](const Mesh& m) { return is_animated(m.present); });
+        if (steps || !scene.camera_keys.empty() || !scene.cuts.empty() || scene.range->first == scene.range->last)
+            continue;
+        ++scenes;
+        scene.range->last = std::max(authored.frame, scene.range->first + 1);
+        const std::int64_t frame = scene.range->last;
+        const FrameOutput forward = render(scene, frame);
+        reverse_time(scene);
+        scene.range = FrameRange{-frame, -scene.range->first};
+        const FrameOutput backward = render(scene, -frame);
+        for (std::size_t i = 0; i < forward.hits.size(); ++i) {
+            const MotionField &a = forward.motion, &b = backward.motion;
+            ASSERT_EQ(forward.hits.pixels[i].instance, backward.hits.pixels[i].instance) << i;
+            EXPECT_EQ(a.validity.pixels[i], b.validity.pixels[i]) << i;
+            fastest = std::max(fastest, glm::length(a.displacement.pixels[i]));
+            largest = std::max(largest, glm::length(a.displacement.pixels[i] + b.displacement.pixels[i]));
+        }
+    }
+    EXPECT_GT(scenes, 30);
+    EXPECT_GT(fastest, 1.0);
+    EXPECT_LE(largest, 1e-8);
+    std::cout << "time reversed, " << scenes << " scenes: motion " << largest << " px of up to " << fastest << '\n';
+}
+
 TEST(Relations, Elsewhere) {
     const glm::dvec3 place(64.0, -16.0, 32.0);  // of the anchors' grid
     expect_relation("moved",
