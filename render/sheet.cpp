@@ -41,8 +41,12 @@ float scale_position(double value, const MapRange& range) {
     return static_cast<float>(std::isfinite(position) ? std::clamp(position, 0.0, 1.0) : 0.0);
 }
 
+/// Display values: OpenImageIO gives linear ones, in which the scale would be darker and not uniform.
 OIIO::ImageBuf color_scale(const OIIO::ImageBuf& positions) {
-    return OIIO::ImageBufAlgo::color_map(positions, 0, "inferno");
+    OIIO::ImageBuf colors = OIIO::ImageBufAlgo::color_map(positions, 0, "inferno");
+    for (OIIO::ImageBuf::Iterator<float> pixel(colors); !pixel.done(); ++pixel)
+        for (int c = 0; c < 3; ++c) pixel[c] = linear_to_srgb(std::clamp(static_cast<float>(pixel[c]), 0.0f, 1.0f));
+    return colors;
 }
 
 void draw_text(OIIO::ImageBuf& sheet, int x, int y, const std::string& text, int size,
