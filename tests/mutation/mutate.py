@@ -4,9 +4,9 @@
     python3 tests/mutation/mutate.py [--sample 500] [--seed 1] [--jobs 2] [--only FOLDER]
 
 Every operator of the folders below that stands between two spaces becomes a site (mutants.h); the copy of the tree in
-build-mutation/ is compiled once. Each test program says which sites it reaches. Then a sample of the sites is changed,
-one per run: a mutant is killed if a program that reaches it fails, crashes, or takes ten times as long. Survivors are
-listed with their line in build-mutation/survivors.txt; sites that no program reaches count as survivors.
+build-mutation/ is compiled once. Each test, run alone, says which sites it reaches. Then a sample of the sites is changed,
+one per run: a mutant is killed if a test that reaches it fails, crashes, or takes ten times as long. Survivors are listed
+with their line in build-mutation/survivors.txt as they are found; sites that no test reaches count as survivors.
 """
 import argparse, os, pathlib, random, re, shutil, subprocess, sys, time
 from concurrent.futures import ThreadPoolExecutor
@@ -23,7 +23,7 @@ PROGRAMS = {
     "engine": ["test_base", "test_pose", "test_motion", "test_subdivide", "test_render"],
     "motion": ["test_motion", "test_pose", "test_render"],
     "perception": ["test_perception"],
-    "cache": ["test_render", "test_cache", "test_key_moments"],
+    "cache": ["test_render", "test_cache", "test_key_moments", "test_sequence"],
 }
 OPERATOR = re.compile(r"(?<=[\w)\]}]) (<=|>=|==|!=|<|>|\+|-|\*|/)(?= |$)")
 # Where an operator is no expression of values: preprocessor, templates, declarations of operators, static assertions.
@@ -88,13 +88,45 @@ def build(programs, jobs):
             (tree / path).write_text("\n".join(lines))
 
 
-def run(program, variables, limit):
+def run(program, tests, variables, limit):
+    command = [WORK / "build" / program, "--gtest_brief=1", "--gtest_fail_fast", "--gtest_filter=" + ":".join(tests)]
     try:
-        done = subprocess.run([WORK / "build" / program, "--gtest_brief=1", "--gtest_fail_fast"], env={**os.environ, **variables},
-                              cwd=WORK, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, timeout=limit)
-        return done.returncode == 0
+        return subprocess.run(command, env={**os.environ, **variables}, cwd=WORK, stdout=subprocess.DEVNULL,
+                              stderr=subprocess.DEVNULL, timeout=limit).returncode == 0
     except subprocess.TimeoutExpired:
         return False
+
+
+def list_tests(program):
+    printed = subprocess.run([WORK / "build" / program, "--gtest_list_tests"], capture_output=True, text=True, check=True)
+    suite = ""
+    for line in printed.stdout.split("\n"):
+        if line.startswith("  "):
+            yield program, suite + line.split()[0]
+        elif line.endswith(".") or ".  #" in line:
+            suite = line.split()[0]
+
+
+def reach(test):
+    """The sites that a test (program, name) reaches, and the seconds that it takes."""
+    seen, start = WORK / "seen" / "-".join(test).replace("/", "."), time.time()
+    seen.unlink(missing_ok=True)
+    if not run(test[0], [test[1]], {"ALEPH_MUTANT_SEEN": str(seen)}, 3600):
+        print(f"{test[0]} {test[1]} fails without a mutant: left out", flush=True)
+        return [], 0.0
+    return [int(site) for site in seen.read_text().split()] if seen.exists() else [], time.time() - start
+
+
+def is_killed(site, tests, seconds):
+    """Quick tests of a program in one run, then each slow one."""
+    quick = {}
+    for test in filter(lambda test: seconds[test] < 1, tests):
+        quick.setdefault(test[0], []).append(test[1])
+    runs = list(quick.items()) + [(program, [name]) for program, name in sorted(tests, key=seconds.get) if seconds[program, name] >= 1]
+    for program, names in runs:
+        if not run(program, names, {"ALEPH_MUTANT": str(site)}, 10 + 10 * sum(seconds[program, name] for name in names)):
+            return True
+    return False
 
 
 def main():
@@ -107,32 +139,23 @@ def main():
     sites, kinds = make_tree(options.only)
     programs = sorted({program for kind in FOLDERS if options.only in (None, kind) for program in PROGRAMS[kind]})
     dropped = build(programs, options.jobs)
+    (WORK / "seen").mkdir(exist_ok=True)
     reached, seconds = {}, {}
-    for program in programs:
-        seen = WORK / f"{program}.seen"
-        seen.unlink(missing_ok=True)
-        start = time.time()
-        if not run(program, {"ALEPH_MUTANT_SEEN": str(seen)}, 3600):
-            sys.exit(f"{program} fails without a mutant")
-        seconds[program] = time.time() - start
-        for line in seen.read_text().split() if seen.exists() else []:
-            reached.setdefault(int(line), set()).add(program)
-    usable = [i for i, (path, line, _, _) in enumerate(sites) if (path, line) not in dropped]
-    chosen = sorted(random.Random(options.seed).sample(usable, min(options.sample, len(usable))))
-
-    def is_killed(site):
-        for program in sorted(reached.get(site, []), key=seconds.get):
-            if not run(program, {"ALEPH_MUTANT": str(site)}, 10 + 10 * seconds[program]):
-                return True
-        return False
-
     with ThreadPoolExecutor(options.jobs) as pool:
-        killed = dict(zip(chosen, pool.map(is_killed, chosen)))
-    with open(WORK / "survivors.txt", "w") as out:
-        for site in chosen:
-            if not killed[site]:
+        tests = [test for program in programs for test in list_tests(program)]
+        for test, (found, took) in zip(tests, pool.map(reach, tests)):
+            seconds[test] = took
+            for site in found:
+                reached.setdefault(site, []).append(test)
+        usable = [i for i, (path, line, _, _) in enumerate(sites) if (path, line) not in dropped]
+        chosen = sorted(random.Random(options.seed).sample(usable, min(options.sample, len(usable))))
+        killed = {}
+        with open(WORK / "survivors.txt", "w") as out:
+            for site, dead in zip(chosen, pool.map(lambda site: is_killed(site, reached.get(site, []), seconds), chosen)):
+                killed[site] = dead
                 path, line, operator, text = sites[site]
-                out.write(f"{path}:{line}: {operator}: {text}{'' if site in reached else '   (not reached)'}\n")
+                if not dead:
+                    print(f"{path}:{line}: {operator}: {text}{'' if site in reached else '   (not reached)'}", file=out, flush=True)
     print(f"{len(usable)} sites, {len(chosen)} tried")
     for kind in FOLDERS:
         mine = [s for s in chosen if kinds[s] == kind]
