@@ -5,6 +5,7 @@ set -euo pipefail
 
 packages=(
   g++ cmake ninja-build pkg-config
+  ccache               # what was compiled before, in any checkout, is not compiled again
   libembree-dev        # rays
   libopenexr-dev       # EXR files
   libopenimageio-dev   # every other image file, comparisons
