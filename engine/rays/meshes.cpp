@@ -92,8 +92,7 @@ struct MeshKinds {
             changes[deformer.mesh] = deformer.changes;
         }
         // A mesh that is never present must not share an object with others either.
-        for (std::size_t m = 0; m < scene.meshes.size(); ++m)
-            comes_and_goes[m] = !is_always_present(scene.meshes[m]);
+        for (std::size_t m = 0; m < scene.meshes.size(); ++m) comes_and_goes[m] = !is_always_present(scene.meshes[m]);
     }
     std::vector<std::uint8_t> deforms, changes, comes_and_goes;
 };

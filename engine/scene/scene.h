@@ -115,7 +115,7 @@ struct Include {
     bool operator==(const Include&) const = default;
 };
 
-/// A render setting as it was written; render/settings.h knows the keys and their types.
+/// A render setting as it was written; render/settings/settings.h knows the keys and their types.
 using SettingValue = std::variant<bool, double, std::string>;
 using SettingMap = std::map<std::string, SettingValue>;
 

@@ -30,8 +30,8 @@ class SceneHash {
 
     void add(const Scene& scene) {
         const auto& [name, frame_rate, range, cuts, viewing, exposure, environment, environment_image,
-                     environment_rotation, environment_axis_rotation, camera, camera_keys, nodes, meshes, point_caches, skins, cages,
-                     materials, images, lights, cameras, includes, settings, file, warnings] = scene;
+                     environment_rotation, environment_axis_rotation, camera, camera_keys, nodes, meshes, point_caches,
+                     skins, cages, materials, images, lights, cameras, includes, settings, file, warnings] = scene;
         add_all(frame_rate, range, cuts, viewing, exposure, environment, environment_image, environment_rotation,
                 environment_axis_rotation, nodes, meshes, point_caches, skins, cages, materials, images, lights,
                 cameras);

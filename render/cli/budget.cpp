@@ -5,10 +5,10 @@
 #include <algorithm>
 
 #include "engine/base/errors.h"
-#include "render/cost_pilot.h"
-#include "render/measure.h"
-#include "render/scene_numbers.h"
-#include "render/sequence.h"
+#include "render/budget/cost_pilot.h"
+#include "render/frame/sequence.h"
+#include "render/settings/measure.h"
+#include "render/settings/scene_numbers.h"
 
 namespace aleph {
 

@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
+#include "render/budget/cost_model.h"
 #include "render/cli/scene_options.h"
-#include "render/cost_model.h"
-#include "render/frame_files.h"
+#include "render/output/frame_files.h"
 
 namespace aleph {
 

@@ -9,7 +9,7 @@
 #include "render/cli/frame_pattern.h"
 #include "render/cli/options.h"
 #include "render/cli/progress.h"
-#include "render/frame_list.h"
+#include "render/settings/frame_list.h"
 
 namespace aleph {
 

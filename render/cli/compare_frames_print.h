@@ -2,7 +2,7 @@
 // The comparison of two sequences as text and as JSON.
 
 #include "render/cli/compare_options.h"
-#include "render/compare_sequence.h"
+#include "render/compare/compare_sequence.h"
 
 namespace aleph {
 

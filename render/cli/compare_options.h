@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "render/compare.h"
+#include "render/compare/compare.h"
 
 namespace aleph {
 

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "render/cli/compare_options.h"
-#include "render/compare_sequence.h"
+#include "render/compare/compare_sequence.h"
 
 namespace aleph {
 

@@ -8,7 +8,7 @@
 
 #include "engine/json/load_limits.h"
 #include "engine/scene/scene.h"
-#include "render/sequence.h"
+#include "render/frame/sequence.h"
 
 namespace aleph {
 

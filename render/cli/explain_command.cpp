@@ -11,8 +11,8 @@
 #include "render/cli/commands.h"
 #include "render/cli/explain.h"
 #include "render/cli/scene_options.h"
-#include "render/frame_list.h"
-#include "render/scene_numbers.h"
+#include "render/settings/frame_list.h"
+#include "render/settings/scene_numbers.h"
 
 namespace aleph {
 

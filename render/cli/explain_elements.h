@@ -5,7 +5,7 @@
 
 #include "engine/base/bounds.h"
 #include "engine/scene/scene.h"
-#include "render/node_paths.h"
+#include "render/surface/node_paths.h"
 
 namespace aleph {
 

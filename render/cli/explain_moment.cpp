@@ -7,7 +7,7 @@
 #include "render/cli/explain.h"
 #include "render/cli/explain_elements.h"
 #include "render/cli/world_bounds.h"
-#include "render/node_paths.h"
+#include "render/surface/node_paths.h"
 
 namespace aleph {
 

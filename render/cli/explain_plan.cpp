@@ -8,7 +8,7 @@
 
 #include "engine/pose/pose.h"
 #include "render/cli/explain.h"
-#include "render/effects_json.h"
+#include "render/plan/effects_json.h"
 
 namespace aleph {
 

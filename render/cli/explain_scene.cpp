@@ -12,9 +12,9 @@
 #include "render/cli/explain.h"
 #include "render/cli/explain_elements.h"
 #include "render/cli/world_bounds.h"
-#include "render/node_paths.h"
-#include "render/sequence.h"
-#include "render/sequence_state.h"
+#include "render/frame/sequence.h"
+#include "render/frame/sequence_state.h"
+#include "render/surface/node_paths.h"
 
 namespace aleph {
 

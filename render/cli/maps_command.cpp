@@ -14,11 +14,11 @@
 #include "render/cli/output_path.h"
 #include "render/cli/scene_options.h"
 #include "render/cli/write_frames.h"
-#include "render/frame_list.h"
-#include "render/image_sequence.h"
-#include "render/picture_frame.h"
-#include "render/scene_numbers.h"
-#include "render/setting_table.h"
+#include "render/images/image_sequence.h"
+#include "render/images/picture_frame.h"
+#include "render/settings/frame_list.h"
+#include "render/settings/scene_numbers.h"
+#include "render/settings/setting_table.h"
 
 namespace aleph {
 

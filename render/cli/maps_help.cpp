@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "render/channel_table.h"
+#include "render/output/channel_table.h"
 
 namespace aleph {
 

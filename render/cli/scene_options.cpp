@@ -12,9 +12,9 @@
 #include "engine/base/errors.h"
 #include "engine/load/load_scene.h"
 #include "engine/pose/pose.h"
-#include "render/frame_list.h"
-#include "render/scene_numbers.h"
-#include "render/setting_table.h"
+#include "render/settings/frame_list.h"
+#include "render/settings/scene_numbers.h"
+#include "render/settings/setting_table.h"
 
 namespace aleph {
 

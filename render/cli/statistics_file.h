@@ -5,8 +5,8 @@
 #include <optional>
 #include <string>
 
-#include "render/frame_files.h"
-#include "render/measure.h"
+#include "render/output/frame_files.h"
+#include "render/settings/measure.h"
 
 namespace aleph {
 

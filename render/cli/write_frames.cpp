@@ -11,10 +11,10 @@
 #include "render/cli/output_path.h"
 #include "render/cli/progress.h"
 #include "render/cli/statistics_file.h"
-#include "render/flow_file.h"
-#include "render/frame_files.h"
-#include "render/map_preview.h"
-#include "render/measure.h"
+#include "render/output/flow_file.h"
+#include "render/output/frame_files.h"
+#include "render/output/map_preview.h"
+#include "render/settings/measure.h"
 
 namespace aleph {
 

@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "render/cli/scene_options.h"
-#include "render/frame_files.h"
-#include "render/measure.h"
-#include "render/sequence.h"
+#include "render/frame/sequence.h"
+#include "render/output/frame_files.h"
+#include "render/settings/measure.h"
 
 namespace aleph {
 

@@ -6,9 +6,9 @@
 #include <cmath>
 
 #include "engine/base/errors.h"
-#include "render/compare_luminance.h"
-#include "render/picture_frame.h"
-#include "render/sheet.h"
+#include "render/compare/compare_luminance.h"
+#include "render/images/picture_frame.h"
+#include "render/output/sheet.h"
 
 namespace aleph {
 

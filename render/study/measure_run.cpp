@@ -4,11 +4,11 @@
 #include <cmath>
 #include <functional>
 
-#include "render/compare_luminance.h"
-#include "render/compare_threshold.h"
+#include "render/compare/compare_luminance.h"
+#include "render/compare/compare_threshold.h"
+#include "render/compare/yee_metric.h"
 #include "render/study/flip_tool.h"
 #include "render/study/reference_picture.h"
-#include "render/yee_metric.h"
 
 namespace aleph {
 

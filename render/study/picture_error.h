@@ -4,8 +4,8 @@
 #include <array>
 #include <vector>
 
-#include "render/compare_threshold.h"
-#include "render/error_report.h"
+#include "render/compare/compare_threshold.h"
+#include "render/guide/error_report.h"
 
 namespace aleph {
 

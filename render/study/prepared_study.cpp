@@ -8,8 +8,8 @@
 #include "engine/load/load_scene.h"
 #include "engine/pose/pose.h"
 #include "engine/scene/scene_hash.h"
-#include "render/frame_list.h"
-#include "render/scene_numbers.h"
+#include "render/settings/frame_list.h"
+#include "render/settings/scene_numbers.h"
 
 namespace aleph {
 

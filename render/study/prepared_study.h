@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "render/settings.h"
+#include "render/settings/settings.h"
 #include "render/study/metric_table.h"
 #include "render/study/reference_picture.h"
 #include "render/study/study.h"

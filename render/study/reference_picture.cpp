@@ -8,10 +8,10 @@
 
 #include "engine/base/errors.h"
 #include "engine/scene/scene_hash.h"
-#include "render/compare_luminance.h"
-#include "render/frame_files.h"
-#include "render/program_build.h"
-#include "render/sequence.h"
+#include "render/compare/compare_luminance.h"
+#include "render/frame/sequence.h"
+#include "render/output/frame_files.h"
+#include "render/settings/program_build.h"
 #include "render/study/processor_time.h"
 
 namespace aleph {

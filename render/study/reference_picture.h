@@ -8,8 +8,8 @@
 
 #include "engine/image/image_file.h"
 #include "engine/scene/scene.h"
-#include "render/settings.h"
-#include "render/shaded_frame.h"
+#include "render/pixels/shaded_frame.h"
+#include "render/settings/settings.h"
 
 namespace aleph {
 

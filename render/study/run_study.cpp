@@ -7,8 +7,8 @@
 
 #include "engine/base/parallel.h"
 #include "engine/scene/scene_hash.h"
-#include "render/frame_files.h"
-#include "render/sequence.h"
+#include "render/frame/sequence.h"
+#include "render/output/frame_files.h"
 #include "render/study/run_store.h"
 
 namespace aleph {

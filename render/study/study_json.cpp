@@ -10,7 +10,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "render/program_build.h"
+#include "render/settings/program_build.h"
 #include "render/study/study_files.h"
 
 namespace aleph {

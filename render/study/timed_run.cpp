@@ -3,10 +3,10 @@
 #include <nlohmann/json.hpp>
 #include <string_view>
 
-#include "render/effects_json.h"
-#include "render/frame_files.h"
-#include "render/measure.h"
-#include "render/sequence.h"
+#include "render/frame/sequence.h"
+#include "render/output/frame_files.h"
+#include "render/plan/effects_json.h"
+#include "render/settings/measure.h"
 #include "render/study/processor_time.h"
 #include "render/study/reference_picture.h"
 

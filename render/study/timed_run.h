@@ -9,7 +9,7 @@
 
 #include "engine/image/image_file.h"
 #include "engine/scene/scene.h"
-#include "render/settings.h"
+#include "render/settings/settings.h"
 
 namespace aleph {
 

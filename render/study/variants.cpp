@@ -6,7 +6,7 @@
 #include <set>
 
 #include "engine/base/errors.h"
-#include "render/settings.h"
+#include "render/settings/settings.h"
 #include "render/study/study.h"
 
 namespace aleph {

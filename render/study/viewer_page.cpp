@@ -7,7 +7,7 @@
 
 #include "engine/base/errors.h"
 #include "engine/base/files.h"
-#include "render/compare_luminance.h"
+#include "render/compare/compare_luminance.h"
 #include "render/study/other_program.h"
 #include "render/study/script_json.h"
 

@@ -8,9 +8,9 @@
 
 #include "engine/base/parallel.h"
 #include "engine/load/load_scene.h"
-#include "render/accuracy_map.h"
 #include "render/cli/options.h"
-#include "render/sheet.h"
+#include "render/guide/accuracy_map.h"
+#include "render/output/sheet.h"
 #include "scenes/studies/cached_light.h"
 #include "scenes/studies/reference_light.h"
 #include "scenes/studies/study_options.h"

@@ -3,8 +3,8 @@
 #include <mutex>
 
 #include "engine/base/parallel.h"
-#include "render/cache_fill.h"
-#include "render/gather_at.h"
+#include "render/cache/cache_fill.h"
+#include "render/cache/gather_at.h"
 
 namespace aleph {
 

@@ -7,8 +7,8 @@
 #include "engine/load/load_scene.h"
 #include "render/cli/options.h"
 #include "render/cli/progress.h"
-#include "render/sequence.h"
-#include "render/sheet.h"
+#include "render/frame/sequence.h"
+#include "render/output/sheet.h"
 #include "scenes/studies/study_options.h"
 
 namespace aleph {

@@ -8,9 +8,9 @@
 #include <cmath>
 
 #include "engine/load/load_scene.h"
+#include "render/budget/cost_pilot.h"
 #include "render/cli/options.h"
-#include "render/cost_pilot.h"
-#include "render/measure.h"
+#include "render/settings/measure.h"
 #include "scenes/studies/cost_fit.h"
 #include "scenes/studies/study_frame.h"
 #include "scenes/studies/study_options.h"

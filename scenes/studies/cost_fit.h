@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "render/cost_model.h"
+#include "render/budget/cost_model.h"
 
 namespace aleph {
 

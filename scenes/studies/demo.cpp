@@ -9,9 +9,9 @@
 #include "engine/load/load_scene.h"
 #include "render/cli/options.h"
 #include "render/cli/progress.h"
-#include "render/frame_list.h"
-#include "render/sequence.h"
-#include "render/sheet.h"
+#include "render/frame/sequence.h"
+#include "render/output/sheet.h"
+#include "render/settings/frame_list.h"
 #include "scenes/studies/study_options.h"
 
 namespace aleph {

@@ -12,7 +12,7 @@
 #include "engine/load/load_scene.h"
 #include "render/cli/options.h"
 #include "render/cli/progress.h"
-#include "render/sequence.h"
+#include "render/frame/sequence.h"
 #include "scenes/studies/study_frame.h"
 #include "scenes/studies/study_options.h"
 #include "scenes/studies/study_table.h"

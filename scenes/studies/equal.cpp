@@ -9,9 +9,9 @@
 #include <cmath>
 
 #include "engine/load/load_scene.h"
-#include "render/accuracy_map.h"
 #include "render/cli/options.h"
-#include "render/setting_table.h"
+#include "render/guide/accuracy_map.h"
+#include "render/settings/setting_table.h"
 #include "scenes/studies/cached_light.h"
 #include "scenes/studies/cost_curve.h"
 #include "scenes/studies/reference_light.h"

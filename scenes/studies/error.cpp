@@ -7,7 +7,7 @@
 
 #include "engine/load/load_scene.h"
 #include "render/cli/options.h"
-#include "render/frame_list.h"
+#include "render/settings/frame_list.h"
 #include "scenes/studies/error_report.h"
 #include "scenes/studies/judged_frame.h"
 #include "scenes/studies/study_options.h"

@@ -12,7 +12,7 @@
 #include "perception/sanitize.h"
 #include "perception/threshold.h"
 #include "render/cli/options.h"
-#include "render/sequence.h"
+#include "render/frame/sequence.h"
 #include "scenes/studies/study_options.h"
 
 namespace aleph {

@@ -5,7 +5,7 @@
 #include <glm/geometric.hpp>
 #include <numbers>
 
-#include "render/numbers.h"
+#include "render/settings/numbers.h"
 
 namespace aleph {
 

@@ -3,7 +3,7 @@
 
 #include <optional>
 
-#include "render/irradiance_record.h"
+#include "render/cache/irradiance_record.h"
 
 namespace aleph {
 

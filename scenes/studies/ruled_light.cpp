@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "render/cache_fill.h"
-#include "render/gather_at.h"
+#include "render/cache/cache_fill.h"
+#include "render/cache/gather_at.h"
 
 namespace aleph {
 

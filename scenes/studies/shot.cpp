@@ -10,7 +10,7 @@
 #include "engine/load/load_scene.h"
 #include "render/cli/options.h"
 #include "render/cli/progress.h"
-#include "render/frame_list.h"
+#include "render/settings/frame_list.h"
 #include "scenes/studies/rest_points.h"
 #include "scenes/studies/study_options.h"
 #include "scenes/studies/study_table.h"

@@ -1,6 +1,6 @@
 #include "scenes/studies/study_frame.h"
 
-#include "render/texture.h"
+#include "render/surface/texture.h"
 
 namespace aleph {
 

@@ -3,8 +3,8 @@
 
 #include "engine/pose/posed_view.h"
 #include "perception/perception_settings.h"
-#include "render/frame.h"
-#include "render/sequence.h"
+#include "render/frame/sequence.h"
+#include "render/shade/frame.h"
 #include "render/study/processor_time.h"
 
 namespace aleph {

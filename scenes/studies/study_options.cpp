@@ -13,7 +13,7 @@
 #include "engine/base/errors.h"
 #include "engine/base/parallel.h"
 #include "render/cli/options.h"
-#include "render/setting_table.h"
+#include "render/settings/setting_table.h"
 
 namespace aleph {
 

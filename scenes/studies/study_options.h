@@ -6,7 +6,7 @@
 #include <optional>
 #include <string>
 
-#include "render/settings.h"
+#include "render/settings/settings.h"
 
 namespace aleph {
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <array>
 
-#include "render/frame_files.h"
+#include "render/output/frame_files.h"
 
 namespace aleph {
 

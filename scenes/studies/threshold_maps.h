@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "engine/image/image_file.h"
-#include "render/sequence.h"
+#include "render/frame/sequence.h"
 
 namespace aleph {
 

@@ -4,9 +4,9 @@
 #include <numeric>
 #include <string_view>
 
-#include "render/frame_files.h"
-#include "render/measure.h"
-#include "render/sequence.h"
+#include "render/frame/sequence.h"
+#include "render/output/frame_files.h"
+#include "render/settings/measure.h"
 #include "scenes/studies/study_frame.h"
 
 namespace aleph {

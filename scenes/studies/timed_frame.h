@@ -7,7 +7,7 @@
 
 #include "engine/image/image_file.h"
 #include "engine/scene/scene.h"
-#include "render/settings.h"
+#include "render/settings/settings.h"
 #include "render/study/picture_error.h"
 
 namespace aleph {

@@ -6,7 +6,7 @@
 
 #include "perception/perception.h"
 #include "perception/threshold.h"
-#include "render/sequence.h"
+#include "render/frame/sequence.h"
 
 namespace aleph {
 

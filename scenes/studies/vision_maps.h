@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "perception/perception_settings.h"
-#include "render/settings.h"
+#include "render/settings/settings.h"
 
 namespace aleph {
 

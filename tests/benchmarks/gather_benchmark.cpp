@@ -16,9 +16,9 @@
 #include "engine/base/parallel.h"
 #include "engine/load/load_scene.h"
 #include "engine/pose/posed_view.h"
-#include "render/gather.h"
-#include "render/pixel_surfaces.h"
-#include "render/settings.h"
+#include "render/cache/gather.h"
+#include "render/pixels/pixel_surfaces.h"
+#include "render/settings/settings.h"
 #include "tests/benchmarks/recorded_rays.h"
 
 namespace aleph {

@@ -11,8 +11,8 @@
 #include <functional>
 
 #include "engine/base/parallel.h"
-#include "render/direct_light.h"
-#include "render/sequence.h"
+#include "render/frame/sequence.h"
+#include "render/path/direct_light.h"
 #include "tests/support/render_scenes.h"
 
 namespace aleph {

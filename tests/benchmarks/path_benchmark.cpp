@@ -11,7 +11,7 @@
 #include "engine/base/parallel.h"
 #include "engine/load/load_scene.h"
 #include "engine/pose/posed_view.h"
-#include "render/sequence.h"
+#include "render/frame/sequence.h"
 #include "tests/benchmarks/recorded_rays.h"
 
 namespace aleph {

@@ -9,8 +9,8 @@
 #include "engine/base/parallel.h"
 #include "engine/load/load_scene.h"
 #include "engine/rays/first_hits.h"
-#include "render/open_shutter.h"
-#include "render/shutter.h"
+#include "render/frame/open_shutter.h"
+#include "render/time/shutter.h"
 #include "tests/support/deforming_scenes.h"
 #include "tests/support/render_scenes.h"
 
@@ -74,7 +74,8 @@ void measure(const std::string& name, Scene scene, std::int64_t frame) {
     OpenShutter shutter(scene, plan, textures, rays);
     const ShutterInterval interval{static_cast<double>(frame), static_cast<double>(frame) + half_a_frame};
     const auto move_to = [&](int i) {
-        return shutter.move_to(place_in_shutter(interval, i, 0, 0.3) / scene.frame_rate.per_second(), 0, width, height, {});
+        return shutter.move_to(place_in_shutter(interval, i, 0, 0.3) / scene.frame_rate.per_second(), 0, width, height,
+                               {});
     };
     move_to(0);
     double moving = 0.0, finding = 0.0, casting = 0.0;

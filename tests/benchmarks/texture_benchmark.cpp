@@ -5,7 +5,7 @@
 #include <array>
 #include <random>
 
-#include "render/texture_footprint.h"
+#include "render/surface/texture_footprint.h"
 
 namespace aleph {
 namespace {

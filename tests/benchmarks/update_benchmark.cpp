@@ -17,9 +17,9 @@
 #include "engine/rays/ray_scene.h"
 #include "engine/surface/shapes.h"
 #include "motion/model_motion.h"
-#include "render/lights.h"
-#include "render/shading_scene.h"
-#include "render/texture.h"
+#include "render/light/lights.h"
+#include "render/surface/shading_scene.h"
+#include "render/surface/texture.h"
 
 namespace aleph {
 namespace {

@@ -12,7 +12,7 @@
 #include <iterator>
 #include <limits>
 
-#include "render/compare.h"
+#include "render/compare/compare.h"
 
 namespace aleph {
 namespace {

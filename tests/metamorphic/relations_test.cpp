@@ -10,7 +10,7 @@
 
 #include "engine/base/color.h"
 #include "engine/load/load_scene.h"
-#include "render/sequence.h"
+#include "render/frame/sequence.h"
 #include "tests/metamorphic/changes.h"
 #include "tests/support/paths.h"
 #include "tests/support/quick_settings.h"

@@ -43,20 +43,20 @@ struct Bound {
 };
 
 // OPERATOR and what it becomes. An operator that the types do not have leaves the site as it is.
-#define ALEPH_MUTANT_OPERATOR(OPERATOR, OTHER)                                                      \
-    template <class A, int Id>                                                                      \
-    constexpr Bound<A, Id> operator OPERATOR(const A& first, Site<Id>) {                            \
-        return {first};                                                                             \
-    }                                                                                               \
-    template <class A, int Id, class B>                                                             \
-    constexpr auto operator OPERATOR(const Bound<A, Id>& bound, const B& second) {                  \
-        if constexpr (requires { static_cast<std::decay_t<decltype(bound.first OPERATOR second)>>( \
-                                     bound.first OTHER second); }) {                                \
-            if (!std::is_constant_evaluated() && is_on(Id))                                         \
-                return static_cast<std::decay_t<decltype(bound.first OPERATOR second)>>(            \
-                    bound.first OTHER second);                                                      \
-        }                                                                                           \
-        return bound.first OPERATOR second;                                                         \
+#define ALEPH_MUTANT_OPERATOR(OPERATOR, OTHER)                                                                        \
+    template <class A, int Id>                                                                                        \
+    constexpr Bound<A, Id> operator OPERATOR(const A& first, Site<Id>) {                                              \
+        return {first};                                                                                               \
+    }                                                                                                                 \
+    template <class A, int Id, class B>                                                                               \
+    constexpr auto operator OPERATOR(const Bound<A, Id>& bound, const B& second) {                                    \
+        if constexpr (requires {                                                                                      \
+                          static_cast<std::decay_t<decltype(bound.first OPERATOR second)>>(bound.first OTHER second); \
+                      }) {                                                                                            \
+            if (!std::is_constant_evaluated() && is_on(Id))                                                           \
+                return static_cast<std::decay_t<decltype(bound.first OPERATOR second)>>(bound.first OTHER second);    \
+        }                                                                                                             \
+        return bound.first OPERATOR second;                                                                           \
     }
 ALEPH_MUTANT_OPERATOR(<, <=)
 ALEPH_MUTANT_OPERATOR(<=, <)

@@ -17,7 +17,7 @@ FOLDERS = {
     "engine": ["engine/base", "engine/scene", "engine/pose", "engine/rays", "engine/surface"],
     "motion": ["motion"],
     "perception": ["perception"],
-    "cache": ["render/irradiance_", "render/record_index", "render/cache_fill", "render/gather.", "render/pixel_filter"],
+    "cache": ["render/cache/", "render/pixels/pixel_filter"],
 }
 PROGRAMS = {
     "engine": ["test_base", "test_pose", "test_motion", "test_subdivide", "test_render"],

@@ -44,8 +44,7 @@ inline std::vector<std::uint8_t> file_bytes(const std::filesystem::path& path) {
 class AlembicTruth : public testing::TestWithParam<std::string> {
   protected:
     void SetUp() override {
-        if (!std::filesystem::exists(archive_path(GetParam())))
-            GTEST_SKIP() << missing_asset(archive_path(GetParam()));
+        if (!std::filesystem::exists(archive_path(GetParam()))) GTEST_SKIP() << missing_asset(archive_path(GetParam()));
     }
 };
 

@@ -5,8 +5,8 @@
 #include <string>
 
 #include "engine/load/load_scene.h"
-#include "render/frame_files.h"
-#include "render/sequence.h"
+#include "render/frame/sequence.h"
+#include "render/output/frame_files.h"
 #include "tests/support/paths.h"
 #include "tests/support/quick_settings.h"
 #include "tests/support/read_bytes.h"

@@ -1,7 +1,7 @@
 #pragma once
 // Surfaces and directions for the tests of the surface model.
 
-#include "render/scatter.h"
+#include "render/surface/scatter.h"
 #include "tests/support/render_scenes.h"
 #include "tests/support/trial.h"
 

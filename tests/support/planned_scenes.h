@@ -5,7 +5,7 @@
 #include <set>
 #include <string>
 
-#include "render/sequence.h"
+#include "render/frame/sequence.h"
 #include "tests/support/render_scenes.h"
 
 namespace aleph {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "render/settings.h"
+#include "render/settings/settings.h"
 
 namespace aleph {
 

@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "engine/surface/shapes.h"
-#include "render/frame.h"
+#include "render/shade/frame.h"
 #include "tests/support/mean.h"
 
 namespace aleph {

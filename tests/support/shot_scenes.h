@@ -1,7 +1,7 @@
 #pragma once
 // Small animated scenes for the tests of light at key moments. A lamp without area has no noise of its own.
 
-#include "render/sequence.h"
+#include "render/frame/sequence.h"
 #include "tests/support/quick_settings.h"
 #include "tests/support/render_scenes.h"
 

@@ -35,15 +35,18 @@ const std::vector<Layer>& layers() {
         engine.push_back("engine/load");
         std::vector<std::string> stages = engine;
         for (const char* folder : {"motion", "perception"}) stages.push_back(folder);
-        std::vector<std::string> all_below_cli = stages;
-        all_below_cli.push_back("render");
-        const std::vector<std::string> below_study = all_below_cli;
-        all_below_cli.push_back("render/study");
+        // Each includes those before it.
+        std::vector<Layer> rooms;
+        for (const char* room : {"settings", "surface", "pixels", "guide", "light", "path", "cache", "estimate", "time",
+                                 "shade", "plan", "frame", "output", "compare", "images", "budget", "study", "cli"}) {
+            rooms.push_back({std::string("render/") + room, stages});
+            stages.push_back(rooms.back().folder);
+        }
         const auto with = [](std::vector<std::string> folders, std::initializer_list<const char*> more) {
             folders.insert(folders.end(), more.begin(), more.end());
             return folders;
         };
-        return std::vector<Layer>{
+        std::vector<Layer> found{
             {"engine/base", {}},
             {"engine/scene", {"engine/base"}},
             {"engine/surface", {"engine/base", "engine/scene"}},
@@ -58,10 +61,9 @@ const std::vector<Layer>& layers() {
             {"engine/load", below_load},
             {"motion", engine},
             {"perception", {"engine/base"}},
-            {"render", stages},
-            {"render/study", below_study},
-            {"render/cli", all_below_cli},
         };
+        found.insert(found.end(), rooms.begin(), rooms.end());
+        return found;
     }();
     return all;
 }
@@ -152,7 +154,9 @@ TEST(House, CheckerSeesEveryKindOfViolation) {
     EXPECT_EQ(count("perception/a.cpp", "#include \"engine/scene/scene.h\"\n"), 1u);
     EXPECT_EQ(count("perception/a.cpp", "#include \"motion/velocity.h\"\n"), 1u);
     EXPECT_EQ(count("engine/scene/a.cpp", "// c\n  #  include <motion/velocity.h>\n"), 1u);
-    EXPECT_EQ(count("engine/pose/a.cpp", "#include \"perception/perception.h\"\n#include \"render/settings.h\"\n"), 2u);
+    EXPECT_EQ(
+        count("engine/pose/a.cpp", "#include \"perception/perception.h\"\n#include \"render/settings/settings.h\"\n"),
+        2u);
     EXPECT_EQ(count("engine/base/a.h", "#include \"engine/scene/scene.h\"\n"), 1u);
     EXPECT_EQ(count("engine/base/a.h", "#include \"engine/base/../scene/scene.h\"\n"), 1u);
     EXPECT_EQ(count("engine/scene/a.h", "#include \"engine/pose/pose.h\"\n"), 1u);
@@ -162,9 +166,9 @@ TEST(House, CheckerSeesEveryKindOfViolation) {
     EXPECT_EQ(count("engine/gltf/validate/a.cpp", "#include \"engine/gltf/reader.h\"\n"), 1u);
     EXPECT_EQ(count("engine/image/a.h", "#include \"engine/load/load_scene.h\"\n"), 1u);
     EXPECT_EQ(count("motion/a.cpp", "#include \"perception/perception.h\"\n"), 1u);
-    EXPECT_EQ(count("render/a.cpp", "#include \"render/cli/options.h\"\n"), 1u);
-    EXPECT_EQ(count("render/a.cpp", "#include \"../render/settings.h\"\n"), 1u);
-    EXPECT_EQ(count("render/a.cpp", "#include \"tests/unit/helper.h\"\n"), 1u);
+    EXPECT_EQ(count("render/frame/a.cpp", "#include \"render/cli/options.h\"\n"), 1u);
+    EXPECT_EQ(count("render/frame/a.cpp", "#include \"../render/settings/settings.h\"\n"), 1u);
+    EXPECT_EQ(count("render/frame/a.cpp", "#include \"tests/unit/helper.h\"\n"), 1u);
 
     EXPECT_EQ(
         count("perception/a.cpp", "#include <vector>\n#include \"engine/base/image.h\"\n#include \"perception/b.h\"\n"),
@@ -172,8 +176,9 @@ TEST(House, CheckerSeesEveryKindOfViolation) {
     EXPECT_EQ(count("engine/scene_file/a.cpp", "#include \"engine/base/image.h\"\n#include \"schema.inc\"\n"), 0u);
     EXPECT_EQ(count("engine/gltf/a.cpp", "#include \"engine/gltf/validate/validate.h\"\n"), 0u);
     EXPECT_EQ(count("motion/a.cpp", "#include \"engine/scene/scene.h\"\n"), 0u);
-    EXPECT_EQ(count("render/cli/a.cpp", "#include \"render/settings.h\"\n#include \"render/cli/b.h\"\n"), 0u);
-    EXPECT_EQ(count("render/a.cpp", "#include \"perception/perception.h\"\n#include \"motion/velocity.h\"\n"), 0u);
+    EXPECT_EQ(count("render/cli/a.cpp", "#include \"render/settings/settings.h\"\n#include \"render/cli/b.h\"\n"), 0u);
+    EXPECT_EQ(count("render/frame/a.cpp", "#include \"perception/perception.h\"\n#include \"motion/velocity.h\"\n"),
+              0u);
 }
 
 }  // namespace

@@ -1,6 +1,6 @@
 // The file that keeps the light of key moments: damaged, of something else, written twice.
 
-#include "render/cache_file.h"
+#include "render/time/cache_file.h"
 
 #include <fcntl.h>
 #include <gmock/gmock.h>

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "engine/base/errors.h"
-#include "render/sequence.h"
+#include "render/frame/sequence.h"
 #include "tests/support/render_scenes.h"
 
 namespace aleph {

@@ -7,8 +7,8 @@
 #include <random>
 
 #include "engine/rays/first_hits.h"
-#include "render/compare.h"
-#include "render/estimate.h"
+#include "render/compare/compare.h"
+#include "render/estimate/estimate.h"
 #include "tests/support/with_threads.h"
 
 namespace aleph {

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "render/effects_plan.h"
+#include "render/plan/effects_plan.h"
 #include "tests/support/keyed_track.h"
 #include "tests/support/planned_scenes.h"
 

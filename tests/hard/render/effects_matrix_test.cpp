@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "engine/surface/limit_surface.h"
-#include "render/effects_plan.h"
+#include "render/plan/effects_plan.h"
 #include "tests/support/deforming_scenes.h"
 #include "tests/support/keyed_track.h"
 #include "tests/support/planned_scenes.h"

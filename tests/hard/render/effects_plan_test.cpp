@@ -1,6 +1,6 @@
 // The effects plan: tiny scenes that call for one effect each, and what must not mislead the plan.
 
-#include "render/effects_plan.h"
+#include "render/plan/effects_plan.h"
 
 #include <gtest/gtest.h>
 

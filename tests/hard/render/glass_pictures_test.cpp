@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "render/path.h"
+#include "render/path/path.h"
 #include "tests/support/lobes.h"
 
 namespace aleph {

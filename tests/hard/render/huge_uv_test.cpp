@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "engine/load/load_scene.h"
-#include "render/sequence.h"
+#include "render/frame/sequence.h"
 #include "tests/support/gltf_bad_input.h"
 #include "tests/support/quick_settings.h"
 

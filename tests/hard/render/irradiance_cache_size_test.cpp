@@ -4,7 +4,7 @@
 
 #include <random>
 
-#include "render/record_index.h"
+#include "render/cache/record_index.h"
 
 namespace aleph {
 namespace {

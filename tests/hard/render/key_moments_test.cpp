@@ -194,7 +194,8 @@ TEST(KeyMoments, IC14_AnObjectThatCrossesThePictureBetweenMoments) {
     expect_as_own_fill(go_and_return({-9.0, 0.45, -2.0}, {-1.0, 0.45, -2.0}));
 }
 
-/// Everything turns together, so no light changes: all of it rides with the surfaces. What the frame computes are probes.
+/// Everything turns together, so no light changes: all of it rides with the surfaces. What the frame computes are
+/// probes.
 TEST(KeyMoments, RecordsRideWithTheirSurfaces) {
     Scene scene = make_shot();
     Node turntable;

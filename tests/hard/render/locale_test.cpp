@@ -54,9 +54,9 @@ Everything do_everything(const std::filesystem::path& folder) {
 /// Makes `text` grow by a run of the program; fails the test if it does not end with 0.
 std::string run_program(const std::filesystem::path& folder) {
     const std::string out = (folder / "run.exr").string(), log = (folder / "log").string();
-    const std::string command = std::string("'") + program_path("aleph") + "' render '" + (folder / "scene.json").string() +
-                                "' -q --aovs --frames 1 --accuracy 0.25 --set shade_reach=1.5 -o '" + out + "' >'" +
-                                log + "' 2>&1";
+    const std::string command =
+        std::string("'") + program_path("aleph") + "' render '" + (folder / "scene.json").string() +
+        "' -q --aovs --frames 1 --accuracy 0.25 --set shade_reach=1.5 -o '" + out + "' >'" + log + "' 2>&1";
     EXPECT_EQ(::system(command.c_str()), 0) << read_bytes(log);
     return std::filesystem::exists(out) ? read_bytes(out) : "";
 }

@@ -4,7 +4,7 @@
 
 #include <random>
 
-#include "render/sheen.h"
+#include "render/surface/sheen.h"
 #include "tests/support/lobes.h"
 
 namespace aleph {

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "engine/load/load_scene.h"
-#include "render/sequence.h"
+#include "render/frame/sequence.h"
 #include "tests/support/keyed_track.h"
 #include "tests/support/paths.h"
 #include "tests/support/render_scenes.h"

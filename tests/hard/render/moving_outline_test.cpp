@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "render/sequence.h"
+#include "render/frame/sequence.h"
 #include "tests/support/keyed_track.h"
 #include "tests/support/render_scenes.h"
 

@@ -5,7 +5,7 @@
 #include <limits>
 #include <random>
 
-#include "render/pixel_samples.h"
+#include "render/pixels/pixel_samples.h"
 #include "tests/support/path_estimates.h"
 
 namespace aleph {

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "render/bounce_levels.h"
+#include "render/cache/bounce_levels.h"
 #include "tests/support/frame_bytes.h"
 #include "tests/support/shot_scenes.h"
 #include "tests/support/trial.h"

@@ -1,7 +1,7 @@
 // Yee 2000, eqs. 6.7 and 6.8: known values, the ends of their ranges, and the unguided accuracy, which no adapter
 // changes.
 
-#include "render/accuracy_map.h"
+#include "render/guide/accuracy_map.h"
 #include "tests/support/numbers.h"
 
 #include <gtest/gtest.h>

@@ -8,7 +8,7 @@
 #include <filesystem>
 
 #include "engine/load/load_scene.h"
-#include "render/sequence.h"
+#include "render/frame/sequence.h"
 #include "tests/support/paths.h"
 #include "tests/support/quick_settings.h"
 

@@ -1,10 +1,10 @@
 // Maps of a frame whose shutter or lens is open: motion at the shutter's centre, an estimate blurred as the picture is.
 
-#include "render/blurred_estimate.h"
+#include "render/frame/blurred_estimate.h"
 
 #include <gtest/gtest.h>
 
-#include "render/sequence.h"
+#include "render/frame/sequence.h"
 #include "tests/support/keyed_track.h"
 #include "tests/support/quick_settings.h"
 #include "tests/support/render_scenes.h"

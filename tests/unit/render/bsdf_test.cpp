@@ -1,6 +1,6 @@
 // The surface model: reciprocity, densities, weights, energy.
 
-#include "render/bsdf.h"
+#include "render/surface/bsdf.h"
 
 #include <gtest/gtest.h>
 

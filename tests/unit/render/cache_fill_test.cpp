@@ -1,13 +1,13 @@
 // Filling in rounds needs at most 3 % more records than a sequential fill. Gathers that are not finite make no records.
 
-#include "render/cache_fill.h"
+#include "render/cache/cache_fill.h"
 
 #include <gtest/gtest.h>
 
 #include <cstdio>
 
 #include "engine/load/load_scene.h"
-#include "render/gather_at.h"
+#include "render/cache/gather_at.h"
 #include "tests/support/paths.h"
 #include "tests/support/render_scenes.h"
 

@@ -1,6 +1,6 @@
 // Flicker along a known motion, against what it must be by construction.
 
-#include "render/compare_flicker.h"
+#include "render/compare/compare_flicker.h"
 
 #include <gtest/gtest.h>
 

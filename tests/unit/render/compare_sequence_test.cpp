@@ -1,6 +1,6 @@
 // Sequences of small pictures with known differences.
 
-#include "render/compare_sequence.h"
+#include "render/compare/compare_sequence.h"
 
 #include <gtest/gtest.h>
 

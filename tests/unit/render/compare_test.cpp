@@ -1,6 +1,6 @@
 // The numbers of compare_images against values worked out by hand.
 
-#include "render/compare.h"
+#include "render/compare/compare.h"
 
 #include <gtest/gtest.h>
 

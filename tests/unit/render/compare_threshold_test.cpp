@@ -1,7 +1,7 @@
 // Errors in units of the threshold, and the noise of the reference, against values worked out by hand and the normal
 // distribution.
 
-#include "render/compare_threshold.h"
+#include "render/compare/compare_threshold.h"
 
 #include <gtest/gtest.h>
 
@@ -12,7 +12,7 @@
 #include <random>
 
 #include "engine/base/errors.h"
-#include "render/compare.h"
+#include "render/compare/compare.h"
 #include "tests/support/numbers.h"
 #include "tests/support/trial.h"
 

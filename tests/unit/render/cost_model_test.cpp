@@ -1,6 +1,6 @@
 // What frames are predicted to cost, and the error that a budget chooses.
 
-#include "render/cost_model.h"
+#include "render/budget/cost_model.h"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include <limits>
 #include <stdexcept>
 
-#include "render/cost_pilot.h"
+#include "render/budget/cost_pilot.h"
 
 namespace aleph {
 namespace {

@@ -1,6 +1,6 @@
 // Cryptomatte: hashes against known answers, and the channels and manifest of a frame.
 
-#include "render/cryptomatte.h"
+#include "render/output/cryptomatte.h"
 
 #include <gtest/gtest.h>
 
@@ -9,8 +9,8 @@
 #include <nlohmann/json.hpp>
 
 #include "engine/pose/pose.h"
-#include "render/frame_files.h"
-#include "render/node_paths.h"
+#include "render/output/frame_files.h"
+#include "render/surface/node_paths.h"
 
 namespace aleph {
 namespace {

@@ -1,6 +1,6 @@
 // Direct light from a grid of cells: the cells, and gathers with it against gathers without.
 
-#include "render/direct_grid.h"
+#include "render/cache/direct_grid.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // Direct light against closed forms: point, directional, area and environment light; multiple importance sampling.
 
-#include "render/direct_light.h"
+#include "render/path/direct_light.h"
 
 #include <gtest/gtest.h>
 

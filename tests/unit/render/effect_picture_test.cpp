@@ -1,6 +1,6 @@
 // The colours of what is left out, pixel by pixel.
 
-#include "render/effect_picture.h"
+#include "render/plan/effect_picture.h"
 
 #include <gtest/gtest.h>
 

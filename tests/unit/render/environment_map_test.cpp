@@ -1,6 +1,6 @@
 // Pictures around a scene: what is cleaned, look-ups at seam and poles, the density of samples, and their light.
 
-#include "render/environment_map.h"
+#include "render/surface/environment_map.h"
 
 #include <gtest/gtest.h>
 

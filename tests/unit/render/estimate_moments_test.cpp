@@ -1,6 +1,6 @@
 // Indirect light of the quick estimate, carried from key moments to the frames between them.
 
-#include "render/estimate_moments.h"
+#include "render/time/estimate_moments.h"
 
 #include <gtest/gtest.h>
 

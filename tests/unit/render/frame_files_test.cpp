@@ -1,6 +1,6 @@
 // Frames as files: their channels, motion to the last bit, statistics that add up.
 
-#include "render/frame_files.h"
+#include "render/output/frame_files.h"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "engine/load/load_scene.h"
-#include "render/sequence.h"
+#include "render/frame/sequence.h"
 #include "tests/support/paths.h"
 #include "tests/support/scratch_folder.h"
 

@@ -1,11 +1,11 @@
 // Whole frames: coverage, exposure, counts of rays and records, invalid samples, sums of many samples, mirrored and
 // flattened scenes.
 
-#include "render/frame.h"
+#include "render/shade/frame.h"
 
 #include <gtest/gtest.h>
 
-#include "render/sequence.h"
+#include "render/frame/sequence.h"
 #include "tests/support/render_scenes.h"
 #include "tests/support/trial.h"
 

@@ -1,7 +1,7 @@
 // Irradiance gathered over the hemisphere against closed forms (discs, rectangles, plates, spheres), and its gradients
 // against differences of closed forms.
 
-#include "render/gather.h"
+#include "render/cache/gather.h"
 
 #include <gtest/gtest.h>
 

@@ -1,14 +1,14 @@
 // Dielectric interfaces: reflectance, refraction, reciprocity, nested media.
 
-#include "render/glass.h"
+#include "render/surface/glass.h"
 
 #include <gtest/gtest.h>
 
 #include <limits>
 #include <random>
 
-#include "render/fresnel.h"
-#include "render/path.h"
+#include "render/path/path.h"
+#include "render/surface/fresnel.h"
 #include "tests/support/lobes.h"
 
 namespace aleph {
@@ -142,7 +142,8 @@ TEST(Glass, MC15_RoughGlassIsReciprocal) {
                 const auto f = [](const SurfaceMaterial& material, const glm::vec3& view, const glm::vec3& light) {
                     return evaluate_glass(material, view, light).f_cos.x / std::abs(light.z);
                 };
-                const auto expect_equal = [&](float x, float y, const char* what, float relative = 1e-5f, float rounding = 0.0f) {
+                const auto expect_equal = [&](float x, float y, const char* what, float relative = 1e-5f,
+                                              float rounding = 0.0f) {
                     ASSERT_NEAR(x, y, relative * std::max(x, y) + rounding) << what << ' ' << ratio << ' ' << alpha;
                 };
                 expect_equal(f(here, a, b), f(here, b, a), "reflected");

@@ -1,10 +1,10 @@
 // Irradiance in place of the light of wide lobes.
 
-#include "render/glossy_light.h"
+#include "render/path/glossy_light.h"
 
 #include <gtest/gtest.h>
 
-#include "render/gather.h"
+#include "render/cache/gather.h"
 #include "tests/support/lobes.h"
 #include "tests/support/numbers.h"
 #include "tests/support/trial.h"

@@ -1,12 +1,12 @@
 // Frames in which nothing changes are rendered once.
 
-#include "render/holds.h"
+#include "render/frame/holds.h"
 
 #include <gtest/gtest.h>
 
 #include <map>
 
-#include "render/sequence.h"
+#include "render/frame/sequence.h"
 #include "tests/support/quick_settings.h"
 #include "tests/support/render_scenes.h"
 

@@ -1,6 +1,6 @@
 // Which frames are key moments, and which views they are computed for.
 
-#include "render/key_moments.h"
+#include "render/time/key_moments.h"
 
 #include <gtest/gtest.h>
 

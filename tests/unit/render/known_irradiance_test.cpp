@@ -1,11 +1,11 @@
 // Paths that look up irradiance where it is known: in rooms whose light is known exactly, and from a filled cache.
 
-#include "render/known_irradiance.h"
+#include "render/path/known_irradiance.h"
 
 #include <gtest/gtest.h>
 
-#include "render/frame_irradiance.h"
-#include "render/mirror_places.h"
+#include "render/cache/mirror_places.h"
+#include "render/shade/frame_irradiance.h"
 #include "tests/support/lobes.h"
 #include "tests/support/numbers.h"
 #include "tests/support/path_estimates.h"

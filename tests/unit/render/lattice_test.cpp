@@ -1,6 +1,6 @@
 // Evenly spread points.
 
-#include "render/lattice.h"
+#include "render/pixels/lattice.h"
 
 #include <gtest/gtest.h>
 

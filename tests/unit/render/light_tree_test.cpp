@@ -1,12 +1,12 @@
 // The tree over the lights: its bounds, and lights chosen by it.
 
-#include "render/light_tree.h"
+#include "render/light/light_tree.h"
 
 #include <gtest/gtest.h>
 
 #include <random>
 
-#include "render/light_cut.h"
+#include "render/light/light_cut.h"
 #include "tests/support/path_estimates.h"
 
 namespace aleph {

@@ -1,7 +1,7 @@
 // Lights: emissive instances as lists of triangles, their densities, punctual lights, the environment.
 
-#include "render/lights.h"
-#include "render/spherical_triangle.h"
+#include "render/light/lights.h"
+#include "render/light/spherical_triangle.h"
 
 #include <gtest/gtest.h>
 

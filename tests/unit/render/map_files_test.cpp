@@ -4,8 +4,8 @@
 
 #include <cstring>
 
-#include "render/flow_file.h"
-#include "render/frame_files.h"
+#include "render/output/flow_file.h"
+#include "render/output/frame_files.h"
 #include "tests/support/read_bytes.h"
 #include "tests/support/scratch_folder.h"
 

@@ -5,7 +5,7 @@
 #include <limits>
 #include <random>
 
-#include "render/light_choice.h"
+#include "render/light/light_choice.h"
 #include "tests/support/lobes.h"
 
 namespace aleph {

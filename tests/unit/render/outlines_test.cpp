@@ -1,6 +1,6 @@
 // Which pixels show more than one thing: objects, steps, creases, contrasts; and which of them move differently.
 
-#include "render/outlines.h"
+#include "render/pixels/outlines.h"
 
 #include <gtest/gtest.h>
 

@@ -3,8 +3,8 @@
 #include <gtest/gtest.h>
 
 #include "engine/load/load_scene.h"
-#include "render/picture_part.h"
-#include "render/sequence.h"
+#include "render/frame/sequence.h"
+#include "render/pixels/picture_part.h"
 #include "tests/support/paths.h"
 #include "tests/support/quick_settings.h"
 

@@ -1,7 +1,7 @@
 // Path tracing in scenes whose light is known: furnaces, boxes of mirrors, Russian roulette, and the variance of
 // pixels.
 
-#include "render/path.h"
+#include "render/path/path.h"
 
 #include <gtest/gtest.h>
 

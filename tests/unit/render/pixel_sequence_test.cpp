@@ -1,6 +1,6 @@
 // Points for the samples of pixels: even in every pixel and over blocks of pixels, and independent otherwise.
 
-#include "render/pixel_sequence.h"
+#include "render/pixels/pixel_sequence.h"
 
 #include <gtest/gtest.h>
 

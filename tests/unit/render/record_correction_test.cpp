@@ -4,8 +4,8 @@
 
 #include <random>
 
-#include "render/gather_at.h"
-#include "render/irradiance_cache.h"
+#include "render/cache/gather_at.h"
+#include "render/cache/irradiance_cache.h"
 #include "tests/support/directions.h"
 
 namespace aleph {

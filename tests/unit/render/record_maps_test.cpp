@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "render/irradiance_cache.h"
+#include "render/cache/irradiance_cache.h"
 #include "tests/support/shot_scenes.h"
 
 namespace aleph {

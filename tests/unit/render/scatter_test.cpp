@@ -1,10 +1,10 @@
 // All lobes together: energy, known albedos, and two independent ways to the same integral.
 
-#include "render/scatter.h"
+#include "render/surface/scatter.h"
 
 #include <gtest/gtest.h>
 
-#include "render/sheen.h"
+#include "render/surface/sheen.h"
 #include "tests/support/lobes.h"
 #include "tests/support/numbers.h"
 

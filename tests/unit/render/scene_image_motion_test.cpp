@@ -4,7 +4,7 @@
 
 #include "engine/load/load_scene.h"
 #include "motion/image_motion.h"
-#include "render/sequence.h"
+#include "render/frame/sequence.h"
 #include "tests/support/paths.h"
 
 namespace aleph {

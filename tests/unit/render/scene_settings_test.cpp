@@ -10,7 +10,7 @@
 #include "engine/base/errors.h"
 #include "engine/scene_file/scene_text.h"
 #include "engine/scene_file/schema.h"
-#include "render/setting_table.h"
+#include "render/settings/setting_table.h"
 #include "tests/support/paths.h"
 
 namespace aleph {

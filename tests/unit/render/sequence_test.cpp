@@ -1,6 +1,6 @@
 // A sequence of frames as C++ programs use it.
 
-#include "render/sequence.h"
+#include "render/frame/sequence.h"
 
 #include <gtest/gtest.h>
 

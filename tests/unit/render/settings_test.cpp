@@ -1,6 +1,6 @@
 // Render settings: every key there and back, and a refusal that names key and values for everything else.
 
-#include "render/setting_table.h"
+#include "render/settings/setting_table.h"
 
 #include <gtest/gtest.h>
 

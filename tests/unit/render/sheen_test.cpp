@@ -1,6 +1,6 @@
 // The sheen layer: its table, its reciprocity.
 
-#include "render/sheen.h"
+#include "render/surface/sheen.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // Sheets of pictures and maps, read back from their files.
 
-#include "render/sheet.h"
+#include "render/output/sheet.h"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include <limits>
 
 #include "engine/image/image_file.h"
-#include "render/map_preview.h"
+#include "render/output/map_preview.h"
 #include "tests/support/scratch_folder.h"
 
 namespace aleph {

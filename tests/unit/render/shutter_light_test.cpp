@@ -1,6 +1,6 @@
 // Indirect light of samples at their own times: where it is read from the frame's, and where it must not be.
 
-#include "render/shutter_light.h"
+#include "render/time/shutter_light.h"
 
 #include <gtest/gtest.h>
 

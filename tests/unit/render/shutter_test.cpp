@@ -1,6 +1,6 @@
 // The shutter's interval, where cuts shorten it, and the times within it.
 
-#include "render/shutter.h"
+#include "render/time/shutter.h"
 
 #include <gtest/gtest.h>
 

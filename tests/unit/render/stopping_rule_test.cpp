@@ -1,6 +1,6 @@
 // Progressive sampling on pixels whose samples are known distributions: stages, decisions, tolerances, unbiased means.
 
-#include "render/stopping_rule.h"
+#include "render/guide/stopping_rule.h"
 
 #include <gtest/gtest.h>
 
@@ -10,8 +10,8 @@
 #include <set>
 
 #include "engine/base/sampling.h"
-#include "render/error_budget.h"
-#include "render/progressive.h"
+#include "render/shade/error_budget.h"
+#include "render/shade/progressive.h"
 #include "tests/support/render_scenes.h"
 #include "tests/support/trial.h"
 

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "render/bsdf.h"
+#include "render/surface/bsdf.h"
 #include "tests/support/lobes.h"
 #include "tests/support/render_scenes.h"
 

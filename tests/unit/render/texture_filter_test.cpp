@@ -6,7 +6,7 @@
 #include <limits>
 #include <random>
 
-#include "render/texture.h"
+#include "render/surface/texture.h"
 
 namespace aleph {
 namespace {

@@ -1,12 +1,12 @@
 // Footprints of rays against finite differences between the hits of neighbouring rays, and against closed forms.
 
-#include "render/texture_footprint.h"
+#include "render/surface/texture_footprint.h"
 
 #include <gtest/gtest.h>
 
 #include <functional>
 
-#include "render/sample_place.h"
+#include "render/pixels/sample_place.h"
 #include "tests/support/render_scenes.h"
 
 namespace aleph {

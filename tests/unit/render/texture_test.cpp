@@ -1,7 +1,7 @@
 // Texture look-up at a point: texel centres, interpolation, wrapping, colour spaces, the reference's transform,
 // coordinates that are not finite. texture_filter_test.cpp tests footprints.
 
-#include "render/texture.h"
+#include "render/surface/texture.h"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 // The perceptual metric of Yee and Newman 2004 against its formulas: uniform pictures, for which they are closed,
 // colours, and masking.
 
-#include "render/yee_metric.h"
+#include "render/compare/yee_metric.h"
 
 #include <gtest/gtest.h>
 

@@ -7,7 +7,7 @@
 #include <glm/geometric.hpp>
 #include <set>
 
-#include "render/sequence.h"
+#include "render/frame/sequence.h"
 #include "scenes/art-gallery/gallery.h"
 #include "tests/support/numbers.h"
 #include "tests/support/paths.h"

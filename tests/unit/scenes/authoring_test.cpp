@@ -18,7 +18,7 @@
 #include "engine/load/load_scene.h"
 #include "engine/scene_file/scene_text.h"
 #include "engine/scene_file/schema.h"
-#include "render/sequence.h"
+#include "render/frame/sequence.h"
 #include "tests/support/paths.h"
 #include "tests/support/scratch_folder.h"
 

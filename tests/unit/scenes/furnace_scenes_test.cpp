@@ -7,7 +7,7 @@
 
 #include "engine/base/color.h"
 #include "engine/load/load_scene.h"
-#include "render/sequence.h"
+#include "render/frame/sequence.h"
 #include "tests/support/paths.h"
 
 namespace aleph {

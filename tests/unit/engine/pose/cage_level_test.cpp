@@ -7,7 +7,7 @@
 
 #include "engine/base/errors.h"
 #include "engine/pose/pose.h"
-#include "render/sequence.h"
+#include "render/frame/sequence.h"
 #include "tests/support/cage_scenes.h"
 
 namespace aleph {

@@ -8,9 +8,9 @@
 #include <set>
 #include <sstream>
 
-#include "render/channel_table.h"
 #include "render/cli/commands.h"
-#include "render/frame_files.h"
+#include "render/output/channel_table.h"
+#include "render/output/frame_files.h"
 #include "tests/support/paths.h"
 
 namespace aleph {

@@ -12,8 +12,8 @@
 #include "render/cli/commands.h"
 #include "render/cli/progress.h"
 #include "render/cli/scene_options.h"
-#include "render/scene_numbers.h"
-#include "render/setting_table.h"
+#include "render/settings/scene_numbers.h"
+#include "render/settings/setting_table.h"
 #include "tests/support/scratch_folder.h"
 
 namespace aleph {

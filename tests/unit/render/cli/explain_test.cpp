@@ -1,7 +1,7 @@
 // `aleph explain` on scenes whose description is known.
 
 #include "render/cli/explain.h"
-#include "render/node_paths.h"
+#include "render/surface/node_paths.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // Frame lists and output names.
 
-#include "render/frame_list.h"
+#include "render/settings/frame_list.h"
 
 #include <gtest/gtest.h>
 

@@ -12,8 +12,8 @@
 
 #include "engine/load/load_scene.h"
 #include "render/cli/explain.h"
-#include "render/frame_files.h"
-#include "render/node_paths.h"
+#include "render/output/frame_files.h"
+#include "render/surface/node_paths.h"
 #include "tests/support/scratch_folder.h"
 
 namespace {

@@ -7,7 +7,7 @@
 
 #include "engine/base/errors.h"
 #include "render/cli/frame_pattern.h"
-#include "render/image_sequence.h"
+#include "render/images/image_sequence.h"
 #include "tests/support/scratch_folder.h"
 
 namespace aleph {

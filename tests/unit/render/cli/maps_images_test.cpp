@@ -14,7 +14,7 @@
 
 #include "engine/image/image_file.h"
 #include "motion/image_motion.h"
-#include "render/image_sequence.h"
+#include "render/images/image_sequence.h"
 #include "tests/support/scratch_folder.h"
 #include "tests/unit/render/cli/maps_images.h"
 

@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "engine/image/image_file.h"
-#include "render/image_sequence.h"
+#include "render/images/image_sequence.h"
 #include "tests/unit/render/cli/maps_images.h"
 
 namespace aleph {

@@ -8,7 +8,7 @@
 #include <functional>
 #include <numbers>
 
-#include "render/gather_summary.h"
+#include "render/cache/gather_summary.h"
 
 namespace aleph {
 namespace {

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "render/sequence.h"
+#include "render/frame/sequence.h"
 #include "tests/support/render_scenes.h"
 
 namespace aleph {

@@ -1,0 +1,169 @@
+#include "render/budget/cost_pilot.h"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "render/frame/sequence.h"
+#include "render/settings/measure.h"
+#include "render/time/key_moments.h"
+
+namespace aleph {
+
+namespace {
+
+constexpr double light_scales[] = {0.25, 0.5};
+constexpr int least_width = 32;    // pixels, of a small picture, unless the frame is smaller
+constexpr int part_block = 4;      // pixels: decisions read the pixels around
+constexpr int blocks_of_all = 75;  // a picture of fewer than four times as many is measured whole
+constexpr int most_every = 8;
+constexpr double light_growth = 4.0;  // seconds, from one small picture to the next
+constexpr double part_growth = 2.0;   // seconds, from one error to the next
+
+/// The settings for a picture of this scale, and the scene, in which angles stay the same, and so velocities.
+Scene scale_picture(Scene scene, RenderSettings& settings, double scale) {
+    const PictureSize size = scale_size({settings.width, settings.height}, scale);
+    settings.width = size.width;
+    settings.height = size.height;
+    scene.viewing.pixels_per_degree *= scale;
+    return scene;
+}
+
+LightSeconds time_light(const PilotRequest& request, double scale) {
+    RenderSettings settings = request.settings.front();
+    const double pixels = static_cast<double>(settings.width) * settings.height;
+    Sequence sequence(scale_picture(request.scene, settings, scale), settings, request.camera);
+    LightSeconds seconds{.pixels = pixels / (static_cast<double>(settings.width) * settings.height)};
+    for (const std::int64_t frame : request.frames) {
+        const LightTime time = sequence.time_light(frame);
+        seconds.fill += time.fill;
+        seconds.moments += time.moments;
+    }
+    return seconds;
+}
+
+/// One block of so many: all of a small picture, an eighth from 320x240 on.
+int choose_every(const RenderSettings& settings) {
+    const int blocks = settings.width * settings.height / (part_block * part_block);
+    int every = 1;
+    while (every < most_every && blocks >= blocks_of_all * 4 * every * every) every *= 2;
+    return every;
+}
+
+class PartPilot {
+  public:
+    PartPilot(const PilotRequest& request, Pilot& pilot)
+        : request_(request),
+          pilot_(pilot),
+          sequence_(request.scene, request.settings.front(), request.camera),
+          part_(choose_part(request.settings.front().width, request.settings.front().height,
+                            choose_every(request.settings.front()), part_block)) {
+        pilot_.seconds.share = find_share(part_);
+    }
+
+    void run() {
+        std::set<std::int64_t> rendered;
+        for (const std::int64_t frame : request_.frames) {
+            const bool first = rendered.empty();
+            const std::size_t count = first ? request_.settings.size() : pilot_.seconds.parts.size();
+            const PartTimes times = sequence_.time_part(frame, part_, {request_.settings.data(), count},
+                                                        [&](const PartTimes& now) { return !first || go_on(now); });
+            add(times);
+            rendered.insert(times.frame);
+        }
+        pilot_.rendered = static_cast<int>(rendered.size());
+    }
+
+  private:
+    /// After an error of the first frame: is there time for the next one, in all frames?
+    bool go_on(const PartTimes& now) const {
+        if (now.parts.size() < 2) return true;
+        const auto frames = static_cast<double>(request_.frames.size());
+        PilotSeconds expected = pilot_.seconds;
+        expected.before = frames * now.before;
+        double next = frames * now.before * (frames - 1.0) / frames;
+        for (std::size_t i = 0; i < now.parts.size(); ++i) {
+            const PartTime& part = now.parts[i];
+            expected.parts.push_back({request_.settings[i].error, frames * part.fill, frames * part.shade});
+            next += (frames - 1.0) * (part.fill + part.shade);
+        }
+        const PartTime& last = now.parts.back();
+        next += part_growth * frames * (last.fill + last.shade);
+        return request_.go_on(expected, next);
+    }
+
+    void add(const PartTimes& times) {
+        pilot_.seconds.before += times.before;
+        pilot_.seconds.parts.resize(times.parts.size());
+        for (std::size_t i = 0; i < times.parts.size(); ++i) {
+            PartSeconds& part = pilot_.seconds.parts[i];
+            part.error = request_.settings[i].error;
+            part.fill += times.parts[i].fill;
+            part.shade += times.parts[i].shade;
+        }
+    }
+
+    const PilotRequest& request_;
+    Pilot& pilot_;
+    Sequence sequence_;
+    PicturePart part_;
+};
+
+}  // namespace
+
+std::vector<std::int64_t> choose_pilot_frames(const std::vector<int>& frames) {
+    const std::size_t count = std::min<std::size_t>(3, frames.size());
+    std::vector<std::int64_t> chosen;
+    for (std::size_t i = 0; i < count; ++i) chosen.push_back(frames[(2 * i + 1) * frames.size() / (2 * count)]);
+    return chosen;
+}
+
+PictureSize scale_size(PictureSize size, double scale) {
+    const auto scaled = [&](int side) { return std::max(1, static_cast<int>(std::lround(scale * side))); };
+    return {scaled(size.width), scaled(size.height)};
+}
+
+Pilot run_pilot(const PilotRequest& request) {
+    Pilot pilot;
+    const RenderSettings& settings = request.settings.front();
+    const auto frames = static_cast<double>(request.frames.size());
+    pilot.seconds.moments = static_cast<double>(count_moments(request.scene, settings, request.frames)) / frames;
+    StageClock clock;
+    for (const double scale : light_scales) {
+        double last = 0.0;
+        pilot.seconds.light.push_back(
+            time_light(request, std::clamp(least_width / (1.0 * settings.width), scale, 1.0)));
+        clock.add_to(last);
+        if (scale == light_scales[0] && !request.go_on(pilot.seconds, light_growth * last)) break;
+    }
+    PartPilot parts(request, pilot);
+    clock.add_to(pilot.seconds.start);
+    parts.run();
+    return pilot;
+}
+
+std::size_t count_moments(const Scene& scene, const RenderSettings& settings, const std::vector<std::int64_t>& frames) {
+    const bool has_indirect = settings.bounces > 0 && settings.path_depth > 1 && settings.accuracy > 0.0;
+    if (settings.light_step == 0 || settings.integrator != Integrator::cache || !has_indirect) return 0;
+    const KeyMoments moments{frame_range(scene), scene.cuts, settings.light_step, {}};
+    std::set<std::int64_t> read;
+    for (const std::int64_t frame : frames) {
+        const MomentPair pair = find_moments(moments, frame);
+        read.insert({pair.before, pair.after});
+    }
+    return read.size();
+}
+
+CostRatios find_cost_ratios(const Scene& scene, const RenderSettings& settings, const std::vector<int>& frames,
+                            const std::vector<std::int64_t>& pilot_frames, int rendered) {
+    CostRatios ratios;
+    if (pilot_frames.size() > 1 && rendered == 1) return ratios;  // all frames are copies of one
+    ratios.frames = static_cast<double>(frames.size()) / static_cast<double>(pilot_frames.size());
+    const std::vector<std::int64_t> all(frames.begin(), frames.end());
+    const std::size_t known = count_moments(scene, settings, pilot_frames);
+    if (known > 0)
+        ratios.moments = static_cast<double>(count_moments(scene, settings, all)) / static_cast<double>(known);
+    return ratios;
+}
+
+}  // namespace aleph

@@ -1,0 +1,144 @@
+#include "render/cache/bounce_places.h"
+
+#include <algorithm>
+#include <cmath>
+#include <mutex>
+#include <numbers>
+#include <optional>
+
+#include "engine/base/parallel.h"
+#include "render/cache/gather_at.h"
+
+namespace aleph {
+
+namespace {
+
+constexpr double seen_surfaces = 300.0;  // per view, about
+constexpr int rays_per_surface = 64;
+constexpr float filling_rays = 1024.0f;  // of the gather whose ray has the footprint that bounds radii
+
+/// Keeps the directions apart from those of gathers at the same places.
+constexpr std::uint32_t places_seed_mask = 0x626f756eu;
+
+/// The surface of a pixel, if its light has to be computed.
+std::optional<PixelSurface> find_needed(const IndirectContext& context, const SampleHits& sample, int x, int y,
+                                        RayTask& task) {
+    if (sample.hits(x, y).instance == no_index) return std::nullopt;
+    std::optional<PixelSurface> surface = find_surface(context, sample, x, y);
+    if (!surface || !surface->material.has_diffuse()) return std::nullopt;
+    if (context.carried != nullptr && context.carried->find(*surface, context.accuracy(x, y), task)) {
+        return std::nullopt;
+    }
+    return surface;
+}
+
+/// The first pixel of a few in this tile whose light has to be computed.
+std::optional<PixelSurface> find_in_tile(const IndirectContext& context, const SampleHits& sample, glm::ivec2 corner,
+                                         int size, RayTask& task) {
+    constexpr int tries = 2;  // along each side
+    for (int i = 0; i < tries * tries; ++i) {
+        const int x = corner.x + (2 * (i % tries) + 1) * size / (2 * tries);
+        const int y = corner.y + (2 * (i / tries) + 1) * size / (2 * tries);
+        if (x >= sample.hits.width || y >= sample.hits.height) continue;
+        if (std::optional<PixelSurface> surface = find_needed(context, sample, x, y, task)) return surface;
+    }
+    return std::nullopt;
+}
+
+}  // namespace
+
+void add_seen_surfaces(const IndirectContext& context, const SampleHits& sample, std::vector<PixelSurface>& surfaces,
+                       RayCounts& counts) {
+    const double pixels = static_cast<double>(sample.hits.size());
+    const int size = std::max(1, static_cast<int>(std::lround(std::sqrt(pixels / seen_surfaces))));
+    RayTask task(context.lighting.rays);
+    for (int y = 0; y < sample.hits.height; y += size) {
+        for (int x = 0; x < sample.hits.width; x += size) {
+            const std::optional<PixelSurface> surface = find_in_tile(context, sample, {x, y}, size, task);
+            if (surface) surfaces.push_back(*surface);
+        }
+    }
+    counts += task.counts;
+}
+
+BouncePlaces cast_bounce_places(const LightingContext& lighting, const std::vector<PixelSurface>& surfaces,
+                                std::uint32_t seed, RayCounts& counts) {
+    const HemisphereStrata strata = choose_strata(rays_per_surface);
+    const int rows = static_cast<int>(surfaces.size());
+    BouncePlaces places{Image<Hit>(strata.count(), rows), Image<glm::vec3>(strata.count(), rows),
+                        std::numbers::pi_v<float> / filling_rays};
+    std::mutex counts_mutex;
+    parallel_rows(rows, 8, [&](int begin, int end) {
+        RayTask task(lighting.rays);
+        for (int y = begin; y < end; ++y) {
+            const SurfacePoint& point = surfaces[y].point;
+            RandomStream random(make_place_key(seed ^ places_seed_mask, surfaces[y].hit));
+            const CellNumbers numbers(random);
+            const Basis basis = make_basis(point.normal);
+            for (int cell = 0; cell < strata.count(); ++cell) {
+                const int row = cell / strata.columns, column = cell % strata.columns;
+                const glm::vec2 u =
+                    (glm::vec2(row, column) + numbers.place(row, column)) / glm::vec2(strata.rows, strata.columns);
+                const glm::vec3 direction = basis.to_world(sample_cosine_hemisphere(u));
+                places.directions(cell, y) = direction;
+                if (!(glm::dot(direction, point.geometric) > 0.0f)) continue;
+                places.hits(cell, y) = task.tracer.intersect({point.ray_origin(), direction});
+                ++task.counts.gather;
+            }
+        }
+        const std::lock_guard lock(counts_mutex);
+        counts += task.counts;
+    });
+    return places;
+}
+
+PixelSurface make_bounce_surface(const ShadingScene& shading, const BouncePlaces& places, int x, int y) {
+    const Hit& hit = places.hits(x, y);
+    const glm::vec3& direction = places.directions(x, y);
+    const SurfacePoint point = make_surface_point(shading, hit, direction);
+    const RayFootprint footprint = make_cone_footprint(point, direction, hit.distance, places.solid_angle);
+    PixelSurface surface{view_surface(shading, point, -direction, footprint)};
+    surface.hit = hit;
+    surface.distance = hit.distance;
+    surface.footprint = hit.distance * std::sqrt(places.solid_angle);
+    surface.x = x;
+    surface.y = y;
+    surface.pixel = static_cast<std::uint32_t>(places.hits.index(x, y));
+    return surface;
+}
+
+FillPlaces make_fill_places(const ShadingScene& shading, const BouncePlaces& places) {
+    FillPlaces fill;
+    fill.points = Image<FillPoint>(places.hits.width, places.hits.height);
+    fill.surface_at = [&](int x, int y) { return make_bounce_surface(shading, places, x, y); };
+    parallel_rows(places.hits.height, 8, [&](int begin, int end) {
+        for (int y = begin; y < end; ++y) {
+            for (int x = 0; x < places.hits.width; ++x) {
+                if (places.hits(x, y).instance == no_index) continue;
+                const PixelSurface surface = make_bounce_surface(shading, places, x, y);
+                if (!surface.material.has_diffuse()) continue;
+                fill.points(x, y) = {surface.point.position, surface.footprint, surface.point.normal};
+            }
+        }
+    });
+    return fill;
+}
+
+std::vector<PixelSurface> choose_next_surfaces(const ShadingScene& shading, const BouncePlaces& places) {
+    constexpr int stride = 23;  // has no divisor in common with a row
+    std::vector<PixelSurface> next;
+    const int width = places.hits.width;
+    for (int y = 0; y < places.hits.height; ++y) {
+        for (int i = 0; i < width; ++i) {
+            const int x = (y + i) * stride % width;
+            if (places.hits(x, y).instance == no_index) continue;
+            const PixelSurface surface = make_bounce_surface(shading, places, x, y);
+            if (!surface.material.has_diffuse()) continue;
+            next.push_back(surface);
+            break;
+        }
+    }
+    return next;
+}
+
+}  // namespace aleph

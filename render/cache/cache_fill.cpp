@@ -1,0 +1,202 @@
+#include "render/cache/cache_fill.h"
+
+#include <algorithm>
+#include <mutex>
+#include <optional>
+
+#include "engine/base/parallel.h"
+#include "render/cache/gather_at.h"
+
+namespace aleph {
+
+namespace {
+
+constexpr int first_stride = 64;            // pixels, size of the first tiles
+constexpr float least_reach_pixels = 0.7f;  // of a record at its own accuracy
+constexpr int max_reviews = 16;             // passes over all pixels after the last tile size
+/// A record may reach so much farther than expected: candidates within that wait.
+constexpr float waiting_reach = 1.2f;
+constexpr std::size_t lookup_grain = 256;  // look-ups per parallel chunk
+
+/// A pixel whose sample is not covered yet.
+struct Candidate {
+    int x = 0, y = 0;
+    CacheQuery query;
+    RadiusBounds bounds;
+    int rays = 0;  ///< of its gather
+};
+
+/// A record, unless its gather was not finite, and the direct light that it found for the cells of the grid.
+struct Gathered {
+    std::optional<IrradianceRecord> record;
+    std::vector<DirectSample> direct;
+};
+
+/// Corners of the tiles of this size that larger tiles do not share, where light is needed.
+std::vector<glm::ivec2> list_tiles(const Image<FillPoint>& points, int stride, bool first_pass) {
+    std::vector<glm::ivec2> tiles;
+    for (int y = 0; y < points.height; y += stride) {
+        for (int x = 0; x < points.width; x += stride) {
+            const bool visited = first_pass && stride < first_stride && x % (2 * stride) == 0 && y % (2 * stride) == 0;
+            if (!visited && points(x, y).footprint >= 0.0f) tiles.push_back({x, y});
+        }
+    }
+    return tiles;
+}
+
+/// The tiles whose samples no record covers, in tile order.
+std::vector<Candidate> find_uncovered(const IrradianceCache& cache, const IndirectContext& context,
+                                      const Image<FillPoint>& points, const std::vector<glm::ivec2>& tiles,
+                                      FrameCounts& counts) {
+    std::vector<std::vector<Candidate>> found((tiles.size() + lookup_grain - 1) / lookup_grain);
+    std::mutex counts_mutex;
+    parallel_for(tiles.size(), lookup_grain, [&](std::size_t begin, std::size_t end) {
+        RayTask task(context.lighting.rays);
+        std::uint64_t asked = 0, missed = 0;
+        for (std::size_t i = begin; i < end; ++i) {
+            const int x = tiles[i].x, y = tiles[i].y;
+            const FillPoint& point = points(x, y);
+            const float accuracy = context.accuracy(x, y);
+            const CacheQuery query{point.position, point.normal, accuracy, &task};
+            ++asked;
+            if (cache.covers(query)) continue;
+            ++missed;
+            found[begin / lookup_grain].push_back(
+                {x, y, {query.position, query.normal, accuracy}, radius_bounds(context, point.footprint, accuracy)});
+        }
+        const std::lock_guard lock(counts_mutex);
+        counts.rays += task.counts;
+        counts.cache.lookups += asked;
+        counts.cache.hits += asked - missed;
+    });
+    std::vector<Candidate> uncovered;
+    for (const auto& chunk : found) uncovered.insert(uncovered.end(), chunk.begin(), chunk.end());
+    return uncovered;
+}
+
+/// Takes those candidates out of `waiting` whose records are computed in this round. The others wait, because the
+/// record of an accepted candidate may cover them. A record's radius is not known before its gather: the bound that
+/// neighbour clamping sets is expected.
+std::vector<Candidate> accept_candidates(const IrradianceCache& cache, const IndirectContext& context,
+                                         std::vector<Candidate>& waiting) {
+    IrradianceCache expected = make_cache(context.lighting.shading);
+    std::vector<Candidate> accepted, later;
+    for (Candidate& candidate : waiting) {
+        CacheQuery nearly = candidate.query;
+        nearly.accuracy *= waiting_reach;
+        if (expected.covers(nearly)) {
+            later.push_back(candidate);
+            continue;
+        }
+        IrradianceRecord record;
+        record.position = candidate.query.position;
+        record.normal = candidate.query.normal;
+        record.accuracy = candidate.query.accuracy;
+        record.min_radius = candidate.bounds.min;
+        record.radius =
+            std::max(cache.radius_bound(record.position, record.normal, context.max_radius), record.min_radius);
+        expected.insert(record);
+        candidate.rays =
+            choose_rays(context.settings, candidate.query.accuracy, cache.expected_ray_variance(candidate.query));
+        accepted.push_back(candidate);
+    }
+    waiting = std::move(later);
+    return accepted;
+}
+
+/// The candidates' records, computed in parallel.
+std::vector<Gathered> gather_records(const IndirectContext& context, const FillPlaces& places,
+                                     const std::vector<Candidate>& candidates, RayCounts& counts) {
+    std::vector<Gathered> records(candidates.size());
+    std::mutex counts_mutex;
+    parallel_for(candidates.size(), 1, [&](std::size_t begin, std::size_t end) {
+        thread_local GatherScratch scratch;
+        RayTask task(context.lighting.rays);
+        for (std::size_t i = begin; i < end; ++i) {
+            const Candidate& candidate = candidates[i];
+            const PixelSurface surface = places.surface_at(candidate.x, candidate.y);
+            const IrradianceSample value =
+                gather_at(context, task, surface, scratch, candidate.rays, &records[i].direct);
+            records[i].record = make_record(candidate.query.position, candidate.query.normal, candidate.query.accuracy,
+                                            value, candidate.bounds);
+        }
+        const std::lock_guard lock(counts_mutex);
+        counts += task.counts;
+    });
+    return records;
+}
+
+/// Rounds over the tiles until every one is covered or has been tried. Returns the number of records added.
+std::size_t fill_tiles(IrradianceCache& cache, const IndirectContext& context, const FillPlaces& places,
+                       std::vector<glm::ivec2> tiles, FrameTally& tally) {
+    const std::size_t records_before = cache.records().size();
+    while (!tiles.empty()) {
+        std::vector<Candidate> waiting = find_uncovered(cache, context, places.points, tiles, tally.counts);
+        if (waiting.empty()) break;
+        const std::vector<Candidate> accepted = accept_candidates(cache, context, waiting);
+        const auto records = gather_records(context, places, accepted, tally.counts.rays);
+        for (std::size_t i = 0; i < accepted.size(); ++i) {
+            tally.records(accepted[i].x, accepted[i].y) += 1.0f;
+            if (context.direct != nullptr) context.direct->insert(records[i].direct);
+            if (records[i].record) {
+                cache.insert(*records[i].record);
+            } else {
+                tally.invalid_samples(accepted[i].x, accepted[i].y) += 1.0f;
+                ++tally.counts.invalid_samples;
+            }
+        }
+        tally.counts.records += accepted.size();
+        ++tally.counts.cache.rounds;
+        tiles.clear();
+        for (const Candidate& candidate : waiting) tiles.push_back({candidate.x, candidate.y});
+    }
+    return cache.records().size() - records_before;
+}
+
+SceneBounds bounds_or_unit(const ShadingScene& shading) {
+    const SceneBounds& bounds = shading.bounds;
+    if (!(bounds.low.x <= bounds.high.x)) return {glm::vec3(-1.0f), glm::vec3(1.0f)};
+    return bounds;
+}
+
+}  // namespace
+
+RadiusBounds radius_bounds(const IndirectContext& context, float footprint, float accuracy) {
+    const float alpha = std::clamp(accuracy, 1e-3f, 1.0f);
+    const float pixels = std::max(static_cast<float>(context.settings.min_radius_pixels), least_reach_pixels / alpha);
+    const float min = std::min(pixels * footprint, context.max_radius);
+    return {min, context.max_radius, footprint / std::sqrt(alpha)};
+}
+
+void fill_places(IrradianceCache& cache, const IndirectContext& context, const FillPlaces& places, FrameTally& tally) {
+    const bool coarse = places.coarse_first;
+    for (int stride = coarse ? first_stride : places.finest; stride >= places.finest; stride /= 2) {
+        fill_tiles(cache, context, places, list_tiles(places.points, stride, coarse), tally);
+    }
+    // A new record near a wall shrinks its neighbours' radii, and pixels that they covered before are uncovered again.
+    // Without these reviews, shading would gather at each such pixel. Later samples look at every pixel anyway.
+    for (int review = 0; coarse && review < max_reviews; ++review) {
+        if (fill_tiles(cache, context, places, list_tiles(places.points, places.finest, false), tally) == 0) break;
+    }
+}
+
+void fill_cache(IrradianceCache& cache, const IndirectContext& context, const SampleHits& sample, FrameTally& tally,
+                int finest) {
+    const auto surface_at = [&](int x, int y) { return *find_surface(context, sample, x, y); };
+    fill_places(cache, context,
+                {find_points(context, sample, finest, tally.counts.rays), surface_at, sample.place.index == 0, finest},
+                tally);
+}
+
+IrradianceCache make_cache(const ShadingScene& shading) {
+    const SceneBounds bounds = bounds_or_unit(shading);
+    const glm::vec3 margin(1e-3f * glm::length(bounds.high - bounds.low));
+    return {bounds.low - margin, bounds.high + margin};
+}
+
+float scene_radius(const ShadingScene& shading) {
+    const SceneBounds bounds = bounds_or_unit(shading);
+    return 0.5f * glm::length(bounds.high - bounds.low);
+}
+
+}  // namespace aleph

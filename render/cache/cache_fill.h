@@ -1,0 +1,56 @@
+#pragma once
+// Fills an irradiance cache for a frame, with the same records for any number of threads.
+//
+// The frame is divided into tiles, each with one pixel sample at its corner. Tiles start at 64 pixels and halve down to
+// single pixels, so that the first records, which are far apart, are placed evenly. A tile needs a record if no record
+// covers its sample. Tiles of one size are filled in rounds; in each round
+//   1. all threads look for tiles that need a record. The cache does not change meanwhile;
+//   2. one thread goes through these tiles in order and accepts a tile unless the expected reach of a tile accepted
+//      before covers it. Tiles that are not accepted wait for the next round;
+//   3. all threads gather irradiance for the accepted tiles. Random numbers depend on the seed and on the place on the
+//   surface only;
+//   4. one thread inserts the records in the order of their tiles.
+// No step depends on the order in which threads work. The number of records is within a few percent of that of a
+// sequential fill, where each record is inserted before the next pixel is looked at.
+
+#include <functional>
+
+#include "render/cache/fill_points.h"
+#include "render/cache/indirect_context.h"
+#include "render/cache/irradiance_cache.h"
+
+namespace aleph {
+
+/// Surfaces that may need light, in rows and columns. `accuracy` of the context and the images of the tally have the
+/// same size.
+struct FillPlaces {
+    Image<FillPoint> points;
+    /// The surface of a point that needs light. Called from any thread.
+    std::function<PixelSurface(int x, int y)> surface_at;
+    /// Tiles start large; otherwise every point is looked at once.
+    bool coarse_first = true;
+    int finest = 1;  ///< the last tiles' size, a power of 2
+};
+
+/// Adds records until every place is covered. A gather that is not finite makes no record: it is counted as invalid,
+/// and shading computes that sample's irradiance again if no other record covers it.
+void fill_places(IrradianceCache& cache, const IndirectContext& context, const FillPlaces& places, FrameTally& tally);
+
+/// Bounds for a pixel: R_i is at least min_radius_pixels, and at the pixel's own accuracy S_i reaches a pixel.
+/// @param footprint  m, of the pixel
+RadiusBounds radius_bounds(const IndirectContext& context, float footprint, float accuracy);
+
+/// fill_places for the surfaces that this sample of the pixels shows.
+/// @param sample  if it is the pixels' first, tiles start large; later samples are looked at pixel by pixel
+/// @param tally   increased; its images have the frame's size
+/// @param finest  of FillPlaces
+void fill_cache(IrradianceCache& cache, const IndirectContext& context, const SampleHits& sample, FrameTally& tally,
+                int finest = 1);
+
+/// An empty cache whose index spans the whole scene.
+IrradianceCache make_cache(const ShadingScene& shading);
+
+/// Half the diagonal of the visible scene's bounds, m; that of a 2 m cube if nothing is visible.
+float scene_radius(const ShadingScene& shading);
+
+}  // namespace aleph

@@ -1,0 +1,41 @@
+#include "render/cache/deeper_light.h"
+
+#include <numbers>
+
+#include "render/cache/irradiance_cache.h"
+#include "render/path/path.h"
+
+namespace aleph {
+
+namespace {
+
+/// Lamps that the ray meets, or sees straight through sheets of glass, are direct light of the point.
+Rgb sample_irradiance(const LightingContext& context, RayTask& task, const SurfacePlace& point, const PathLimits& left,
+                      RandomStream& random) {
+    const glm::vec3 direction = make_basis(point.normal).to_world(sample_cosine_hemisphere(random.next_2d()));
+    if (!(glm::dot(direction, point.geometric) > 0.0f)) return Rgb(0.0f);
+    ++task.counts.deeper;
+    const Hit hit = task.tracer.intersect({point.ray_origin(), direction});
+    if (hit.instance == no_index) return Rgb(0.0f);
+    const SurfacePoint met = make_surface_point(context.shading, hit, direction);
+    PathState state;
+    state.left = left;
+    state.turned = true;
+    state.emission = EmissionWeight::none;
+    return std::numbers::pi_v<float> *
+           scatter_light(context, task, view_surface(context.shading, met, -direction, {}), state, random);
+}
+
+}  // namespace
+
+Rgb find_deeper_irradiance(const LightingContext& context, RayTask& task, const SurfacePlace& point,
+                           const DeeperLight& deeper, int depth, RandomStream& random) {
+    if (deeper.bounces <= 0) return Rgb(0.0f);
+    if (deeper.cache != nullptr) {
+        const CacheQuery query{point.position, point.normal, deeper.accuracy, &task};
+        if (const std::optional<Rgb> found = deeper.cache->interpolate(query)) return *found;
+    }
+    return sample_irradiance(context, task, point, {deeper.bounces - 1, depth}, random);
+}
+
+}  // namespace aleph

@@ -1,0 +1,25 @@
+#pragma once
+// Light of several bounces, as a gather sees it: what a surface that a gather ray hit scatters of its own indirect
+// irradiance. It comes from a cache of exactly the bounces that are left, or from one random path.
+
+#include "render/light/light_choice.h"
+
+namespace aleph {
+
+class IrradianceCache;
+
+/// The light that hits of gather rays scatter in addition to direct light.
+struct DeeperLight {
+    int bounces = 0;  ///< of its irradiance; 0: there is none
+    /// Of exactly so many bounces; null: every irradiance comes from a random path.
+    const IrradianceCache* cache = nullptr;
+    float accuracy = 0.0f;  ///< alpha of look-ups
+};
+
+/// Indirect irradiance at a surface point: from the cache, or without bias from one random path where it has no record.
+/// The path's first ray is counted as RayCounts::deeper.
+/// @param depth  surfaces that may scatter on the path
+Rgb find_deeper_irradiance(const LightingContext& context, RayTask& task, const SurfacePlace& point,
+                           const DeeperLight& deeper, int depth, RandomStream& random);
+
+}  // namespace aleph

@@ -1,0 +1,22 @@
+#pragma once
+// The surfaces that a sample of the pixels shows, as far as filling a cache needs them.
+
+#include "render/cache/indirect_context.h"
+
+namespace aleph {
+
+/// The surface of a pixel's sample.
+struct FillPoint {
+    glm::vec3 position{0.0f};  ///< m, relative to the anchor of IndirectContext::lighting
+    float footprint = -1.0f;   ///< m, of the pixel; negative: no light is needed here, or it is known (CarriedLight)
+    glm::vec3 normal{0.0f};    ///< unit
+};
+
+/// The surface that a pixel shows, in the pose whose light is wanted; nothing if it is not there.
+std::optional<PixelSurface> find_surface(const IndirectContext& context, const SampleHits& sample, int x, int y);
+
+/// Those of every `step`th pixel of every `step`th row; elsewhere no light is needed.
+/// @param counts  increased by the rays cast
+Image<FillPoint> find_points(const IndirectContext& context, const SampleHits& sample, int step, RayCounts& counts);
+
+}  // namespace aleph

@@ -1,0 +1,239 @@
+#include "render/cache/gather.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "render/cache/gather_rays.h"
+#include "render/cache/gather_summary.h"
+#include "render/settings/numbers.h"
+
+namespace aleph {
+
+namespace {
+
+constexpr float min_ray_cosine = 0.05f;  // limits the solid angle of cells at the horizon
+
+/// Light that comes back along a path which leaves a hit by another lobe than the Lambert layer's. Lamps that it sees
+/// straight through sheets of glass are direct light, which is computed elsewhere.
+Rgb follow_lobes(const LightingContext& context, RayTask& task, const LitSurface& lit, const LobeShares& shares,
+                 int bounces, int depth, RandomStream& random) {
+    const ScatterSample sample = sample_scatter(lit, shares, random.next(), random.next_2d(), random.next());
+    if (sample.lobe == Lobe::diffuse) return Rgb(0.0f);
+    PathState state;
+    state.left = {bounces, depth};
+    state.turned = true;
+    state.emission = EmissionWeight::none;
+    return follow_sample(context, task, lit, sample, state, random);
+}
+
+/// One gather while its hits are lit.
+struct Lighting {
+    const LightingContext& context;
+    RayTask& task;
+    const GatherOptions& options;
+    const HemisphereStrata& strata;
+    const CellNumbers& numbers;
+    const glm::vec3& normal;  ///< of the hemisphere
+    RandomStream& random;
+    GatherScratch& scratch;
+
+    /// sr, that a ray represents. Cells towards the horizon are 1 / cosine larger.
+    float solid_angle(std::size_t ray) const {
+        const float cosine = std::max(glm::dot(normal, scratch.rays[ray].direction), min_ray_cosine);
+        return pi * scratch.places[ray].share / (static_cast<float>(strata.count()) * cosine);
+    }
+    /// Numbers for a light at what this ray hit.
+    LightNumbers light_numbers(std::size_t ray) const {
+        const auto& [cell, row, column, share] = scratch.places[ray];
+        return {numbers.light(row, column), numbers.light_point(row, column)};
+    }
+    /// Irradiance of further bounces at a surface that a ray hit.
+    Rgb find_deeper(const SurfacePlace& met) const {
+        return find_deeper_irradiance(context, task, met, options.deeper, options.depth, random);
+    }
+};
+
+/// @param passed  share of the light that comes through
+void add_arrived(const ShadowSample& sample, const Rgb& passed, const GatherOptions& options, GatherScratch& scratch) {
+    const Rgb arrives = sample.deeper + (passed == Rgb(0.0f) ? passed : sample.unshadowed * passed);
+    scratch.light[sample.ray] += sample.scale * arrives;
+    if (sample.grid != 0 && options.found != nullptr) options.found->push_back({sample.grid, arrives});
+}
+
+/// Adds light, or its shadow ray to those that are to be cast.
+void add_scattered(const Lighting& lighting, const ScatteredLight& scattered, const ShadowSample& sample) {
+    if (!scattered.shadowed) return add_arrived(sample, Rgb(1.0f), lighting.options, lighting.scratch);
+    lighting.scratch.shadow_rays.push_back(scattered.shadow_ray);
+    lighting.scratch.shadow_samples.push_back(sample);
+}
+
+/// Adds a sample of direct light, light of further bounces, and that of longer paths by other lobes than Lambert's.
+void light_hit(const Lighting& lighting, std::size_t i) {
+    GatherScratch& scratch = lighting.scratch;
+    const ShadingScene& shading = lighting.context.shading;
+    const glm::vec3& direction = scratch.rays[i].direction;
+    const SurfacePoint met = make_surface_point(shading, scratch.hits[i], direction);
+    const RayFootprint footprint =
+        make_cone_footprint(met, direction, scratch.hits[i].distance, lighting.solid_angle(i));
+    ViewedSurface surface = view_surface(shading, met, -direction, footprint);
+    if (shading.skipped.contains(Effect::caustics)) remove_specular(surface.material);
+    const LitSurface lit(surface);
+    LobeShares shares{};
+    const int depth = lighting.options.depth;
+    if (depth > 0 && surface.material.has_specular()) {
+        shares = share_lobes(lit, LobeSet::all);
+        scratch.light[i] = follow_lobes(lighting.context, lighting.task, lit, shares, lighting.options.deeper.bounces,
+                                        depth, lighting.random);
+        shares[static_cast<int>(Lobe::diffuse)] = 0.0f;
+    }
+    if (lighting.options.deeper.bounces > 0 && surface.material.has_diffuse()) {
+        const Rgb deeper = diffuse_radiance(surface.material, lit.cos_view, lighting.find_deeper(surface.point));
+        scratch.light[i] += deeper * lit.below_sheen;
+    }
+    const ScatteredLight scattered = choose_light(lighting.context, lit, shares, lighting.light_numbers(i));
+    if (scattered.radiance == Rgb(0.0f)) return;
+    add_scattered(lighting, scattered, {scattered.radiance, Rgb(1.0f), Rgb(0.0f), static_cast<int>(i)});
+}
+
+/// Albedo and cell of the direct grid of a plain Lambert surface.
+void note_plain_hit(const Lighting& lighting, std::size_t i) {
+    GatherScratch& scratch = lighting.scratch;
+    const ShadingScene& shading = lighting.context.shading;
+    const Hit& hit = scratch.hits[i];
+    const float solid_angle = lighting.solid_angle(i);
+    const LambertHit met = make_lambert_hit(shading, scratch.rays[i], hit, scratch.normals[i], solid_angle);
+    if (met.albedo == Rgb(0.0f)) return;
+    std::uint64_t grid = 0;
+    if (lighting.options.grid != nullptr) {
+        const glm::vec3 from_origin = met.position - shading.instances[hit.instance].translation;
+        grid = lighting.options.grid->key_of(hit.instance, from_origin, met.geometric,
+                                             hit.distance * std::sqrt(solid_angle));
+        lighting.options.grid->prefetch(grid);
+    }
+    scratch.plain_hits.push_back({met.albedo, static_cast<int>(i), grid});
+}
+
+/// Direct light from the grid. Hits in cells of too few samples are left: each will take one more, which counts with
+/// them.
+void find_known_light(const DirectGrid& grid, GatherScratch& scratch) {
+    std::size_t left = 0;
+    for (const PlainHit& hit : scratch.plain_hits) {
+        const DirectGrid::Cell& known = grid.find(hit.grid);
+        const bool enough = known.count >= DirectGrid::enough;
+        const Rgb scale = hit.scale / static_cast<float>(enough ? known.count : known.count + 1);
+        scratch.light[hit.ray] = scale * known.sum;
+        scratch.plain_hits[left] = {scale, hit.ray, hit.grid};
+        left += enough ? 0 : 1;
+    }
+    scratch.plain_hits.resize(left);
+}
+
+/// Adds a sample of direct light, and light of further bounces.
+void light_plain_hit(const Lighting& lighting, const PlainHit& noted) {
+    GatherScratch& scratch = lighting.scratch;
+    const LightingContext& context = lighting.context;
+    const SurfacePlace place =
+        make_surface_place(context.shading, scratch.hits[noted.ray], scratch.rays[noted.ray].direction);
+    const Rgb deeper = lighting.find_deeper(place) / pi;
+    const ScatteredLight scattered = choose_lambert_light(context, place, lighting.light_numbers(noted.ray));
+    if (scattered.radiance == Rgb(0.0f)) {
+        scratch.light[noted.ray] += noted.scale * deeper;
+        if (noted.grid != 0 && lighting.options.found != nullptr) {
+            lighting.options.found->push_back({noted.grid, deeper});
+        }
+        return;
+    }
+    add_scattered(lighting, scattered, {scattered.radiance, noted.scale, deeper, noted.ray, noted.grid});
+}
+
+/// All plain hits. What is read of the meshes is fetched ahead.
+void light_plain_hits(const Lighting& lighting) {
+    GatherScratch& scratch = lighting.scratch;
+    const ShadingScene& shading = lighting.context.shading;
+    constexpr std::size_t ahead = 4;  // hits
+    const auto hit_of = [&](std::size_t k) -> const Hit& { return scratch.hits[scratch.plain_hits[k].ray]; };
+    const std::size_t count = scratch.plain_hits.size();
+    for (std::size_t k = 0; k < count; ++k) {
+        if (k + 2 * ahead < count) prefetch_triangle(shading, hit_of(k + 2 * ahead));
+        if (k + ahead < count) prefetch_corners(shading, hit_of(k + ahead));
+        light_plain_hit(lighting, scratch.plain_hits[k]);
+    }
+}
+
+/// Fills in light that is known, and for all other hits unshadowed light with its shadow rays.
+void light_hits(const Lighting& lighting) {
+    GatherScratch& scratch = lighting.scratch;
+    const ShadingScene& shading = lighting.context.shading;
+    scratch.light.assign(scratch.rays.size(), Rgb(0.0f));
+    scratch.shadow_rays.clear();
+    scratch.shadow_samples.clear();
+    scratch.plain_hits.clear();
+    for (std::size_t i = 0; i < scratch.rays.size(); ++i) {
+        const Hit& hit = scratch.hits[i];
+        if (hit.instance == no_index) continue;
+        if (shading.materials[shading.instances[hit.instance].material].plain_lambert) {
+            note_plain_hit(lighting, i);
+        } else {
+            light_hit(lighting, i);
+        }
+    }
+    if (lighting.options.grid != nullptr) find_known_light(*lighting.options.grid, scratch);
+    light_plain_hits(lighting);
+}
+
+/// Casts the shadow rays and adds the light that is not in shadow.
+void add_unshadowed(const LightingContext& context, RayTask& task, const GatherOptions& options,
+                    GatherScratch& scratch) {
+    const std::size_t count = scratch.shadow_rays.size();
+    if (!context.shading.has_sheets) {
+        scratch.blocked.resize(count);
+        task.tracer.occluded(scratch.shadow_rays, scratch.blocked);
+        task.counts.shadow += count;
+    }
+    for (std::size_t s = 0; s < count; ++s) {
+        const ShadowSample& sample = scratch.shadow_samples[s];
+        const Rgb passed = context.shading.has_sheets ? find_transmittance(context, task, scratch.shadow_rays[s])
+                                                      : Rgb(scratch.blocked[s] ? 0.0f : 1.0f);
+        add_arrived(sample, passed, options, scratch);
+    }
+}
+
+/// From what the rays found to the radiance and the distance of every cell.
+void merge_rays(const HemisphereStrata& strata, GatherScratch& scratch) {
+    scratch.distances.assign(static_cast<std::size_t>(strata.count()), infinite);
+    scratch.radiance.assign(static_cast<std::size_t>(strata.count()), Rgb(0.0f));
+    for (std::size_t i = 0; i < scratch.rays.size(); ++i) {
+        const RayPlace& place = scratch.places[i];
+        scratch.radiance[place.cell] += scratch.light[i] * place.share;
+        if (scratch.hits[i].instance == no_index) continue;
+        scratch.distances[place.cell] = std::min(scratch.distances[place.cell], scratch.hits[i].distance);
+    }
+}
+
+}  // namespace
+
+IrradianceSample gather_irradiance(const LightingContext& context, RayTask& task, const SurfacePoint& point,
+                                   const HemisphereStrata& strata, const RandomKey& key, GatherScratch& scratch,
+                                   const GatherOptions& options) {
+    RandomStream random(key);
+    const Basis basis = make_basis(point.normal);
+    const CellNumbers numbers(random);
+    const int ray_count = divide_cells(strata, options.divided, scratch);
+    place_rays(strata, basis, point, numbers, ray_count, scratch);
+    task.tracer.intersect(scratch.rays, scratch.hits, true, scratch.normals);
+    task.counts.gather += scratch.rays.size();
+    light_hits({context, task, options, strata, numbers, point.normal, random, scratch});
+    add_unshadowed(context, task, options, scratch);
+    merge_rays(strata, scratch);
+
+    IrradianceSample out;
+    out.rays = ray_count;
+    glm::dvec3 sum(0.0);
+    for (const Rgb& radiance : scratch.radiance) sum += glm::dvec3(radiance);
+    out.irradiance = Rgb(sum * (std::numbers::pi / strata.count()));
+    summarize_hemisphere(strata, basis, scratch, out);
+    return out;
+}
+
+}  // namespace aleph

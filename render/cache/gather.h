@@ -1,0 +1,143 @@
+#pragma once
+// One irradiance value: rays over the hemisphere, the light that they find, and its gradients.
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <glm/vec3.hpp>
+#include <limits>
+#include <span>
+#include <vector>
+
+#include "engine/base/color.h"
+#include "render/cache/deeper_light.h"
+#include "render/cache/direct_grid.h"
+#include "render/cache/hemisphere_strata.h"
+#include "render/path/direct_light.h"
+#include "render/surface/lambert_hit.h"
+
+namespace aleph {
+
+/// Free distance along a tangent plane by sectors of azimuth (sector_of), m.
+using Clearance = std::array<float, 16>;
+
+constexpr Clearance unlimited_clearance() {
+    Clearance all{};
+    all.fill(std::numeric_limits<float>::infinity());
+    return all;
+}
+
+/// Indirect irradiance at a point with its gradients (Ward and Heckbert 1992, "Irradiance Gradients").
+struct IrradianceSample {
+    Rgb irradiance{0.0f};                             ///< of reflected light, without light straight from the lights
+    std::array<glm::vec3, 3> rotation_gradient{};     ///< per colour channel: dE = dot(cross(N_i, N), gradient)
+    std::array<glm::vec3, 3> translation_gradient{};  ///< per colour channel, per m, in the tangent plane
+    float harmonic_mean_distance = 0.0f;              ///< m (Yee 2000, eq. 6.5); infinite if no ray hit anything
+    /// m, to the nearest surface met, the point's own left out; infinite if no ray hit anything.
+    float nearest_distance = std::numeric_limits<float>::infinity();
+    Clearance clearance = unlimited_clearance();  ///< nearest hits of the rays next to the tangent plane
+    /// m, from the tangent plane up to the lowest hit of all other rays.
+    float headroom = std::numeric_limits<float>::infinity();
+    int rays = 0;               ///< that were spent, those below the true surface included
+    int ignored_distances = 0;  ///< hits of the point's own surface, left out of the mean
+    /// Standard error of the irradiance's luminance over the luminance, estimated from this one gather; 0 if all is
+    /// dark, infinite if there are too few cells to tell.
+    float relative_error = 0.0f;
+};
+
+/// Whether all three channels are finite.
+inline bool is_finite(const Rgb& c) {
+    return std::isfinite(c.x) && std::isfinite(c.y) && std::isfinite(c.z);
+}
+
+/// Index of the sixteenth of the circle that holds a direction with these tangent-plane coordinates. Neighbouring
+/// sectors need not have neighbouring indices.
+inline int sector_of(float x, float y) {
+    const float across = std::abs(x), along = std::abs(y);
+    constexpr float tan_half = 0.41421356f;  // of 22.5 degrees
+    const bool diagonal = std::min(across, along) > tan_half * std::max(across, along);
+    return (x < 0.0f ? 1 : 0) | (y < 0.0f ? 2 : 0) | (across < along ? 4 : 0) | (diagonal ? 8 : 0);
+}
+
+/// A cell of the strata that takes side x side rays, one in each of its equal parts. Their mean is the cell's radiance.
+struct DividedCell {
+    int cell = 0;
+    int side = 1;  ///< at least 1
+};
+
+/// Where a ray of a gather belongs.
+struct RayPlace {
+    int cell = 0;             ///< of the strata
+    int row = 0, column = 0;  ///< in strata as fine as the parts of its cell
+    float share = 1.0f;       ///< of the cell
+};
+
+/// Light of a sampled light, until its shadow ray is cast.
+struct ShadowSample {
+    Rgb unshadowed{0.0f};
+    Rgb scale{1.0f};         ///< of what arrives, to radiance
+    Rgb deeper{0.0f};        ///< light of further bounces, which arrives in any case
+    int ray = 0;             ///< that hit the surface
+    std::uint64_t grid = 0;  ///< cell of the direct grid that the light is a sample of; 0: none
+};
+
+/// A hit of a plain Lambert surface, until its direct light is known.
+struct PlainHit {
+    Rgb scale{0.0f};  ///< of the light that a white surface would scatter
+    int ray = 0;
+    std::uint64_t grid = 0;  ///< its cell of the direct grid; 0: none
+};
+
+/// Angles of a row of strata, measured from the normal.
+struct StrataRow {
+    float sin_low, sin_high;  ///< of its bounds
+    float cos2_low;           ///< squared cosine of the lower bound
+    float tangent;            ///< of its middle
+};
+
+/// Buffers that a thread reuses, so that only its first gathers allocate.
+struct GatherScratch {
+    // One for every ray that is cast, in the order of visit_blocks.
+    std::vector<Ray> rays;
+    std::vector<Hit> hits;
+    std::vector<glm::vec3> normals;  ///< of the hits (Tracer::intersect)
+    std::vector<RayPlace> places;
+    std::vector<Rgb> light;  ///< radiance that the ray finds
+    // One for every cell.
+    std::vector<Rgb> radiance;        ///< mean over its rays; those below the true surface are black
+    std::vector<float> distances;     ///< m, the shortest of its rays; infinite where nothing is met
+    std::vector<std::uint8_t> sides;  ///< of DividedCell; 1: one ray
+    std::vector<std::uint8_t> below;  ///< no ray is cast: all directions are below the true surface
+    // One for every shadow ray.
+    std::vector<Ray> shadow_rays;
+    std::vector<ShadowSample> shadow_samples;
+    std::vector<std::uint8_t> blocked;
+    std::vector<PlainHit> plain_hits;
+    // Of the summary.
+    std::vector<float> sorted;
+    std::vector<float> inverse_distances;
+    std::vector<StrataRow> rows;
+};
+
+struct GatherOptions {
+    int depth = 0;  ///< surfaces that may scatter after the first on paths by other lobes than Lambert's; 0: none
+    /// Direct light of pure Lambert surfaces comes from here where it is known: biased, with far fewer shadow rays.
+    /// Null: every hit casts its own shadow ray, without bias.
+    const DirectGrid* grid = nullptr;
+    std::vector<DirectSample>* found = nullptr;  ///< if given, samples for the grid are added
+    DeeperLight deeper{};                        ///< light of further bounces; none: one bounce only
+    /// Each cell at most once. Which cells are here must not depend on the gather's own random numbers.
+    std::span<const DividedCell> divided{};
+};
+
+/// Gathers the light that other surfaces scatter to a point: their direct light, and that of further bounces. The
+/// hemisphere lies about the shading normal. Directions below the true surface count as black and infinitely far, and
+/// no rays are cast there. At each hit one light is chosen in proportion to its unshadowed contribution, and one shadow
+/// ray is cast towards it. Where the surface that is hit reflects or passes light by more than its Lambert layer, a
+/// path goes on with that share as its probability.
+/// @param key    all random numbers depend on it
+IrradianceSample gather_irradiance(const LightingContext& context, RayTask& task, const SurfacePoint& point,
+                                   const HemisphereStrata& strata, const RandomKey& key, GatherScratch& scratch,
+                                   const GatherOptions& options = {});
+
+}  // namespace aleph

@@ -1,0 +1,58 @@
+#include "render/cache/gather_at.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace aleph {
+
+namespace {
+
+constexpr int least_rays = 64, first_rays = 512, most_rays = 8192;
+constexpr double noise_per_accuracy = 0.2;  // standard error of a record, over alpha
+
+/// Keeps the random numbers of gathers apart from those of direct light: combined with the seed by exclusive or. Any
+/// constant but 0 would do.
+constexpr std::uint32_t gather_seed_mask = 0x67617468u;
+
+constexpr float place_cells = 256.0f;  // along each side of a triangle, for random numbers
+
+/// Keeps those of caches of different numbers of bounces apart.
+constexpr std::uint32_t turn_seed_step = 0x9e3779b9u;
+
+/// Records have random numbers of their place (make_place_key): a surface at rest that a camera at rest sees has the
+/// same noise at every time. Without records, the noise of every sample is its own.
+RandomKey choose_key(const IndirectContext& context, const PixelSurface& surface) {
+    const std::uint32_t turns = static_cast<std::uint32_t>(context.turns_before);
+    const std::uint32_t seed = (context.settings.seed ^ gather_seed_mask) + turns * turn_seed_step;
+    if (!(context.settings.accuracy > 0.0)) {
+        return {seed, context.frame, surface.pixel, static_cast<std::uint32_t>(surface.sample)};
+    }
+    return make_place_key(seed, surface.hit);
+}
+
+}  // namespace
+
+RandomKey make_place_key(std::uint32_t seed, const Hit& hit) {
+    const auto cell = [](float at) { return static_cast<std::uint32_t>(std::max(at, 0.0f) * place_cells); };
+    return {seed, static_cast<std::uint32_t>(hit.instance), static_cast<std::uint32_t>(hit.primitive),
+            cell(hit.u) << 16 | cell(hit.v)};
+}
+
+int choose_rays(const RenderSettings& settings, float accuracy, const std::optional<float>& ray_variance) {
+    const double most = settings.gather > 0 ? settings.gather : most_rays;
+    const double base = settings.gather > 0 ? settings.gather : first_rays;
+    if (!(settings.accuracy > 0.0 && accuracy > 0.0f)) return static_cast<int>(base);
+    double rays = base * std::pow(settings.accuracy / accuracy, 2.0);
+    if (settings.gather == 0 && ray_variance) rays = *ray_variance / std::pow(noise_per_accuracy * accuracy, 2.0);
+    return static_cast<int>(std::lround(std::clamp(rays, std::min<double>(least_rays, most), most)));
+}
+
+IrradianceSample gather_at(const IndirectContext& context, RayTask& task, const PixelSurface& surface,
+                           GatherScratch& scratch, int rays, std::vector<DirectSample>* found) {
+    const RandomKey key = choose_key(context, surface);
+    return gather_irradiance(
+        context.lighting, task, surface.point, choose_strata(rays), key, scratch,
+        {std::max(0, context.settings.path_depth - 2 - context.turns_before), context.direct, found, context.deeper});
+}
+
+}  // namespace aleph

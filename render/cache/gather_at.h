@@ -1,0 +1,25 @@
+#pragma once
+// A gather at a pixel: how many rays, and from which random numbers.
+
+#include <optional>
+
+#include "render/cache/gather.h"
+#include "render/cache/indirect_context.h"
+
+namespace aleph {
+
+/// Rays for a gather at a pixel's accuracy. With RenderSettings::gather 0, as many as bring its standard error to a
+/// fifth of the accuracy, from 64 to 8192; otherwise that number at the frame's accuracy. Where the accuracy is looser,
+/// fewer by its square.
+/// @param ray_variance  relative, of one ray; nothing where it is not known
+int choose_rays(const RenderSettings& settings, float accuracy, const std::optional<float>& ray_variance);
+
+/// Random numbers of a place on a surface: a cell of the triangle, so that the last bits of the hit hardly ever matter.
+RandomKey make_place_key(std::uint32_t seed, const Hit& hit);
+
+/// Gathers the irradiance at one pixel sample.
+/// @param found  samples of direct light for the grid of the context; null: they are dropped
+IrradianceSample gather_at(const IndirectContext& context, RayTask& task, const PixelSurface& surface,
+                           GatherScratch& scratch, int rays, std::vector<DirectSample>* found = nullptr);
+
+}  // namespace aleph

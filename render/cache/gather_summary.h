@@ -1,0 +1,13 @@
+#pragma once
+// What the radiance and the distances over a hemisphere tell besides the irradiance: gradients, noise, free space.
+
+#include "render/cache/gather.h"
+
+namespace aleph {
+
+/// Sets everything in `out` but the irradiance, which must be set.
+/// @param basis  of the hemisphere
+void summarize_hemisphere(const HemisphereStrata& strata, const Basis& basis, GatherScratch& scratch,
+                          IrradianceSample& out);
+
+}  // namespace aleph

@@ -1,0 +1,61 @@
+#pragma once
+// What a frame's indirect light is computed from.
+
+#include <optional>
+
+#include "engine/base/color.h"
+#include "render/cache/deeper_light.h"
+#include "render/cache/direct_grid.h"
+#include "render/cache/irradiance_cache.h"
+#include "render/light/light_choice.h"
+#include "render/pixels/pixel_surfaces.h"
+#include "render/pixels/shaded_frame.h"
+#include "render/settings/settings.h"
+#include "render/surface/ray_task.h"
+
+namespace aleph {
+
+/// Indirect light of a frame that is known before its cache is filled.
+struct CarriedLight {
+    virtual ~CarriedLight() = default;
+    /// Irradiance at a surface of the frame; nothing where it is not known to this accuracy. Called from any thread.
+    /// @param task  casts rays in the frame's scene to records where something may stand in between
+    /// @param used  increased by the records that are used; may be null
+    virtual std::optional<Rgb> find(const PixelSurface& surface, float accuracy, RayTask& task,
+                                    RecordUse* used = nullptr) const = 0;
+};
+
+/// What a frame's indirect light is computed from.
+struct IndirectContext {
+    const LightingContext& lighting;
+    const CameraView& view;
+    const RenderSettings& settings;
+    const Image<float>& accuracy;  ///< alpha per pixel
+    std::uint32_t frame = 0;       ///< for random numbers
+    float max_radius = 1.0f;       ///< m, of records: scene_radius
+    FrameProgress progress;        ///< may be empty
+    /// Direct light that gathers share; filled along with the cache. Null: each computes its own, without bias.
+    DirectGrid* direct = nullptr;
+    const CarriedLight* carried = nullptr;  ///< surfaces that it knows get no records; may be null
+    /// If set, the hits were cast in this pose of the scene, and the light is wanted where their surfaces are in
+    /// `lighting` (carry_point).
+    const ShadingScene* seen = nullptr;
+    DeeperLight deeper{};  ///< of fewer bounces than the light that is gathered
+    int turns_before = 0;  ///< at Lambert layers, between the picture and the surfaces whose light is gathered
+};
+
+/// The context of a frame for a list of places instead of its pixels.
+/// @param accuracy  alpha per place; must outlive the result
+inline IndirectContext make_places_context(const IndirectContext& frame, const Image<float>& accuracy) {
+    return {.lighting = frame.lighting,
+            .view = frame.view,
+            .settings = frame.settings,
+            .accuracy = accuracy,
+            .frame = frame.frame,
+            .max_radius = frame.max_radius,
+            .progress = {},
+            .direct = frame.direct,
+            .deeper = frame.deeper};
+}
+
+}  // namespace aleph

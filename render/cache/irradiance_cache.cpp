@@ -1,0 +1,231 @@
+#include "render/cache/irradiance_cache.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <numbers>
+
+#include "engine/base/parallel.h"
+#include "render/surface/ray_task.h"
+
+namespace aleph {
+
+namespace {
+
+/// Of neighbour clamping, in R_i per distance.
+constexpr float clamp_slope = 1.0f;
+
+/// Records are compared within this multiple of their reach: where shading uses both, and somewhat farther.
+constexpr float comparison_reach = 2.0f;
+
+/// Likewise, where records are averaged to lower their noise, and how many standard deviations they may differ.
+constexpr float smoothing_reach = 2.0f, max_noise_difference = 2.5f;
+
+/// The variance of gather rays is expected from the records within this multiple of the reach.
+constexpr float variance_reach = 4.0f;
+
+/// A record of a looser pixel has more noise: it covers no pixel whose accuracy is smaller by more than this factor.
+constexpr float max_looser = 1.5f;
+
+/// Whether a ray passes between two points of surfaces. It is lifted off both.
+bool is_in_sight(RayTask& task, const IrradianceRecord& record, const CacheQuery& query) {
+    constexpr float lift = 0.02f;
+    const float distance = glm::length(query.position - record.position);
+    const glm::vec3 from = query.position + query.normal * (lift * distance);
+    const glm::vec3 to = record.position + record.normal * (lift * distance);
+    const float length = glm::length(to - from);
+    if (!(length > 0.0f)) return true;
+    ++task.counts.shadow;
+    return !task.tracer.occluded({from + query.ray_shift, (to - from) / length, 0.0f, length});
+}
+
+/// Whether a record may be used for the query, by its error and by what may stand between.
+bool is_usable(const IrradianceRecord& record, const CacheQuery& query, float error, float accuracy) {
+    if (!(error < accuracy)) return false;
+    if (!is_beyond_clearance(record, query.position)) return true;
+    return query.task != nullptr && is_in_sight(*query.task, record, query);
+}
+
+/// S_i, m.
+float spread_of(const IrradianceRecord& record) {
+    return record.growth > 0.0f ? 1.0f / std::sqrt(record.growth) : std::numeric_limits<float>::infinity();
+}
+
+/// Whether a record's value can be compared with another's, moved to its place.
+bool is_comparable(const IrradianceRecord& from, const IrradianceRecord& to, float accuracy) {
+    return glm::length(from.normal - to.normal) < accuracy * std::numbers::sqrt2_v<float> &&
+           std::isfinite(interpolation_error(from, to.position, to.normal));
+}
+
+}  // namespace
+
+float IrradianceCache::radius_bound(const glm::vec3& position, const glm::vec3& normal, float max_radius) const {
+    float bound = max_radius;
+    index_.visit(
+        [&](const RecordIndex::Cell& cell) {
+            return clamp_slope * cell.distance_to(position) + cell.min_radius < bound;
+        },
+        [&](int i) {
+            const IrradianceRecord& other = records_[i];
+            if (glm::dot(normal, other.normal) > 0.0f) {
+                bound = std::min(bound, other.radius + clamp_slope * glm::length(position - other.position));
+            }
+            return true;
+        });
+    return bound;
+}
+
+/// Krivanek et al. 2006, section 4: the radii of two records differ by no more than their distance allows.
+void IrradianceCache::clamp_to_neighbours(IrradianceRecord& record) {
+    record.radius = radius_bound(record.position, record.normal, record.radius);
+    record.radius = std::max(record.radius, record.min_radius);
+    index_.visit(
+        [&](const RecordIndex::Cell& cell) {
+            return cell.most.radius > record.radius + clamp_slope * cell.distance_to(record.position);
+        },
+        [&](int i) {
+            IrradianceRecord& other = records_[i];
+            const float most = record.radius + clamp_slope * glm::length(record.position - other.position);
+            if (other.radius > most && glm::dot(record.normal, other.normal) > 0.0f) {
+                other.radius = std::max(most, other.min_radius);
+                index_.lower_radius(other.position, other.radius);
+            }
+            return true;
+        });
+}
+
+/// Shortens S_i of the new record and of those near it where they do not agree.
+void IrradianceCache::compare_with_neighbours(IrradianceRecord& record) {
+    max_accuracy_ = std::max(max_accuracy_, record.accuracy);
+    const float reach = comparison_reach * record.accuracy * record.radius;
+    index_.visit_near(record.position, comparison_reach * max_accuracy_, reach, [&](int i) {
+        IrradianceRecord& other = records_[i];
+        const float accuracy = comparison_reach * std::max(record.accuracy, other.accuracy);
+        const float within = std::max(reach, comparison_reach * other.accuracy * other.radius);
+        if (glm::length(record.position - other.position) > within) return true;
+        if (!is_comparable(other, record, accuracy) || !is_comparable(record, other, accuracy)) return true;
+        const float growth = measure_growth(record, other);
+        record.growth = std::min(std::max(record.growth, growth), record.max_growth);
+        other.growth = std::min(std::max(other.growth, growth), other.max_growth);
+        return true;
+    });
+}
+
+void IrradianceCache::insert(IrradianceRecord record) {
+    clamp_to_neighbours(record);
+    compare_with_neighbours(record);
+    ray_variance_sum_ += record.ray_variance;
+    records_.push_back(record);
+    index_.add(record.position, {record.radius}, record.accuracy);
+}
+
+std::optional<float> IrradianceCache::expected_ray_variance(const CacheQuery& query) const {
+    if (records_.empty()) return std::nullopt;
+    float sum = 0.0f, total = 0.0f;
+    const float reach = variance_reach * query.accuracy;
+    index_.visit_near(query.position, reach, 0.0f, [&](int i) {
+        const IrradianceRecord& record = records_[i];
+        const float weight = 1.0f - glm::length(query.position - record.position) / (reach * record.radius);
+        if (weight > 0.0f && glm::dot(query.normal, record.normal) > 0.0f) {
+            sum += weight * record.ray_variance;
+            total += weight;
+        }
+        return true;
+    });
+    if (total > 0.0f) return sum / total;
+    return static_cast<float>(ray_variance_sum_ / static_cast<double>(records_.size()));
+}
+
+IrradianceRecord IrradianceCache::smoothed(const IrradianceRecord& record) const {
+    const float accuracy = smoothing_reach * record.accuracy;
+    Rgb irradiance(0.0f);
+    std::array<glm::vec3, 3> translation{}, rotation{};
+    float total = 0.0f;
+    index_.visit_near(record.position, accuracy, accuracy * record.radius, [&](int i) {
+        const IrradianceRecord& other = records_[i];
+        const float error = std::max(interpolation_error(other, record.position, record.normal),
+                                     interpolation_error(record, other.position, other.normal));
+        if (!(error < accuracy)) return true;
+        if (is_beyond_clearance(other, record.position) || is_beyond_clearance(record, other.position)) return true;
+        const Rgb value = extrapolate(other, record.position, record.normal);
+        const float own = luminance(record.irradiance);
+        const float larger = std::max(own, luminance(other.irradiance));
+        if (std::abs(luminance(value) - own) > max_noise_difference * combined_noise(record, other) * larger) {
+            return true;
+        }
+        const float weight = 1.0f - error / accuracy;
+        irradiance += value * weight;
+        for (int c = 0; c < 3; ++c) {
+            translation[c] += other.translation_gradient[c] * weight;
+            rotation[c] += other.rotation_gradient[c] * weight;
+        }
+        total += weight;
+        return true;
+    });
+    IrradianceRecord smooth = record;
+    if (!(total > 0.0f)) return smooth;
+    smooth.irradiance = irradiance / total;
+    for (int c = 0; c < 3; ++c) {
+        smooth.translation_gradient[c] = translation[c] / total;
+        smooth.rotation_gradient[c] = rotation[c] / total;
+    }
+    return smooth;
+}
+
+void IrradianceCache::finish(std::size_t kept) {
+    std::vector<IrradianceRecord> smooth(records_.size());
+    parallel_for(records_.size(), 64, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) smooth[i] = i < kept ? records_[i] : smoothed(records_[i]);
+    });
+    std::vector<IrradianceRecord> ordered;
+    ordered.reserve(smooth.size());
+    for (const int i : index_.ordered()) ordered.push_back(smooth[i]);
+    restore(std::move(ordered));
+}
+
+void IrradianceCache::restore(std::vector<IrradianceRecord> records) {
+    records_ = std::move(records);
+    index_ = index_.emptied();
+    ray_variance_sum_ = 0.0;
+    for (const IrradianceRecord& record : records_) {
+        index_.add(record.position, {record.radius, spread_of(record)}, record.accuracy);
+        max_accuracy_ = std::max(max_accuracy_, record.accuracy);
+        ray_variance_sum_ += record.ray_variance;
+    }
+}
+
+bool IrradianceCache::covers(const CacheQuery& query) const {
+    const float accuracy = std::min(query.accuracy, 1.0f);
+    bool found = false;
+    index_.visit_near(query.position, accuracy, 0.0f, [&](int i) {
+        const IrradianceRecord& record = records_[i];
+        if (record.accuracy > max_looser * accuracy) return true;
+        found = is_usable(record, query, interpolation_error(record, query.position, query.normal), accuracy);
+        return !found;
+    });
+    return found;
+}
+
+std::optional<Rgb> IrradianceCache::interpolate(const CacheQuery& query) const {
+    const float accuracy = std::min(query.accuracy, 1.0f);
+    Rgb sum(0.0f);
+    float total = 0.0f;
+    index_.visit_near(query.position, accuracy, 0.0f, [&](int i) {
+        const IrradianceRecord& record = records_[i];
+        const float error = interpolation_error(record, query.position, query.normal);
+        if (is_usable(record, query, error, accuracy)) {
+            const float looser = std::max(1.0f, record.accuracy / accuracy);
+            const float weight = (1.0f - error / accuracy) / (looser * looser);
+            sum += extrapolate(record, query.position, query.normal) * weight;
+            total += weight;
+            if (query.used != nullptr) {
+                query.used->add(weight, RecordReach{record.radius, spread_of(record)}.at(accuracy));
+            }
+        }
+        return true;
+    });
+    if (!(total > 0.0f)) return std::nullopt;
+    return sum / total;
+}
+
+}  // namespace aleph

@@ -1,0 +1,97 @@
+#pragma once
+// Ward's irradiance cache. Indirect irradiance changes slowly over diffuse surfaces, so it is computed at few points,
+// the records (irradiance_record.h), and interpolated in between. cache_fill.h says where records are placed.
+//
+// Weights: record i with the error e_i < alpha has the weight 1 - e_i / alpha, which falls to 0 where the record ceases
+// to be used, so that it leaves no visible rim.
+//
+// Two records that are near each other correct one another when the later one is inserted:
+// - Neighbour clamping. What is near one of them is near the other: their radii differ by no more than their distance
+//   (Krivanek et al. 2006, "Making Radiance and Irradiance Caching Practical").
+// - Each is compared with what the other extrapolates to its place. A difference beyond their noise shortens S_i.
+
+#include <glm/vec3.hpp>
+#include <optional>
+#include <vector>
+
+#include "engine/base/color.h"
+#include "render/cache/irradiance_record.h"
+#include "render/cache/record_index.h"
+
+namespace aleph {
+
+struct RayTask;
+
+/// The records that look-ups used, added up.
+struct RecordUse {
+    float count = 0.0f;
+    float weights = 0.0f;
+    float reaches = 0.0f;  ///< m, by weight: how far they may be used at the query's accuracy (RecordReach)
+
+    void add(float weight, float reach) {
+        ++count;
+        weights += weight;
+        reaches += weight * reach;
+    }
+    void add(const RecordUse& other) {
+        count += other.count;
+        weights += other.weights;
+        reaches += other.reaches;
+    }
+};
+
+/// A place where irradiance is needed.
+struct CacheQuery {
+    glm::vec3 position{0.0f};
+    glm::vec3 normal{0.0f};  ///< unit
+    float accuracy = 0.0f;   ///< alpha of this pixel; values above 1 count as 1
+    /// Casts a ray to a record where something may stand in between; null: such records are not used.
+    RayTask* task = nullptr;
+    glm::vec3 ray_shift{0.0f};  ///< m, from the records' coordinates to those of `task`
+    RecordUse* used = nullptr;  ///< `interpolate` adds the records that it uses; may be null
+};
+
+/// Look-ups may run in parallel while nothing is inserted.
+class IrradianceCache {
+  public:
+    /// @param low, high  m, of a box; records outside of it are found too, but more slowly
+    IrradianceCache(const glm::vec3& low, const glm::vec3& high) : index_(low, high) {}
+
+    /// Adds a record, and corrects it and its neighbours by each other.
+    void insert(IrradianceRecord record);
+
+    /// True if at least one record has an error below the query's accuracy, and was computed for about that accuracy.
+    bool covers(const CacheQuery& query) const;
+
+    /// The weighted mean of all records whose error is below the query's accuracy, or nothing if there is none.
+    std::optional<Rgb> interpolate(const CacheQuery& query) const;
+
+    /// The radius, at most `max_radius`, that neighbour clamping would leave a record here.
+    float radius_bound(const glm::vec3& position, const glm::vec3& normal, float max_radius) const;
+
+    /// Relative variance of one gather ray here, expected from the records around, or from all where none is near.
+    /// Nothing while there are no records.
+    std::optional<float> expected_ray_variance(const CacheQuery& query) const;
+
+    /// Replaces each record's value and gradients by the mean of what it and the records around it extrapolate to its
+    /// place, of those that differ by no more than noise: less noise without more rays. Nothing is inserted afterwards.
+    /// @param kept  so many of the first records stay as they are
+    void finish(std::size_t kept = 0);
+
+    /// Replaces all records by those of another cache after finish(), as they are.
+    void restore(std::vector<IrradianceRecord> records);
+
+    const std::vector<IrradianceRecord>& records() const { return records_; }
+
+  private:
+    void clamp_to_neighbours(IrradianceRecord& record);
+    void compare_with_neighbours(IrradianceRecord& record);
+    IrradianceRecord smoothed(const IrradianceRecord& record) const;
+
+    std::vector<IrradianceRecord> records_;
+    RecordIndex index_;
+    float max_accuracy_ = 0.0f;  ///< of the records
+    double ray_variance_sum_ = 0.0;
+};
+
+}  // namespace aleph

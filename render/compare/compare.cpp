@@ -1,0 +1,160 @@
+#include "render/compare/compare.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/base/errors.h"
+#include "engine/base/viewing.h"
+#include "render/compare/compare_channels.h"
+#include "render/compare/yee_metric.h"
+
+namespace aleph {
+
+namespace {
+
+/// Gathers a Difference in two passes: the scale of b first, as relative_mse needs it.
+class DifferenceSum {
+  public:
+    void add_reference(double b) {
+        sum_abs_b_ += std::abs(b);
+        ++count_;
+    }
+    void finish_reference() { e_ = count_ ? 0.01 * sum_abs_b_ / static_cast<double>(count_) : 0.0; }
+    void add(double a, double b) {
+        const double d = std::abs(a - b);
+        max_ = std::max(max_, d);
+        squares_ += d * d;
+        if (d > 0.0) relative_ += d * d / (b * b + e_ * e_);  // infinite if b is 0 everywhere
+    }
+    Difference result() const {
+        const double n = static_cast<double>(std::max<std::size_t>(count_, 1));
+        return {max_, std::sqrt(squares_ / n), relative_ / n};
+    }
+
+  private:
+    std::size_t count_ = 0;
+    double sum_abs_b_ = 0.0, e_ = 0.0, max_ = 0.0, squares_ = 0.0, relative_ = 0.0;
+};
+
+void count_non_finite(const Image<float>& image, NonFinite& counts) {
+    for (const float v : image.pixels) {
+        counts.nan += std::isnan(v);
+        counts.inf += std::isinf(v);
+    }
+}
+
+Difference difference_of(const std::vector<ChannelPair>& pairs) {
+    DifferenceSum sum;
+    for (const ChannelPair& pair : pairs) {
+        for_finite(pair, [&](std::size_t, double, double b) { sum.add_reference(b); });
+    }
+    sum.finish_reference();
+    for (const ChannelPair& pair : pairs) {
+        for_finite(pair, [&](std::size_t, double a, double b) { sum.add(a, b); });
+    }
+    return sum.result();
+}
+
+ChannelDifference compare_channel(const ChannelPair& pair, const CompareSettings& settings, std::vector<bool>& beyond) {
+    ChannelDifference result{pair.name, difference_of({pair}), 0, 0, 0};
+    double worst = -1.0;
+    for_finite(pair, [&](std::size_t i, double a, double b) {
+        const double d = std::abs(a - b);
+        if (d > worst) {
+            worst = d;
+            const auto width = static_cast<std::size_t>(pair.b->width);
+            result.x = static_cast<int>(i % width);
+            result.y = static_cast<int>(i / width);
+        }
+        if (d > settings.tolerance + settings.relative * std::abs(b)) {
+            ++result.beyond;
+            beyond[i] = true;
+        }
+    });
+    return result;
+}
+
+bool all_finite(const Image<Rgb>& image) {
+    return std::all_of(image.pixels.begin(), image.pixels.end(),
+                       [](const Rgb& c) { return std::isfinite(c.x) && std::isfinite(c.y) && std::isfinite(c.z); });
+}
+
+ThresholdDifference compare_with_threshold(const ChannelImage& a, const ChannelImage& b,
+                                           const ChannelImage& aleph_map) {
+    const Image<float>* threshold = aleph_map.find("threshold.Y");
+    if (!threshold) throw InputError("", "threshold map", "has no channel 'threshold.Y'");
+    const LuminanceError error = compute_luminance_error(a, b);
+    return {summarize(measure_error(error, *threshold)), error.display_white};
+}
+
+/// The colours of both pictures: Yee's metric, and the difference of luminance.
+void compare_colours(const ChannelImage& a, const ChannelImage& b, const CompareSettings& settings,
+                     const std::vector<ChannelPair>& colour, CompareResult& result) {
+    result.colour = difference_of(colour);
+    const Image<Rgb> colour_a = linear_colour(a), colour_b = linear_colour(b);
+    if (all_finite(colour_a) && all_finite(colour_b)) {
+        result.yee = count_visible_differences(colour_a, colour_b, {.display_white = display_white_of(a, b)});
+    }
+    result.luminance =
+        compare_luminance(a, b, {settings.tolerance, settings.relative, settings.standard_errors.value_or(3.0)});
+}
+
+/// Pixels that `share` limits.
+std::size_t counted_pixels(const CompareResult& result, const CompareSettings& settings) {
+    if (result.threshold) return result.threshold->beyond;
+    return settings.standard_errors ? result.luminance->far : result.beyond;
+}
+
+std::vector<std::string> exceeded_limits(const CompareResult& result, const CompareSettings& settings) {
+    std::vector<std::string> exceeded;
+    const auto limit = [&](const char* name, double value, double most) {
+        if (!(value <= most)) exceeded.emplace_back(name);
+    };
+    limit("share", result.percent(counted_pixels(result, settings)), settings.share);
+    limit("max_error", result.all.max_abs, settings.max_error);
+    double rms = 0.0;
+    for (const ChannelDifference& channel : result.channels) rms = std::max(rms, channel.difference.rms);
+    limit("max_rms", rms, settings.max_rms);
+    if (result.luminance) {
+        const LuminanceDifference& luminance = *result.luminance;
+        limit("max_relative_mse", luminance.relative_mse - luminance.noise_mse, settings.max_relative_mse);
+        limit("max_bias", 100.0 * std::abs(luminance.bias), settings.max_bias);
+    }
+    return exceeded;
+}
+
+void refuse_limits_without_luminance(const CompareResult& result, const CompareSettings& settings) {
+    const bool wanted = settings.max_relative_mse < unlimited || settings.max_bias < unlimited;
+    if ((wanted || settings.standard_errors) && !result.luminance) {
+        throw InputError("", "", "limits of bias, relative MSE and standard errors need pictures with R, G and B");
+    }
+    if (settings.standard_errors && !result.luminance->has_variance) {
+        throw InputError("", "", "limits in standard errors need a picture with the channel variance.Y");
+    }
+}
+
+}  // namespace
+
+CompareResult compare_images(const ChannelImage& a, const ChannelImage& b, const CompareSettings& settings,
+                             const ChannelImage* aleph_map) {
+    const std::vector<ChannelPair> pairs = match_channels(a, b, settings.channels);
+    CompareResult result;
+    result.width = pairs.front().b->width;
+    result.height = pairs.front().b->height;
+    std::vector<bool> beyond(result.pixels(), false);
+    for (const ChannelPair& pair : pairs) {
+        result.channels.push_back(compare_channel(pair, settings, beyond));
+        count_non_finite(*pair.a, result.a);
+        count_non_finite(*pair.b, result.b);
+    }
+    result.beyond = static_cast<std::size_t>(std::count(beyond.begin(), beyond.end(), true));
+    result.all = difference_of(pairs);
+    if (const auto colour = colour_pairs(pairs); !colour.empty()) compare_colours(a, b, settings, colour, result);
+    refuse_limits_without_luminance(result, settings);
+    if (aleph_map) result.threshold = compare_with_threshold(a, b, *aleph_map);
+    result.exceeded = exceeded_limits(result, settings);
+    result.same = !result.a.any() && !result.b.any() && result.exceeded.empty();
+    return result;
+}
+
+}  // namespace aleph

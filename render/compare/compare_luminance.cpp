@@ -1,0 +1,117 @@
+#include "render/compare/compare_luminance.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <limits>
+
+#include "engine/base/errors.h"
+#include "engine/base/viewing.h"
+
+namespace aleph {
+
+namespace {
+
+struct Colours {
+    Image<Rgb> a, b;
+};
+
+Colours colours_of(const ChannelImage& a, const ChannelImage& b) {
+    Colours colours{linear_colour(a), linear_colour(b)};
+    if (colours.a.empty() || colours.b.empty()) throw InputError("", "luminance", "needs pictures with R, G and B");
+    if (!same_size(colours.a, colours.b)) {
+        throw InputError("", "",
+                         fmt::format("the pictures differ in size: {}x{} and {}x{}", colours.a.width, colours.a.height,
+                                     colours.b.width, colours.b.height));
+    }
+    return colours;
+}
+
+/// Variance of a pixel, 0 if the picture has none; infinite if it is not a variance.
+double variance_at(const Image<float>* variance, std::size_t i) {
+    if (!variance) return 0.0;
+    const double v = variance->pixels[i];
+    return v >= 0.0 ? v : std::numeric_limits<double>::infinity();
+}
+
+}  // namespace
+
+Image<Rgb> linear_colour(const ChannelImage& image) {
+    const Image<float>*r = image.find("R"), *g = image.find("G"), *b = image.find("B");
+    if (!r || !g || !b) return {};
+    const bool encoded = image.metadata.contains("encoding");
+    Image<Rgb> colour(r->width, r->height);
+    for (std::size_t i = 0; i < colour.size(); ++i) {
+        Rgb c{r->pixels[i], g->pixels[i], b->pixels[i]};
+        if (encoded) c = {srgb_to_linear(c.x), srgb_to_linear(c.y), srgb_to_linear(c.z)};
+        colour.pixels[i] = c;
+    }
+    return colour;
+}
+
+double display_white_of(const ChannelImage& a, const ChannelImage& b) {
+    for (const ChannelImage* image : {&b, &a}) {
+        const auto it = image->metadata.find("whiteLuminance");
+        if (it == image->metadata.end()) continue;
+        const double* white = std::get_if<double>(&it->second);
+        if (white && std::isfinite(*white) && *white > 0.0) return *white;
+    }
+    return ViewingConditions{}.display_white;
+}
+
+LuminanceError compute_luminance_error(const ChannelImage& a, const ChannelImage& b) {
+    const Colours colours = colours_of(a, b);
+    LuminanceError result{Image<double>(colours.b.width, colours.b.height), {}, display_white_of(a, b)};
+    const double white = result.display_white;
+    for (std::size_t i = 0; i < result.error.size(); ++i) {
+        const double d = double{luminance(colours.a.pixels[i])} - double{luminance(colours.b.pixels[i])};
+        result.error.pixels[i] = std::isfinite(d) ? white * d : std::numeric_limits<double>::quiet_NaN();
+    }
+    if (const Image<float>* variance = b.find("variance.Y")) {
+        result.variance = Image<double>(variance->width, variance->height);
+        for (std::size_t i = 0; i < variance->size(); ++i) {
+            result.variance.pixels[i] = white * white * double{variance->pixels[i]};
+        }
+    }
+    return result;
+}
+
+LuminanceDifference compare_luminance(const ChannelImage& a, const ChannelImage& b,
+                                      const LuminanceTolerance& tolerance) {
+    const Colours colours = colours_of(a, b);
+    const Image<float>*variance_a = a.find("variance.Y"), *variance_b = b.find("variance.Y");
+    LuminanceDifference result;
+    result.has_variance = variance_a || variance_b;
+    const auto for_pixels = [&](const auto& visit) {
+        for (std::size_t i = 0; i < colours.b.size(); ++i) {
+            const double ya = luminance(colours.a.pixels[i]), yb = luminance(colours.b.pixels[i]);
+            if (std::isfinite(ya) && std::isfinite(yb)) visit(i, ya, yb);
+        }
+    };
+    double sum_b = 0.0, sum_abs_b = 0.0, sum_d = 0.0, sum_variance = 0.0;
+    std::size_t count = 0;
+    for_pixels([&](std::size_t i, double ya, double yb) {
+        ++count;
+        sum_b += yb;
+        sum_abs_b += std::abs(yb);
+        sum_d += ya - yb;
+        sum_variance += variance_at(variance_a, i) + variance_at(variance_b, i);
+    });
+    if (count == 0) return result;
+    const auto n = static_cast<double>(count);
+    if (sum_d != 0.0) result.bias = sum_d / sum_b;
+    if (sum_variance > 0.0) result.bias_error = std::sqrt(sum_variance) / std::abs(sum_b);
+    const double e = 0.01 * sum_abs_b / n;
+    for_pixels([&](std::size_t i, double ya, double yb) {
+        const double d = std::abs(ya - yb), scale = yb * yb + e * e, noise = variance_at(variance_b, i);
+        if (d > 0.0) result.relative_mse += d * d / scale / n;
+        if (noise > 0.0) result.noise_mse += noise / scale / n;
+        const double deviation = std::sqrt(variance_at(variance_a, i) + noise);
+        const double allowed = tolerance.absolute + tolerance.relative * std::abs(yb) +
+                               (tolerance.standard_errors > 0.0 ? tolerance.standard_errors * deviation : 0.0);
+        result.far += d > allowed;
+    });
+    return result;
+}
+
+}  // namespace aleph

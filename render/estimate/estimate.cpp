@@ -1,0 +1,86 @@
+#include "render/estimate/estimate.h"
+
+#include <algorithm>
+#include <cmath>
+#include <mutex>
+
+#include "engine/base/parallel.h"
+
+namespace aleph {
+
+namespace {
+
+/// Points per light: fewer if there are several lights, so that the estimate stays quick.
+int points_per_light(const LightSet& lights) {
+    return std::max(1, 4 / std::max(1, lights.count()));
+}
+
+}  // namespace
+
+Rgb estimate_radiance(const LightingContext& context, RayTask& task, const PixelSurface& surface, EstimateKind kind) {
+    const SurfaceMaterial& material = surface.material;
+    if (kind == EstimateKind::flat) return material.emission + (material.diffuse + material.f0);
+    return material.emission + estimate_direct_light(context, task, surface, points_per_light(context.lights));
+}
+
+Image<Rgb> compute_estimate(const LightingContext& context, const CameraView& view, const SampleHits& centers,
+                            EstimateKind kind, const EstimateNodes* indirect, double exposure, RayCounts& counts,
+                            Image<float>* indirect_luminance) {
+    Image<Rgb> estimate(view.width, view.height);
+    const float scale = static_cast<float>(exposure);
+    Image<DiffuseSurface> surfaces;
+    if (indirect != nullptr && kind == EstimateKind::direct) surfaces = Image<DiffuseSurface>(view.width, view.height);
+    std::mutex counts_mutex;
+    parallel_rows(view.height, 4, [&](int begin, int end) {
+        RayTask task(context.rays, Blend::cutout);  // without noise
+        for (int y = begin; y < end; ++y) {
+            for (int x = 0; x < view.width; ++x) {
+                Rgb radiance = Rgb(1.0f);
+                const bool hit = centers.hits(x, y).instance != no_index;
+                if (!hit && kind == EstimateKind::direct) {
+                    radiance = environment_radiance(context.shading,
+                                                    glm::vec3(make_camera_ray(view, x + 0.5, y + 0.5).direction));
+                }
+                if (hit) {
+                    const PixelSurface s = make_pixel_surface(context.shading, view, centers, x, y);
+                    radiance = estimate_radiance(context, task, s, kind);
+                    if (!surfaces.empty()) surfaces(x, y) = make_diffuse_surface(s);
+                }
+                estimate(x, y) = radiance * scale;
+            }
+        }
+        const std::lock_guard lock(counts_mutex);
+        counts += task.counts;
+    });
+    if (surfaces.empty()) {
+        if (indirect_luminance != nullptr) *indirect_luminance = luminance_image(estimate);
+        return estimate;
+    }
+    const Image<Rgb> light = interpolate_estimate(*indirect, surfaces);
+    for (std::size_t i = 0; i < estimate.size(); ++i) estimate.pixels[i] += light.pixels[i] * scale;
+    if (indirect_luminance != nullptr) {
+        *indirect_luminance = luminance_image(light);
+        for (float& y : indirect_luminance->pixels) y *= scale;
+    }
+    return estimate;
+}
+
+Image<float> luminance_image(const Image<Rgb>& picture) {
+    Image<float> values(picture.width, picture.height);
+    for (std::size_t i = 0; i < values.size(); ++i) values.pixels[i] = luminance(picture.pixels[i]);
+    return values;
+}
+
+double compute_exposure(const Image<Rgb>& estimate) {
+    double sum = 0.0;
+    std::size_t count = 0;
+    for (const Rgb& pixel : estimate.pixels) {
+        const double y = luminance(pixel);
+        if (!(y > 0.0) || !std::isfinite(y)) continue;
+        sum += std::log(y);
+        ++count;
+    }
+    return count == 0 ? 1.0 : 0.18 / std::exp(sum / static_cast<double>(count));
+}
+
+}  // namespace aleph

@@ -1,0 +1,32 @@
+#pragma once
+// The quick estimate of a frame: a cheap picture for the model of vision. It is not part of the rendered frame.
+
+#include "render/estimate/indirect_estimate.h"
+#include "render/settings/settings.h"
+
+namespace aleph {
+
+/// One sample at every pixel centre, from the frame's first hits. Exposure is applied; values that are not finite are
+/// kept (perception/sanitize.h replaces them).
+/// flat: albedo plus emission, as under constant white light; no rays.
+/// direct: emission plus direct light from a fixed pattern of points per light (estimate_direct_light).
+/// @param indirect  with `direct`: nodes of this view (gather_estimate), whose light of one bounce is added; may be
+/// null
+/// @param counts    increased by the rays cast
+/// @param indirect_luminance  if not null: of the light of one bounce alone, or of the whole estimate where that is not
+///                            computed
+Image<Rgb> compute_estimate(const LightingContext& context, const CameraView& view, const SampleHits& centers,
+                            EstimateKind kind, const EstimateNodes* indirect, double exposure, RayCounts& counts,
+                            Image<float>* indirect_luminance = nullptr);
+
+/// What an estimate shows of a surface, without indirect light and exposure.
+/// @param task  its rays are those of Blend::cutout
+Rgb estimate_radiance(const LightingContext& context, RayTask& task, const PixelSurface& surface, EstimateKind kind);
+
+/// Luminance of every pixel.
+Image<float> luminance_image(const Image<Rgb>& picture);
+
+/// 0.18 / exp(mean log Y) over the pixels of an estimate with Y > 0; 1 if there are none.
+double compute_exposure(const Image<Rgb>& estimate);
+
+}  // namespace aleph

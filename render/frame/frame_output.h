@@ -1,0 +1,77 @@
+#pragma once
+// What is requested of a frame, and what comes out: picture, maps, counts and times.
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <utility>
+
+#include "engine/pose/camera_view.h"
+#include "engine/rays/hit.h"
+#include "motion/motion_field.h"
+#include "perception/perception.h"
+#include "perception/sanitize.h"
+#include "render/pixels/shaded_frame.h"
+#include "render/plan/effects_plan.h"
+
+namespace aleph {
+
+/// Seconds by stage, in the order in which they run. `total` includes `write` where the caller adds it.
+struct StageSeconds {
+    double pose = 0, update = 0, first_hits = 0, estimate = 0, motion = 0, perception = 0, fill = 0, shade = 0,
+           write = 0, total = 0;
+};
+/// The stages by name, in that order.
+std::array<std::pair<const char*, double>, 10> list_stages(const StageSeconds& seconds);
+
+struct FrameStatistics {
+    std::int64_t frame = 0;
+    /// The earlier frame whose picture this is, because nothing changes between the two. Times and counts are those of
+    /// rendering it, or 0 if that output was kept.
+    std::optional<std::int64_t> copy_of;
+    StageSeconds seconds;
+    FrameCounts counts;              ///< of all stages
+    std::uint64_t traced_rays = 0;   ///< counted where rays are traced; equals counts.rays.total()
+    std::uint64_t invalid_rays = 0;  ///< not traced, because they were not finite
+    SanitizeCounts sanitized;        ///< pixels of the estimate
+    bool saliency_fallback = false;
+    double median_luminance = 0.0;  ///< of the estimate, cd/m2; thresholds of vision hold from 1e-3 to 1e4
+    std::size_t instances_touched = 0;
+    std::optional<ErrorShares> error;  ///< where the visible threshold is known, and pixels have several samples
+    EffectsPlan plan;
+    double plan_seconds = 0.0;  ///< that planning took, part of other stages
+    double peak_memory_mib = 0.0;
+    /// Key moments that were computed for this frame, not counted above: those it needs that no frame before it did.
+    std::vector<MomentStatistics> moments;
+};
+
+/// What is computed beyond the statistics.
+struct FrameRequest {
+    bool frame = true;       ///< the picture
+    bool maps = false;       ///< every map of perception and motion, with the hidden pixels in motion.validity
+    FrameProgress progress;  ///< may be empty
+};
+
+/// Maps of motion and perception are computed for the irradiance cache with a guide, and wherever `maps` are requested.
+struct FrameOutput {
+    ShadedFrame shaded;  ///< filled if `frame`
+    CameraView view;
+    Image<Hit> hits;                   ///< through the pixel centres
+    Image<Rgb> estimate;               ///< sanitized
+    MotionField motion;                ///< pixels, x right, y down; the channel forward.v is positive upwards
+    bool motion_from_picture = false;  ///< as another program wrote it, not computed
+    Image<float> velocity;             ///< deg/s
+    PerceptionMaps perception;
+    Image<float> indirect_luminance;  ///< of the estimate (compute_estimate); may be empty
+    Image<float> tolerance;           ///< relative error of indirect light that is not seen (compute_tolerance)
+    Image<float> alpha;               ///< ambient accuracy
+    Image<float> threshold;           ///< cd/m2, of an error that lasts
+    Image<float> threshold_flicker;   ///< cd/m2, of an error that is new in every frame; at most `threshold`
+    Image<Rgb> albedo;                ///< base of what is reflected; 0 for background. Filled if `maps` of a scene
+    Image<Rgb> effects;               ///< make_effect_picture. Filled if `maps`
+    Image<float> depth;               ///< planar, m; 1e30 for background. Filled if `maps`
+    Image<glm::vec3> normal;          ///< world, towards the viewer; 0 for background. Filled if `maps`
+    FrameStatistics statistics;
+};
+
+}  // namespace aleph

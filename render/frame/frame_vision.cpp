@@ -1,0 +1,39 @@
+#include "render/frame/frame_vision.h"
+
+#include "motion/velocity.h"
+#include "perception/threshold.h"
+#include "render/estimate/estimate.h"
+#include "render/guide/accuracy_map.h"
+
+namespace aleph {
+
+void note_estimate(FrameOutput& out, const SanitizeCounts& sanitized, const ViewingConditions& viewing) {
+    out.statistics.sanitized = sanitized;
+    out.statistics.median_luminance = median_luminance(out.estimate, viewing);
+}
+
+bool needs_indirect_luminance(const RenderSettings& settings, bool maps) {
+    return maps || settings.adapter == Adapter::threshold || settings.sampling == Sampling::threshold;
+}
+
+void compute_frame_vision(FrameOutput& out, const Scene& shot, const RenderSettings& settings, bool maps,
+                          StageClock& clock) {
+    StageSeconds& seconds = out.statistics.seconds;
+    out.velocity = compute_image_velocity(out.motion, shot.viewing, shot.frame_rate);
+    clock.add_to(seconds.motion);
+    out.perception = compute_perception(out.estimate, out.velocity, shot.viewing, shot.frame_rate, settings.perception,
+                                        {.retinal_velocity = maps, .conspicuity = maps, .bands = false});
+    out.statistics.saliency_fallback = out.perception.fallback;
+    Image<float>& adaptation = out.perception.adaptation;
+    if (adaptation.empty()) adaptation = compute_adaptation_luminance(out.estimate, shot.viewing);
+    out.threshold = compute_threshold(out.perception.aleph, adaptation, settings.perception.vision);
+    out.threshold_flicker = compute_flicker_threshold(out.threshold, adaptation, shot.frame_rate);
+    if (needs_indirect_luminance(settings, maps)) {
+        if (out.indirect_luminance.empty()) out.indirect_luminance = luminance_image(out.estimate);
+        out.tolerance = compute_tolerance(out.threshold, out.indirect_luminance, shot.viewing);
+    }
+    out.alpha = compute_accuracy_map(out.perception.aleph, out.tolerance, settings);
+    clock.add_to(seconds.perception);
+}
+
+}  // namespace aleph

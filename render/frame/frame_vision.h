@@ -1,0 +1,24 @@
+#pragma once
+// The model of vision applied to a frame: from its estimate and motion to the accuracy of each pixel.
+
+#include "engine/scene/scene.h"
+#include "render/frame/frame_output.h"
+#include "render/settings/measure.h"
+#include "render/settings/settings.h"
+
+namespace aleph {
+
+/// Notes a sanitized estimate in the frame's statistics: what sanitizing changed, and the median luminance.
+void note_estimate(FrameOutput& out, const SanitizeCounts& sanitized, const ViewingConditions& viewing);
+
+/// Fills velocity, perception, threshold and alpha from `estimate` and `motion`, which are filled.
+/// @param shot   viewing conditions and frame rate
+/// @param maps   also the maps that only files need: retinal velocity and conspicuity
+/// @param clock  adds the time to the stages motion and perception
+void compute_frame_vision(FrameOutput& out, const Scene& shot, const RenderSettings& settings, bool maps,
+                          StageClock& clock);
+
+/// Whether the tolerance of indirect light is computed, which needs its luminance in the estimate.
+bool needs_indirect_luminance(const RenderSettings& settings, bool maps);
+
+}  // namespace aleph

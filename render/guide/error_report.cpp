@@ -1,0 +1,109 @@
+#include "render/guide/error_report.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "engine/base/parallel.h"
+#include "render/guide/accuracy_map.h"
+
+namespace aleph {
+
+namespace {
+
+/// Squared errors, of luminance as the samples have it.
+struct SquaredErrors {
+    double total = 0.0;
+    std::array<double, light_part_count> parts{};
+};
+
+/// Of a pixel's mean, from the pixel and those around it that are like it (estimate_mean).
+SquaredErrors estimate_sampling(const Image<PixelSamples>& pixels, const Image<Outline>& outlines, int x, int y) {
+    SquaredErrors sum;
+    int count = 0;
+    for (int ny = std::max(0, y - 1); ny <= std::min(pixels.height - 1, y + 1); ++ny) {
+        for (int nx = std::max(0, x - 1); nx <= std::min(pixels.width - 1, x + 1); ++nx) {
+            const PixelSamples::Error& error = pixels(nx, ny).error();
+            if (error.samples == 0 || !are_alike(outlines, x, y, nx, ny)) continue;
+            ++count;
+            sum.total += static_cast<double>(error.total) * error.samples;
+            for (std::size_t i = 0; i < sum.parts.size(); ++i) {
+                sum.parts[i] += static_cast<double>(error.parts[i]) * error.samples;
+            }
+        }
+    }
+    const double scale = count == 0 ? 0.0 : 1.0 / (static_cast<double>(count) * std::max(1, pixels(x, y).taken()));
+    sum.total *= scale;
+    for (double& part : sum.parts) part *= scale;
+    return sum;
+}
+
+using CauseErrors = std::array<double, cause_count>;
+
+/// Squared errors by cause.
+CauseErrors find_causes(const ErrorInput& input, int x, int y) {
+    const PixelSamples& pixel = input.pixels(x, y);
+    const SquaredErrors sampled = estimate_sampling(input.pixels, input.outlines, x, y);
+    CauseErrors errors{};
+    const auto error = [&errors](ErrorCause cause) -> double& { return errors[static_cast<std::size_t>(cause)]; };
+    double& of_surfaces = error(input.blurred ? ErrorCause::blur : ErrorCause::edges);
+    if (pixel.has_edge()) {
+        of_surfaces = sampled.total;
+    } else {
+        of_surfaces = sampled.parts[static_cast<std::size_t>(LightPart::surface)];
+        error(ErrorCause::direct) = sampled.parts[static_cast<std::size_t>(LightPart::direct)];
+        error(ErrorCause::gloss) = sampled.parts[static_cast<std::size_t>(LightPart::gloss)];
+    }
+    const double indirect =
+        error_per_accuracy * input.accuracy(x, y) * static_cast<double>(luminance(pixel.mean_indirect()));
+    error(ErrorCause::indirect) = indirect * indirect;
+    return errors;
+}
+
+/// Share of a normal distribution that is farther from its mean than `limit`.
+double share_beyond(double deviation, double limit) {
+    return deviation > 0.0 ? std::erfc(limit / (std::numbers::sqrt2 * deviation)) : 0.0;
+}
+
+}  // namespace
+
+const std::array<std::string, cause_count>& cause_names() {
+    static const std::array<std::string, cause_count> names{"edges", "blur", "direct", "gloss", "indirect"};
+    return names;
+}
+
+ErrorMaps estimate_errors(const ErrorInput& input) {
+    const int width = input.pixels.width, height = input.pixels.height;
+    ErrorMaps maps;
+    maps.total = Image<float>(width, height);
+    for (Image<float>& map : maps.by_cause) map = Image<float>(width, height);
+    parallel_rows(height, 4, [&](int begin, int end) {
+        for (int y = begin; y < end; ++y) {
+            for (int x = 0; x < width; ++x) {
+                const double threshold = input.threshold(x, y);
+                const double scale = threshold > 0.0 ? input.luminance_scale / threshold : 0.0;
+                const CauseErrors errors = find_causes(input, x, y);
+                double total = 0.0;
+                for (std::size_t i = 0; i < errors.size(); ++i) {
+                    total += errors[i];
+                    maps.by_cause[i](x, y) = static_cast<float>(std::sqrt(errors[i]) * scale);
+                }
+                maps.total(x, y) = static_cast<float>(std::sqrt(total) * scale);
+            }
+        }
+    });
+    return maps;
+}
+
+ErrorShares count_errors(const ErrorMaps& maps, double asked) {
+    const auto mean_share = [asked](const Image<float>& map) {
+        double sum = 0.0;
+        for (const float deviation : map.pixels) sum += share_beyond(deviation, asked);
+        return map.empty() ? 0.0 : sum / static_cast<double>(map.size());
+    };
+    ErrorShares shares{asked, mean_share(maps.total)};
+    for (std::size_t i = 0; i < cause_count; ++i) shares.by_cause[i] = mean_share(maps.by_cause[i]);
+    return shares;
+}
+
+}  // namespace aleph

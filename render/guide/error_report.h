@@ -1,0 +1,36 @@
+#pragma once
+// The error that a picture is estimated to have, in units of the visible threshold, and what causes it.
+
+#include <array>
+#include <string>
+
+#include "engine/base/image.h"
+#include "engine/base/viewing.h"
+#include "render/pixels/outlines.h"
+#include "render/pixels/pixel_samples.h"
+#include "render/pixels/shaded_frame.h"
+
+namespace aleph {
+
+/// "edges", "blur", ...
+const std::array<std::string, cause_count>& cause_names();
+
+/// What errors are told from.
+struct ErrorInput {
+    const Image<PixelSamples>& pixels;
+    const Image<float>& threshold;  ///< cd/m2
+    const Image<float>& accuracy;   ///< alpha
+    const Image<Outline>& outlines;
+    double luminance_scale = 1.0;  ///< cd/m2 for a luminance of 1 of the samples: exposure times display white
+    bool blurred = false;          ///< the shutter or the lens is open
+};
+
+/// From the halves of the samples of a pixel and the eight around it (PixelSamples), and from the accuracy of cached
+/// light: irradiance that is interpolated at accuracy alpha errs by about a tenth of alpha (standard deviation).
+ErrorMaps estimate_errors(const ErrorInput& input);
+
+/// If errors are normally distributed.
+/// @param asked  thresholds, above 0
+ErrorShares count_errors(const ErrorMaps& maps, double asked);
+
+}  // namespace aleph

@@ -1,0 +1,92 @@
+#include "render/guide/stopping_rule.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace aleph {
+
+namespace {
+
+constexpr int thesis_samples = 16;  // least number of the thesis's rules
+constexpr int outline_samples = 8;  // where few neighbours are alike, and each may miss what the others see
+
+}  // namespace
+
+namespace {
+
+/// Sums over pixels around one.
+struct NoiseSum {
+    double error2 = 0.0, variance = 0.0;  ///< of one sample
+    int count = 0;
+
+    void add(const PixelSamples& pixel) {
+        if (pixel.error().samples == 0) return;
+        error2 += static_cast<double>(pixel.error().total) * pixel.error().samples;
+        variance += pixel.sample_variance();
+        ++count;
+    }
+};
+
+template <class Counts>
+NoiseSum sum_around(const Image<PixelSamples>& pixels, int x, int y, int reach, const Counts& counts) {
+    NoiseSum sum;
+    for (int ny = std::max(0, y - reach); ny <= std::min(pixels.height - 1, y + reach); ++ny) {
+        for (int nx = std::max(0, x - reach); nx <= std::min(pixels.width - 1, x + reach); ++nx) {
+            if ((nx != x || ny != y) && counts(nx, ny)) sum.add(pixels(nx, ny));
+        }
+    }
+    return sum;
+}
+
+}  // namespace
+
+MeanEstimate estimate_mean(const Image<PixelSamples>& pixels, const Image<Outline>& outlines, int x, int y) {
+    const auto alike = [&](int nx, int ny) { return are_alike(outlines, x, y, nx, ny); };
+    NoiseSum near = sum_around(pixels, x, y, 1, alike), wide = sum_around(pixels, x, y, 2, alike);
+    if (wide.count == 0) near = sum_around(pixels, x, y, 1, [](int, int) { return true; });
+    if (pixels.size() == 1) near.add(pixels(x, y));
+    MeanEstimate estimate{pixels(x, y).taken()};
+    for (const NoiseSum& sum : {near, wide}) {
+        if (sum.count == 0) continue;
+        estimate.error2 = std::max(estimate.error2, sum.error2 / (sum.count * static_cast<double>(estimate.samples)));
+        estimate.variance = std::max(estimate.variance, sum.variance / sum.count);
+    }
+    return estimate;
+}
+
+bool is_enough(Sampling rule, VarianceTest test, const MeanEstimate& mean, double tolerance) {
+    const double tolerated2 = tolerance > 0.0 ? tolerance * tolerance : 0.0;
+    switch (rule) {
+        case Sampling::uniform:
+        case Sampling::protocol:
+            break;
+        case Sampling::consecutive:
+            return mean.error2 <= tolerated2;
+        case Sampling::variance:
+            return (test == VarianceTest::deviation ? mean.variance : mean.variance / mean.samples) <= tolerated2;
+        case Sampling::threshold:
+            return error_deviations * error_deviations * mean.error2 <= tolerated2;
+    }
+    return true;
+}
+
+int protocol_samples(double aleph, int most) {
+    const double samples = std::ceil(most / std::max(1.0, aleph));  // with the arguments in this order, 1 for NaN
+    return std::min(most, std::max(thesis_samples, static_cast<int>(samples)));
+}
+
+int first_samples(Sampling rule, Outline outline, int most) {
+    switch (rule) {
+        case Sampling::uniform:
+        case Sampling::protocol:
+            return most;
+        case Sampling::consecutive:
+        case Sampling::variance:
+            return std::min(most, thesis_samples);
+        case Sampling::threshold:
+            break;
+    }
+    return std::min(most, outline == Outline::none ? own_samples : outline_samples);
+}
+
+}  // namespace aleph

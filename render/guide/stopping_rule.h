@@ -1,0 +1,45 @@
+#pragma once
+// When a pixel has enough samples (Yee 2000, section 6.2, and a rule of our own).
+
+#include "engine/base/image.h"
+#include "render/pixels/outlines.h"
+#include "render/pixels/pixel_samples.h"
+#include "render/settings/settings.h"
+
+namespace aleph {
+
+/// Standard errors that a tolerance has to hold. At the limit, 5 % of a normal distribution would lie beyond. But few
+/// pixels are at the limit: numbers of samples double, and halves overrate the error of even samples. In pictures, less
+/// than half a percent of the pixels is beyond (render/README.md).
+inline constexpr double error_deviations = 2.0;
+
+/// What is known of a pixel's mean. A pixel's own samples never decide when it stops: a pixel whose first samples
+/// happen to agree would stop early, more often at a value that is too low than at one that is too high, and the
+/// picture would be biased. Neighbours tell both numbers, at this pixel's number of samples.
+struct MeanEstimate {
+    int samples = 0;
+    double error2 = 0.0;    ///< squared error of the mean luminance, from halves (PixelSamples)
+    double variance = 0.0;  ///< of one sample's luminance
+};
+
+/// The larger of what the eight pixels around (x, y) tell, and the 24. Only those count that have an outline as it has,
+/// or have none as it has none: beside an outline the noise is another. Where there is no such pixel, all eight
+/// tell; where it is alone, the pixel itself.
+/// @param outlines  of the same size, or empty: none
+MeanEstimate estimate_mean(const Image<PixelSamples>& pixels, const Image<Outline>& outlines, int x, int y);
+
+/// Whether a rule stops at this estimate.
+/// consecutive (6.10): the means of this stage and of the one before differ by less than the tolerance.
+/// variance (6.12): the standard error of independent samples is below the tolerance; or as printed their standard
+/// deviation, which does not fall with their number.
+/// threshold: error_deviations standard errors are within the tolerance.
+/// @param tolerance  of luminance, in the samples' unit. 0 or less is met by an error of 0 only
+bool is_enough(Sampling rule, VarianceTest test, const MeanEstimate& mean, double tolerance);
+
+/// Samples of the Aleph sampling protocol (6.13): most / aleph, but at least 16, and at most `most`.
+int protocol_samples(double aleph, int most);
+
+/// Samples before a rule is asked first.
+int first_samples(Sampling rule, Outline outline, int most);
+
+}  // namespace aleph

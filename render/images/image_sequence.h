@@ -1,0 +1,49 @@
+#pragma once
+// Maps of existing pictures, without a scene: picture -> motion, from the file or from a comparison with the next
+// picture -> saliency, Aleph map -> accuracy.
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <memory>
+
+#include "engine/scene/scene.h"
+#include "motion/other_frame.h"
+#include "render/frame/frame_output.h"
+#include "render/images/picture_frame.h"
+#include "render/settings/settings.h"
+
+namespace aleph {
+
+/// The file of each frame, by frame number.
+using FrameFiles = std::map<std::int64_t, std::filesystem::path>;
+
+/// The frame that `frame` is compared with for its motion: the next one, or the previous one at the last frame; none
+/// across a cut, and for a single frame.
+/// @param cuts  frames that begin a new shot. Frame numbers may have gaps there and nowhere else.
+/// @throws InputError naming the missing files: `frame`'s own, or those up to the next frame that exists
+OtherFrame find_other_frame(const FrameFiles& files, const std::vector<std::int64_t>& cuts, std::int64_t frame);
+
+/// Maps of frames in files. In ascending order of frames every picture is read once.
+class ImageSequence {
+  public:
+    /// @param shot  a scene without objects: frame rate, viewing conditions, exposure (1 if not set) and cuts are used
+    /// @param layers  of the pictures. If the first frame that is read has motion, all frames take theirs from their
+    /// files
+    /// @throws InputError: settings out of range
+    ImageSequence(Scene shot, FrameFiles files, const RenderSettings& settings, PictureLayers layers = {});
+    ~ImageSequence();
+    ImageSequence(ImageSequence&&) noexcept;
+
+    /// Fills estimate (the picture, exposed and sanitized), motion, depth if the file has it, velocity, perception,
+    /// alpha, threshold, statistics.
+    /// @throws InputError: a frame that is missing or unreadable, of another size than the first one read, or without
+    /// motion where the first one has it
+    FrameOutput compute_maps(std::int64_t frame);
+
+  private:
+    struct State;
+    std::unique_ptr<State> state_;
+};
+
+}  // namespace aleph

@@ -1,0 +1,100 @@
+#include "render/light/light_choice.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "render/light/light_cut.h"
+
+namespace aleph {
+
+namespace {
+
+constexpr int max_sheets = 64;  // that a shadow ray passes
+
+/// From another origin to the end of the ray.
+Ray move_origin(const Ray& ray, const glm::vec3& origin) {
+    Ray moved{origin, ray.direction, 0.0f, ray.far};
+    if (!std::isfinite(ray.far)) return moved;
+    const glm::vec3 left = ray.origin + ray.direction * ray.far - origin;
+    moved.far = std::max(0.0f, glm::dot(left, ray.direction));
+    if (moved.far > 0.0f) {
+        moved.far = glm::length(left);
+        moved.direction = left / moved.far;
+    }
+    return moved;
+}
+
+/// Where no light is picked: nothing, or a value that is not finite, which is not hidden: the sample is dropped and
+/// counted.
+ScatteredLight without_light(const LightCut& cut) {
+    return {{}, Rgb(std::isfinite(cut.total) ? 0.0f : cut.total)};
+}
+
+}  // namespace
+
+Ray make_shadow_ray(const LitSurface& lit, const LightSample& sample) {
+    const Ray ray{lit.point.ray_origin(), sample.direction, 0.0f, sample.distance};
+    const glm::vec3 origin = lit.ray_origin(sample.direction);
+    return origin == ray.origin ? ray : move_origin(ray, origin);
+}
+
+ScatteredLight choose_light(const LightingContext& context, const LitSurface& lit, const LobeShares& shares,
+                            const LightNumbers& numbers) {
+    const Receiver receiver{lit.point.ray_origin(), lit.point.normal};
+    const float behind = lit.material.has_glass() ? 1.0f : 0.0f;
+    const LightCut cut = find_light_cut(context.lights, receiver, behind);
+    const LightPick pick = pick_light(context.lights, cut, receiver, behind, numbers.choice);
+    if (pick.light == no_index) return without_light(cut);
+    const LightSample sample = sample_light(context.shading, context.lights, pick.light, receiver, numbers.point);
+    if (sample.incoming == Rgb(0.0f) || !lit.is_reached(sample.direction)) return {};
+    return {make_shadow_ray(lit, sample),
+            scatter_towards(lit, sample.direction, sample.pdf, shares) * sample.incoming / pick.probability,
+            context.shading.needs_shadow_ray(sample.pdf)};
+}
+
+ScatteredLight choose_lambert_light(const LightingContext& context, const SurfacePlace& place,
+                                    const LightNumbers& numbers) {
+    const Receiver receiver{place.ray_origin(), place.normal};
+    const LightCut cut = find_light_cut(context.lights, receiver, 0.0f);
+    const LightPick pick = pick_light(context.lights, cut, receiver, 0.0f, numbers.choice);
+    if (pick.light == no_index) return without_light(cut);
+    const LightSample sample = sample_light(context.shading, context.lights, pick.light, receiver, numbers.point);
+    const float cosine = glm::dot(place.normal, sample.direction);
+    if (!(cosine > 0.0f && glm::dot(place.geometric, sample.direction) > 0.0f)) return {};
+    return {{receiver.position, sample.direction, 0.0f, sample.distance},
+            sample.incoming * (cosine / (std::numbers::pi_v<float> * pick.probability)),
+            context.shading.needs_shadow_ray(sample.pdf)};
+}
+
+ScatteredLight choose_light(const LightingContext& context, const LitSurface& lit, const LobeShares& shares,
+                            RandomStream& random) {
+    LightNumbers numbers;
+    numbers.choice = random.next();
+    numbers.point = random.next_2d();
+    return choose_light(context, lit, shares, numbers);
+}
+
+Rgb find_transmittance(const LightingContext& context, RayTask& task, const Ray& ray) {
+    if (!context.shading.has_sheets) {
+        ++task.counts.shadow;
+        return Rgb(task.tracer.occluded(ray) ? 0.0f : 1.0f);
+    }
+    Rgb passed(1.0f);
+    Ray left = ray;
+    for (int sheet = 0; sheet < max_sheets; ++sheet) {
+        ++task.counts.shadow;
+        const Hit hit = task.tracer.intersect(left);
+        if (hit.instance == no_index) return passed;
+        const SurfacePoint point = make_surface_point(context.shading, hit, left.direction);
+        const ViewedSurface surface = view_surface(context.shading, point, -left.direction, {});
+        if (!surface.material.passes_straight()) return Rgb(0.0f);
+        const LitSurface lit(surface);
+        passed *= sheet_transmittance(lit);
+        if (passed == Rgb(0.0f)) return passed;
+        left = move_origin(left, lit.ray_origin(left.direction));
+    }
+    return Rgb(0.0f);
+}
+
+}  // namespace aleph

@@ -1,0 +1,49 @@
+#pragma once
+// One light for a surface point, chosen among all, and whether it reaches the point.
+
+#include "render/light/lights.h"
+#include "render/surface/ray_task.h"
+#include "render/surface/scatter.h"
+
+namespace aleph {
+
+/// The parts of a posed scene that shading needs.
+struct LightingContext {
+    const ShadingScene& shading;
+    const LightSet& lights;
+    const RayScene& rays;
+};
+
+/// Light of one light that a surface scatters towards its viewer, before its shadow ray is cast.
+struct ScatteredLight {
+    Ray shadow_ray;
+    Rgb radiance{0.0f};
+    bool shadowed = true;  ///< false: nothing stands between, and the ray need not be cast
+};
+
+/// Independent numbers in [0,1), from which a light is sampled.
+struct LightNumbers {
+    float choice = 0.0f;
+    glm::vec2 point{0.0f};
+};
+
+/// A sample of one light, chosen in proportion to about what each brings without shadow (light_cut.h). Unbiased for the
+/// sum of all lights.
+/// @param shares  of the lobes from which directions are sampled as well, for the weights of scatter_towards
+ScatteredLight choose_light(const LightingContext& context, const LitSurface& lit, const LobeShares& shares,
+                            const LightNumbers& numbers);
+ScatteredLight choose_light(const LightingContext& context, const LitSurface& lit, const LobeShares& shares,
+                            RandomStream& random);
+
+/// The same for a white Lambert surface whose other lobes, if any, are not sampled.
+ScatteredLight choose_lambert_light(const LightingContext& context, const SurfacePlace& place,
+                                    const LightNumbers& numbers);
+
+/// The ray from a surface to a light that was sampled from its viewer's side (Receiver). Behind the surface it starts
+/// elsewhere, and still ends at the sampled point: it must not reach the light.
+Ray make_shadow_ray(const LitSurface& lit, const LightSample& sample);
+
+/// Share of light that passes along a shadow ray: smooth sheets of glass pass some, everything else stops it.
+Rgb find_transmittance(const LightingContext& context, RayTask& task, const Ray& ray);
+
+}  // namespace aleph

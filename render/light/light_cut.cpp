@@ -1,0 +1,167 @@
+#include "render/light/light_cut.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <span>
+
+#include "render/light/light_power.h"
+
+namespace aleph {
+
+namespace {
+
+constexpr float below_one = 0x1.fffffep-1f;
+
+/// A cut while it is refined.
+struct Candidates {
+    int size = 0;
+    std::array<int, LightCut::capacity> nodes;
+    std::array<float, LightCut::capacity> bounds, estimates;
+
+    /// Puts those of a group that bring anything in the place of one.
+    void replace(int place, const LightGroup& group, const LightReaches& reaches) {
+        std::array<int, LightGroup::size> brings;
+        int added = 0;
+        for (int i = 0; i < group.used; ++i) {
+            brings[added] = i;
+            added += reaches.bounds[i] == 0.0f ? 0 : 1;  // kept where it is not a number
+        }
+        const int after = size - place - 1;
+        const auto make_room = [&](auto& values) {
+            const auto begin = values.begin() + place + 1;
+            if (added == 0) {
+                std::copy(begin, begin + after, begin - 1);
+            } else {
+                std::copy_backward(begin, begin + after, begin + after + added - 1);
+            }
+        };
+        make_room(nodes);
+        make_room(bounds);
+        make_room(estimates);
+        for (int i = 0; i < added; ++i) {
+            nodes[place + i] = group.children[brings[i]];
+            bounds[place + i] = reaches.bounds[brings[i]];
+            estimates[place + i] = reaches.estimates[brings[i]];
+        }
+        size += added - 1;
+    }
+};
+
+/// The group of the largest bound; none if all others are lights, or below the limit.
+int find_brightest_group(const LightTree& tree, const Candidates& candidates, float limit) {
+    int found = no_index;
+    float largest = limit;
+    for (int i = 0; i < candidates.size; ++i) {
+        if (tree.is_light(candidates.nodes[i]) || !(candidates.bounds[i] > largest)) continue;
+        largest = candidates.bounds[i];
+        found = i;
+    }
+    return found;
+}
+
+/// Marks the faintest, by an estimate of 0, while all that are marked bring less than the limit. @return what they
+/// bring
+float leave_out(Candidates& candidates, float limit) {
+    std::array<int, LightCut::capacity> faint;  // none of the others can be left out
+    auto end = faint.begin();
+    for (int i = 0; i < candidates.size; ++i) {
+        if (candidates.bounds[i] < limit) *end++ = i;
+    }
+    std::sort(faint.begin(), end, [&](int a, int b) {
+        return candidates.bounds[a] < candidates.bounds[b] || (candidates.bounds[a] == candidates.bounds[b] && a < b);
+    });
+    float sum = 0.0f;
+    for (auto i = faint.begin(); i != end && sum + candidates.bounds[*i] < limit; ++i) {
+        sum += candidates.bounds[*i];
+        candidates.estimates[*i] = 0.0f;
+    }
+    return sum;
+}
+
+Candidates find_candidates(const LightTree& tree, const Receiver& receiver, float behind, float divided) {
+    Candidates candidates;
+    const auto divide = [&](int place, const LightGroup& group) {
+        candidates.replace(place, group, reach_of(group, receiver.position, receiver.normal, behind));
+    };
+    candidates.size = 1;
+    divide(0, tree.groups.front());
+    // All of few lights, so that groups of them are not left out for what only their bound may bring.
+    const float limit = tree.lights <= LightCut::few ? 0.0f : divided;
+    while (candidates.size + LightGroup::size - 1 <= LightCut::capacity) {
+        const int brightest = find_brightest_group(tree, candidates, limit);
+        if (brightest == no_index) break;
+        divide(brightest, tree.group(candidates.nodes[brightest]));
+    }
+    return candidates;
+}
+
+/// One of several by their weights. The number is stretched over it again, and the probability multiplied by its own.
+/// @param ends  sums of the weights up to and including each
+std::size_t choose(std::span<const float> weights, std::span<const float> ends, LightPick& pick) {
+    const float total = ends.back(), place = pick.rest * total;
+    int passed = 0;
+    for (const float end : ends) passed += end <= place ? 1 : 0;
+    auto chosen = std::min(static_cast<std::size_t>(passed), weights.size() - 1);
+    while (chosen > 0 && !(weights[chosen] > 0.0f)) --chosen;  // rounding at the end
+    const float below = chosen == 0 ? 0.0f : ends[chosen - 1];
+    pick.rest = std::clamp((place - below) / weights[chosen], 0.0f, below_one);
+    pick.probability *= weights[chosen] / total;
+    return chosen;
+}
+
+/// Few lights without a limit: all, by vector instructions.
+LightCut take_all_lights(const LightSet& lights, const Receiver& receiver, float behind) {
+    LightCut cut;
+    cut.size = lights.count();
+    cut.has_all = true;
+    static_assert(LightCut::few % LightBounds::step == 0 && LightCut::few <= LightCut::capacity);
+    bound_illuminances(lights.bounds, receiver.position, receiver.normal, behind,
+                       {cut.weights.data(), lights.bounds.strength.size()});
+    for (int i = 0; i < cut.size; ++i) cut.ends[i] = cut.total += cut.weights[i];
+    return cut;
+}
+
+}  // namespace
+
+LightCut find_light_cut(const LightSet& lights, const Receiver& receiver, float behind, const CutLimits& limits) {
+    LightCut cut;
+    if (lights.count() == 0) return cut;
+    if (lights.count() <= LightCut::few && !(limits.left_out > 0.0f)) return take_all_lights(lights, receiver, behind);
+    Candidates candidates = find_candidates(lights.tree, receiver, behind, limits.divided);
+    if (limits.left_out > 0.0f) cut.left_out = leave_out(candidates, limits.left_out);
+    for (int i = 0; i < candidates.size; ++i) {
+        const float weight = candidates.estimates[i];
+        cut.nodes[cut.size] = candidates.nodes[i];
+        cut.weights[cut.size] = weight;
+        cut.total += weight;
+        cut.ends[cut.size] = cut.total;
+        cut.size += weight == 0.0f ? 0 : 1;
+    }
+    return cut;
+}
+
+LightPick pick_light(const LightSet& lights, const LightCut& cut, const Receiver& receiver, float behind,
+                     float number) {
+    LightPick pick;
+    if (!std::isfinite(cut.total) || !(cut.total > 0.0f)) return pick;
+    pick.rest = number;
+    pick.probability = 1.0f;
+    const auto size = static_cast<std::size_t>(cut.size);
+    const std::size_t chosen = choose({cut.weights.data(), size}, {cut.ends.data(), size}, pick);
+    int node = cut.has_all ? static_cast<int>(chosen) : cut.nodes[chosen];
+    while (!lights.tree.is_light(node)) {
+        const LightGroup& group = lights.tree.group(node);
+        const LightReaches reaches = reach_of(group, receiver.position, receiver.normal, behind);
+        LightGroup::Values ends;
+        float total = 0.0f;
+        for (std::size_t i = 0; i < ends.size(); ++i) ends[i] = total += reaches.estimates[i];
+        // A group is wider than its parts: it may be that none of them brings anything.
+        if (!(total > 0.0f) || !std::isfinite(total)) return {};
+        node = group.children[choose(reaches.estimates, ends, pick)];
+    }
+    pick.light = node;
+    return pick;
+}
+
+}  // namespace aleph

@@ -1,0 +1,115 @@
+#include "render/light/light_power.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <optional>
+
+#include "render/surface/environment_map.h"
+
+namespace aleph {
+
+namespace {
+
+/// A light that is not a number is chosen as any other: what it lights is dropped and counted, not hidden.
+float finite_strength(float strength) {
+    return std::isfinite(strength) ? strength : 1.0f;
+}
+
+void add_light(LightBounds& bounds, const glm::vec3& place, bool nearby, float radius, float strength,
+               const std::optional<glm::vec3>& axis = {}) {
+    bounds.x.push_back(place.x);
+    bounds.y.push_back(place.y);
+    bounds.z.push_back(place.z);
+    bounds.nearby.push_back(nearby ? 1.0f : 0.0f);
+    bounds.radius.push_back(radius);
+    const glm::vec3 normal = axis.value_or(glm::vec3(0.0f));
+    bounds.axis_x.push_back(normal.x);
+    bounds.axis_y.push_back(normal.y);
+    bounds.axis_z.push_back(normal.z);
+    bounds.one_sided.push_back(axis ? 1.0f : 0.0f);
+    bounds.strength.push_back(finite_strength(strength));
+    bounds.inside.push_back(radius > 0.0f ? bounds.strength.back() / (radius * radius) : 0.0f);
+}
+
+/// The normal of a flat light that shines on one side; else nothing.
+std::optional<glm::vec3> find_axis(const Emitter& emitter) {
+    const glm::vec3 axis = emitter.triangles.front().normal;
+    const bool flat = std::ranges::all_of(
+        emitter.triangles, [&](const Emitter::Triangle& t) { return glm::dot(t.normal, axis) > 0.9999f; });
+    if (emitter.double_sided || !flat) return {};
+    return axis;
+}
+
+LightNode make_node(const Emitter& emitter) {
+    LightNode node;
+    node.center = emitter.center;
+    node.radius = emitter.radius;
+    const float radiance = luminance(emitter.brightest);
+    node.strength = finite_strength(radiance * emitter.area);
+    node.most = finite_strength(std::numbers::pi_v<float> * radiance);
+    if (emitter.double_sided) return node;
+    node.axis = emitter.triangles.front().normal;
+    for (const Emitter::Triangle& t : emitter.triangles) {
+        node.cos_cone = std::min(node.cos_cone, glm::dot(t.normal, node.axis));
+    }
+    node.directed = node.cos_cone > -0.99f;
+    return node;
+}
+
+LightNode make_node(const PunctualLight& light) {
+    LightNode node;
+    node.strength = finite_strength(luminance(light.intensity));
+    node.nearby = light.kind != Light::Kind::directional;
+    node.center = node.nearby ? light.position : -light.direction;
+    node.most = node.nearby ? std::numeric_limits<float>::infinity() : node.strength;
+    if (light.kind == Light::Kind::spot) {
+        node.directed = true;
+        node.axis = light.direction;
+        node.cos_emission = 1.0f - light.outer_versine;
+        node.by_cosine = false;
+    }
+    return node;
+}
+
+}  // namespace
+
+LightBounds make_light_bounds(const ShadingScene& shading, const LightSet& lights) {
+    LightBounds bounds;
+    for (const Emitter& emitter : lights.emitters) {
+        add_light(bounds, emitter.center, true, emitter.radius, luminance(emitter.brightest) * emitter.area,
+                  find_axis(emitter));
+    }
+    for (const PunctualLight& light : lights.punctual) {
+        const bool nearby = light.kind != Light::Kind::directional;
+        add_light(bounds, nearby ? light.position : -light.direction, nearby, 0.0f, luminance(light.intensity));
+    }
+    if (lights.has_environment) {
+        const double mean = shading.environment_map != nullptr ? shading.environment_map->mean_luminance : 1.0;
+        add_light(bounds, glm::vec3(0.0f), false, 1.0f,
+                  static_cast<float>(std::numbers::pi * mean * luminance(shading.environment)));
+    }
+    while (bounds.strength.size() % LightBounds::step != 0) add_light(bounds, glm::vec3(0.0f), false, 0.0f, 0.0f);
+    return bounds;
+}
+
+std::vector<LightNode> make_light_nodes(const ShadingScene& shading, const LightSet& lights) {
+    std::vector<LightNode> nodes;
+    for (const Emitter& emitter : lights.emitters) nodes.push_back(make_node(emitter));
+    for (const PunctualLight& light : lights.punctual) nodes.push_back(make_node(light));
+    if (lights.has_environment) {
+        const double mean = shading.environment_map != nullptr ? shading.environment_map->mean_luminance : 0.25;
+        LightNode node;
+        node.nearby = false;
+        node.radius = 1.0f;
+        // All light of a picture may come from where the surface faces; of a constant environment, a quarter arrives.
+        node.strength =
+            finite_strength(static_cast<float>(4.0 * std::numbers::pi * mean * luminance(shading.environment)));
+        node.most = node.strength;
+        nodes.push_back(node);
+    }
+    return nodes;
+}
+
+}  // namespace aleph

@@ -1,0 +1,118 @@
+// The lights of a posed scene, gathered from its surfaces, its lamps and what surrounds it.
+
+#include <algorithm>
+#include <cmath>
+
+#include "render/light/light_power.h"
+#include "render/light/lights.h"
+#include "render/surface/environment_map.h"
+#include "render/surface/texture.h"
+
+namespace aleph {
+
+namespace {
+
+float versine(double angle) {
+    const double s = std::sin(0.5 * angle);
+    return static_cast<float>(2.0 * s * s);
+}
+
+Emitter make_emitter(const ShadingScene& shading, int index) {
+    const PosedInstance& instance = shading.instances[index];
+    const ShadingMaterial& material = shading.materials[instance.material];
+    Emitter emitter;
+    emitter.instance = index;
+    emitter.double_sided = material.double_sided;
+    emitter.textured = material.material != nullptr && material.material->emission_texture.image != no_index;
+    emitter.pierced = material.material != nullptr && material.material->alpha_mode != Material::AlphaMode::opaque;
+    emitter.radiance = emitter.brightest = material.values.emission;
+    if (const int texture = shading.textures->materials[instance.material].emission.texture; texture != no_index) {
+        emitter.brightest *= glm::max(shading.textures->textures[texture].largest, 1.0f);
+    }
+    const Mesh& mesh = *instance.mesh;
+    std::vector<double> cumulative;
+    double area = 0.0;
+    for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+        const glm::uvec3 t = mesh.triangles[i];
+        const glm::vec3 p0 = instance.corner(t.x), e1 = instance.corner(t.y) - p0, e2 = instance.corner(t.z) - p0;
+        const glm::vec3 edge1 = instance.linear * e1, edge2 = instance.linear * e2;
+        const glm::vec3 normal = instance.normals * glm::cross(e1, e2);
+        const double twice_area = glm::length(glm::dvec3(glm::cross(edge1, edge2)));
+        const float length = glm::length(normal);
+        if (!(twice_area > 0.0) || !(length > 0.0f)) continue;
+        area += 0.5 * twice_area;
+        cumulative.push_back(area);
+        emitter.triangles.push_back(
+            {instance.linear * p0 + instance.translation, edge1, edge2, normal / length, static_cast<int>(i)});
+    }
+    emitter.area = static_cast<float>(area);
+    for (const Emitter::Triangle& t : emitter.triangles) {
+        emitter.center += (t.corner + (t.edge1 + t.edge2) / 3.0f) / static_cast<float>(emitter.triangles.size());
+    }
+    for (const Emitter::Triangle& t : emitter.triangles) {
+        for (const glm::vec3& corner : {t.corner, t.corner + t.edge1, t.corner + t.edge2}) {
+            emitter.radius = std::max(emitter.radius, glm::length(corner - emitter.center));
+        }
+    }
+    for (const double a : cumulative) emitter.cumulative_area.push_back(static_cast<float>(a / area));
+    return emitter;
+}
+
+/// @param i  into ScenePose::lights
+void add_punctual(const ShadingScene& shading, std::size_t i, LightSet& lights) {
+    const LightValues& light = shading.pose->lights[i];
+    if (light.intensity == Rgb(0.0f)) return;
+    lights.punctual.push_back({light.kind, glm::vec3(light.position - shading.anchor), glm::vec3(light.direction),
+                               light.intensity, static_cast<float>(light.range), versine(light.inner_cone),
+                               versine(light.outer_cone)});
+}
+
+/// What is computed from all lights.
+void finish(const ShadingScene& shading, LightSet& lights) {
+    lights.bounds = make_light_bounds(shading, lights);
+    lights.tree = make_light_tree(make_light_nodes(shading, lights));
+}
+
+}  // namespace
+
+LightSet make_light_set(const ShadingScene& shading) {
+    LightSet lights;
+    lights.emitter_of_instance.assign(shading.instances.size(), no_index);
+    for (const int i : shading.emitting) {
+        const PosedInstance& instance = shading.instances[i];
+        const ShadingMaterial& material = shading.materials[instance.material];
+        if (!instance.visible || !material.emits) continue;
+        Emitter emitter = make_emitter(shading, i);
+        if (emitter.triangles.empty()) continue;
+        lights.emitter_of_instance[i] = static_cast<int>(lights.emitters.size());
+        lights.emitters.push_back(std::move(emitter));
+    }
+    for (std::size_t i = 0; i < shading.pose->lights.size(); ++i) add_punctual(shading, i, lights);
+    lights.has_environment =
+        shading.environment != Rgb(0.0f) && (shading.environment_map == nullptr || !shading.environment_map->black);
+    finish(shading, lights);
+    return lights;
+}
+
+void remove_all_lights(LightSet& lights) {
+    const std::size_t instances = lights.emitter_of_instance.size();
+    lights = {};
+    lights.emitter_of_instance.assign(instances, no_index);
+}
+
+void remove_lights(const ShadingScene& shading, const std::vector<int>& instances, const std::vector<int>& punctual,
+                   LightSet& lights) {
+    for (const int instance : instances) lights.emitter_of_instance[instance] = left_out_emitter;
+    const auto is_left = [&](int i) { return lights.emitter_of_instance[i] == left_out_emitter; };
+    std::erase_if(lights.emitters, [&](const Emitter& emitter) { return is_left(emitter.instance); });
+    for (std::size_t i = 0; i < lights.emitters.size(); ++i) {
+        lights.emitter_of_instance[lights.emitters[i].instance] = static_cast<int>(i);
+    }
+    lights.punctual.clear();
+    for (std::size_t i = 0; i < shading.pose->lights.size(); ++i) {
+        if (std::ranges::find(punctual, static_cast<int>(i)) == punctual.end()) add_punctual(shading, i, lights);
+    }
+    finish(shading, lights);
+}
+
+}  // namespace aleph

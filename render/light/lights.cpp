@@ -1,0 +1,208 @@
+#include "render/light/lights.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <span>
+
+#include "engine/base/sampling.h"
+#include "render/light/light_power.h"
+#include "render/light/seen_light.h"
+#include "render/light/spherical_triangle.h"
+#include "render/surface/environment_map.h"
+#include "render/surface/surface_material.h"
+#include "render/surface/texture.h"
+
+namespace aleph {
+
+namespace {
+
+/// Shadow rays end at this share of the distance to the light, so that they do not hit it.
+constexpr float shadow_end = 1.0f - 1e-4f;
+
+float pdf_by_area(const Emitter& emitter, float cos_at_light, float distance) {
+    return distance * distance / (cos_at_light * emitter.area);
+}
+
+/// sr. Above it, sampling by area is the noisier way, and float is accurate enough for the angles.
+constexpr float min_solid_angle = 0.1f;
+
+SolidAngles find_solid_angles(const Emitter& emitter, const glm::vec3& position) {
+    SolidAngles angles;
+    if (emitter.triangles.size() > max_spherical_triangles) return angles;
+    const glm::vec3 away = emitter.center - position;
+    const float nearest = std::max(0.0f, glm::length(away) - emitter.radius);
+    if (emitter.area < min_solid_angle * nearest * nearest) return angles;
+    for (std::size_t i = 0; i < emitter.triangles.size(); ++i) {
+        const Emitter::Triangle& t = emitter.triangles[i];
+        const glm::vec3 corner = t.corner - position;
+        if (!emitter.double_sided && !(glm::dot(corner, t.normal) < 0.0f)) continue;
+        angles.of[i] = solid_angle(corner, corner + t.edge1, corner + t.edge2);
+        angles.total += angles.of[i];
+    }
+    if (!(angles.total > min_solid_angle)) angles.total = 0.0f;
+    return angles;
+}
+
+/// Barycentric (b1, b2) of the point where a ray meets the triangle's plane, clamped into the triangle.
+glm::vec2 meet_triangle(const Emitter::Triangle& t, const glm::vec3& position, const glm::vec3& direction) {
+    const glm::vec3 p = glm::cross(direction, t.edge2), s = position - t.corner;
+    const float determinant = glm::dot(t.edge1, p);
+    if (determinant == 0.0f) return {1.0f / 3.0f, 1.0f / 3.0f};
+    glm::vec2 b(glm::dot(s, p) / determinant, glm::dot(direction, glm::cross(s, t.edge1)) / determinant);
+    b = glm::clamp(b, glm::vec2(0.0f), glm::vec2(1.0f));
+    return b.x + b.y > 1.0f ? b / (b.x + b.y) : b;
+}
+
+/// The index of the part of [0,1) that u falls into, given where each part ends; u is stretched to [0,1) within it.
+std::size_t choose_part(std::span<const float> ends, float& u) {
+    std::size_t i = 0;
+    if (ends.size() > max_spherical_triangles) {
+        i = static_cast<std::size_t>(std::upper_bound(ends.begin(), ends.end(), u) - ends.begin());
+    } else {
+        while (i < ends.size() && ends[i] <= u) ++i;
+    }
+    i = std::min(i, ends.size() - 1);
+    const float low = i == 0 ? 0.0f : ends[i - 1];
+    const float width = ends[i] - low;
+    u = width > 0.0f ? std::clamp((u - low) / width, 0.0f, 0x1.fffffep-1f) : 0.0f;
+    return i;
+}
+
+LightSample sample_emitter(const ShadingScene& shading, const Emitter& emitter, const SolidAngles& angles,
+                           const glm::vec3& position, glm::vec2 u, float share) {
+    std::size_t chosen = 0;
+    glm::vec2 b;
+    if (angles.total > 0.0f) {
+        std::array<float, max_spherical_triangles> ends{};
+        float sum = 0.0f;
+        for (std::size_t i = 0; i < emitter.triangles.size(); ++i) ends[i] = (sum += angles.of[i]) / angles.total;
+        chosen = choose_part(std::span(ends.data(), emitter.triangles.size()), u.x);
+        const Emitter::Triangle& t = emitter.triangles[chosen];
+        const glm::vec3 corner = t.corner - position;
+        b = meet_triangle(t, position,
+                          sample_spherical_triangle(corner, corner + t.edge1, corner + t.edge2, angles.of[chosen], u));
+    } else {
+        chosen = choose_part(emitter.cumulative_area, u.x);
+        b = sample_triangle(u);
+    }
+    const Emitter::Triangle& triangle = emitter.triangles[chosen];
+    const glm::vec3 to_light = triangle.corner + triangle.edge1 * b.x + triangle.edge2 * b.y - position;
+    const float distance2 = glm::dot(to_light, to_light);
+    LightSample sample;
+    if (!(distance2 > 0.0f)) return sample;
+    const float distance = std::sqrt(distance2);
+    sample.direction = to_light / distance;
+    float cosine = -glm::dot(sample.direction, triangle.normal);
+    if (emitter.double_sided) cosine = std::abs(cosine);
+    if (!(cosine > 0.0f)) return sample;
+    sample.distance = distance * shadow_end;
+    sample.pdf = angles.total > 0.0f ? 1.0f / angles.total : pdf_by_area(emitter, cosine, distance);
+    Rgb radiance = emitter.radiance;
+    if (emitter.textured || emitter.pierced) {
+        const Hit hit{emitter.instance, triangle.primitive, b.x, b.y, distance};
+        const SurfacePoint point = make_surface_point(shading, hit, sample.direction);
+        const RayFootprint footprint{{}, {}, std::sqrt(share * emitter.area)};
+        if (emitter.textured) radiance = evaluate_material(shading, point, footprint).emission;
+        if (emitter.pierced) radiance *= surface_coverage(shading, point, footprint);
+    }
+    sample.incoming = radiance / sample.pdf;
+    return sample;
+}
+
+/// 1 - cosine between unit vectors, without cancellation in narrow cones.
+float versine_between(const glm::vec3& a, const glm::vec3& b) {
+    const glm::vec3 chord = a - b;
+    return 0.5f * glm::dot(chord, chord);
+}
+
+/// KHR_lights_punctual: linear in the cosine from the outer cone (0) to the inner one (1), then squared. If the cones
+/// are equal, the edge is sharp.
+float spot_falloff(const PunctualLight& light, const glm::vec3& towards_light) {
+    const float inside = light.outer_versine - versine_between(light.direction, -towards_light);
+    if (!(inside > 0.0f)) return 0.0f;
+    const float ramp = light.outer_versine - light.inner_versine;
+    const float share = inside < ramp ? inside / ramp : 1.0f;
+    return share * share;
+}
+
+LightSample sample_punctual(const PunctualLight& light, const glm::vec3& position) {
+    LightSample sample;
+    if (light.kind == Light::Kind::directional) {
+        sample.direction = -light.direction;
+        sample.distance = std::numeric_limits<float>::infinity();
+        sample.incoming = light.intensity;
+        return sample;
+    }
+    const glm::vec3 to_light = light.position - position;
+    const float distance2 = glm::dot(to_light, to_light);
+    if (!(distance2 > 0.0f)) return sample;
+    const float distance = std::sqrt(distance2);
+    sample.direction = to_light / distance;
+    sample.distance = distance * shadow_end;
+    float window = 1.0f;  // KHR_lights_punctual: max(min(1 - (d/range)^4, 1), 0)
+    if (light.range > 0.0f) {
+        const float ratio2 = distance2 / (light.range * light.range);
+        window = std::clamp(1.0f - ratio2 * ratio2, 0.0f, 1.0f);
+    }
+    if (light.kind == Light::Kind::spot) window *= spot_falloff(light, sample.direction);
+    sample.incoming = light.intensity * (window / distance2);
+    return sample;
+}
+
+LightSample sample_surroundings(const ShadingScene& shading, const Receiver& receiver, const glm::vec2& u) {
+    LightSample sample;
+    sample.distance = std::numeric_limits<float>::infinity();
+    if (shading.environment_map != nullptr) {
+        const EnvironmentSample picture = sample_environment(*shading.environment_map, u);
+        sample.direction = shading.environment_rotation * picture.direction;
+        sample.pdf = picture.pdf;
+    } else {
+        const glm::vec3 local = sample_cosine_hemisphere(u);
+        sample.direction = make_basis(receiver.normal).to_world(local);
+        sample.pdf = pdf_cosine_hemisphere(local.z);
+    }
+    if (sample.pdf > 0.0f) sample.incoming = environment_radiance(shading, sample.direction) / sample.pdf;
+    return sample;
+}
+
+}  // namespace
+
+float pdf_environment(const ShadingScene& shading, const Receiver& receiver, const glm::vec3& direction) {
+    if (shading.environment_map != nullptr) {
+        return pdf_environment(*shading.environment_map, direction * shading.environment_rotation);
+    }
+    return pdf_cosine_hemisphere(glm::dot(receiver.normal, direction));
+}
+
+float pdf_emitter(const Emitter& emitter, const glm::vec3& position, float cos_at_light, float distance) {
+    if (!(cos_at_light > 0.0f)) return 0.0f;
+    const SolidAngles angles = find_solid_angles(emitter, position);
+    return angles.total > 0.0f ? 1.0f / angles.total : pdf_by_area(emitter, cos_at_light, distance);
+}
+
+SeenLight see_light(const LightSet& lights, int light, const glm::vec3& position) {
+    SeenLight seen{light, {}};
+    if (light < std::ssize(lights.emitters)) seen.angles = find_solid_angles(lights.emitters[light], position);
+    return seen;
+}
+
+LightSample sample_seen_light(const ShadingScene& shading, const LightSet& lights, const SeenLight& seen,
+                              const Receiver& receiver, const glm::vec2& u, float share) {
+    const int emitters = static_cast<int>(lights.emitters.size());
+    if (seen.light < emitters) {
+        return sample_emitter(shading, lights.emitters[seen.light], seen.angles, receiver.position, u, share);
+    }
+    const int punctual = seen.light - emitters;
+    if (punctual < std::ssize(lights.punctual)) return sample_punctual(lights.punctual[punctual], receiver.position);
+    return sample_surroundings(shading, receiver, u);
+}
+
+LightSample sample_light(const ShadingScene& shading, const LightSet& lights, int light, const Receiver& receiver,
+                         const glm::vec2& u, float share) {
+    return sample_seen_light(shading, lights, see_light(lights, light, receiver.position), receiver, u, share);
+}
+
+}  // namespace aleph

@@ -1,0 +1,115 @@
+#pragma once
+// All lights of a posed scene: emissive instances, point, spot and directional lights, the environment.
+
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <vector>
+
+#include "render/light/light_tree.h"
+#include "render/surface/shading_scene.h"
+
+namespace aleph {
+
+/// One emissive instance: all its triangles together are one light.
+struct Emitter {
+    struct Triangle {
+        glm::vec3 corner, edge1, edge2;  ///< m, relative to the anchor
+        glm::vec3 normal;                ///< unit, on the side that emits
+        int primitive;
+    };
+    int instance = no_index;
+    bool double_sided = false;
+    bool textured = false;
+    bool pierced = false;    ///< some rays may pass it: a mask, or blended
+    Rgb radiance{0.0f};      ///< without texture
+    Rgb brightest{0.0f};     ///< no less than the radiance anywhere: where its texture is brightest, or white
+    float area = 0.0f;       ///< m2, of all triangles
+    glm::vec3 center{0.0f};  ///< m, of a sphere around all triangles
+    float radius = 0.0f;     ///< m, of that sphere
+    std::vector<Triangle> triangles;
+    std::vector<float> cumulative_area;  ///< share of the area up to and including each triangle
+};
+
+struct PunctualLight {
+    Light::Kind kind = Light::Kind::point;
+    glm::vec3 position{0.0f};   ///< m, relative to the anchor
+    glm::vec3 direction{0.0f};  ///< unit, in which light travels
+    Rgb intensity{0.0f};        ///< candela or lux
+    float range = 0.0f;         ///< m; 0: unlimited
+    /// Spot: 1 - cosine of the half-angles at which full intensity ends and at which light ends.
+    float inner_versine = 0.0f, outer_versine = 0.0f;
+};
+
+/// What each light brings to a point, roughly and quickly: for choosing among lights (bound_illuminance). One array for
+/// each value, so that several lights are looked at together.
+struct LightBounds {
+    static constexpr std::size_t step = 8;  ///< lights without strength fill the arrays up to a multiple of it
+
+    /// m, the centre of a sphere around a near light; unit vector towards a directional one; 0 for light from all
+    /// around.
+    std::vector<float> x, y, z;
+    std::vector<float> nearby;                  ///< 1 for near lights, 0 for others
+    std::vector<float> radius;                  ///< near: of that sphere, m; 0: directional; 1: from all around
+    std::vector<float> axis_x, axis_y, axis_z;  ///< unit normal of flat lights that shine on one side
+    std::vector<float> one_sided;               ///< 1 for those lights, 0 for others
+    std::vector<float> strength;  ///< near: luminous intensity along the axis; else illuminance of a facing surface
+    std::vector<float> inside;    ///< illuminance within the sphere
+};
+
+struct LightSet {
+    std::vector<Emitter> emitters;
+    std::vector<PunctualLight> punctual;
+    bool has_environment = false;          ///< one that is not black
+    std::vector<int> emitter_of_instance;  ///< per ScenePose instance: its emitter or no_index
+    LightBounds bounds;                    ///< per light
+    LightTree tree;                        ///< over all lights
+
+    /// Lights are numbered: emitters, then punctual lights, then the environment.
+    int count() const { return static_cast<int>(emitters.size() + punctual.size()) + (has_environment ? 1 : 0); }
+};
+
+LightSet make_light_set(const ShadingScene& shading);
+
+/// In LightSet::emitter_of_instance, of an emitter that is no light: rays that meet it find all of its emission.
+inline constexpr int left_out_emitter = -2;
+
+/// No light, whatever shines.
+void remove_all_lights(LightSet& lights);
+
+/// Leaves lights out, the others keep their order.
+/// @param instances, punctual  into ShadingScene::instances and ScenePose::lights
+void remove_lights(const ShadingScene& shading, const std::vector<int>& instances, const std::vector<int>& punctual,
+                   LightSet& lights);
+
+struct LightSample {
+    glm::vec3 direction{0.0f};  ///< unit, towards the light
+    float distance = 0.0f;      ///< m, to just before the light; infinite for directional light and environment
+    Rgb incoming{0.0f};  ///< radiance / pdf (area light, environment), or irradiance on a facing surface (punctual)
+    float pdf = 0.0f;    ///< per solid angle; 0 for punctual lights, which no ray can hit
+};
+
+/// The point that a light illuminates.
+struct Receiver {
+    /// m, where the shadow ray starts (SurfacePoint::ray_origin). If it were the surface point itself, the offset ray
+    /// could reach the light within LightSample::distance.
+    glm::vec3 position{0.0f};
+    glm::vec3 normal{0.0f};  ///< unit
+};
+
+/// Density per steradian of sample_light for the environment.
+float pdf_environment(const ShadingScene& shading, const Receiver& receiver, const glm::vec3& direction);
+
+/// A sample of one light as a point sees it, u in [0,1)^2. `incoming` is 0 if the light cannot reach the point even
+/// without obstacles (behind an emitter, zero area, out of range, outside a spot's cone). A constant environment is
+/// sampled by cosine around the receiver's normal, a picture by its luminance.
+/// @param share  of an area light's area that the sample represents: its texture is averaged over that much of it.
+///               0: the texture is read at the sampled point
+LightSample sample_light(const ShadingScene& shading, const LightSet& lights, int light, const Receiver& receiver,
+                         const glm::vec2& u, float share = 0.0f);
+
+/// Density per solid angle of sample_light, for a receiver at `position` and a point of the emitter at this distance
+/// whose normal has this cosine with the ray. Emitters of few triangles are sampled by solid angle if they are near,
+/// all others by area.
+float pdf_emitter(const Emitter& emitter, const glm::vec3& position, float cos_at_light, float distance);
+
+}  // namespace aleph

@@ -1,0 +1,190 @@
+#include "render/output/frame_files.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <glm/gtc/matrix_transform.hpp>
+#include <glm/gtc/type_ptr.hpp>
+#include <numeric>
+
+#include "engine/base/errors.h"
+#include "engine/pose/pose.h"
+#include "render/output/channel_table.h"
+#include "render/output/cryptomatte.h"
+#include "render/surface/node_paths.h"
+
+namespace aleph {
+
+namespace {
+
+template <class T, class Pick>
+Image<float> pick(const Image<T>& image, const Pick& value_of) {
+    Image<float> out(image.width, image.height);
+    for (std::size_t i = 0; i < out.size(); ++i) out.pixels[i] = static_cast<float>(value_of(image.pixels[i]));
+    return out;
+}
+
+void add(ChannelImage& file, const std::string& name, Image<float> values) {
+    if (!values.empty()) file.channels.push_back({name, std::move(values)});
+}
+
+void add_color(ChannelImage& file, const std::string& prefix, const Image<Rgb>& color) {
+    for (int c = 0; c < 3; ++c) {
+        add(file, prefix + "RGB"[c], pick(color, [c](const Rgb& v) { return v[c]; }));
+    }
+}
+
+/// The object at each pixel's centre, with a coverage of 1.
+void add_cryptomatte(ChannelImage& file, const Image<Hit>& hits, const Scene& scene) {
+    if (hits.empty()) return;
+    constexpr const char* layer = "CryptoObject";
+    const NodePaths paths(scene);
+    std::vector<std::string> shown;
+    std::vector<float> ids;
+    for (const Instance& instance : list_instances(scene)) {
+        const std::string path = paths[instance.node];
+        if (shown.empty() || shown.back() != path) shown.push_back(path);
+        ids.push_back(cryptomatte_id(path));
+    }
+    const auto at = [layer](const char* part) { return std::string(layer) + "00." + part; };
+    add(file, at("r"), pick(hits, [&](const Hit& hit) { return hit.instance == no_index ? 0.0f : ids[hit.instance]; }));
+    add(file, at("g"), pick(hits, [](const Hit& hit) { return hit.instance == no_index ? 0.0f : 1.0f; }));
+    for (const char* part : {"b", "a"}) add(file, at(part), Image<float>(hits.width, hits.height));
+    const std::string prefix = cryptomatte_prefix(layer);
+    file.metadata[prefix + "name"] = std::string(layer);
+    file.metadata[prefix + "hash"] = std::string("MurmurHash3_32");
+    file.metadata[prefix + "conversion"] = std::string("uint32_to_float32");
+    file.metadata[prefix + "manifest"] = cryptomatte_manifest(shown);
+}
+
+/// What each channel holds, as the attribute channel:NAME.
+void add_descriptions(ChannelImage& file) {
+    for (const ChannelInfo& info : channel_table()) {
+        for (const std::string& name : info.names) {
+            if (file.find(name) != nullptr) file.metadata["channel:" + name] = describe_channel(info);
+        }
+    }
+}
+
+void add_maps(ChannelImage& file, const FrameOutput& output, const Scene& scene) {
+    const MotionField& motion = output.motion;
+    add(file, "forward.u", pick(motion.displacement, [](const glm::dvec2& d) { return d.x; }));
+    // 0 - y: a still pixel is +0 in the file.
+    add(file, "forward.v", pick(motion.displacement, [](const glm::dvec2& d) { return 0.0 - d.y; }));
+    add(file, "motion.valid", pick(motion.validity, [](MotionValidity v) { return static_cast<int>(v); }));
+    add(file, "velocity.image", output.velocity);
+    const PerceptionMaps& maps = output.perception;
+    add(file, "velocity.retinal", maps.retinal_velocity);
+    add(file, "saliency.Y", maps.saliency);
+    add(file, "conspicuity.intensity", maps.conspicuity_intensity);
+    add(file, "conspicuity.color", maps.conspicuity_color);
+    add(file, "conspicuity.orientation", maps.conspicuity_orientation);
+    add(file, "conspicuity.motion", maps.conspicuity_motion);
+    add(file, "aleph.Y", maps.aleph);
+    add(file, "alpha.acc", output.alpha);
+    add(file, "threshold.Y", output.threshold);
+    add(file, "threshold.flicker", output.threshold_flicker);
+    add_color(file, "estimate.", output.estimate);
+    add(file, "Z", output.depth);
+    for (int c = 0; c < 3; ++c) {
+        add(file, std::string("N.") + "XYZ"[c], pick(output.normal, [c](const glm::vec3& n) { return n[c]; }));
+    }
+    add(file, "objectId.X", pick(output.hits, [](const Hit& hit) { return hit.instance; }));
+    add_cryptomatte(file, output.hits, scene);
+    if (!output.albedo.empty()) add_color(file, "albedo.", output.albedo);
+    if (!output.effects.empty()) add_color(file, "effects.", output.effects);
+    add(file, "samples.Y", output.shaded.samples);
+    add(file, "error.Y", output.shaded.errors.total);
+    for (std::size_t cause = 0; cause < cause_count; ++cause) {
+        add(file, "error." + cause_names()[cause], output.shaded.errors.by_cause[cause]);
+    }
+    add(file, "records.Y", output.shaded.records);
+    add(file, "cache.count", output.shaded.cache_count);
+    add(file, "cache.radius", output.shaded.cache_radius);
+    add(file, "invalid.Y", output.shaded.invalid_samples);
+}
+
+std::string define_motion(const FrameOutput& output, MotionSource source) {
+    if (output.motion_from_picture) {
+        return "forward.u/.v: position in frame N+1 minus position in frame N, pixels, x right, y up; from the "
+               "picture's "
+               "file";
+    }
+    const char* what = source == MotionSource::model ? "of the surface point under the pixel's centre"
+                                                     : "of what looks most like the pixel's neighbourhood";
+    return fmt::format(
+        "forward.u/.v: position in frame N+1 minus position in frame N {}, pixels, x right, y up; the last frame: N "
+        "minus N-1",
+        what);
+}
+
+/// OpenEXR's standard attribute: to camera axes with z forward (left-handed), m.
+glm::dmat4 world_to_camera(const CameraView& view) {
+    const glm::dmat3 turn = glm::transpose(view.axes);
+    const glm::dmat4 right_handed = glm::translate(glm::dmat4(turn), -view.position);
+    return glm::scale(glm::dmat4(1.0), {1.0, 1.0, -1.0}) * right_handed;
+}
+
+/// OpenEXR's standard attribute: after division by w, x and y are 0 to 1 over the picture, y down.
+glm::dmat4 world_to_ndc(const CameraView& view) {
+    const glm::dvec2 size(view.width, view.height), middle = 0.5 * size + view.axis_offset;
+    glm::dmat4 project(0.0);  // columns: what x, y, z and 1 of camera axes add
+    project[0] = {view.pixels_per_unit / size.x, 0.0, 0.0, 0.0};
+    project[1] = {0.0, -view.pixels_per_unit / size.y, 0.0, 0.0};
+    const glm::dvec4 offset(middle / size, 0.0, 1.0);
+    project[view.orthographic ? 3 : 2] = offset;
+    project[view.orthographic ? 2 : 3].z = 1.0;
+    return project * world_to_camera(view);
+}
+
+/// The columns of a matrix for column vectors are the rows of one for row vectors.
+Matrix44f to_attribute(const glm::dmat4& matrix) {
+    Matrix44f attribute;
+    std::transform(glm::value_ptr(matrix), glm::value_ptr(matrix) + 16, attribute.begin(),
+                   [](double value) { return static_cast<float>(value); });
+    return attribute;
+}
+
+}  // namespace
+
+Image<float> make_importance(const Image<float>& aleph) {
+    Image<float> importance(aleph.width, aleph.height);
+    for (std::size_t i = 0; i < aleph.size(); ++i) importance.pixels[i] = 1.0f / aleph.pixels[i];
+    return importance;
+}
+
+ChannelImage make_frame_image(const FrameOutput& output, bool maps, const Scene& scene, const RenderSettings& settings,
+                              double exposure) {
+    ChannelImage file;
+    if (!output.shaded.color.empty()) {
+        add_color(file, "", output.shaded.color);
+        add(file, "A", output.shaded.coverage);
+        add(file, "variance.Y", output.shaded.variance);
+    }
+    if (maps) add_maps(file, output, scene);
+    add_descriptions(file);
+    file.metadata["software"] = "aleph " ALEPH_VERSION;
+    file.metadata["framesPerSecond"] = std::array<int, 2>{static_cast<int>(scene.frame_rate.numerator),
+                                                          static_cast<int>(scene.frame_rate.denominator)};
+    file.metadata["frame"] = static_cast<double>(output.statistics.frame);
+    file.metadata["whiteLuminance"] = scene.viewing.display_white;
+    file.metadata["pixelsPerDegree"] = scene.viewing.pixels_per_degree;
+    file.metadata["displayPersistence"] = scene.viewing.persistence;
+    file.metadata["exposureFactor"] = exposure;
+    if (output.view.width > 0) {  // pictures that were not rendered here have no camera and no samples
+        const Image<float>& samples = output.shaded.samples;
+        const double taken = std::accumulate(samples.pixels.begin(), samples.pixels.end(), 0.0);
+        file.metadata["samplesPerPixel"] = samples.empty() ? 0.0 : taken / static_cast<double>(samples.size());
+        file.metadata["seed"] = static_cast<double>(settings.seed);
+        file.metadata["worldToCamera"] = to_attribute(world_to_camera(output.view));
+        file.metadata["worldToNDC"] = to_attribute(world_to_ndc(output.view));
+    }
+    file.metadata["motion:definition"] = define_motion(output, settings.motion);
+    for (const auto& [key, value] : setting_map(settings)) {
+        const std::string text = std::visit([](const auto& v) { return fmt::format("{}", v); }, value);
+        file.metadata["aleph:" + key] = text;
+    }
+    return file;
+}
+
+}  // namespace aleph

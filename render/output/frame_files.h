@@ -1,0 +1,48 @@
+#pragma once
+// A frame as an EXR file, with channels and attributes, and the statistics of frames as JSON.
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "engine/image/image_file.h"
+#include "engine/scene/scene.h"
+#include "render/frame/frame_output.h"
+#include "render/settings/settings.h"
+
+namespace aleph {
+
+/// What all frames were to take (`aleph render --budget`), and what they took: seconds of a clock, those before the
+/// first frame included.
+struct BudgetStatistics {
+    double asked = 0.0;
+    double error = 0.0;  ///< that was chosen, thresholds
+    double predicted = 0.0;
+    double took = 0.0;   ///< 0 until the last frame is written
+    double pilot = 0.0;  ///< part of predicted and took
+};
+
+/// The channels R, G, B, A if the picture was rendered, and with `maps` those of every map that was made.
+/// render/README.md describes the channels. forward.v is positive upwards; MotionField of C++ is positive downwards.
+ChannelImage make_frame_image(const FrameOutput& output, bool maps, const Scene& scene, const RenderSettings& settings,
+                              double exposure);
+
+/// {"frames": [...], "settings": {...}, ...} as text. Times, host and number of threads are only here, so that EXR
+/// files do not depend on them.
+std::string format_statistics(const std::vector<FrameStatistics>& frames, const Scene& scene,
+                              const RenderSettings& settings, double exposure);
+
+/// One element of "frames" as text, so that a growing file need not format all of them again.
+std::string format_frame_statistics(const FrameStatistics& frame);
+
+/// The same text as of a vector.
+/// @param frames  what format_frame_statistics returned for each frame, joined by ",\n"
+std::string format_statistics(std::string_view frames, const Scene& scene, const RenderSettings& settings,
+                              double exposure, const std::optional<BudgetStatistics>& budget = std::nullopt);
+
+/// How much a pixel needs samples, for renderers that take such a picture: 1 over the Aleph map, so that 1 is where
+/// viewers are strictest and no value is 0.
+Image<float> make_importance(const Image<float>& aleph);
+
+}  // namespace aleph

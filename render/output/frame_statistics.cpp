@@ -1,0 +1,149 @@
+// The --stats file: counts and times of every frame as JSON.
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <nlohmann/json.hpp>
+
+#include "engine/base/parallel.h"
+#include "render/output/frame_files.h"
+#include "render/plan/effects_json.h"
+#include "render/settings/setting_table.h"
+
+namespace aleph {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json moments_json(const std::vector<MomentStatistics>& moments) {
+    Json list = Json::array();
+    for (const MomentStatistics& m : moments) {
+        list.push_back({{"frame", m.frame},
+                        {"records", m.counts.records},
+                        {"deeper_records", m.counts.deeper_records},
+                        {"deeper_rays", m.counts.deeper_rays},
+                        {"rays",
+                         {{"primary", m.counts.rays.primary},
+                          {"shadow", m.counts.rays.shadow},
+                          {"gather", m.counts.rays.gather},
+                          {"total", m.counts.rays.total()}}},
+                        {"seconds", m.seconds}});
+    }
+    return list;
+}
+
+Json error_json(const std::optional<ErrorShares>& error) {
+    if (!error) return nullptr;
+    Json causes = Json::object();
+    for (std::size_t i = 0; i < cause_count; ++i) causes[cause_names()[i]] = error->by_cause[i];
+    return {{"asked", error->asked}, {"share_beyond", error->beyond}, {"by_cause", causes}};
+}
+
+/// Whole numbers without a decimal point.
+Json setting_json(const Setting& setting, const RenderSettings& settings) {
+    const SettingValue value = setting.get(settings);
+    if (setting.type == SettingType::whole_number) return static_cast<std::int64_t>(std::get<double>(value));
+    return std::visit([](const auto& v) { return Json(v); }, value);
+}
+
+Json budget_json(const BudgetStatistics& budget) {
+    return {{"asked", budget.asked},
+            {"error", budget.error},
+            {"predicted", budget.predicted},
+            {"took", budget.took > 0.0 ? Json(budget.took) : Json(nullptr)},
+            {"pilot", budget.pilot}};
+}
+
+Json frame_json(const FrameStatistics& f) {
+    Json seconds = Json::object();
+    for (const auto& [stage, value] : list_stages(f.seconds)) seconds[stage] = value;
+    return {
+        {"frame", f.frame},
+        {"copy_of", f.copy_of ? Json(*f.copy_of) : Json(nullptr)},
+        {"seconds", seconds},
+        {"rays",
+         {{"primary", f.counts.rays.primary},
+          {"shadow", f.counts.rays.shadow},
+          {"gather", f.counts.rays.gather},
+          {"glossy", f.counts.rays.glossy},
+          {"specular", f.counts.rays.specular},
+          {"path", f.counts.rays.path},
+          {"deeper", f.counts.rays.deeper},
+          {"total", f.counts.rays.total()},
+          {"traced", f.traced_rays},
+          {"invalid", f.invalid_rays}}},
+        {"cache",
+         {{"records", f.counts.records},
+          {"deeper_records", f.counts.deeper_records},
+          {"deeper_rays", f.counts.deeper_rays},
+          {"lookups", f.counts.cache.lookups},
+          {"hits", f.counts.cache.hits},
+          {"rounds", f.counts.cache.rounds}}},
+        {"moments", moments_json(f.moments)},
+        {"samples", f.counts.samples},
+        {"error", error_json(f.error)},
+        {"nan", f.counts.invalid_samples},
+        {"estimate",
+         {{"replaced", f.sanitized.replaced}, {"clamped", f.sanitized.clamped}, {"median_cd_m2", f.median_luminance}}},
+        {"saliency_fallback", f.saliency_fallback},
+        {"plan", to_json(f.plan)},
+        {"plan_seconds", f.plan_seconds},
+        {"instances_updated", f.instances_touched},
+        {"peak_memory_mib", f.peak_memory_mib}};
+}
+
+}  // namespace
+
+std::array<std::pair<const char*, double>, 10> list_stages(const StageSeconds& s) {
+    return {{{"pose", s.pose},
+             {"update", s.update},
+             {"first_hits", s.first_hits},
+             {"estimate", s.estimate},
+             {"motion", s.motion},
+             {"perception", s.perception},
+             {"fill", s.fill},
+             {"shade", s.shade},
+             {"write", s.write},
+             {"total", s.total}}};
+}
+
+std::string format_frame_statistics(const FrameStatistics& frame) {
+    const std::string text = frame_json(frame).dump(2);
+    std::string indented = "    ";
+    for (const char c : text) {
+        indented += c;
+        if (c == '\n') indented += "    ";
+    }
+    return indented;
+}
+
+std::string format_statistics(const std::vector<FrameStatistics>& frames, const Scene& scene,
+                              const RenderSettings& settings, double exposure) {
+    std::string joined;
+    for (const FrameStatistics& frame : frames) {
+        if (!joined.empty()) joined += ",\n";
+        joined += format_frame_statistics(frame);
+    }
+    return format_statistics(joined, scene, settings, exposure);
+}
+
+std::string format_statistics(std::string_view frames, const Scene& scene, const RenderSettings& settings,
+                              double exposure, const std::optional<BudgetStatistics>& budget) {
+    Json json;
+    json["schema_version"] = 1;
+    json["scene"] = scene.file;
+    json["frames"] = Json::array();
+    for (const Setting& setting : setting_table()) json["settings"][setting.key] = setting_json(setting, settings);
+    json["exposure"] = exposure;
+    if (budget) json["budget"] = budget_json(*budget);
+    json["threads"] = thread_count();
+    char host[256] = "";
+    if (gethostname(host, sizeof host - 1) == 0) json["host"] = host;
+    std::string text = json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+    if (frames.empty()) return text;
+    const std::string_view empty = "\n  \"frames\": []";  // nowhere else: strings have neither quotes nor line ends
+    return text.insert(text.find(empty) + empty.size() - 1, fmt::format("\n{}\n  ", frames));
+}
+
+}  // namespace aleph

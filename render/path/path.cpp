@@ -1,0 +1,231 @@
+#include "render/path/path.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "render/pixels/lattice.h"
+
+namespace aleph {
+
+namespace {
+
+constexpr float least_survival = 0.05f;
+
+/// sr: a lobe of this solid angle or less counts as narrow. It is that of GGX with roughness .25.
+constexpr float narrow_lobe = 0.05f;
+
+/// Known irradiance may err by more than the pixel's accuracy where the path has little weight, and where a wide lobe
+/// averages over many places, but by no more than this.
+constexpr float loosest_accuracy = 0.5f;
+
+float largest_channel(const Rgb& c) {
+    return std::max({c.x, c.y, c.z});
+}
+
+void count_ray(RayCounts& counts, const ScatterSample& sample) {
+    if (sample.lobe == Lobe::diffuse) {
+        ++counts.path;
+    } else if (sample.pdf > 0.0f) {
+        ++counts.glossy;
+    } else {
+        ++counts.specular;
+    }
+}
+
+/// Weight of light that was met, against the density with which the light would have been sampled.
+float weigh(const PathState& state, float light_pdf) {
+    switch (state.emission) {
+        case EmissionWeight::full:
+            return 1.0f;
+        case EmissionWeight::weighted:
+            return power_heuristic(state.pdf, light_pdf);
+        case EmissionWeight::none:
+            break;
+    }
+    return 0.0f;
+}
+
+/// Solid angle of the lobe that the path's last turn was sampled from, about, sr.
+float lobe_solid_angle(const PathState& state) {
+    return state.emission == EmissionWeight::weighted && state.pdf > 0.0f ? 1.0f / state.pdf : 0.0f;
+}
+
+/// alpha for look-ups. A path of weight w brings an error of w times that of the look-up to the pixel. The square root
+/// of w leaves room for surfaces that are brighter in the reflection than the pixel itself.
+float loosen_accuracy(const PathState& state) {
+    const float weight = std::min(largest_channel(state.throughput), 1.0f);
+    const float spread = std::sqrt(std::min(lobe_solid_angle(state), 1.0f));
+    const float loose = state.accuracy * (1.0f + spread) / std::sqrt(std::max(weight, 1e-3f));
+    return std::max(state.accuracy, std::min(loose, loosest_accuracy));
+}
+
+/// Lights to sample at the surface that the path met.
+int count_light_samples(const PathState& state) {
+    if (state.light_samples <= 1) return 1;
+    const float width = std::max(1.0f, lobe_solid_angle(state) / narrow_lobe);
+    const float weight = std::min(largest_channel(state.throughput), 1.0f);
+    return std::max(1, static_cast<int>(std::lround(static_cast<float>(state.light_samples) * weight / width)));
+}
+
+/// Emission of a surface that a ray met.
+Rgb met_emission(const LightingContext& context, const PathState& state, const ViewedSurface& surface, int instance) {
+    const Rgb& emission = surface.material.emission;
+    if (emission == Rgb(0.0f) || state.emission == EmissionWeight::none) return Rgb(0.0f);
+    const int emitter = context.lights.emitter_of_instance[instance];
+    if (emitter == left_out_emitter) return emission;
+    if (emitter == no_index) return state.emission == EmissionWeight::full ? emission : Rgb(0.0f);  // unlit
+    float light_pdf = 0.0f;
+    if (state.emission == EmissionWeight::weighted) {
+        light_pdf = pdf_emitter(context.lights.emitters[emitter], state.from.position,
+                                std::abs(glm::dot(surface.point.geometric, surface.view)),
+                                glm::distance(surface.point.position, state.from.position));
+    }
+    return emission * weigh(state, light_pdf);
+}
+
+/// A path that is being made.
+class Path {
+  public:
+    Path(const LightingContext& context, RayTask& task, const PathState& state, RandomStream& random)
+        : context_(context), task_(task), state_(state), random_(random) {}
+
+    /// Adds the light of the surface and of everything beyond.
+    void scatter_at(ViewedSurface& surface) {
+        while (state_.left.depth > 0) {
+            if (state_.turned && context_.shading.skipped.contains(Effect::caustics)) remove_specular(surface.material);
+            const bool known = add_known(surface);
+            if (!survive()) return;
+            --state_.left.depth;
+            if (surface.material.volume) surface.material.ior_ratio = state_.media.ratio_at(surface);
+            const LitSurface lit(surface);
+            const LobeShares shares = share_lobes(lit, known ? LobeSet::specular : LobeSet::all);
+            add_direct(lit, shares);
+            if (shares == LobeShares{}) return;
+            const ScatterSample sample = sample_scatter(lit, shares, random_.next(), random_.next_2d(), random_.next());
+            // After the last bounce the ray still looks for lamps: near a large one, sampling it alone is noise.
+            const bool ends = state_.left.bounces <= 0 && sample.lobe == Lobe::diffuse;
+            if (!follow(lit, sample, surface) || ends) return;
+        }
+    }
+
+    /// Casts the ray of a sample and adds the emission that it meets. True if it met a surface, which is then `next`.
+    /// @param next  may be the surface that `lit` refers to
+    bool follow(const LitSurface& lit, const ScatterSample& sample, ViewedSurface& next) {
+        if (sample.weight == Rgb(0.0f)) return false;
+        state_.throughput *= sample.weight;
+        if (!sample.straight) {
+            state_.emission = sample.pdf > 0.0f ? EmissionWeight::weighted : EmissionWeight::full;
+            state_.pdf = sample.pdf;
+            state_.from = {lit.point.ray_origin(), lit.point.normal};
+        }
+        if (sample.lobe == Lobe::diffuse) {
+            --state_.left.bounces;
+            state_.turned = true;
+        }
+        if (sample.passes && lit.material.volume) state_.media.pass({lit.point, lit.material, glm::vec3(0.0f)});
+        const Ray ray{lit.ray_origin(sample.direction), sample.direction};
+        count_ray(task_.counts, sample);
+        return meet(ray, next);
+    }
+
+    const Rgb& light() const { return light_; }
+
+  private:
+    /// Adds the indirect light that the Lambert layer scatters, if it is known: before Russian roulette, as no ray is
+    /// needed. Then the path must not go on from that layer.
+    bool add_known(const ViewedSurface& surface) {
+        if (state_.known == nullptr || hit_.instance == no_index || !surface.material.has_diffuse()) return false;
+        if (std::min(state_.left.bounces, state_.left.depth - 1) != state_.known->bounces) return false;
+        const std::optional<Rgb> irradiance = state_.known->find(surface, hit_, loosen_accuracy(state_), task_);
+        if (!irradiance) return false;
+        const LitSurface lit(surface);
+        light_ += state_.throughput * diffuse_radiance(surface.material, lit.cos_view, *irradiance) * lit.below_sheen;
+        return true;
+    }
+
+    void add_direct(const LitSurface& lit, const LobeShares& shares) {
+        const SurfaceMaterial& material = lit.material;
+        const bool only_mirrors = !material.has_diffuse() && !material.has_sheen() &&
+                                  (!material.has_glossy() || material.is_mirror()) &&
+                                  (!material.has_glass() || material.is_glass_smooth()) &&
+                                  (!material.has_coat() || material.is_coat_mirror());
+        if (only_mirrors) return;
+        const int count = count_light_samples(state_);
+        if (count == 1) {
+            add_light(choose_light(context_, lit, shares, random_), 1.0f);
+            return;
+        }
+        const float choice = random_.next();
+        const glm::vec2 shift = random_.next_2d();
+        for (int i = 0; i < count; ++i) {
+            const float step = static_cast<float>(i) / static_cast<float>(count);
+            const LightNumbers numbers{fraction(choice + step), lattice_point(i, count, shift)};
+            add_light(choose_light(context_, lit, shares, numbers), 1.0f / static_cast<float>(count));
+        }
+    }
+
+    void add_light(const ScatteredLight& direct, float share) {
+        if (direct.radiance == Rgb(0.0f)) return;
+        Rgb arrives = direct.radiance;
+        if (direct.shadowed) arrives *= find_transmittance(context_, task_, direct.shadow_ray);
+        if (const Rgb attenuation = state_.media.attenuation_inside(); attenuation != Rgb(0.0f)) {
+            arrives *= glm::exp(-attenuation * direct.shadow_ray.far);
+        }
+        light_ += state_.throughput * arrives * share;
+    }
+
+    /// Russian roulette (Arvo and Kirk 1990).
+    bool survive() {
+        if (state_.roulette_after-- > 0) return true;
+        const float chance = std::clamp(state_.survival * largest_channel(state_.throughput), least_survival, 1.0f);
+        if (random_.next() >= chance) return false;
+        state_.throughput /= chance;
+        return true;
+    }
+
+    bool meet(const Ray& ray, ViewedSurface& next) {
+        const Hit hit = hit_ = task_.tracer.intersect(ray);
+        if (hit.instance == no_index) {
+            if (context_.lights.has_environment && state_.emission != EmissionWeight::none) {
+                const float pdf = state_.emission == EmissionWeight::weighted
+                                      ? pdf_environment(context_.shading, state_.from, ray.direction)
+                                      : 0.0f;
+                light_ +=
+                    state_.throughput * environment_radiance(context_.shading, ray.direction) * weigh(state_, pdf);
+            }
+            return false;
+        }
+        next = view_surface(context_.shading, make_surface_point(context_.shading, hit, ray.direction), -ray.direction,
+                            {});
+        const Rgb attenuation = state_.media.attenuation(next);
+        if (attenuation != Rgb(0.0f)) state_.throughput *= glm::exp(-attenuation * hit.distance);
+        light_ += state_.throughput * met_emission(context_, state_, next, hit.instance);
+        return true;
+    }
+
+    const LightingContext& context_;
+    RayTask& task_;
+    PathState state_;
+    RandomStream& random_;
+    Hit hit_{};  ///< of the last ray; none before it
+    Rgb light_{0.0f};
+};
+
+}  // namespace
+
+Rgb scatter_light(const LightingContext& context, RayTask& task, ViewedSurface surface, PathState state,
+                  RandomStream& random) {
+    Path path(context, task, state, random);
+    path.scatter_at(surface);
+    return path.light();
+}
+
+Rgb follow_sample(const LightingContext& context, RayTask& task, const LitSurface& lit, const ScatterSample& sample,
+                  PathState state, RandomStream& random) {
+    Path path(context, task, state, random);
+    ViewedSurface next;
+    if (path.follow(lit, sample, next)) path.scatter_at(next);
+    return path.light();
+}
+
+}  // namespace aleph

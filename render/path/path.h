@@ -1,0 +1,53 @@
+#pragma once
+// Light along paths: what reaches a surface point by any number of scattering events, without bias. Path tracing with
+// next-event estimation (Kajiya 1986) and multiple importance sampling (Veach 1997), ended by Russian roulette.
+
+#include "render/light/light_choice.h"
+#include "render/path/known_irradiance.h"
+#include "render/surface/media.h"
+
+namespace aleph {
+
+/// How far paths go on.
+struct PathLimits {
+    int bounces = 0;  ///< times that a Lambert layer may turn the path
+    int depth = 0;    ///< surfaces that may scatter, of all kinds
+};
+
+/// How light counts that the next ray meets straight away at a lamp or the environment.
+enum class EmissionWeight : std::uint8_t {
+    full,      ///< nothing else can find it: a camera ray, a mirror
+    weighted,  ///< against sampling the light itself
+    none,      ///< it is already counted
+};
+
+/// A path up to its last ray.
+struct PathState {
+    PathLimits left;
+    Rgb throughput{1.0f};
+    EmissionWeight emission = EmissionWeight::full;
+    float pdf = 0.0f;        ///< density of the last turn, per steradian, if `weighted`
+    Receiver from;           ///< where it turned
+    int roulette_after = 4;  ///< surfaces that scatter before Russian roulette may end the path
+    float survival = 1.0f;   ///< chance to survive it, times the path's weight; at most 1
+    bool turned = false;     ///< at a Lambert layer
+    Media media;
+    /// Used at surfaces that the path meets while the bounces that are left are those that it holds; null: nothing is
+    /// known, and all light is found without bias.
+    const KnownIrradiance* known = nullptr;
+    float accuracy = 0.0f;  ///< alpha of the pixel, for `known`
+    /// Lights that are sampled where a path arrives with its full weight from a mirror or a narrow lobe; fewer in
+    /// proportion to its weight and to the width of the lobe, at least one.
+    int light_samples = 1;
+};
+
+/// Light that the surface scatters towards its viewer, without its own emission.
+Rgb scatter_light(const LightingContext& context, RayTask& task, ViewedSurface surface, PathState state,
+                  RandomStream& random);
+
+/// Light that comes back along a sampled direction: from lamps and the environment that the ray meets, and what the
+/// surface there scatters, within the state's limits. Its weight is included.
+Rgb follow_sample(const LightingContext& context, RayTask& task, const LitSurface& lit, const ScatterSample& sample,
+                  PathState state, RandomStream& random);
+
+}  // namespace aleph

@@ -1,0 +1,97 @@
+#pragma once
+// The samples of one pixel, added up, with what tells the error of their mean.
+
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <optional>
+
+#include "engine/base/color.h"
+#include "engine/base/index.h"
+
+namespace aleph {
+
+/// First samples of a pixel with `threshold`: its neighbours tell the error of eight times as many.
+inline constexpr int own_samples = 4;
+
+/// Parts of a sample's light whose errors are told apart.
+enum class LightPart : std::uint8_t {
+    surface,  ///< everything that the first surface shows without sampling: emission and cached light
+    direct,   ///< straight from the lights
+    gloss,    ///< along sampled reflections and refractions
+};
+inline constexpr int light_part_count = 3;
+
+/// Light of one sample, by part.
+struct SampleLight {
+    std::array<Rgb, light_part_count> parts{Rgb(0.0f), Rgb(0.0f), Rgb(0.0f)};
+    Rgb indirect{0.0f};             ///< what the surface reflects of its indirect irradiance; within LightPart::surface
+    std::optional<Rgb> irradiance;  ///< indirect, that was looked up for it
+    int instance = no_index;        ///< of the first surface; no_index: the background
+    glm::vec3 position{0.0f};       ///< m, on that surface
+    glm::vec3 geometric{0.0f}, normal{0.0f};  ///< unit, its true normal and its shading normal
+    float footprint = 0.0f;                   ///< m, of a pixel there
+
+    Rgb& operator[](LightPart part) { return parts[static_cast<std::size_t>(part)]; }
+    Rgb total() const { return parts[0] + parts[1] + parts[2]; }
+};
+
+/// The valid samples of a pixel so far. Sums are in double: a float sum of 65,536 samples can be off by 0.2 %.
+///
+/// Samples of a low-discrepancy sequence are more even than independent ones, so that their variance tells too large an
+/// error. The error is therefore found from halves: whenever 2, 4, 8, ... samples have been taken, the means of the
+/// first and of the second half are compared. A quarter of their squared difference is the squared error of the mean
+/// of independent halves, and more than that of halves that complement each other.
+class PixelSamples {
+  public:
+    /// Squared errors of the mean luminance.
+    struct Error {
+        float total = 0.0f;
+        std::array<float, light_part_count> parts{};
+        int samples = 0;  ///< that the mean was of; 0: too few to tell
+    };
+
+    void add(const SampleLight& light);
+    /// A sample that is NaN or infinite: left out.
+    void add_invalid() { end_sample(); }
+
+    int taken() const { return taken_; }
+    int valid() const { return valid_; }
+    /// Mean of the valid samples; 0 if there are none.
+    Rgb mean() const { return valid_ == 0 ? Rgb(0.0f) : Rgb(radiance_ / static_cast<double>(valid_)); }
+    Rgb mean_indirect() const { return valid_ == 0 ? Rgb(0.0f) : indirect_ / static_cast<float>(valid_); }
+    /// Share of the valid samples that hit a surface.
+    float coverage() const { return valid_ == 0 ? 0.0f : static_cast<float>(hits_) / static_cast<float>(valid_); }
+    /// Variance of a sample's luminance, as if samples were independent; from 2 valid samples or more.
+    double sample_variance() const { return valid_ < 2 ? 0.0 : squares_ / (valid_ - 1); }
+    /// Variance of the mean luminance, as if samples were independent.
+    double variance() const { return valid_ < 2 ? 0.0 : sample_variance() / valid_; }
+    const Error& error() const { return error_; }
+    /// Indirect irradiance for a sample that sees the surface of the pixel's first one: the mean of what the first four
+    /// such samples looked up, at places spread over the pixel. Nothing before there are four.
+    /// @param light  of the sample: its surface
+    std::optional<Rgb> find_irradiance(const SampleLight& light) const;
+    /// Whether its samples saw several objects, or faces of one: an edge crosses the pixel.
+    bool has_edge() const { return edge_; }
+
+  private:
+    void end_sample();
+    bool is_on_first_face(const SampleLight& light) const;
+    bool is_first_surface(const SampleLight& light) const;
+
+    glm::dvec3 radiance_{0.0};
+    Rgb indirect_{0.0f};
+    int taken_ = 0, valid_ = 0, hits_ = 0;
+    double mean_ = 0.0, squares_ = 0.0;  ///< of luminance: mean, squared differences from it (Welford 1962)
+    std::array<double, light_part_count> luminances_{};
+    std::array<double, light_part_count> first_half_{};  ///< `luminances_` of the samples before the present half
+    int first_valid_ = 0;
+    Error error_;
+    int instance_ = no_index;  ///< of the first sample
+    glm::vec3 position_{0.0f}, geometric_{0.0f}, normal_{0.0f};
+    Rgb irradiance_{0.0f};  ///< sum
+    int irradiances_ = 0;
+    bool edge_ = false;
+};
+
+}  // namespace aleph

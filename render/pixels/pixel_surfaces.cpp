@@ -1,0 +1,84 @@
+#include "render/pixels/pixel_surfaces.h"
+
+#include <cmath>
+#include <numbers>
+
+#include "render/pixels/pixel_sequence.h"
+
+namespace aleph {
+
+namespace {
+
+/// A point of the unit disc: concentric squares become circles (Shirley and Chiu 1997).
+glm::dvec2 sample_disc(const glm::vec2& u) {
+    const double a = 2.0 * u.x - 1.0, b = 2.0 * u.y - 1.0;
+    if (a == 0.0 && b == 0.0) return {0.0, 0.0};
+    constexpr double quarter = std::numbers::pi / 4.0;
+    const bool wide = std::abs(a) > std::abs(b);
+    const double radius = wide ? a : b, angle = wide ? quarter * (b / a) : 2.0 * quarter - quarter * (a / b);
+    return {radius * std::cos(angle), radius * std::sin(angle)};
+}
+
+}  // namespace
+
+glm::dvec2 place_sample(const SamplePlace& place, int x, int y) {
+    if (place.centered) return {x + 0.5, y + 0.5};
+    const glm::vec2 u = PixelSequence(place.seed, place.moment, x, y).at_2d(SampleUse::pixel, place.index);
+    return {x + 0.5 + place_in_filter(place.filter, u.x), y + 0.5 + place_in_filter(place.filter, u.y)};
+}
+
+CameraRay make_lens_ray(const CameraView& view, const Lens& lens, const glm::dvec2& pixel, const glm::vec2& u) {
+    CameraRay ray = make_camera_ray(view, pixel.x, pixel.y);
+    const glm::dvec2 at = lens.radius * sample_disc(u);
+    const glm::dvec3 shift = view.axes[0] * at.x + view.axes[1] * at.y;
+    // Rays of a pixel meet in the plane at the focus distance: its planar distance is along the view direction.
+    const double along = -glm::dot(ray.direction, view.axes[2]);
+    ray.origin += shift;
+    ray.direction = glm::normalize(ray.direction - shift * (along / lens.focus_distance));
+    return ray;
+}
+
+CameraRay make_sample_ray(const CameraView& view, const SamplePlace& place, int x, int y) {
+    const glm::dvec2 pixel = place_sample(place, x, y);
+    if (!(place.lens.radius > 0.0)) return make_camera_ray(view, pixel.x, pixel.y);
+    const PixelSequence sequence(place.seed, place.moment, x, y);
+    return make_lens_ray(view, place.lens, pixel, sequence.at_2d(SampleUse::lens, place.index));
+}
+
+PixelSurface make_pixel_surface(const ShadingScene& shading, const CameraView& view, const SamplePlace& place,
+                                const Hit& hit, const glm::vec3& direction, int x, int y) {
+    const SurfacePoint point = make_surface_point(shading, hit, direction);
+    PixelSurface surface{view_surface(shading, point, -direction,
+                                      make_pixel_footprint(view, point, direction, hit.distance, place.spacing))};
+    surface.hit = hit;
+    surface.distance = hit.distance;
+    const float distance = view.orthographic ? 1.0f : hit.distance;
+    surface.footprint = distance / static_cast<float>(view.pixels_per_unit);
+    surface.x = x;
+    surface.y = y;
+    surface.sample = place.index;
+    surface.pixel =
+        static_cast<std::uint32_t>(y) * static_cast<std::uint32_t>(view.width) + static_cast<std::uint32_t>(x);
+    return surface;
+}
+
+PixelSurface make_pixel_surface(const ShadingScene& shading, const CameraView& view, const SampleHits& sample, int x,
+                                int y) {
+    const glm::vec3 direction(make_sample_ray(view, sample.place, x, y).direction);
+    return make_pixel_surface(shading, view, sample.place, sample.hits(x, y), direction, x, y);
+}
+
+SampleHits cast_sample(const RayScene& rays, const CameraView& view, const SamplePlace& place,
+                       std::uint64_t* rays_cast) {
+    SampleHits sample{Image<Hit>(view.width, view.height), place};
+    cast_rays(
+        rays, [&](int x, int y) { return make_sample_ray(view, place, x, y); }, place.blend, sample.hits);
+    if (rays_cast != nullptr) *rays_cast += sample.hits.size();
+    return sample;
+}
+
+SampleHits cast_centers(const RayScene& rays, const CameraView& view, std::uint64_t* rays_cast) {
+    return cast_sample(rays, view, {}, rays_cast);
+}
+
+}  // namespace aleph

@@ -1,0 +1,225 @@
+#include "render/plan/effect_facts.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/base/parallel.h"
+#include "engine/scene/transforms.h"
+#include "render/surface/convex_mesh.h"
+#include "render/surface/ggx.h"
+
+namespace aleph {
+
+namespace {
+
+constexpr double margin = 2.0;  // pixels around the picture that its filter may reach
+
+float largest_channel(const glm::vec3& c) {
+    return std::max({c.x, c.y, c.z});
+}
+
+/// Over the channels that a use of the texture reads; 1 without a texture.
+glm::vec3 largest_texel(const TextureSet& set, const TextureUse& use) {
+    return use.texture == no_index ? glm::vec3(1.0f) : set.textures[use.texture].largest;
+}
+
+float smallest_green(const TextureSet& set, const TextureUse& use) {
+    return use.texture == no_index ? 1.0f : set.textures[use.texture].smallest.y;
+}
+
+void add_layers(const MaterialValues& values, const MaterialTextures& textures, const TextureSet& set,
+                MaterialFacts& facts) {
+    const auto add_lobe = [&](float reflectance, float least, float most) {
+        facts.reflectance = std::max(facts.reflectance, std::min(reflectance, 1.0f));
+        if (least * least < min_ggx_alpha) facts.mirror = true;
+        if (most * most < min_ggx_alpha) return;
+        facts.glossy = true;
+        facts.least_width = std::min(facts.least_width, std::max(least * least, min_ggx_alpha));
+    };
+    const float metallic = values.metallic * largest_texel(set, textures.metallic_roughness).z;
+    const float dielectric = values.specular *
+                             (values.transmission < 1.0f || textures.transmission.texture != no_index ? 1.0f : 0.0f) *
+                             (values.metallic < 1.0f || textures.metallic_roughness.texture != no_index ? 1.0f : 0.0f);
+    const bool stretched = values.anisotropy > 0.0f;
+    if (metallic > 0.0f || dielectric > 0.0f) {
+        const float least = values.roughness * smallest_green(set, textures.metallic_roughness);
+        const float most = values.roughness * largest_texel(set, textures.metallic_roughness).y;
+        add_lobe(std::max(metallic, dielectric), least, stretched ? 1.0f : most);
+    }
+    if (values.clearcoat > 0.0f) {
+        const float least = values.clearcoat_roughness * smallest_green(set, textures.clearcoat_roughness);
+        add_lobe(values.clearcoat, least,
+                 values.clearcoat_roughness * largest_texel(set, textures.clearcoat_roughness).y);
+    }
+    if (values.sheen_color != Rgb(0.0f)) add_lobe(largest_channel(values.sheen_color), 1.0f, 1.0f);
+    facts.glass = values.transmission > 0.0f && values.metallic < 1.0f;
+}
+
+/// Normal maps are not counted.
+bool has_texture(const MaterialTextures& textures) {
+    const auto uses = {&textures.base_color,  &textures.metallic_roughness, &textures.emission,
+                       &textures.specular,    &textures.specular_color,     &textures.transmission,
+                       &textures.thickness,   &textures.clearcoat,          &textures.clearcoat_roughness,
+                       &textures.sheen_color, &textures.sheen_roughness,    &textures.anisotropy};
+    return std::ranges::any_of(uses, [](const TextureUse* use) { return use->texture != no_index; });
+}
+
+/// @param color  largest vertex colour
+MaterialFacts find_material_facts(const Material* material, const MaterialValues& values,
+                                  const MaterialTextures& textures, const TextureSet& set, float color) {
+    MaterialFacts facts;
+    facts.textured = has_texture(textures);
+    facts.maps_normals = textures.maps_normals;
+    const float base = largest_channel(values.base_color * largest_texel(set, textures.base_color)) * color;
+    if (material != nullptr) {
+        facts.alpha = material->alpha_mode != Material::AlphaMode::opaque;
+        facts.unlit = material->unlit;
+        if (facts.unlit) {
+            facts.radiance = base;
+            return facts;
+        }
+        facts.radiance =
+            largest_channel(values.emission * glm::max(largest_texel(set, textures.emission), glm::vec3(0.0f)));
+    }
+    const bool pure_metal = values.metallic >= 1.0f && textures.metallic_roughness.texture == no_index;
+    const bool pure_glass = values.transmission >= 1.0f && textures.transmission.texture == no_index;
+    if (!pure_metal && !pure_glass) facts.diffuse = base;
+    add_layers(values, textures, set, facts);
+    return facts;
+}
+
+Bounds find_bounds(const std::vector<glm::vec3>& positions) {
+    Bounds bounds;
+    for (const glm::vec3& p : positions) bounds.add(glm::dvec3(p));
+    return bounds;
+}
+
+MeshFacts find_mesh_facts(const Mesh& mesh) {
+    MeshFacts facts;
+    facts.bounds = find_bounds(mesh.positions);
+    for (const glm::vec4& c : mesh.colors) facts.color = std::max(facts.color, largest_channel(glm::vec3(c)));
+    const ConvexMesh shape = find_convex(mesh);
+    facts.convex = shape.convex;
+    facts.flat = shape.flat;
+    facts.point = shape.point;
+    facts.normal = shape.normal;
+    return facts;
+}
+
+/// Whether a box may be in the picture.
+bool is_in_view(const CameraView& view, const Bounds& box) {
+    // Planes through the camera, and that of the camera: outside if all corners are beyond one of them.
+    int left = 0, right = 0, above = 0, below = 0, behind = 0;
+    for (int i = 0; i < 8; ++i) {
+        const glm::dvec3 p = to_camera(view, box.corner(i));
+        const double depth = view.orthographic ? 1.0 : -p.z;
+        const glm::dvec2 first = unproject_pixel(view, -margin, -margin) * depth;
+        const glm::dvec2 last = unproject_pixel(view, view.width + margin, view.height + margin) * depth;
+        left += p.x < first.x ? 1 : 0;
+        right += p.x > last.x ? 1 : 0;
+        above += p.y > first.y ? 1 : 0;
+        below += p.y < last.y ? 1 : 0;
+        behind += p.z > 0.0 ? 1 : 0;
+    }
+    return std::max({left, right, above, below, behind}) < 8;
+}
+
+bool contains(const Bounds& box, const glm::dvec3& point) {
+    return glm::all(glm::lessThanEqual(box.low, point)) && glm::all(glm::lessThanEqual(point, box.high));
+}
+
+/// Whether a ray of the camera may start in a box: all start at one place, or on a plane as wide as the picture.
+bool may_start_inside(const CameraView& view, const Bounds& box) {
+    if (!view.orthographic) return contains(box, view.position);
+    int behind = 0;
+    for (int i = 0; i < 8; ++i) behind += to_camera(view, box.corner(i)).z > 0.0 ? 1 : 0;
+    return behind > 0 && behind < 8 && is_in_view(view, box);
+}
+
+Bounds find_world_bounds(const MeshFacts& mesh, const PosedMesh& posed, const glm::dmat4& world) {
+    Bounds own = mesh.bounds;
+    if (!posed.positions.empty()) {
+        own = {};
+        for (const glm::dvec3& p : posed.positions) own.add(p);
+    }
+    Bounds bounds;
+    own.add_corners_to(bounds, world);
+    return bounds;
+}
+
+void add_lights(const Scene& scene, const ShotFacts& shot, const ScenePose& pose, FrameFacts& facts) {
+    for (std::size_t i = 0; i < facts.objects.size(); ++i) {
+        const ObjectFacts& object = facts.objects[i];
+        if (!(object.material.radiance > 0.0f) || object.material.unlit) continue;
+        const glm::dvec3 center = 0.5 * (object.bounds.low + object.bounds.high);
+        facts.lights.push_back({LightFacts::Kind::surface, static_cast<int>(i), object.instance, center,
+                                glm::length(object.bounds.high - center), glm::dvec3(0.0), object.material.radiance});
+    }
+    for (std::size_t i = 0; i < pose.lights.size(); ++i) {
+        const LightValues& light = pose.lights[i];
+        if (light.intensity == Rgb(0.0f)) continue;
+        const bool far = light.kind == Light::Kind::directional;
+        facts.lights.push_back({far ? LightFacts::Kind::directional : LightFacts::Kind::point, no_index,
+                                static_cast<int>(i), light.position, 0.0, light.direction,
+                                largest_channel(light.intensity), light.range});
+    }
+    const float radiance = scene.environment ? largest_channel(pose.environment) * shot.environment : 0.0f;
+    if (radiance > 0.0f) {
+        facts.lights.push_back(
+            {LightFacts::Kind::surroundings, no_index, 0, glm::dvec3(0.0), 0.0, glm::dvec3(0.0), radiance});
+    }
+}
+
+}  // namespace
+
+ShotFacts find_shot_facts(const Scene& scene, const TextureSet& textures, const PosePlan& plan) {
+    ShotFacts facts;
+    facts.meshes.resize(scene.meshes.size());
+    parallel_for(scene.meshes.size(), 1, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) facts.meshes[i] = find_mesh_facts(scene.meshes[i]);
+    });
+    for (const Deformer& deformer : plan.deformers) facts.meshes[deformer.mesh].deforms = deformer.changes;
+    facts.environment = 1.0f;
+    if (textures.environment.empty()) return facts;
+    facts.environment = 0.0f;
+    for (const Rgb& texel : textures.environment.texels.pixels) {
+        facts.environment = std::max(facts.environment, largest_channel(texel));
+    }
+    return facts;
+}
+
+FrameFacts find_frame_facts(const Scene& scene, const ShotFacts& shot, const TextureSet& textures,
+                            const ScenePose& pose, const CameraView& view, bool all_in_view) {
+    FrameFacts facts;
+    for (std::size_t i = 0; i < pose.instances.size(); ++i) {
+        if (pose.shown[i] == 0) continue;
+        const auto [node, m] = pose.instances[i];
+        const Mesh& mesh = scene.meshes[m];
+        const MeshFacts& known = shot.meshes[m];
+        ObjectFacts object;
+        object.instance = static_cast<int>(i);
+        object.mesh = m;
+        object.deforms = known.deforms;
+        object.bounds = find_world_bounds(known, pose.meshes[m], pose.world[node]);
+        if (object.bounds.empty()) continue;
+        const bool named = mesh.material != no_index;
+        object.material = find_material_facts(
+            named ? &scene.materials[mesh.material] : nullptr, named ? pose.materials[mesh.material] : MaterialValues(),
+            named ? textures.materials[mesh.material] : textures.materials.back(), textures, known.color);
+        object.in_view = all_in_view || is_in_view(view, object.bounds);
+        if (pose.meshes[m].positions.empty()) {
+            // Seen from inside, a closed body sees itself.
+            object.convex = known.flat || (known.convex && !all_in_view && !may_start_inside(view, object.bounds));
+            object.flat = known.flat;
+            object.point = glm::dvec3(pose.world[node] * glm::dvec4(known.point, 1.0));
+            object.normal =
+                known.flat ? glm::normalize(normal_matrix(pose.world[node]) * known.normal) : glm::dvec3(0.0);
+        }
+        facts.sees_all = facts.sees_all || (object.in_view && object.material.has_specular());
+        facts.objects.push_back(object);
+    }
+    add_lights(scene, shot, pose, facts);
+    return facts;
+}
+
+}  // namespace aleph

@@ -1,0 +1,38 @@
+#pragma once
+// The table of render settings: the one place for their keys, ranges, units and descriptions. The options of the
+// command line come from it; tests compare scenes/scene.schema.json and scenes/AUTHORING.md with it.
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "render/settings/settings.h"
+
+namespace aleph {
+
+enum class SettingType { size, whole_number, number, choice, names, boolean };
+
+/// One render setting.
+struct Setting {
+    std::string key;  ///< in scene files and for --set; the option's name has '-' in place of '_'
+    SettingType type = SettingType::number;
+    std::string help;                  ///< one line, without values and unit
+    std::string unit;                  ///< of numbers; empty: none
+    double min = 0.0, max = 0.0;       ///< of numbers, and of both sides of a size; inclusive
+    std::vector<std::string> choices;  ///< of a choice, and the names
+    bool needs_scene = true;           ///< false: `aleph maps --images` takes it as well
+
+    std::function<SettingValue(const RenderSettings&)> get;
+    std::function<void(RenderSettings&, const SettingValue&)> set;  ///< of a value without a mismatch
+};
+
+/// All settings, in the order in which help shows them.
+const std::vector<Setting>& setting_table();
+
+/// The allowed values in words: "a number from 0 to 1", "one of flat, direct".
+std::string describe_values(const Setting& setting);
+
+/// Why the setting cannot have this value; empty if it can.
+std::string find_mismatch(const Setting& setting, const SettingValue& value);
+
+}  // namespace aleph

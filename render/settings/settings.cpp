@@ -1,0 +1,78 @@
+#include "render/settings/settings.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <charconv>
+
+#include "engine/base/errors.h"
+#include "render/settings/setting_table.h"
+
+namespace aleph {
+
+void follow_error(RenderSettings& settings, double error) {
+    constexpr double accuracy_per_threshold = 0.1;  // interpolated light then errs by a tenth of what is asked for
+    constexpr int most_samples = 4096;
+    settings.error = error;
+    settings.sampling = Sampling::threshold;
+    settings.adapter = Adapter::threshold;
+    settings.accuracy = std::min(1.0, accuracy_per_threshold * error);
+    settings.gather = 0;
+    settings.spp = most_samples;
+}
+
+void apply_settings(RenderSettings& settings, const SettingMap& map, const std::string& source) {
+    const std::vector<Setting>& table = setting_table();
+    // Refused below, if it is not a number in range.
+    if (const auto error = map.find("error"); error != map.end()) {
+        const double* const value = std::get_if<double>(&error->second);
+        if (value != nullptr && *value > 0.0) follow_error(settings, *value);
+    }
+    for (const auto& [key, value] : map) {
+        const auto found = std::ranges::find(table, key, &Setting::key);
+        if (found == table.end()) {
+            std::vector<std::string> known;
+            for (const Setting& setting : table) known.push_back(setting.key);
+            throw InputError(source, printable(key),
+                             fmt::format("there is no such setting; known are {}", fmt::join(known, ", ")));
+        }
+        const std::string mismatch = find_mismatch(*found, value);
+        if (!mismatch.empty()) throw InputError(source, key, mismatch);
+        found->set(settings, value);
+    }
+}
+
+SettingMap setting_map(const RenderSettings& settings) {
+    SettingMap map;
+    for (const Setting& setting : setting_table()) map[setting.key] = setting.get(settings);
+    return map;
+}
+
+std::string setting_text(const SettingValue& value) {
+    return std::visit([](const auto& v) { return fmt::format("{}", v); }, value);
+}
+
+void parse_setting(const std::string& text, SettingMap& into) {
+    const std::size_t equals = text.find('=');
+    if (equals == std::string::npos || equals == 0) {
+        throw InputError("--set", printable(text), "expected KEY=VALUE");
+    }
+    const std::string key = text.substr(0, equals), value = text.substr(equals + 1);
+    double parsed = 0.0;
+    const auto [end, failure] = std::from_chars(value.data(), value.data() + value.size(), parsed);
+    if (value == "true" || value == "false") {
+        into[key] = value == "true";
+    } else if (failure == std::errc() && end == value.data() + value.size()) {
+        into[key] = parsed;
+    } else {
+        into[key] = value;
+    }
+}
+
+void validate(const RenderSettings& settings) {
+    RenderSettings checked;
+    apply_settings(checked, setting_map(settings), "settings");
+}
+
+}  // namespace aleph

@@ -1,0 +1,120 @@
+#pragma once
+// Settings of a render. The scene file's "settings", the command line and C++ programs fill this one struct.
+// setting_table.h has the key, range and description of each.
+
+#include <cstdint>
+#include <string>
+
+#include "engine/scene/scene.h"
+#include "perception/perception_settings.h"
+#include "render/settings/effects.h"
+
+namespace aleph {
+
+/// Reconstruction filters: how the light around a pixel's centre makes up the pixel.
+enum class PixelFilter {
+    box,              ///< the pixel's square
+    blackman_harris,  ///< smooth, 3 pixels wide; less aliasing than the box at edges and fine detail
+};
+
+/// The quick estimate of a frame that the model of vision takes as its input.
+enum class EstimateKind {
+    flat,    ///< base colour plus emission under constant white, no shadow rays
+    direct,  ///< direct light with shadows, from a fixed pattern of light points: without noise
+};
+
+/// Where a frame's motion comes from.
+enum class MotionSource {
+    model,  ///< exact, from the scene (thesis 5.1.2)
+    image,  ///< from the quick estimates of two frames alone (5.1.1)
+};
+
+/// From the model of vision to the ambient accuracy of each pixel.
+enum class Adapter {
+    compress,   ///< (6.7)
+    scale_add,  ///< (6.8)
+    threshold,  ///< the visible threshold itself (threshold_accuracy)
+};
+
+/// How a pixel's light is computed.
+enum class Integrator {
+    cache,  ///< indirect diffuse light from an irradiance cache, everything else by sampling
+    path,   ///< path tracing: unbiased
+};
+
+/// How many samples each pixel takes (stopping_rule.h).
+enum class Sampling {
+    uniform,      ///< all the same
+    consecutive,  ///< until two stages in a row differ by less than the threshold (6.10)
+    variance,     ///< until their standard error or deviation is below it (6.12)
+    protocol,     ///< as many as the Aleph map says beforehand (6.13)
+    threshold,    ///< until 99.5 % of the pixels are about within the error that is asked for
+};
+
+/// What Sampling::variance compares with the threshold.
+enum class VarianceTest {
+    standard_error,  ///< of the mean
+    deviation,       ///< of the samples, as (6.12) is printed
+};
+
+/// Whether a frame's effects are planned (effects_plan.h).
+enum class EffectsPlanning { on, off };
+
+struct RenderSettings {
+    int width = 640, height = 480;  ///< key "size": "640x480"
+    std::uint32_t seed = 0;
+    EstimateKind estimate = EstimateKind::direct;
+    MotionSource motion = MotionSource::model;
+    PerceptionSettings perception;  ///< keys guide, bands, grid, neutral_opponent
+    Adapter adapter = Adapter::compress;
+    double adapter_k = 100.0;  ///< K of (6.8)
+    double accuracy = 0.15;    ///< ambient accuracy alpha_Acc; 0 gathers at every sample
+    int gather = 0;            ///< hemisphere samples per irradiance value; 0: what the accuracy needs (choose_rays)
+    Integrator integrator = Integrator::cache;
+    int bounces = 1;      ///< of indirect diffuse light
+    int path_depth = 32;  ///< longest path: surfaces that scatter, of all kinds
+    /// Error that is asked for, in visible thresholds; 0: none is, and the other settings stand for themselves.
+    double error = 0.0;
+    Sampling sampling = Sampling::uniform;
+    VarianceTest variance_test = VarianceTest::standard_error;
+    PixelFilter filter = PixelFilter::blackman_harris;
+    int spp = 16;                     ///< samples per pixel, or the most of them; 1 is the pixel's centre
+    int light_samples = 16;           ///< direct-light samples per pixel and light, shared out among its spp
+    double shade_reach = 1.4;         ///< how far shading uses a record, as a multiple of how far filling does
+    double min_radius_pixels = 12.0;  ///< least R of a record (irradiance_record.h), pixels
+    int light_step = 10;              ///< frames between key moments of indirect light; 0: every frame computes its own
+    int subdivision_level = -1;       ///< of every subdivision cage; -1: as fine as the pixels need (cage_level.h)
+    EffectsPlanning plan = EffectsPlanning::on;
+    EffectSet force;   ///< simulated whatever the plan says
+    EffectSet forbid;  ///< left out whatever that changes
+
+    bool operator==(const RenderSettings&) const = default;
+};
+
+/// Overwrites the settings that the map has. An error above 0 first sets how accuracy and samples follow it
+/// (follow_error); what else the map has overrides that.
+/// @param source  where the map comes from, for messages: a file, "--set"
+/// @throws InputError naming the key, if it is unknown, or its value has another type, is out of range, or is not in
+/// this version. The settings before that key, in alphabetical order, have been overwritten.
+void apply_settings(RenderSettings& settings, const SettingMap& map, const std::string& source);
+
+/// Settings with which a picture is made to an error that is asked for: sampling and adapter `threshold`, the accuracy
+/// that leaves most of the error to samples, gathers of as many rays as that needs, 4,096 samples at most.
+/// @param error  thresholds, above 0
+void follow_error(RenderSettings& settings, double error);
+
+/// As JSON and the command line write it: true, 0.5, saliency.
+std::string setting_text(const SettingValue& value);
+
+/// All keys with their values, as in a scene file. apply_settings of the map gives equal settings.
+SettingMap setting_map(const RenderSettings& settings);
+
+/// Adds "KEY=VALUE" to the map. VALUE becomes a boolean (true, false) or a number (decimal point in every locale) if it
+/// reads as one, and text otherwise.
+/// @throws InputError if there is no '=' or no key
+void parse_setting(const std::string& text, SettingMap& into);
+
+/// @throws InputError naming the first setting that is out of range
+void validate(const RenderSettings& settings);
+
+}  // namespace aleph

@@ -1,0 +1,74 @@
+#include "render/shade/error_budget.h"
+
+#include <algorithm>
+
+#include "render/guide/accuracy_map.h"
+
+namespace aleph {
+
+namespace {
+
+constexpr double least_share = 1.0 / 3.0;  // of a pixel's budget that samples get
+
+float strictest_around(const Image<float>& threshold, int x, int y) {
+    float least = threshold(x, y);
+    for (int ny = std::max(0, y - 1); ny <= std::min(threshold.height - 1, y + 1); ++ny) {
+        for (int nx = std::max(0, x - 1); nx <= std::min(threshold.width - 1, x + 1); ++nx) {
+            least = std::min(least, threshold(nx, ny));
+        }
+    }
+    return least;
+}
+
+}  // namespace
+
+std::optional<SystematicTolerance> compute_systematic_tolerance(const VisibleLimits& limits,
+                                                                const RenderSettings& settings, double exposure) {
+    if (!(settings.error > 0.0)) return std::nullopt;
+    const double scale = settings.error / (limits.viewing.display_white * exposure);
+    SystematicTolerance tolerance{Image<float>(limits.threshold.width, limits.threshold.height),
+                                  Image<float>(limits.threshold.width, limits.threshold.height)};
+    for (std::size_t i = 0; i < limits.threshold.size(); ++i) {
+        const double tolerated = scale * static_cast<double>(limits.threshold.pixels[i]);
+        tolerance.lights.pixels[i] = static_cast<float>(left_out_share * tolerated);
+        tolerance.gloss.pixels[i] = static_cast<float>(gloss_share * tolerated);
+    }
+    return tolerance;
+}
+
+Image<float> compute_sampling_tolerance(const VisibleLimits& limits, const RenderSettings& settings, double exposure) {
+    if (settings.sampling == Sampling::uniform || settings.sampling == Sampling::protocol) return {};
+    const double error = settings.error > 0.0 ? settings.error : 1.0;
+    const double white = limits.viewing.display_white;
+    Image<float> tolerance(limits.threshold.width, limits.threshold.height);
+    for (int y = 0; y < tolerance.height; ++y) {
+        for (int x = 0; x < tolerance.width; ++x) {
+            const bool moves = limits.outlines(x, y) == Outline::moving;
+            const float threshold = moves ? strictest_around(limits.threshold, x, y) : limits.threshold(x, y);
+            double left = error * threshold / white;
+            if (settings.sampling == Sampling::threshold && !limits.indirect_luminance.empty()) {
+                const double cached = error_deviations * error_per_accuracy * limits.accuracy(x, y) *
+                                      static_cast<double>(limits.indirect_luminance(x, y));
+                const double shares = settings.error > 0.0 ? left_out_share + error_deviations * gloss_share : 0.0;
+                const double fixed = shares + limits.left_out / error;
+                left = std::max(left * (1.0 - fixed) - cached, least_share * left);
+            }
+            tolerance(x, y) = static_cast<float>(left / exposure);
+        }
+    }
+    return tolerance;
+}
+
+SamplingPlan make_sampling_plan(const VisibleLimits* limits, const RenderSettings& settings, double exposure) {
+    SamplingPlan plan;
+    plan.rule = settings.sampling;
+    plan.test = settings.variance_test;
+    plan.most = settings.spp;
+    if (limits == nullptr) return plan;
+    plan.tolerance = compute_sampling_tolerance(*limits, settings, exposure);
+    plan.aleph = limits->aleph;
+    plan.outlines = limits->outlines;
+    return plan;
+}
+
+}  // namespace aleph

@@ -1,0 +1,48 @@
+#pragma once
+// How much a pixel's samples may err, given what else errs in it.
+
+#include <optional>
+
+#include "engine/base/viewing.h"
+#include "render/guide/stopping_rule.h"
+#include "render/pixels/outlines.h"
+#include "render/settings/settings.h"
+#include "render/shade/progressive.h"
+#include "render/shade/sample_shading.h"
+
+namespace aleph {
+
+/// What a viewer tolerates in a frame. Images have the frame's size.
+struct VisibleLimits {
+    const Image<float>& threshold;           ///< cd/m2 (6.9)
+    const Image<float>& aleph;               ///< elevation of the threshold
+    const Image<float>& accuracy;            ///< alpha, of cached light
+    const Image<float>& indirect_luminance;  ///< of the quick estimate, exposure applied; empty: none is cached
+    const Image<Outline>& outlines;
+    ViewingConditions viewing;
+    double left_out = 0.0;  ///< visible thresholds that what the effects plan leaves out may add up to
+};
+
+/// Shares of the error that is asked for, for errors that samples do not lower: a bound of what lights that are left
+/// out bring, and the root mean square of what irradiance in place of a lobe is off.
+inline constexpr double left_out_share = 0.05, gloss_share = 0.05;
+
+/// Nothing where no error is asked for.
+std::optional<SystematicTolerance> compute_systematic_tolerance(const VisibleLimits& limits,
+                                                                const RenderSettings& settings, double exposure);
+
+/// The luminance that samples may err by, as they have it (before exposure).
+/// threshold: RenderSettings::error times the threshold, less the systematic errors and error_deviations times the
+/// expected error of cached light; at least a third of it remains. The sum of all is then within what was
+/// asked for.
+/// consecutive, variance: RenderSettings::error times the threshold: they know nothing of other errors.
+/// The Aleph map is that of pixel centres. Beside the outline of a moving object, a pixel's samples may belong to
+/// another surface than its centre, which moves less and is seen better. So a pixel there keeps to the strictest
+/// threshold of the nine around it.
+/// @return empty for rules that need none
+Image<float> compute_sampling_tolerance(const VisibleLimits& limits, const RenderSettings& settings, double exposure);
+
+/// @param limits  null: not known, which Sampling::uniform alone allows
+SamplingPlan make_sampling_plan(const VisibleLimits* limits, const RenderSettings& settings, double exposure);
+
+}  // namespace aleph

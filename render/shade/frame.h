@@ -1,0 +1,35 @@
+#pragma once
+// Shading a frame: its cache is filled, then its pixels take samples until they have enough.
+
+#include "render/cache/cache_fill.h"
+#include "render/pixels/picture_part.h"
+#include "render/shade/error_budget.h"
+#include "render/shade/sample_shading.h"
+#include "render/time/moment_check.h"
+
+namespace aleph {
+
+/// How a frame's samples differ from its pixel centres, and how many there are.
+struct SampleOptions {
+    Lens lens;
+    bool blended = false;      ///< blended surfaces are in the scene
+    bool record_maps = false;  ///< fill ShadedFrame::cache_count and cache_radius
+    /// The scene at a sample's time, valid until the next call; empty: the shutter opens for no time.
+    /// @param time_class  of the pixel (shutter.h)
+    std::function<SampleMoment(int sample, int time_class)> at_sample;
+    bool light_lasts = true;           ///< while the shutter is open; otherwise indirect light is found by paths then
+    const MomentRisk* risk = nullptr;  ///< of carried light; null: it need not be checked
+    /// What the samples may err by; null: not known, which Sampling::uniform alone allows.
+    const VisibleLimits* limits = nullptr;
+    const PicturePart* part = nullptr;  ///< pixels that are lit and shaded, without a picture; null: all
+    bool light_only = false;            ///< the cache is filled, and nothing shaded
+};
+
+/// Shades a frame. With Integrator::cache it fills a cache first; with accuracy 0, irradiance is gathered at every
+/// sample instead. While the shutter is open the scene changes from sample to sample: indirect light is read where it
+/// lasts (shutter_light.h), and comes from one random path elsewhere, also with accuracy 0.
+/// @param centers  hits through the pixel centres, which are the samples if spp is 1
+ShadedFrame shade_frame(const IndirectContext& context, const SampleHits& centers, double exposure,
+                        const SampleOptions& options = {});
+
+}  // namespace aleph

@@ -1,0 +1,22 @@
+#include "render/shade/frame_irradiance.h"
+
+#include "render/cache/bounce_levels.h"
+
+namespace aleph {
+
+FrameIrradiance::FrameIrradiance(const IndirectContext& context, const IrradianceCache* cache)
+    : KnownIrradiance(count_bounces(context.settings)), context_(context), cache_(cache) {}
+
+std::optional<Rgb> FrameIrradiance::find(const ViewedSurface& surface, const Hit& hit, float accuracy,
+                                         RayTask& task) const {
+    if (context_.carried != nullptr) {
+        PixelSurface place{surface};
+        place.hit = hit;
+        if (const std::optional<Rgb> found = context_.carried->find(place, accuracy, task)) return found;
+    }
+    if (cache_ == nullptr) return std::nullopt;
+    const auto reach = static_cast<float>(context_.settings.shade_reach);
+    return cache_->interpolate({surface.point.position, surface.point.normal, accuracy * reach, &task});
+}
+
+}  // namespace aleph

@@ -1,0 +1,44 @@
+#pragma once
+// Progressive sampling: which pixels take how many more samples, stage by stage.
+
+#include <functional>
+#include <span>
+#include <vector>
+
+#include "render/guide/stopping_rule.h"
+#include "render/pixels/picture_part.h"
+
+namespace aleph {
+
+/// How many samples pixels take.
+struct SamplingPlan {
+    Sampling rule = Sampling::uniform;
+    VarianceTest test = VarianceTest::standard_error;
+    int most = 1;             ///< samples of a pixel
+    Image<float> tolerance;   ///< of luminance, in the samples' unit (is_enough); empty for `uniform` and `protocol`
+    Image<float> aleph;       ///< for `protocol`
+    Image<Outline> outlines;  ///< for `threshold`; empty: none
+    const PicturePart* part = nullptr;  ///< pixels that take samples; null: all
+};
+
+/// Samples of one pixel: those from `first` up to, not including, `last`.
+struct PixelRange {
+    int x = 0, y = 0;
+    int first = 0, last = 0;
+};
+
+/// One sample of all pixels of a class (shutter.h) after the other: each has a time of its own.
+using TakeSample = std::function<void(int sample, int pixel_class, std::span<const PixelRange> ranges)>;
+void take_in_turn(std::span<const PixelRange> ranges, const TakeSample& take);
+
+/// Adds samples to the pixels. The ranges go from row to row.
+using TakeSamples = std::function<void(std::span<const PixelRange> ranges)>;
+
+/// Takes samples until the rule stops at every pixel. At each stage the pixels that do not have enough double their
+/// samples. A decision reads what all pixels have after a stage, so the result does not depend on the number of
+/// threads. A pixel that stopped never goes on: it would when its neighbours, which go on because of its own rare
+/// bright sample, meet another, and then that sample is averaged away.
+/// @param pixels  what `take` adds to; read between stages
+void sample_by_stages(const SamplingPlan& plan, const Image<PixelSamples>& pixels, const TakeSamples& take);
+
+}  // namespace aleph

@@ -1,0 +1,220 @@
+#include "render/shade/sample_shading.h"
+
+#include "render/cache/bounce_levels.h"
+#include "render/cache/gather_at.h"
+#include "render/path/glossy_light.h"
+
+namespace aleph {
+
+namespace {
+
+/// Keeps the random numbers of paths apart from those of direct light and of gathers (gather_at.cpp).
+constexpr std::uint32_t path_seed_mask = 0x70617468u, irradiance_seed_mask = 0x69727261u;
+
+constexpr int lights_in_mirrors = 4;  // PathState::light_samples
+
+RandomStream path_stream(const SampleShading& shading, const PixelSurface& surface,
+                         std::uint32_t mask = path_seed_mask) {
+    return RandomStream({shading.context.settings.seed ^ mask, shading.moment, surface.pixel,
+                         static_cast<std::uint32_t>(surface.sample)});
+}
+
+PathState start_path(const RenderSettings& settings) {
+    PathState state;
+    state.left = {settings.bounces, settings.path_depth};
+    return state;
+}
+
+/// Indirect irradiance from key moments or from the cache; nothing where neither has a record.
+std::optional<Rgb> read_irradiance(const SampleShading& shading, ShadingTask& task, const PixelSurface& surface) {
+    const IndirectContext& context = shading.context;
+    const float accuracy = context.accuracy(surface.x, surface.y);
+    RecordUse* const used = shading.uses == nullptr ? nullptr : &(*shading.uses)(surface.x, surface.y);
+    std::optional<Rgb> found;
+    if (context.carried != nullptr) {
+        ++task.lookups;
+        found = context.carried->find(surface, accuracy, task, used);
+    }
+    if (!found && shading.cache != nullptr && accuracy > 0.0f) {
+        const float reach = accuracy * static_cast<float>(context.settings.shade_reach);
+        CacheQuery query{surface.point.position, surface.point.normal, reach, &task};
+        query.used = used;
+        ++task.lookups;
+        found = shading.cache->interpolate(query);
+    }
+    if (found) ++task.hits;
+    return found;
+}
+
+/// Indirect irradiance from rays of its own.
+Rgb gather_irradiance(const SampleShading& shading, ShadingTask& task, const PixelSurface& surface) {
+    const IndirectContext& context = shading.context;
+    const float accuracy = context.accuracy(surface.x, surface.y);
+    std::optional<float> ray_variance;
+    if (shading.cache != nullptr) {
+        ray_variance = shading.cache->expected_ray_variance({surface.point.position, surface.point.normal, accuracy});
+    }
+    ++task.computed;
+    (*shading.records)(surface.x, surface.y) += 1.0f;
+    return gather_at(context, task, surface, task.scratch, choose_rays(context.settings, accuracy, ray_variance))
+        .irradiance;
+}
+
+/// Indirect irradiance while the shutter is open, from the shutter's centre.
+/// @param waits  if not null, set where a record would tell it
+std::optional<Rgb> read_blurred(const SampleShading& shading, ShadingTask& task, const PixelSurface& surface,
+                                bool* waits) {
+    const float accuracy = shading.context.accuracy(surface.x, surface.y);
+    if (shading.shutter == nullptr || !(accuracy > 0.0f)) return std::nullopt;
+    RecordUse* const used = shading.uses == nullptr ? nullptr : &(*shading.uses)(surface.x, surface.y);
+    ++task.lookups;
+    const ShutterLight::Found found = shading.shutter->find(surface, accuracy, task.at_frame, used);
+    if (found.irradiance) ++task.hits;
+    if (waits != nullptr) *waits = found.missing;
+    return found.irradiance;
+}
+
+/// Indirect irradiance at the sample's own time, from one random path.
+Rgb sample_path(const SampleShading& shading, const SampleMoment& moment, ShadingTask& task,
+                const PixelSurface& surface) {
+    const RenderSettings& settings = shading.context.settings;
+    RandomStream random = path_stream(shading, surface, irradiance_seed_mask);
+    return find_deeper_irradiance(moment.lighting, task, surface.point, {settings.bounces}, settings.path_depth - 1,
+                                  random);
+}
+
+/// Share of light that reaches the camera: it may stand in what it sees from inside.
+Rgb share_left(const PixelSurface& surface) {
+    const Rgb loss = Media().attenuation(surface);
+    return loss == Rgb(0.0f) ? Rgb(1.0f) : glm::exp(-loss * surface.distance);
+}
+
+/// Adds what the surface reflects of its irradiance.
+void add_irradiance(const PixelSurface& surface, const Rgb& irradiance, SampleLight& light) {
+    const LitSurface lit(surface);
+    light.indirect =
+        diffuse_radiance(surface.material, lit.cos_view, irradiance) * lit.below_sheen * share_left(surface);
+    light[LightPart::surface] += light.indirect;
+}
+
+void add_by_paths(const SampleShading& shading, const SampleMoment& moment, ShadingTask& task,
+                  const PixelSurface& surface, SampleLight& light) {
+    RandomStream random = path_stream(shading, surface);
+    light[LightPart::surface] = surface.material.emission;
+    light[LightPart::gloss] =
+        scatter_light(moment.lighting, task, surface, start_path(shading.context.settings), random);
+}
+
+/// Lobes to sample, and what stands in for the others where the irradiance is known.
+SampledLobes choose_lobes(const SampleShading& shading, const PixelSurface& surface, const LitSurface& lit,
+                          const std::optional<Rgb>& irradiance) {
+    const bool tolerant = shading.tolerance != nullptr && irradiance && surface.material.has_specular();
+    const float tolerance = tolerant ? shading.tolerance->gloss(surface.x, surface.y) : 0.0f;
+    return choose_sampled_lobes(lit, irradiance.value_or(Rgb(0.0f)), tolerance);
+}
+
+PathState start_beyond(const SampleShading& shading, const PixelSurface& surface) {
+    PathState beyond = start_path(shading.context.settings);
+    --beyond.left.depth;
+    beyond.roulette_after = 0;  // most lobes reflect little, and there are many samples
+    beyond.survival = 4.0f;     // but a path that ends early leaves noise behind the rays already cast
+    beyond.known = shading.known;
+    beyond.accuracy = shading.context.accuracy(surface.x, surface.y);
+    beyond.light_samples = lights_in_mirrors;
+    return beyond;
+}
+
+/// One sample of the lobes, from the pixel's sequence.
+Rgb sample_lobes(const SampleShading& shading, const LightingContext& lighting, ShadingTask& task,
+                 const PixelSurface& surface, const LitSurface& lit, const LobeShares& shares,
+                 const PixelSequence& sequence) {
+    const int i = surface.sample;
+    const ScatterSample sample =
+        sample_scatter(lit, shares, sequence.at_1d(SampleUse::lobe_choice, i),
+                       sequence.at_2d(SampleUse::lobe_direction, i), sequence.at_1d(SampleUse::lobe_side, i));
+    RandomStream random = path_stream(shading, surface);
+    return follow_sample(lighting, task, lit, sample, start_beyond(shading, surface), random);
+}
+
+/// @param irradiance  indirect; nothing where it is not known
+void add_with_cache(const SampleShading& shading, const SampleMoment& moment, ShadingTask& task,
+                    const PixelSurface& surface, const std::optional<Rgb>& irradiance, SampleLight& light) {
+    const LightingContext& lighting = moment.lighting;
+    const RenderSettings& settings = shading.context.settings;
+    const LitSurface lit(surface);
+    const SampledLobes lobes = choose_lobes(shading, surface, lit, irradiance);
+    light[LightPart::surface] = surface.material.emission + lobes.radiance;
+    if (shading.light_samples == 0) {
+        RandomStream random({settings.seed, shading.moment, surface.pixel, 0});  // one lattice for all samples
+        RandomStream path_random = path_stream(shading, surface);
+        LightPoints points = shading.points;
+        points.part = surface.sample;
+        const SampledLight sampled = compute_sampled_light(lighting, task, surface, points, random,
+                                                           start_beyond(shading, surface), path_random, &lobes.shares);
+        light[LightPart::direct] = sampled.direct;
+        light[LightPart::gloss] = sampled.lobes;
+        return;
+    }
+    const PixelSequence sequence(settings.seed, shading.moment, surface.x, surface.y);
+    DirectSamples samples{surface.sample * shading.light_samples, shading.light_samples};
+    if (shading.tolerance != nullptr) samples.tolerance = shading.tolerance->lights(surface.x, surface.y);
+    light[LightPart::direct] = sample_direct_light(lighting, task, lit, lobes.shares, sequence, samples);
+    if (lobes.shares != LobeShares{}) {
+        light[LightPart::gloss] = sample_lobes(shading, lighting, task, surface, lit, lobes.shares, sequence);
+    }
+}
+
+/// Indirect irradiance that is known already.
+/// @param waits  set where it is not, but a record would tell it
+std::optional<Rgb> look_up(const SampleShading& shading, ShadingTask& task, const PixelSurface& surface, bool& waits) {
+    if (shading.blurred) return read_blurred(shading, task, surface, &waits);
+    const std::optional<Rgb> found = read_irradiance(shading, task, surface);
+    waits = !found && shading.cache != nullptr;
+    return found;
+}
+
+}  // namespace
+
+bool shade_sample(const SampleShading& shading, const SampleMoment& moment, ShadingTask& task,
+                  const PixelSurface& surface, const PixelSamples& pixel, SampleLight& light) {
+    light = {};
+    light.instance = surface.hit.instance;
+    light.position = surface.point.position;
+    light.footprint = surface.footprint;
+    light.geometric = surface.point.geometric;
+    light.normal = surface.point.normal;
+    const bool needs_irradiance = !shading.by_paths && shading.indirect && surface.material.has_diffuse();
+    std::optional<Rgb> irradiance;
+    bool waits = false;  // for a record
+    if (needs_irradiance) {
+        irradiance = pixel.find_irradiance(light);
+        if (!irradiance) irradiance = light.irradiance = look_up(shading, task, surface, waits);
+    }
+    if (shading.by_paths) {
+        add_by_paths(shading, moment, task, surface, light);
+    } else {
+        add_with_cache(shading, moment, task, surface, irradiance, light);
+    }
+    const Rgb left = share_left(surface);
+    for (Rgb& part : light.parts) part *= left;
+    if (!needs_irradiance) return true;
+    if (!irradiance && !waits) {
+        irradiance =
+            shading.blurred ? sample_path(shading, moment, task, surface) : gather_irradiance(shading, task, surface);
+    }
+    if (irradiance) add_irradiance(surface, *irradiance, light);
+    return irradiance.has_value();
+}
+
+void add_indirect(const SampleShading& shading, const SampleMoment& moment, ShadingTask& task,
+                  const PixelSurface& surface, SampleLight& light) {
+    if (shading.blurred) {
+        const std::optional<Rgb> blurred = read_blurred(shading, task, surface, nullptr);
+        add_irradiance(surface, blurred ? *blurred : sample_path(shading, moment, task, surface), light);
+        return;
+    }
+    const std::optional<Rgb> irradiance = read_irradiance(shading, task, surface);
+    add_irradiance(surface, irradiance ? *irradiance : gather_irradiance(shading, task, surface), light);
+}
+
+}  // namespace aleph

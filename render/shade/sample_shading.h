@@ -1,0 +1,69 @@
+#pragma once
+// Shading one sample of a pixel: emission, direct light, gloss, and indirect light read from a filled cache.
+
+#include <vector>
+
+#include "render/cache/gather.h"
+#include "render/cache/indirect_context.h"
+#include "render/path/direct_light.h"
+#include "render/pixels/pixel_samples.h"
+#include "render/time/shutter_light.h"
+
+namespace aleph {
+
+/// The scene while a sample is taken.
+struct SampleMoment {
+    LightingContext lighting;
+    const CameraView& view;
+};
+
+/// The work of one task: its rays, and what it counts.
+struct ShadingTask : RayTask {
+    /// @param rays        at the samples' time
+    /// @param frame_rays  at the shutter's centre: another scene while the shutter is open
+    ShadingTask(const RayScene& rays, const RayScene& frame_rays, GatherScratch& buffers)
+        : RayTask(rays), at_frame(frame_rays), scratch(buffers) {}
+
+    RayTask at_frame;
+    GatherScratch& scratch;
+    std::uint64_t lookups = 0, hits = 0, computed = 0, invalid = 0;
+};
+
+/// Errors, of luminance, that do not fall with the number of samples. Per pixel.
+struct SystematicTolerance {
+    Image<float> lights;  ///< what lights that are left out may bring
+    Image<float> gloss;   ///< how far irradiance that stands in for a lobe may be off (glossy_light.h)
+};
+
+/// How a frame's samples are shaded.
+struct SampleShading {
+    const IndirectContext& context;
+    std::uint32_t moment = 0;  ///< of SamplePlace
+    bool by_paths = false;     ///< all light along paths
+    bool indirect = false;     ///< there is indirect light
+    /// Finished; null: irradiance that no key moment knows is gathered at every sample.
+    const IrradianceCache* cache = nullptr;
+    const KnownIrradiance* known = nullptr;  ///< to paths from lobes; null: they find all light by themselves
+    bool blurred = false;                    ///< the shutter is open: what `shutter` does not know is found by paths
+    const ShutterLight* shutter = nullptr;   ///< null: it knows nothing
+    LightPoints points{};                    ///< uniform sampling: on each light, of a pixel's first sample
+    /// Progressive sampling: samples of direct light per pixel sample, shared out among all lights; 0: uniform.
+    int light_samples = 0;
+    const SystematicTolerance* tolerance = nullptr;  ///< null: nothing may be left out
+    Image<float>* records = nullptr;                 ///< counts irradiance values computed here; of the frame's size
+    Image<RecordUse>* uses = nullptr;                ///< records that were read; null: not asked for
+};
+
+/// Light that a pixel's surface sends to the camera.
+/// @param pixel  its samples so far
+/// @param light  set
+/// @return false: the cache has no record here, and `light` lacks indirect light (add_indirect)
+bool shade_sample(const SampleShading& shading, const SampleMoment& moment, ShadingTask& task,
+                  const PixelSurface& surface, const PixelSamples& pixel, SampleLight& light);
+
+/// Adds the indirect light that shade_sample did not find. Where there is still no record, it is gathered, or
+/// comes from a path while the shutter is open.
+void add_indirect(const SampleShading& shading, const SampleMoment& moment, ShadingTask& task,
+                  const PixelSurface& surface, SampleLight& light);
+
+}  // namespace aleph

@@ -1,0 +1,83 @@
+#include "render/surface/glass.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "render/surface/fresnel.h"
+
+namespace aleph {
+
+namespace {
+
+float reflectance(const SurfaceMaterial& material, float cosine) {
+    const float full = dielectric_reflectance(cosine, material.ior_ratio);
+    return full < 1.0f ? std::min(1.0f, full * material.glass_specular) : 1.0f;
+}
+
+/// The direction behind the surface that refraction by the half vector leads to; 0 at total reflection.
+glm::vec3 refract(const glm::vec3& view, const glm::vec3& h, float ratio) {
+    const float c = glm::dot(view, h), inverse = 1.0f / ratio;
+    const float cos2 = 1.0f - inverse * inverse * std::max(0.0f, (1.0f - c) * (1.0f + c));
+    if (!(cos2 > 0.0f)) return glm::vec3(0.0f);
+    return glm::normalize(h * (inverse * c - std::sqrt(cos2)) - view * inverse);
+}
+
+glm::vec3 flip(const glm::vec3& v) {
+    return {v.x, v.y, -v.z};
+}
+
+GlassValue evaluate_refracted(const SurfaceMaterial& material, const glm::vec3& view, const glm::vec3& light) {
+    const float ratio = material.ior_ratio;
+    glm::vec3 h = view + light * ratio;
+    const float length = glm::length(h);
+    if (!(length > 0.0f)) return {};
+    h /= h.z < 0.0f ? -length : length;
+    const float vh = glm::dot(view, h), lh = glm::dot(light, h);
+    if (!(vh > 0.0f && lh < 0.0f)) return {};
+    const glm::vec2 widths = material.widths();
+    const float passed = 1.0f - reflectance(material, vh);
+    const float denominator = vh + ratio * lh;
+    const float jacobian = ratio * ratio * -lh / (denominator * denominator);
+    const float common = ggx_d(widths, h) * vh / view.z * jacobian * passed * material.glass;
+    const GlassValue value{material.glass_tint * (common * smith_g2(widths, view, flip(light))),
+                           common / material.glass * smith_g1(widths, view)};
+    return std::isfinite(value.pdf) ? value : GlassValue{};
+}
+
+}  // namespace
+
+GlassValue evaluate_glass(const SurfaceMaterial& material, const glm::vec3& view, const glm::vec3& light) {
+    if (!(view.z > 0.0f) || light.z == 0.0f || material.is_glass_smooth()) return {};
+    const bool passes = light.z < 0.0f;
+    if (passes && material.volume) return evaluate_refracted(material, view, light);
+    const glm::vec3 mirrored = passes ? flip(light) : light;
+    // The angle to h from the length of the sum: the same for both directions, also where they are not exactly unit.
+    const glm::vec3 sum = view + mirrored;
+    const float length = glm::length(sum);
+    const glm::vec2 widths = material.widths();
+    const float reflected = reflectance(material, 0.5f * length);
+    const float share = passes ? 1.0f - reflected : reflected;
+    const float d = share * ggx_d(widths, sum / length) / (4.0f * view.z);
+    return {(passes ? material.glass_tint : Rgb(1.0f)) * (d * material.glass * smith_g2(widths, view, mirrored)),
+            d * smith_g1(widths, view)};
+}
+
+GlassSample sample_glass(const SurfaceMaterial& material, const glm::vec3& view, const glm::vec2& u, float side) {
+    const bool smooth = material.is_glass_smooth();
+    const glm::vec3 h = smooth ? glm::vec3(0.0f, 0.0f, 1.0f) : sample_visible_normal(material.widths(), view, u);
+    const float vh = glm::dot(view, h);
+    const glm::vec3 reflected = 2.0f * vh * h - view;
+    if (side < reflectance(material, vh)) {
+        if (!(reflected.z > 0.0f)) return {};
+        return {reflected, smooth ? Rgb(material.glass) : Rgb(0.0f)};
+    }
+    const glm::vec3 passed = material.volume ? refract(view, h, material.ior_ratio) : flip(reflected);
+    if (!(passed.z < 0.0f)) return {};
+    return {passed, smooth ? material.glass_tint * material.glass : Rgb(0.0f)};
+}
+
+Rgb evaluate_sheet(const SurfaceMaterial& material, float cos_view) {
+    return material.glass_tint * (material.glass * (1.0f - reflectance(material, cos_view)));
+}
+
+}  // namespace aleph

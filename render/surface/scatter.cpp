@@ -1,0 +1,238 @@
+#include "render/surface/scatter.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "render/surface/fresnel.h"
+#include "render/surface/glass.h"
+#include "render/surface/sheen.h"
+
+namespace aleph {
+
+namespace {
+
+constexpr float coat_f0 = 0.04f;  // KHR_materials_clearcoat: index of refraction 1.5
+
+/// By the angle of the view, as the light below it: with that of the half vector a rough coat would add light.
+float coat_reflectance(const LitSurface& lit) {
+    return lit.material.coat * (coat_f0 + (1.0f - coat_f0) * schlick_power(lit.coat_view.z));
+}
+
+float largest(const Rgb& c) {
+    return std::max({c.x, c.y, c.z});
+}
+
+Basis make_shading_basis(const SurfacePoint& point, const SurfaceMaterial& material) {
+    if (material.stretch > 0.0f) {
+        const glm::vec3 flat = material.tangent - point.normal * glm::dot(point.normal, material.tangent);
+        const float length = glm::length(flat);
+        if (length > 1e-6f) {
+            const glm::vec3 tangent = flat / length;
+            return {tangent, glm::cross(point.normal, tangent), point.normal};
+        }
+    }
+    return make_basis(point.normal);
+}
+
+/// f cos of one lobe, and its density.
+struct LobeValue {
+    Rgb f_cos{0.0f};
+    float pdf = 0.0f;
+};
+
+LobeValue evaluate_coat(const LitSurface& lit, const glm::vec3& direction) {
+    const SurfaceMaterial& material = lit.material;
+    const glm::vec3 light = lit.coat_basis.to_local(direction);
+    if (material.is_coat_mirror() || !(light.z > 0.0f && lit.coat_view.z > 0.0f)) return {};
+    const glm::vec2 widths(material.coat_alpha);
+    const glm::vec3 h = glm::normalize(lit.coat_view + light);
+    const float value =
+        ggx_d(widths, h) * smith_g2(widths, lit.coat_view, light) / (4.0f * lit.coat_view.z) * coat_reflectance(lit);
+    return {Rgb(value), pdf_reflected(widths, lit.coat_view, h)};
+}
+
+/// @param light  in the shading frame; not on the horizon
+LobeValue evaluate_lobe(const LitSurface& lit, Lobe lobe, const glm::vec3& direction, const glm::vec3& light) {
+    const SurfaceMaterial& material = lit.material;
+    if (lobe == Lobe::glass) {
+        const GlassValue glass = evaluate_glass(material, lit.view, light);
+        return {glass.f_cos * lit.below_sheen, glass.pdf};
+    }
+    if (!(light.z > 0.0f)) return {};
+    switch (lobe) {
+        case Lobe::diffuse:
+            return {evaluate_diffuse(material, lit.cos_view, light.z) * (light.z * lit.below_sheen),
+                    pdf_cosine_hemisphere(light.z)};
+        case Lobe::gloss:
+            return {evaluate_glossy(material, lit.view, light) * (light.z * lit.below_sheen),
+                    pdf_glossy(material, lit.view, light)};
+        case Lobe::coat:
+            return evaluate_coat(lit, direction);
+        case Lobe::sheen:
+            return {material.sheen * (evaluate_sheen(material.sheen_alpha, lit.view, light) * light.z *
+                                      lit.sheen_scale * lit.below_coat),
+                    1.0f / (2.0f * std::numbers::pi_v<float>)};
+        case Lobe::glass:
+            break;
+    }
+    return {};
+}
+
+bool has_lobe(const SurfaceMaterial& material, Lobe lobe) {
+    switch (lobe) {
+        case Lobe::diffuse:
+            return material.has_diffuse();
+        case Lobe::gloss:
+            return material.has_glossy();
+        case Lobe::coat:
+            return material.has_coat();
+        case Lobe::sheen:
+            return material.has_sheen();
+        case Lobe::glass:
+            return material.has_glass();
+    }
+    return false;
+}
+
+constexpr std::array lobes{Lobe::diffuse, Lobe::gloss, Lobe::coat, Lobe::sheen, Lobe::glass};
+
+}  // namespace
+
+LitSurface::LitSurface(const ViewedSurface& surface)
+    : point(surface.point),
+      material(surface.material),
+      basis(make_shading_basis(point, material)),
+      view(basis.to_local(surface.view)),
+      cos_view(std::max(view.z, 0.0f)),
+      coat_basis(basis),
+      coat_view(view) {
+    if (material.has_coat()) {
+        if (material.coat_normal != glm::vec3(0.0f)) {
+            coat_basis = make_basis(material.coat_normal);
+            coat_view = coat_basis.to_local(surface.view);
+        }
+        if (coat_view.z > 0.0f) below_coat = 1.0f - coat_reflectance(*this);
+    }
+    below_sheen = below_coat;
+    if (material.has_sheen()) {
+        const float albedo = sheen_albedo(material.sheen_alpha, cos_view);
+        sheen_scale = 1.0f / std::max(albedo, 1.0f);
+        below_sheen *= 1.0f - largest(material.sheen) * albedo * sheen_scale;
+    }
+}
+
+LobeShares share_lobes(const LitSurface& lit, LobeSet set) {
+    const SurfaceMaterial& material = lit.material;
+    LobeShares shares{};
+    const auto set_share = [&](Lobe lobe, float share) { shares[static_cast<int>(lobe)] = share; };
+    if (set == LobeSet::all && material.has_diffuse()) {
+        set_share(Lobe::diffuse, luminance(material.diffuse) * diffuse_transmission(material, lit.cos_view) *
+                                     mean_diffuse_transmission(material) * lit.below_sheen);
+    }
+    if (material.has_glossy()) {
+        // A reflectance of 0 straight on is above 0 at the microfacets of a rough surface.
+        constexpr float rough = 1e-3f;
+        set_share(Lobe::gloss, luminance(glossy_reflectance(material, lit.cos_view)) * lit.below_sheen +
+                                   (material.is_mirror() ? 0.0f : rough * material.f90));
+    }
+    if (material.has_coat()) set_share(Lobe::coat, 1.0f - lit.below_coat);
+    if (material.has_sheen()) set_share(Lobe::sheen, std::max(lit.below_coat - lit.below_sheen, 1e-4f));
+    if (material.has_glass()) set_share(Lobe::glass, material.glass * lit.below_sheen);
+    float total = 0.0f;
+    for (const float share : shares) total += share;
+    if (!(total > 0.0f) || !std::isfinite(total)) return {};
+    // A lobe that is next to never sampled would be all noise where it matters.
+    constexpr float least = 0.02f;
+    float sum = 0.0f;
+    for (float& share : shares) {
+        if (share > 0.0f) share = std::max(share / total, least);
+        sum += share;
+    }
+    for (float& share : shares) share /= sum;
+    return shares;
+}
+
+Rgb scatter_towards(const LitSurface& lit, const glm::vec3& direction, float pdf_light, const LobeShares& shares) {
+    const glm::vec3 light = lit.basis.to_local(direction);
+    Rgb sum(0.0f);
+    for (const Lobe lobe : lobes) {
+        if (!has_lobe(lit.material, lobe)) continue;
+        const LobeValue value = evaluate_lobe(lit, lobe, direction, light);
+        const float pdf = value.pdf * shares[static_cast<int>(lobe)];
+        sum += value.f_cos * (pdf_light > 0.0f && pdf > 0.0f ? power_heuristic(pdf_light, pdf) : 1.0f);
+    }
+    return sum;
+}
+
+ScatterSample sample_scatter(const LitSurface& lit, const LobeShares& shares, float pick, const glm::vec2& u,
+                             float side) {
+    int chosen = 0;
+    for (float left = pick; chosen + 1 < lobe_count && left >= shares[chosen]; ++chosen) left -= shares[chosen];
+    while (chosen > 0 && !(shares[chosen] > 0.0f)) --chosen;  // rounding at the end
+    const float share = shares[chosen];
+    ScatterSample sample;
+    if (!(share > 0.0f)) return sample;
+    const SurfaceMaterial& material = lit.material;
+    sample.lobe = lobes[chosen];
+    const bool needs_view = sample.lobe != Lobe::diffuse && sample.lobe != Lobe::coat;
+    if (needs_view && !(lit.view.z > 0.0f)) return sample;
+    bool mirror = false;
+    glm::vec3 local(0.0f);
+    switch (sample.lobe) {
+        case Lobe::diffuse:
+            local = sample_cosine_hemisphere(u);
+            break;
+        case Lobe::gloss:
+            local = sample_glossy(material, lit.view, u);
+            mirror = material.is_mirror();
+            if (mirror) sample.weight = glossy_reflectance(material, lit.view.z) * lit.below_sheen;
+            break;
+        case Lobe::coat: {
+            if (!(lit.coat_view.z > 0.0f)) return sample;
+            mirror = material.is_coat_mirror();
+            const glm::vec3 h = mirror ? glm::vec3(0.0f, 0.0f, 1.0f)
+                                       : sample_visible_normal(glm::vec2(material.coat_alpha), lit.coat_view, u);
+            const glm::vec3 reflected = 2.0f * glm::dot(lit.coat_view, h) * h - lit.coat_view;
+            if (!(reflected.z > 0.0f)) return sample;
+            local = lit.basis.to_local(lit.coat_basis.to_world(reflected));
+            if (mirror) sample.weight = Rgb(coat_reflectance(lit));
+            break;
+        }
+        case Lobe::sheen: {
+            const float radius = std::sqrt(std::max(0.0f, 1.0f - u.x * u.x));
+            const float phi = 2.0f * std::numbers::pi_v<float> * u.y;
+            local = {radius * std::cos(phi), radius * std::sin(phi), u.x};
+            break;
+        }
+        case Lobe::glass: {
+            const GlassSample glass = sample_glass(material, lit.view, u, side);
+            local = glass.light;
+            mirror = material.is_glass_smooth();
+            if (mirror) sample.weight = glass.weight * lit.below_sheen;
+            sample.passes = local.z < 0.0f;
+            sample.straight = sample.passes && material.passes_straight();
+            break;
+        }
+    }
+    sample.direction = lit.basis.to_world(local);
+    // Also below the true surface for a direction above the shading normal's horizon, or the other way round.
+    const float facing = glm::dot(lit.point.geometric, sample.direction);
+    if (!(sample.passes ? local.z < 0.0f && facing < 0.0f : facing > 0.0f) || (!sample.passes && !(local.z > 0.0f))) {
+        sample.weight = Rgb(0.0f);
+        return sample;
+    }
+    if (mirror) {
+        sample.weight /= share;
+        return sample;
+    }
+    const LobeValue value = evaluate_lobe(lit, sample.lobe, sample.direction, local);
+    sample.pdf = value.pdf * share;
+    sample.weight = sample.pdf > 0.0f ? value.f_cos / sample.pdf : Rgb(0.0f);
+    return sample;
+}
+
+Rgb sheet_transmittance(const LitSurface& lit) {
+    return evaluate_sheet(lit.material, lit.cos_view) * lit.below_sheen;
+}
+
+}  // namespace aleph

@@ -1,0 +1,162 @@
+#include "render/surface/texture.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "engine/scene/texture_limits.h"
+#include "render/surface/texture_texels.h"
+
+namespace aleph {
+
+namespace {
+
+/// Limits the cost of a look-up. Longer footprints are blurred across as well.
+constexpr int max_probes = 16;
+
+/// A coordinate brought into [0,1]. Mirrored coordinates are folded, and their texels are then clamped at both ends.
+float wrap_coordinate(float u, Wrap wrap) {
+    if (wrap == Wrap::clamp) return std::clamp(u, 0.0f, 1.0f);
+    if (wrap == Wrap::repeat) return u - std::floor(u);
+    const float folded = u - 2.0f * std::floor(u * 0.5f);
+    return folded > 1.0f ? 2.0f - folded : folded;
+}
+
+/// For indices at most one outside [0, n).
+int wrap_index(int i, int n, Wrap wrap) {
+    if (i < 0) return wrap == Wrap::repeat ? n - 1 : 0;
+    if (i >= n) return wrap == Wrap::repeat ? 0 : n - 1;
+    return i;
+}
+
+/// Blends the four texels of one level around a place. `read` decodes them: level 0 is stored as the image's bytes.
+template <class Read>
+glm::vec4 blend_texels(int width, int height, const glm::vec2& place, Wrap wrap_u, Wrap wrap_v, const Read& read) {
+    const float cx = place.x * static_cast<float>(width) - 0.5f, cy = place.y * static_cast<float>(height) - 0.5f;
+    const float x_floor = std::floor(cx), y_floor = std::floor(cy);
+    const float ax = cx - x_floor, ay = cy - y_floor;
+    const int ix = static_cast<int>(x_floor), iy = static_cast<int>(y_floor);
+    const int x0 = wrap_index(ix, width, wrap_u), x1 = wrap_index(ix + 1, width, wrap_u);
+    const int y0 = wrap_index(iy, height, wrap_v), y1 = wrap_index(iy + 1, height, wrap_v);
+    const glm::vec4 top = read(x0, y0) * (1.0f - ax) + read(x1, y0) * ax;
+    const glm::vec4 bottom = read(x0, y1) * (1.0f - ax) + read(x1, y1) * ax;
+    return top * (1.0f - ay) + bottom * ay;
+}
+
+/// @param place  uv within [0,1]
+glm::vec4 sample_level(const Texture& texture, const TextureUse& use, int level, const glm::vec2& place) {
+    const auto from = [&](const auto& image, const auto& decode) {
+        return blend_texels(image.width, image.height, place, use.wrap_u, use.wrap_v,
+                            [&](int x, int y) { return decode(image(x, y)); });
+    };
+    if (level > 0) return from(texture.coarse[level - 1], [](const glm::vec4& t) { return t; });
+    if (texture.image->bytes.empty()) return from(texture.image->floats, [](const glm::vec4& t) { return t; });
+    if (texture.space == TextureSpace::srgb) {
+        return from(texture.image->bytes, [](const glm::u8vec4& t) { return decode_texel(t, TextureSpace::srgb); });
+    }
+    return from(texture.image->bytes, [](const glm::u8vec4& t) { return decode_texel(t, TextureSpace::linear); });
+}
+
+/// The look-ups that average a texture over a footprint.
+struct Probes {
+    int count = 1;
+    glm::vec2 step{0.0f};    ///< uv from one probe to the next
+    float level = 0.0f;      ///< 0: magnified
+    bool magnified = false;  ///< the footprint is smaller than a texel
+};
+
+/// The level whose texels are this many texels of level 0 wide, within the pyramid.
+float find_level(const Texture& texture, float texels) {
+    const float level = std::log2(texels), coarsest = static_cast<float>(texture.coarse.size());
+    return level < coarsest ? level : coarsest;  // also for NaN
+}
+
+/// Texels. A bilinear probe has the variance of a box of this width, so a footprint's axes are divided by it to get the
+/// width of its probe's texels. Without it, textures would be blurred by half as much again.
+constexpr float box_of_a_texel = std::numbers::sqrt2_v<float>;
+
+/// A row of probes with the variance of a box of the footprint's width and length.
+Probes place_probes(const Texture& texture, const UvFootprint& footprint) {
+    const glm::vec2 size(static_cast<float>(texture.width) / box_of_a_texel,
+                         static_cast<float>(texture.height) / box_of_a_texel);
+    const glm::vec2 dx = footprint.dx * size, dy = footprint.dy * size;  // in units of box_of_a_texel
+    const float area = std::abs(dx.x * dy.y - dx.y * dy.x);
+    Probes probes;
+    if (footprint.round) {
+        probes.magnified = area <= 1.0f;
+        probes.level = probes.magnified ? 0.0f : find_level(texture, std::sqrt(area));
+        return probes;
+    }
+    // Axes of the ellipse J J^T, J = [dx dy]: eigenvalues mean +- root.
+    const float xx = dx.x * dx.x + dy.x * dy.x, yy = dx.y * dx.y + dy.y * dy.y, xy = dx.x * dx.y + dy.x * dy.y;
+    const float half_difference = 0.5f * (xx - yy);
+    const float root = std::sqrt(half_difference * half_difference + xy * xy);
+    const float major2 = 0.5f * (xx + yy) + root;
+    if (major2 <= 1.0f) {
+        probes.magnified = true;
+        return probes;
+    }
+    const float major = std::sqrt(major2);
+    if (!(major < 1e18f)) {  // NaN, or too large to square
+        probes.level = static_cast<float>(texture.coarse.size());
+        return probes;
+    }
+    const float minor = area / major;
+    const float texel = std::max({minor, 1.0f, major / static_cast<float>(max_probes)});
+    probes.level = find_level(texture, texel);
+    probes.count = std::clamp(static_cast<int>(major / texel + 0.75f), 1, max_probes);
+    if (probes.count > 1) {
+        const glm::vec2 along =
+            half_difference >= 0.0f ? glm::vec2(root + half_difference, xy) : glm::vec2(xy, root - half_difference);
+        // n probes of texels t, s apart, and a box sqrt(2) major long: s^2 (n^2 - 1) / 12 + t^2 / 6 = 2 major^2 / 12.
+        const float spread2 = (major2 - texel * texel) / static_cast<float>(probes.count * probes.count - 1);
+        probes.step = along * std::sqrt(std::max(spread2, 0.0f) / (along.x * along.x + along.y * along.y)) / size;
+    }
+    return probes;
+}
+
+bool is_place(float u) {
+    return std::abs(u) < max_texture_coordinate;
+}
+
+}  // namespace
+
+glm::vec4 sample_texture(const TextureSet& set, const TextureUse& use, const glm::vec2& uv,
+                         const UvFootprint& footprint) {
+    if (use.texture == no_index) return glm::vec4(1.0f);
+    const Texture& texture = set.textures[use.texture];
+    glm::vec2 center = uv;
+    Probes probes;
+    if (use.transformed) {
+        center = use.offset + use.matrix * uv;
+        probes = place_probes(texture, {use.matrix * footprint.dx, use.matrix * footprint.dy, footprint.round});
+    } else {
+        probes = place_probes(texture, footprint);
+    }
+    center = {is_place(center.x) ? center.x : 0.0f, is_place(center.y) ? center.y : 0.0f};
+    const auto wrap = [&](const glm::vec2& place) {
+        return glm::vec2(wrap_coordinate(place.x, use.wrap_u), wrap_coordinate(place.y, use.wrap_v));
+    };
+    if (probes.magnified) {
+        const glm::vec2 place = wrap(center);
+        if (!use.nearest) return sample_level(texture, use, 0, place);
+        const int x = static_cast<int>(place.x * static_cast<float>(texture.width));
+        const int y = static_cast<int>(place.y * static_cast<float>(texture.height));
+        return read_texel(*texture.image, wrap_index(x, texture.width, use.wrap_u),
+                          wrap_index(y, texture.height, use.wrap_v), texture.space);
+    }
+    const int level = static_cast<int>(probes.level);
+    const float coarser = probes.level - static_cast<float>(level);
+    glm::vec2 at = center - probes.step * (0.5f * static_cast<float>(probes.count - 1));
+    glm::vec4 sum(0.0f);
+    for (int i = 0; i < probes.count; ++i) {
+        const glm::vec2 place = wrap(at);
+        glm::vec4 value = sample_level(texture, use, level, place);
+        if (coarser > 0.0f) value += (sample_level(texture, use, level + 1, place) - value) * coarser;
+        sum += value;
+        at += probes.step;
+    }
+    return sum * (1.0f / static_cast<float>(probes.count));
+}
+
+}  // namespace aleph

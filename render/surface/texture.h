@@ -1,0 +1,78 @@
+#pragma once
+// Texture look-up filtered by footprint. Magnified textures are bilinear. Minified ones are averaged over probes into a
+// pyramid of coarser levels, placed along the longer axis of the footprint.
+
+#include <array>
+#include <glm/mat2x2.hpp>
+#include <glm/vec2.hpp>
+#include <glm/vec4.hpp>
+#include <vector>
+
+#include "engine/scene/scene.h"
+#include "render/surface/environment_map.h"
+
+namespace aleph {
+
+enum class TextureSpace {
+    linear,
+    srgb,  ///< colour channels of 8-bit images are decoded; float images are linear already
+};
+
+/// One image with its pyramid, in linear values. Level 0 is the scene's image, decoded at each look-up. Each coarser
+/// level is half as large, rounded down, to 1 x 1. All cover uv in [0,1]^2 and have the same mean.
+struct Texture {
+    const SceneImage* image = nullptr;  ///< must outlive the texture
+    TextureSpace space = TextureSpace::linear;
+    int width = 0, height = 0;                ///< texels of level 0
+    std::vector<Image<glm::vec4>> coarse;     ///< level 1 and up
+    glm::vec3 smallest{0.0f}, largest{0.0f};  ///< of each colour channel, over all texels
+};
+
+/// A material's reference to a texture, ready for look-ups.
+struct TextureUse {
+    int texture = no_index;  ///< into TextureSet::textures; no_index is white
+    int uv_set = 0;
+    Wrap wrap_u = Wrap::repeat, wrap_v = Wrap::repeat;
+    bool nearest = false;
+    bool transformed = false;  ///< uv' = offset + matrix uv
+    glm::mat2 matrix{1.0f};
+    glm::vec2 offset{0.0f};
+};
+
+struct MaterialTextures {
+    TextureUse base_color, metallic_roughness, emission, specular, specular_color, transmission, thickness;
+    TextureUse normal, clearcoat, clearcoat_roughness, clearcoat_normal, sheen_color, sheen_roughness, anisotropy;
+    bool any = false;           ///< one of them is used
+    bool maps_normals = false;  ///< normal or clearcoat_normal is used
+};
+
+/// All textures of a scene. Made once (make_texture_set); look-ups only read it.
+struct TextureSet {
+    std::vector<Texture> textures;  ///< one for each image and space of materials that are ever shown
+    /// As Scene::materials, and one without textures at the end. A material that is hidden at all times has none.
+    std::vector<MaterialTextures> materials;
+    EnvironmentMap environment;  ///< empty: the scene has none
+};
+
+/// Builds the pyramids, in parallel. Keeps pointers to the scene's images: the scene must outlive the set.
+TextureSet make_texture_set(const Scene& scene);
+
+Texture make_texture(const SceneImage& image, TextureSpace space);
+/// @param texture  into TextureSet::textures
+TextureUse make_texture_use(const TextureRef& reference, int texture);
+
+/// The area that a look-up averages over, in uv before the reference's own transform.
+struct UvFootprint {
+    /// Change of uv from this ray to its neighbours. The footprint is the parallelogram that they span.
+    glm::vec2 dx{0.0f}, dy{0.0f};
+    /// Use one probe of the parallelogram's area: for wide cones, which need not be sharp.
+    bool round = false;
+};
+
+/// The texture at uv (v downwards from the image's top row), averaged over the footprint. If the footprint is smaller
+/// than a texel: the bilinear value, or the nearest texel if the reference says so.
+/// A coordinate that is not finite, or beyond 1e6, counts as 0. A footprint that is not finite gives the image's mean.
+glm::vec4 sample_texture(const TextureSet& set, const TextureUse& use, const glm::vec2& uv,
+                         const UvFootprint& footprint);
+
+}  // namespace aleph

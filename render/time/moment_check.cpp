@@ -1,0 +1,164 @@
+#include "render/time/moment_check.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "render/cache/gather_at.h"
+
+namespace aleph {
+
+namespace {
+
+constexpr int tile_pixels = 8;   // between probes where something moves
+constexpr int coarse_tiles = 4;  // between probes elsewhere
+/// A mover is near where it may hide so much of the hemisphere, relative to the accuracy.
+constexpr float near_form_factor = 0.25f;
+constexpr float noise_deviations = 1.5f;  // of a probe, by which it may differ although nothing happened
+constexpr std::uint8_t still_bit = 1, moving_bit = 2;
+
+/// Around the vertices of an instance; relative to `anchor`.
+MomentRisk::Sphere bound_instance(const ShadingScene& shading, int i, const glm::dvec3& anchor) {
+    const PosedInstance& instance = shading.instances[i];
+    const auto count = static_cast<std::uint32_t>(instance.mesh->positions.size());
+    const auto place = [&](std::uint32_t v) { return instance.linear * instance.corner(v) + instance.translation; };
+    SceneBounds box;
+    for (std::uint32_t v = 0; v < count; ++v) {
+        box.low = glm::min(box.low, place(v));
+        box.high = glm::max(box.high, place(v));
+    }
+    const glm::vec3 center = 0.5f * (box.low + box.high);
+    float radius = 0.0f;
+    for (std::uint32_t v = 0; v < count; ++v) radius = std::max(radius, glm::length(place(v) - center));
+    return {center + glm::vec3(shading.anchor - anchor), radius};
+}
+
+/// The cosine-weighted share of a hemisphere that a sphere hides is at most (radius / distance)^2.
+bool is_near(const MomentRisk& risk, const glm::vec3& position, float accuracy) {
+    return std::ranges::any_of(risk.movers, [&](const MomentRisk::Sphere& mover) {
+        const glm::vec3 way = position - mover.center;
+        return mover.radius * mover.radius > near_form_factor * accuracy * glm::dot(way, way);
+    });
+}
+
+}  // namespace
+
+MomentRisk find_moment_risk(const ShadingScene& shading, const PosePlan& plan,
+                            std::span<const ShadingScene* const> moments) {
+    MomentRisk risk;
+    risk.moving.resize(shading.instances.size());
+    for (const int i : plan.instances) risk.moving[i] = 1;
+    const auto add = [&](const ShadingScene& at) {
+        for (const int i : plan.instances) {
+            if (at.instances[i].visible) risk.movers.push_back(bound_instance(at, i, shading.anchor));
+        }
+    };
+    add(shading);
+    for (const ShadingScene* moment : moments) add(*moment);
+    return risk;
+}
+
+CheckedLight::CheckedLight(const IndirectContext& context, const MomentRisk& risk, const SampleHits& sample)
+    : moments_(*context.carried),
+      risk_(risk),
+      sample_(sample),
+      view_(context.view),
+      anchor_(context.lighting.shading.anchor),
+      rejected_((view_.width + tile_pixels - 1) / tile_pixels, (view_.height + tile_pixels - 1) / tile_pixels) {
+    for (int y = 0; y < rejected_.height; ++y) {
+        for (int x = 0; x < rejected_.width; ++x) add_probes(context, x, y);
+    }
+    for (const Probe& probe : probes_) reject(probe);
+}
+
+/// At most one surface that moves and one that stands still.
+void CheckedLight::add_probes(const IndirectContext& context, int tile_x, int tile_y) {
+    bool has_moving = false, has_still = false;
+    const int end_x = std::min(view_.width, (tile_x + 1) * tile_pixels);
+    const int end_y = std::min(view_.height, (tile_y + 1) * tile_pixels);
+    for (int y = tile_y * tile_pixels; y < end_y; ++y) {
+        for (int x = tile_x * tile_pixels; x < end_x; ++x) {
+            const int instance = sample_.hits(x, y).instance;
+            if (instance == no_index) continue;
+            const bool moving = risk_.moving[instance] != 0;
+            bool& has = moving ? has_moving : has_still;
+            if (has) continue;
+            const std::optional<PixelSurface> surface = find_surface(context, sample_, x, y);
+            if (!surface || !surface->material.has_diffuse()) continue;
+            has = true;
+            const bool fine = moving || is_near(risk_, surface->point.position, context.accuracy(x, y));
+            if (fine) {
+                probes_.push_back({x, y, moving, 1});
+            } else if (tile_x % coarse_tiles == 0 && tile_y % coarse_tiles == 0) {
+                probes_.push_back({x, y, moving, coarse_tiles});
+            }
+        }
+    }
+}
+
+void CheckedLight::reject(const Probe& probe) {
+    const int x = probe.x / tile_pixels, y = probe.y / tile_pixels;
+    for (int v = std::max(0, y - probe.reach); v <= std::min(rejected_.height - 1, y + probe.reach); ++v) {
+        for (int u = std::max(0, x - probe.reach); u <= std::min(rejected_.width - 1, x + probe.reach); ++u) {
+            rejected_(u, v) |= probe.moving ? moving_bit : still_bit;
+        }
+    }
+}
+
+bool CheckedLight::differs(const IrradianceCache& cache, const IndirectContext& context, const Probe& probe,
+                           RayTask& task) const {
+    const PixelSurface surface = *find_surface(context, sample_, probe.x, probe.y);
+    const float accuracy = context.accuracy(probe.x, probe.y);
+    const CacheQuery query{surface.point.position, surface.point.normal, accuracy, &task};
+    const std::optional<Rgb> own = cache.interpolate(query), theirs = moments_.find(surface, accuracy, task);
+    if (!own || !theirs) return false;
+    const std::optional<float> ray_variance = cache.expected_ray_variance(query);
+    const int rays = choose_rays(context.settings, accuracy, ray_variance);
+    const float noise = std::sqrt(ray_variance.value_or(0.0f) / static_cast<float>(rays));
+    const float a = luminance(*own), b = luminance(*theirs);
+    return std::abs(a - b) > std::hypot(accuracy, noise_deviations * noise) * 0.5f * (a + b);
+}
+
+void CheckedLight::check(IrradianceCache& cache, const IndirectContext& context, FrameTally& frame) {
+    const int count = static_cast<int>(probes_.size());
+    Image<float> accuracy(count, 1);
+    Image<FillPoint> points(count, 1);
+    for (int i = 0; i < count; ++i) {
+        const PixelSurface surface = *find_surface(context, sample_, probes_[i].x, probes_[i].y);
+        points(i, 0) = {surface.point.position, surface.footprint, surface.point.normal};
+        accuracy(i, 0) = context.accuracy(probes_[i].x, probes_[i].y);
+    }
+    const IndirectContext at_probes = make_places_context(context, accuracy);
+    const auto surface_at = [&](int i, int) { return *find_surface(context, sample_, probes_[i].x, probes_[i].y); };
+    FrameTally tally;
+    tally.records = tally.invalid_samples = Image<float>(count, 1);
+    fill_places(cache, at_probes, {std::move(points), surface_at}, tally);
+    RayTask task(context.lighting.rays);
+    std::ranges::fill(rejected_.pixels, std::uint8_t{0});
+    for (int i = 0; i < count; ++i) {
+        // Probes that another's record covers tell nothing new.
+        if (tally.records(i, 0) > 0.0f && differs(cache, context, probes_[i], task)) reject(probes_[i]);
+    }
+    for (int i = 0; i < count; ++i) {
+        frame.records(probes_[i].x, probes_[i].y) += tally.records(i, 0);
+        frame.invalid_samples(probes_[i].x, probes_[i].y) += tally.invalid_samples(i, 0);
+    }
+    frame.counts.rays += tally.counts.rays;
+    frame.counts.rays += task.counts;
+    frame.counts.records += tally.counts.records;
+    frame.counts.invalid_samples += tally.counts.invalid_samples;
+}
+
+std::optional<Rgb> CheckedLight::find(const PixelSurface& surface, float accuracy, RayTask& task,
+                                      RecordUse* used) const {
+    const glm::dvec3 place = to_camera(view_, glm::dvec3(surface.point.position) + anchor_);
+    if (-place.z > view_.near_plane || view_.orthographic) {
+        const glm::dvec2 tile = glm::floor(project_camera_point(view_, place) / static_cast<double>(tile_pixels));
+        if (tile.x >= 0.0 && tile.y >= 0.0 && tile.x < rejected_.width && tile.y < rejected_.height) {
+            const std::uint8_t bit = risk_.moving[surface.hit.instance] != 0 ? moving_bit : still_bit;
+            if ((rejected_(static_cast<int>(tile.x), static_cast<int>(tile.y)) & bit) != 0) return std::nullopt;
+        }
+    }
+    return moments_.find(surface, accuracy, task, used);
+}
+
+}  // namespace aleph

@@ -1,0 +1,64 @@
+#pragma once
+// Checks the light of key moments at a frame between them. Both moments may agree and be wrong: a ball that touches the
+// floor half way darkens it and itself, and neither moment shows that.
+//
+// The frame computes irradiance of its own at probes: surfaces of the picture, the closer to each other the more may
+// have happened there. Where a probe differs from what the moments say, the frame does not read them.
+
+#include <cstdint>
+#include <span>
+
+#include "render/cache/cache_fill.h"
+
+namespace aleph {
+
+/// Where the light of a frame may differ from that of the key moments around it.
+struct MomentRisk {
+    struct Sphere {
+        glm::vec3 center{0.0f};  ///< m, relative to the frame's anchor
+        float radius = 0.0f;     ///< m
+    };
+    std::vector<std::uint8_t> moving;  ///< per instance: it moves, deforms, comes or goes
+    std::vector<Sphere> movers;        ///< around moving instances, at the frame and at the key moments
+};
+
+/// @param shading  of the frame
+/// @param moments  the scene at the key moments around it
+MomentRisk find_moment_risk(const ShadingScene& shading, const PosePlan& plan,
+                            std::span<const ShadingScene* const> moments);
+
+/// Light of key moments, but for parts of the picture where it is not to be used.
+class CheckedLight final : public CarriedLight {
+  public:
+    /// Keeps references. Until `check`, probed parts are not used: their light may turn out not to be known.
+    /// @param context  of the frame; `carried` is the light of key moments
+    /// @param sample   of its pixels
+    CheckedLight(const IndirectContext& context, const MomentRisk& risk, const SampleHits& sample);
+
+    /// Computes irradiance at the probes, as records of the frame's cache, and compares it.
+    /// @param context  as at construction, with deeper light
+    void check(IrradianceCache& cache, const IndirectContext& context, FrameTally& tally);
+
+    std::optional<Rgb> find(const PixelSurface& surface, float accuracy, RayTask& task,
+                            RecordUse* used = nullptr) const override;
+
+  private:
+    struct Probe {
+        int x = 0, y = 0;  ///< pixel
+        bool moving = false;
+        int reach = 0;  ///< tiles around the probe's that depend on it
+    };
+    void add_probes(const IndirectContext& context, int tile_x, int tile_y);
+    void reject(const Probe& probe);
+    bool differs(const IrradianceCache& cache, const IndirectContext& context, const Probe& probe, RayTask& task) const;
+
+    const CarriedLight& moments_;
+    const MomentRisk& risk_;
+    const SampleHits& sample_;
+    const CameraView& view_;
+    glm::dvec3 anchor_;
+    std::vector<Probe> probes_;
+    Image<std::uint8_t> rejected_;  ///< per tile, a bit for what stands still and one for what moves
+};
+
+}  // namespace aleph

@@ -1,0 +1,126 @@
+#include "render/time/moment_light.h"
+
+#include <cmath>
+
+#include "render/cache/bounce_levels.h"
+#include "render/cache/bounce_places.h"
+#include "render/cache/mirror_places.h"
+#include "render/surface/carried_point.h"
+
+namespace aleph {
+
+namespace {
+
+/// Pixels, of views at other times than the moment's. Frames fill the little that tiles of this size leave open.
+constexpr int finest_tiles = 2;
+
+/// Whether linear interpolation between two moments may err too much: half way, if they differ by more than the
+/// accuracy, relative to their mean; nearer to one of them, if they differ by accordingly more, as the error of linear
+/// interpolation is 0 at both ends.
+bool differ(const Rgb& before, const Rgb& after, float weight, float accuracy) {
+    const float a = luminance(before), b = luminance(after);
+    return 4.0f * weight * (1.0f - weight) * std::abs(a - b) > 0.5f * accuracy * (a + b);
+}
+
+/// Records of things at rest, in the coordinates of another pose.
+std::vector<IrradianceRecord> shift_records(const MomentLight& from, const ShadingScene& to) {
+    std::vector<IrradianceRecord> records = from.cache.records();
+    const glm::vec3 shift(from.at->shading.anchor - to.anchor);
+    for (IrradianceRecord& record : records) record.position += shift;
+    return records;
+}
+
+}  // namespace
+
+std::vector<IrradianceRecord> compute_records(const MomentInput& input, FrameCounts& counts) {
+    const LightingContext& lighting = input.lighting;
+    const CameraView& first = input.views.front()->posed.view;
+    IrradianceCache cache = make_cache(lighting.shading);
+    if (input.base != nullptr) cache.restore(shift_records(*input.base, lighting.shading));
+    const std::size_t kept = cache.records().size();
+    DirectGrid direct(scene_radius(lighting.shading));
+    FrameTally tally;
+    tally.records = tally.invalid_samples = Image<float>(first.width, first.height);
+    std::vector<IndirectContext> contexts;
+    std::vector<SampleHits> first_samples;
+    std::vector<PixelSurface> seen;
+    for (const auto& view : input.views) {
+        contexts.push_back({.lighting = lighting,
+                            .view = view->posed.view,
+                            .settings = input.settings,
+                            .accuracy = view->accuracy,
+                            .max_radius = scene_radius(lighting.shading),
+                            .progress = {},
+                            .direct = &direct,
+                            .carried = input.carried,
+                            .seen = view->frame == input.frame ? nullptr : &view->shading});
+        first_samples.push_back(input.cast(*view, tally.counts.rays));
+        if (count_bounces(input.settings) == 1) continue;
+        add_seen_surfaces(contexts.back(), first_samples.back(), seen, tally.counts.rays);
+    }
+    const std::optional<IrradianceCache> fewer_bounces = fill_levels(contexts.front(), seen, tally.counts);
+    for (std::size_t v = 0; v < contexts.size(); ++v) {
+        contexts[v].deeper = make_deeper_light(input.settings, fewer_bounces ? &*fewer_bounces : nullptr);
+        fill_cache(cache, contexts[v], first_samples[v], tally, contexts[v].seen == nullptr ? 1 : finest_tiles);
+        // Other views were cast in another pose, where mirrors may show other things.
+        if (contexts[v].seen == nullptr) fill_mirror_places(cache, contexts[v], first_samples[v], tally);
+    }
+    tally.counts.rays += counts.rays;
+    counts = tally.counts;
+    cache.finish(kept);
+    return cache.records();
+}
+
+/// The records' order decides in which order a look-up adds them, so the cache is always made from the list, whether
+/// it was computed or read from a file.
+MomentLight make_moment_light(std::shared_ptr<const KeyPose> at, const std::vector<IrradianceRecord>& records) {
+    MomentLight moment{at, make_cache(at->shading)};
+    moment.cache.restore(records);
+    return moment;
+}
+
+BlendedLight::BlendedLight(std::shared_ptr<const MomentLight> before, std::shared_ptr<const MomentLight> after,
+                           double weight, bool still, double reach)
+    : before_(std::move(before)),
+      after_(std::move(after)),
+      weight_(static_cast<float>(weight)),
+      still_(still),
+      reach_(static_cast<float>(reach)) {}
+
+std::optional<Rgb> BlendedLight::read(const MomentLight& moment, const PixelSurface& surface, float accuracy,
+                                      RayTask& task, RecordUse& used) const {
+    const std::optional<SurfacePoint> point = carry_point(moment.at->shading, surface.hit, surface.point);
+    if (!point) return std::nullopt;
+    CacheQuery query{point->position, point->normal, accuracy * reach_};
+    query.used = &used;
+    // A surface that turned would need rays in the moment's own scene.
+    if (point->edges[0] == surface.point.edges[0] && point->edges[1] == surface.point.edges[1]) {
+        query.task = &task;
+        query.ray_shift = surface.point.position - point->position;
+    }
+    return moment.cache.interpolate(query);
+}
+
+std::optional<Rgb> BlendedLight::interpolate(const PixelSurface& surface, float accuracy, RayTask& task,
+                                             RecordUse& used) const {
+    const std::optional<Rgb> before = read(*before_, surface, accuracy, task, used);
+    if (!after_) return before;
+    const std::optional<Rgb> after = read(*after_, surface, accuracy, task, used);
+    if (!before || !after) {
+        if (still_) return before ? before : after;
+        return std::nullopt;
+    }
+    if (!still_ && differ(*before, *after, weight_, accuracy)) return std::nullopt;
+    return *before * (1.0f - weight_) + *after * weight_;
+}
+
+std::optional<Rgb> BlendedLight::find(const PixelSurface& surface, float accuracy, RayTask& task,
+                                      RecordUse* used) const {
+    RecordUse of_these;
+    const std::optional<Rgb> found = interpolate(surface, accuracy, task, of_these);
+    if (!found && finer_) return finer_->find(surface, accuracy, task, used);
+    if (found && used != nullptr) used->add(of_these);
+    return found;
+}
+
+}  // namespace aleph

@@ -1,0 +1,126 @@
+#include "render/time/shutter_light.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "render/settings/numbers.h"
+#include "render/surface/carried_point.h"
+
+namespace aleph {
+
+namespace {
+
+glm::vec3 place_vertex(const PosedInstance& instance, std::uint32_t vertex) {
+    return instance.linear * instance.corner(vertex) + instance.translation;
+}
+
+/// A sphere around an instance.
+struct Ball {
+    glm::vec3 center{0.0f};
+    float radius = 0.0f;
+};
+
+Ball enclose(const PosedInstance& instance) {
+    glm::vec3 low(infinite), high(-infinite);
+    const auto count = static_cast<std::uint32_t>(instance.mesh->positions.size());
+    for (std::uint32_t v = 0; v < count; ++v) {
+        const glm::vec3 place = place_vertex(instance, v);
+        low = glm::min(low, place);
+        high = glm::max(high, place);
+    }
+    Ball ball{0.5f * (low + high)};
+    for (std::uint32_t v = 0; v < count; ++v) {
+        ball.radius = std::max(ball.radius, glm::length(place_vertex(instance, v) - ball.center));
+    }
+    return ball;
+}
+
+bool is_at_rest(const PosedInstance& frame, const PosedInstance& sample, const glm::vec3& shift) {
+    if (frame.visible != sample.visible) return false;
+    if (!frame.visible) return true;
+    if (frame.flat && sample.flat) return true;
+    if (frame.deformed != nullptr || sample.deformed != nullptr || frame.linear != sample.linear) return false;
+    // Coordinates relative to another anchor are rounded anew.
+    const glm::vec3 place = sample.translation + shift;
+    const glm::vec3 size = glm::abs(frame.translation) + glm::abs(sample.translation) + glm::abs(shift);
+    return glm::length(place - frame.translation) <= 1e-6f * glm::length(size);
+}
+
+float find_longest_way(const PosedInstance& frame, const PosedInstance& sample, const glm::vec3& shift) {
+    float way = 0.0f;
+    for (std::uint32_t v = 0; v < frame.mesh->positions.size(); ++v) {
+        way = std::max(way, glm::length(place_vertex(sample, v) + shift - place_vertex(frame, v)));
+    }
+    return way;
+}
+
+/// Upper bound of the share of irradiance that a sphere hides at a distance from its centre.
+float hidden_share(float radius, float distance) {
+    return radius < distance ? radius * radius / (distance * distance) : 1.0f;
+}
+
+}  // namespace
+
+std::vector<ShutterMover> find_movers(const ShadingScene& frame, const ShadingScene& sample) {
+    const glm::vec3 shift(sample.anchor - frame.anchor);
+    std::vector<ShutterMover> movers;
+    for (int i = 0; i < std::ssize(frame.instances); ++i) {
+        const PosedInstance &before = frame.instances[i], &after = sample.instances[i];
+        if (is_at_rest(before, after, shift)) continue;
+        const bool both = before.visible && after.visible;
+        const Ball first = enclose(before.visible ? before : after), last = enclose(after.visible ? after : before);
+        ShutterMover mover{i, {first.center, last.center}, std::max(first.radius, last.radius), infinite};
+        if (after.visible) mover.centers[1] += shift;
+        if (!before.visible) mover.centers[0] += shift;
+        if (both) mover.moved = find_longest_way(before, after, shift);
+        movers.push_back(mover);
+    }
+    return movers;
+}
+
+float find_hidden_change(const std::vector<ShutterMover>& movers, const glm::vec3& position, const glm::vec3& moved,
+                         int instance, float enough) {
+    const float way = glm::length(moved);
+    float change = 0.0f;
+    for (const ShutterMover& mover : movers) {
+        if (mover.instance == instance) continue;
+        const float distance =
+            std::min(glm::length(position - mover.centers[0]), glm::length(position + moved - mover.centers[1]));
+        const float hidden = hidden_share(mover.radius, distance);
+        const float steps = distance > 0.0f ? 3.0f * (mover.moved + way) / distance : infinite;
+        change += hidden * std::min(1.0f, steps);
+        if (change > enough) break;
+    }
+    return change;
+}
+
+std::optional<Rgb> ShutterLight::read(const PixelSurface& still, float accuracy, RayTask& task, RecordUse& used) const {
+    if (carried_ != nullptr) {
+        if (const std::optional<Rgb> found = carried_->find(still, accuracy, task, &used)) return found;
+    }
+    if (cache_ == nullptr) return std::nullopt;
+    CacheQuery query{still.point.position, still.point.normal, accuracy * reach_, &task};
+    query.used = &used;
+    return cache_->interpolate(query);
+}
+
+ShutterLight::Found ShutterLight::find(const PixelSurface& surface, float accuracy, RayTask& task,
+                                       RecordUse* used) const {
+    const std::optional<SurfacePoint> point = carry_point(frame_, surface.hit, surface.point);
+    if (!point) return {};
+    const float turn = glm::length(surface.point.normal - point->normal) / std::numbers::sqrt2_v<float>;
+    if (!(turn <= accuracy)) return {};
+    const glm::vec3 moved = surface.point.position + shift_ - point->position;
+    if (find_hidden_change(movers_, point->position, moved, surface.hit.instance, accuracy) > accuracy) return {};
+    PixelSurface still = surface;
+    still.point = *point;
+    RecordUse of_these;
+    const std::optional<Rgb> found = read(still, accuracy, task, of_these);
+    if (!found) return {std::nullopt, true};
+    if (glm::length(moved) * of_these.weights > of_these.reaches) return {};
+    if (used != nullptr) used->add(of_these);
+    return {found, false};
+}
+
+}  // namespace aleph

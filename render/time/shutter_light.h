@@ -1,0 +1,79 @@
+#pragma once
+// Indirect light of samples that are taken while the shutter is open, each at a time of its own.
+//
+// Indirect light changes slowly, so it is taken to stay on its surface: a point is carried to where it lies at the
+// shutter's centre, and the light of the key moments or of the frame's cache is read there. That holds where the light
+// changes by less than alpha, the accuracy of the pixel, and only there it is used:
+// - What stands still. The point moves by less than the reach of the records that it reads, and its normal turns by no
+//   more than a record's may (irradiance_record.h).
+// - What moves. A sphere of radius r at distance d hides at most F = min(1, r^2 / d^2) of the light that arrives. If it
+//   moves by s, F changes by no more than min(F, 3 F s / d). The sum over all things that move is at most alpha.
+// Elsewhere light is found at the sample's own time, by a path.
+
+#include <optional>
+#include <vector>
+
+#include "render/cache/indirect_context.h"
+
+namespace aleph {
+
+/// A thing that moves between the shutter's centre and a sample's time: two spheres around it, in the frame's
+/// coordinates.
+struct ShutterMover {
+    int instance = no_index;
+    glm::vec3 centers[2]{};  ///< m, at the frame's time and at the sample's
+    float radius = 0.0f;     ///< m, the larger one
+    float moved = 0.0f;      ///< m, of its point that moves farthest; infinite if it is seen at one of the times only
+};
+
+/// Instances whose points differ between two poses of a scene.
+std::vector<ShutterMover> find_movers(const ShadingScene& frame, const ShadingScene& sample);
+
+/// An upper bound of the share of a point's light that things hide at one of the two times and not at the other.
+/// @param position  m, where the point is at the frame's time
+/// @param moved     m, from there to where it is at the sample's time, in the frame's coordinates
+/// @param instance  that the point is on: it moves along
+/// @param enough    the sum stops above this
+float find_hidden_change(const std::vector<ShutterMover>& movers, const glm::vec3& position, const glm::vec3& moved,
+                         int instance, float enough);
+
+/// What is known of a frame's indirect light, for surfaces seen at the time of one of its samples.
+class ShutterLight {
+  public:
+    /// Keeps references to the poses and what is known.
+    /// @param frame    the scene at the shutter's centre
+    /// @param sample   at the sample's time
+    /// @param carried  light of key moments at the frame's time; may be null
+    /// @param cache    the frame's own; may be null
+    /// @param reach    RenderSettings::shade_reach, of look-ups in `cache`
+    ShutterLight(const ShadingScene& frame, const ShadingScene& sample, const CarriedLight* carried,
+                 const IrradianceCache* cache, double reach)
+        : frame_(frame),
+          shift_(sample.anchor - frame.anchor),
+          carried_(carried),
+          cache_(cache),
+          reach_(static_cast<float>(reach)),
+          movers_(find_movers(frame, sample)) {}
+
+    struct Found {
+        std::optional<Rgb> irradiance;
+        bool missing = false;  ///< the light lasts, but neither key moments nor the cache have a record
+    };
+
+    /// Irradiance at a surface of the sample's time, where it is known to this accuracy. Any thread may call it.
+    /// @param task  casts rays at the shutter's centre
+    /// @param used  increased by the records that are used; may be null
+    Found find(const PixelSurface& surface, float accuracy, RayTask& task, RecordUse* used = nullptr) const;
+
+  private:
+    std::optional<Rgb> read(const PixelSurface& still, float accuracy, RayTask& task, RecordUse& used) const;
+
+    const ShadingScene& frame_;
+    glm::vec3 shift_;  ///< m, from the coordinates of the sample's time to those of the frame's
+    const CarriedLight* carried_;
+    const IrradianceCache* cache_;
+    float reach_;
+    std::vector<ShutterMover> movers_;
+};
+
+}  // namespace aleph
