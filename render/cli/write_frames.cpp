@@ -1,4 +1,5 @@
 #include "render/cli/write_frames.h"
+#include "render/guide/error_report.h"
 
 #include <fmt/format.h>
 

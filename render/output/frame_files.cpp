@@ -1,4 +1,5 @@
 #include "render/output/frame_files.h"
+#include "render/guide/error_report.h"
 
 #include <fmt/format.h>
 

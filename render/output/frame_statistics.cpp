@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "engine/base/parallel.h"
+#include "render/guide/error_report.h"
 #include "render/output/frame_files.h"
 #include "render/plan/effects_json.h"
 #include "render/settings/setting_table.h"

@@ -1,4 +1,5 @@
 #include "render/shade/frame.h"
+#include "render/guide/error_report.h"
 
 #include <algorithm>
 #include <mutex>
