@@ -2,6 +2,7 @@
 // The glTF files of tests/assets/gltf, and those that other programs wrote, where they are there.
 
 #include <algorithm>
+#include <cctype>
 #include <filesystem>
 #include <ostream>
 #include <string>

@@ -44,7 +44,8 @@ struct Raw {
         std::vector<float> values(accessor.count * components);
         if (accessor.bufferView >= 0) copy(accessor.bufferView, accessor.byteOffset, values);
         if (accessor.sparse.isSparse) {
-            const auto& [indices, replaced] = std::pair(accessor.sparse.indices, accessor.sparse.values);
+            const auto& indices = accessor.sparse.indices;
+            const auto& replaced = accessor.sparse.values;
             const auto count = static_cast<std::size_t>(accessor.sparse.count);
             std::vector<float> rows(count * components);
             copy(replaced.bufferView, replaced.byteOffset, rows);
