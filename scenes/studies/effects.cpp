@@ -6,7 +6,6 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 
 #include "engine/base/errors.h"
 #include "engine/load/load_scene.h"
@@ -230,18 +229,13 @@ void try_frame(const FrameOfScene& which, const EffectsOptions& options, const S
     }
 }
 
-/// What --quick stands for; other programs' files where they are there.
+/// What --quick stands for.
 void make_quick(EffectsOptions& options) {
     options.study.size = "32x24";
     options.frames = {"scenes/cornell/scene.json@3",      "scenes/pool-still/scene.json@0",
                       "scenes/boomerang/scene.json@45",   "scenes/hard/sealed_lamp.json",
-                      "scenes/effects/far_lights.json@1", "scenes/effects/slow_camera.json@1"};
-    const std::string glTF = "../shared/assets/gltf/BoxInterleaved.glb";
-    if (std::filesystem::exists(glTF)) {
-        options.frames.push_back(glTF);
-    } else {
-        fmt::print("glTF skipped: there are no files of other programs beside this checkout\n");
-    }
+                      "scenes/effects/far_lights.json@1", "scenes/effects/slow_camera.json@1",
+                      "tests/assets/gltf/interleaved.glb"};
 }
 
 int run_effects(const EffectsOptions& options) {

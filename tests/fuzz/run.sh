@@ -21,7 +21,7 @@ cmake --build "$build" --parallel "${JOBS:-2}" --target "${readers[@]/#/fuzz_}"
 seeds=$build/seeds
 rm -rf "$seeds"
 mkdir -p "$build/found" "$seeds"/{gltf,scene_file,alembic,image} "$build"/corpus/{gltf,scene_file,alembic,image}
-cp "$root"/scenes/room/*.glb "$seeds/gltf/"
+cp "$root"/scenes/room/*.glb "$root"/tests/assets/gltf/*.gl* "$seeds/gltf/"
 cp "$root"/scenes/hard/*.json "$root"/scenes/furnace/*.json "$seeds/scene_file/"
 cp "$root/scenes/cornell/scene.json" "$seeds/scene_file/cornell.json"
 cp "$root"/tests/assets/abc/*.abc "$seeds/alembic/"

@@ -6,6 +6,10 @@ std::filesystem::path source_folder() {
     return ALEPH_SOURCE_DIR;
 }
 
+std::filesystem::path own_assets_folder() {
+    return source_folder() / "tests" / "assets";
+}
+
 std::filesystem::path assets_folder() {
     return source_folder().parent_path() / "shared" / "assets";
 }

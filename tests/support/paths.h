@@ -9,6 +9,9 @@ namespace aleph {
 /// Root of the source tree.
 std::filesystem::path source_folder();
 
+/// Small files of our own: tests/assets.
+std::filesystem::path own_assets_folder();
+
 /// Files that other programs wrote. They are not part of the repository: the folder may be absent.
 std::filesystem::path assets_folder();
 

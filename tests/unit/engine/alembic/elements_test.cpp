@@ -1,4 +1,4 @@
-// Materials, subdivision surfaces and transforms of archives; archives that scenes include; archives of other programs.
+// Materials, subdivision surfaces and transforms of archives; archives that scenes include.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -149,26 +149,5 @@ TEST(AlembicInclude, HangsBelowANodeOfASceneFile) {
     EXPECT_EQ(again.point_caches, scene.point_caches);
 }
 
-/// Archives of others: what there is to see.
-TEST(AlembicForeign, WhatThereIsToSee) {
-    for (const std::string& name : foreign_archives)
-        if (!std::filesystem::exists(archive_path(name))) GTEST_SKIP() << missing_asset(archive_path(name));
-    const Scene cube = load("indexedTextureCoordinates");
-    EXPECT_EQ(mesh_of(cube, "CubeShape").triangles.size(), 12u);
-    EXPECT_EQ(mesh_of(cube, "CubeShape").vertex_points.size(), mesh_of(cube, "CubeShape").uv[0].size());
-    const Scene nested = load("nestedInstancing");
-    EXPECT_EQ(list_instances(nested).size(), 12u);  // 3 meshes, 4 times each
-    EXPECT_EQ(nested.meshes.size(), 3u);
-    for (const Mesh& mesh : nested.meshes) {
-        EXPECT_EQ(mesh.triangles.size(), 12u);
-        for (const glm::uvec3& t : mesh.triangles)
-            EXPECT_GT(glm::dot(triangle_normal(mesh.positions, t), glm::dvec3(mesh.normals[t.x])), 0.0);
-    }
-    const Scene camera = load("testAbcCamera");
-    EXPECT_EQ(camera.cameras.size(), 1u);
-    EXPECT_TRUE(is_animated(camera.nodes[pose(camera, 0.0).cameras[0].node].visible) ||
-                pose(camera, 0.1).cameras[0].position != pose(camera, 0.7).cameras[0].position);
-    EXPECT_TRUE(has_warning(load("testUsdAbcXformPrimCollapsing"), "AbcGeom_Curve_v2 are not read"));
-}
 }  // namespace
 }  // namespace aleph

@@ -1,4 +1,4 @@
-// Animated files made by other programs, against poses worked out from tinygltf's raw parse.
+// Poses of nodes, skins and morph targets of whole files, against tinygltf's raw parse and glTF's formulas.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -6,32 +6,50 @@
 #include <filesystem>
 #include <glm/gtc/quaternion.hpp>
 
-#include "engine/gltf/gltf.h"
 #include "engine/pose/pose.h"
-#include "tests/support/paths.h"
+#include "tests/unit/engine/gltf/model_files.h"
 #include "tests/unit/engine/gltf/raw_gltf.h"
 
 namespace aleph {
 namespace {
 
-const fs::path assets = assets_folder() / "gltf";
+class GltfPoses : public testing::TestWithParam<ModelFile> {
+  protected:
+    const Raw raw{GetParam().path};
+    const Scene scene = load_model(GetParam().path);
+    const std::vector<double> times = query_times();
 
-Scene load(const fs::path& name) {
-    Scene scene;
-    append_gltf(assets / name, scene, no_index, 0);
-    return scene;
-}
+  private:
+    /// Before, after and between the keys of all animations, and on some keys.
+    std::vector<double> query_times() const {
+        std::vector<double> keys;
+        for (const gltf::Animation& animation : raw.model.animations)
+            for (const gltf::AnimationSampler& sampler : animation.samplers)
+                for (const double seconds : raw.floats(sampler.input)) keys.push_back(seconds);
+        if (keys.empty()) return {0.0};
+        std::ranges::sort(keys);
+        const double first = keys.front(), last = keys.back();
+        std::vector<double> result{first - 1.0, last + 1.0};
+        for (int i = 0; i <= 11; ++i) result.push_back(first + (last - first) * i / 11.0);
+        for (std::size_t i = 0; i < 8; ++i) result.push_back(keys[i * (keys.size() - 1) / 7]);
+        return result;
+    }
+};
 
-#define SKIP_WITHOUT(name) \
-    if (!fs::exists(assets / (name))) GTEST_SKIP() << missing_asset(assets / (name))
+class GltfSkins : public GltfPoses {};
+class GltfMorphs : public GltfPoses {};
 
-/// Cubic keys of a rotation are floats, off from length 1 by 6e-8; the reader scales them, the formula above does not.
-constexpr double pose_tolerance = 1e-8;
+const auto name_of = [](const auto& file) { return model_name(file.param.path); };
+INSTANTIATE_TEST_SUITE_P(All, GltfPoses, testing::ValuesIn(model_files(true)), name_of);
+INSTANTIATE_TEST_SUITE_P(All, GltfSkins, testing::ValuesIn(model_files_named({"skin", "Fox", "SimpleSkin"})), name_of);
+INSTANTIATE_TEST_SUITE_P(
+    All, GltfMorphs, testing::ValuesIn(model_files_named({"morph_cube", "sparse", "AnimatedMorphCube", "box_sparse"})),
+    name_of);
 
-/// Every node of the scene, by its name, at times on keys, between them and outside.
-void expect_same_poses(const fs::path& name, const std::vector<double>& times) {
-    const Raw raw(name);
-    const Scene scene = load(name);
+/// Cubic keys of a rotation are floats, off from length 1 by 6e-8; the reader scales them, the formula does not.
+constexpr double pose_tolerance = 3e-8;
+
+TEST_P(GltfPoses, EveryNodeByItsName) {
     for (const double seconds : times) {
         const std::vector<glm::dmat4> expected = world_matrices(raw, seconds);
         const ScenePose frame = pose(scene, seconds);
@@ -39,8 +57,7 @@ void expect_same_poses(const fs::path& name, const std::vector<double>& times) {
         for (std::size_t i = 0; i < expected.size(); ++i) {
             const std::string& own = raw.model.nodes[i].name;
             const std::string node_name = own.empty() ? std::string("node").append(std::to_string(i)) : own;
-            const auto node = std::find_if(scene.nodes.begin(), scene.nodes.end(),
-                                           [&](const Node& n) { return n.name == node_name; });
+            const auto node = std::ranges::find(scene.nodes, node_name, &Node::name);
             ASSERT_NE(node, scene.nodes.end()) << node_name;
             const glm::dmat4& found = frame.world[node - scene.nodes.begin()];
             for (int k = 0; k < 16; ++k) {
@@ -50,39 +67,6 @@ void expect_same_poses(const fs::path& name, const std::vector<double>& times) {
             }
         }
     }
-}
-
-TEST(GltfPoses, KF07_InterpolationTestStepLinearCubic) {
-    SKIP_WITHOUT("InterpolationTest/InterpolationTest.gltf");
-    expect_same_poses("InterpolationTest/InterpolationTest.gltf",
-                      {-1.0, 0.0, 0.1, 0.5, 0.75, 0.9999, 1.0, 1.3, 1.5, 1.99, 2.0, 10.0});
-}
-
-TEST(GltfPoses, ParentInverseAnimation) {
-    SKIP_WITHOUT("06_parent-inverse-anim/06_parent-inverse-anim.gltf");
-    expect_same_poses("06_parent-inverse-anim/06_parent-inverse-anim.gltf", {0.0, 0.1, 0.77, 1.5, 2.6, 4.0});
-}
-
-TEST(GltfPoses, LightCameraAnimations) {
-    SKIP_WITHOUT("lightCameraAnimations/lightCameraAnimations.gltf");
-    expect_same_poses("lightCameraAnimations/lightCameraAnimations.gltf", {0.0, 0.05, 1.0, 2.34, 3.75, 5.0});
-}
-
-TEST(GltfPoses, FoxSurveysAndItsOtherAnimationsAreNamed) {
-    SKIP_WITHOUT("Fox.glb");
-    expect_same_poses("Fox.glb", {0.0, 0.31, 1.7, 3.4166667461395264, 9.0});
-    const Scene scene = load("Fox.glb");
-    ASSERT_EQ(scene.skins.size(), 1u);
-    EXPECT_EQ(scene.skins[0].joints.size(), 24u);
-    EXPECT_EQ(scene.meshes[0].joints_per_vertex, 4);
-    EXPECT_EQ(scene.meshes[0].triangles.size(), 576u);  // 1728 vertices, no indices
-    EXPECT_TRUE(scene.meshes[0].normals.empty());
-    const auto warns = [&](const std::string& text) {
-        return std::any_of(scene.warnings.begin(), scene.warnings.end(),
-                           [&](const std::string& warning) { return warning.find(text) != std::string::npos; });
-    };
-    EXPECT_TRUE(warns("\"Walk\" are left out: \"Survey\" moves the same"));
-    EXPECT_TRUE(warns("\"Run\" are left out: \"Survey\" moves the same"));
 }
 
 /// Points of a mesh in world space, as pose gives them.
@@ -98,9 +82,8 @@ std::vector<glm::dvec3> world_points(const ScenePose& frame, std::size_t mesh) {
 }
 
 /// glTF 2.0, 3.7.3: world = sum of weight * joint's world * inverse bind, the mesh's own node left out.
-void expect_same_skin(const fs::path& name, const std::vector<double>& times) {
-    const Raw raw(name);
-    const Scene scene = load(name);
+TEST_P(GltfSkins, PointsFollowTheirJoints) {
+    ASSERT_EQ(scene.skins.size(), 1u);
     const gltf::Primitive& primitive = raw.model.meshes[0].primitives[0];
     const gltf::Skin& skin = raw.model.skins[0];
     const std::vector<double> points = raw.floats(primitive.attributes.at("POSITION"));
@@ -115,6 +98,8 @@ void expect_same_skin(const fs::path& name, const std::vector<double>& times) {
     for (std::size_t i = 0; i < accessor.count; ++i) {
         std::memcpy(&joints[4 * i], &buffer.at(view.byteOffset + accessor.byteOffset + i * stride), 8);
     }
+    double moved = 0.0;
+    const std::vector<glm::dvec3> rest = world_points(pose(scene, times.front()), 0);
     for (const double seconds : times) {
         const std::vector<glm::dmat4> world = world_matrices(raw, seconds);
         std::vector<glm::dmat4> carriers;
@@ -136,80 +121,71 @@ void expect_same_skin(const fs::path& name, const std::vector<double>& times) {
             sum /= total;
             // Weights are kept as floats after they are brought to a sum of 1.
             for (int k = 0; k < 3; ++k) EXPECT_NEAR(found[i][k], sum[k], 5e-7 * std::max(1.0, glm::length(sum))) << i;
+            moved = std::max(moved, glm::distance(found[i], rest[i]));
         }
     }
-}
-
-TEST(GltfPoses, SimpleSkinPoints) {
-    SKIP_WITHOUT("SimpleSkin.gltf");
-    expect_same_skin("SimpleSkin.gltf", {0.0, 0.25, 1.0, 2.2, 5.5});
-}
-
-TEST(GltfPoses, FoxPoints) {
-    SKIP_WITHOUT("Fox.glb");
-    expect_same_skin("Fox.glb", {0.0, 1.234});
+    EXPECT_GT(moved, 0.1) << "nothing moves at these times, so nothing is compared";
 }
 
 /// Rest plus weighted displacements, in double; normals likewise, then unit.
-TEST(GltfPoses, AnimatedMorphCubeAtKeysAndBetween) {
-    const fs::path name = "AnimatedMorphCube/AnimatedMorphCube.gltf";
-    SKIP_WITHOUT(name);
-    const Raw raw(name);
-    const Scene scene = load(name);
-    ASSERT_EQ(scene.meshes.size(), 1u);
-    ASSERT_EQ(scene.meshes[0].targets.size(), 2u);
-    const gltf::Animation& animation = raw.model.animations[0];
-    const Keys weights(raw, animation, animation.channels[0], 2);
-    ASSERT_EQ(weights.times.size(), 127u);
-    const gltf::Primitive& primitive = raw.model.meshes[0].primitives[0];
+TEST_P(GltfMorphs, PointsAndNormalsFollowTheWeights) {
+    const gltf::Primitive& primitive = raw.model.meshes.at(0).primitives.at(0);
+    const std::size_t count = primitive.targets.size();
+    ASSERT_EQ(scene.meshes.at(0).targets.size(), count);
+    const gltf::Animation& animation = raw.model.animations.at(0);
+    const gltf::AnimationChannel& channel = animation.channels.at(0);
+    ASSERT_EQ(channel.target_path, "weights");
+    const Keys weights(raw, animation, channel, count);
     const std::vector<double> rest = raw.floats(primitive.attributes.at("POSITION"));
-    const std::vector<double> normals = raw.floats(primitive.attributes.at("NORMAL"));
-    std::vector<std::vector<double>> moves, turns;
-    for (const auto& target : primitive.targets) {
-        moves.push_back(raw.floats(target.at("POSITION")));
-        turns.push_back(raw.floats(target.at("NORMAL")));
-    }
+    const bool flat = !primitive.attributes.contains("NORMAL");
+    const std::vector<double> normals = flat ? std::vector<double>{} : raw.floats(primitive.attributes.at("NORMAL"));
     double largest_weight = 0.0;
-    const double between = 0.5 * (weights.times[40] + weights.times[41]);
-    for (const double seconds : {weights.times[0], weights.times[40], between, weights.times[90], 3.21, 99.0}) {
+    for (const double seconds : times) {
         const std::vector<double> w = weights.at(seconds);
-        largest_weight = std::max({largest_weight, w[0], w[1]});
-        for (std::size_t k = 0; k < 2; ++k) {
-            EXPECT_NEAR(evaluate(scene.meshes[0].target_weights[k], seconds), w[k], 1e-12) << seconds;
+        std::vector<double> points = rest, turned = normals;
+        for (std::size_t t = 0; t < count; ++t) {
+            largest_weight = std::max(largest_weight, w[t]);
+            EXPECT_NEAR(evaluate(scene.meshes[0].target_weights[t], seconds), w[t], 1e-12) << seconds;
+            const std::vector<double> moves = raw.floats(primitive.targets[t].at("POSITION"));
+            for (std::size_t i = 0; i < points.size(); ++i) points[i] += w[t] * moves[i];
+            if (flat) continue;
+            const std::vector<double> turns = raw.floats(primitive.targets[t].at("NORMAL"));
+            for (std::size_t i = 0; i < turned.size(); ++i) turned[i] += w[t] * turns[i];
         }
         const PosedMesh posed = pose(scene, seconds).meshes[0];
         ASSERT_EQ(posed.positions.size(), rest.size() / 3);
-        ASSERT_EQ(posed.normals.size(), rest.size() / 3);
-        for (std::size_t i = 0; i < rest.size() / 3; ++i) {
-            glm::dvec3 point, normal;
-            for (int k = 0; k < 3; ++k) {
-                const std::size_t at = 3 * i + static_cast<std::size_t>(k);
-                point[k] = rest[at] + w[0] * moves[0][at] + w[1] * moves[1][at];
-                normal[k] = normals[at] + w[0] * turns[0][at] + w[1] * turns[1][at];
-                EXPECT_NEAR(posed.positions[i][k], point[k], 1e-12) << seconds;
-            }
-            normal = glm::normalize(normal);
-            for (int k = 0; k < 3; ++k) EXPECT_NEAR(posed.normals[i][k], normal[k], 1e-6) << seconds;
+        ASSERT_EQ(posed.normals.size(), normals.size() / 3);
+        for (std::size_t i = 0; i < rest.size(); ++i)
+            EXPECT_NEAR(posed.positions[i / 3][static_cast<int>(i % 3)], points[i], 1e-12) << seconds;
+        for (std::size_t i = 0; i < posed.normals.size(); ++i) {
+            const glm::dvec3 unit = glm::normalize(glm::dvec3(turned[3 * i], turned[3 * i + 1], turned[3 * i + 2]));
+            for (int k = 0; k < 3; ++k) EXPECT_NEAR(posed.normals[i][k], unit[k], 1e-6) << seconds;
         }
     }
     EXPECT_GT(largest_weight, 0.5) << "nothing morphs at these times, so nothing is compared";
 }
 
-TEST(GltfPoses, BoxSparseMorphsFromOneToTwoSeconds) {
-    SKIP_WITHOUT("box_sparse.glb");
-    const Scene scene = load("box_sparse.glb");
-    const Track<double>& weight = scene.meshes[0].target_weights.at(0);
-    EXPECT_EQ(weight.sampling.times, (std::vector<double>{1.0, 2.0}));
-    EXPECT_EQ(weight.values, (std::vector<double>{0.0, 1.0}));  // the 1 is the sparse value, the 0 its absent base
-    ASSERT_EQ(scene.warnings.size(), 1u);
-    EXPECT_NE(scene.warnings[0].find("byteOffset means nothing"), std::string::npos);
+/// Half way between keys 0.5 s apart of the values 0 and 1, left with 4 a second and reached level.
+TEST(GltfPosesOnPaper, KF07_StepLinearCubic) {
+    const ScenePose frame = pose(load_model(own_model("interpolation.gltf")), 0.25);
+    const auto y = [&](std::size_t node) { return frame.world.at(node)[3].y - 6.0; };
+    EXPECT_DOUBLE_EQ(y(6), 0.0);
+    EXPECT_DOUBLE_EQ(y(7), 0.5);
+    EXPECT_DOUBLE_EQ(y(8), 0.5 + 0.5 * 4.0 / 8.0);
 }
 
-TEST(GltfPoses, CamerasHasAWarning) {
-    SKIP_WITHOUT("Cameras.gltf");
-    const Scene scene = load("Cameras.gltf");
-    ASSERT_EQ(scene.warnings.size(), 1u);
-    EXPECT_NE(scene.warnings[0].find("the rotation quaternion has length 0.948683"), std::string::npos);
+/// At 0 s the parent is as its inverse matrix expects, so that it does not count.
+TEST(GltfPosesOnPaper, AnInverseMatrixTakesTheParentOut) {
+    const Scene scene = load_model(own_model("inverse_parent.glb"));
+    const auto at = [&](const std::string& name, double seconds) {
+        const auto node = std::ranges::find(scene.nodes, name, &Node::name) - scene.nodes.begin();
+        return glm::dvec3(pose(scene, seconds).world.at(static_cast<std::size_t>(node))[3]);
+    };
+    EXPECT_EQ(at("parent", 0.0), glm::dvec3(1, 2, 3));
+    EXPECT_EQ(at("child", 0.0), glm::dvec3(0, 1, 0));
+    EXPECT_EQ(at("leaf", 0.0), glm::dvec3(0, 2, 0));
+    EXPECT_EQ(at("parent", 2.0), glm::dvec3(4, 2, 3));
+    EXPECT_GT(glm::distance(at("child", 2.0), glm::dvec3(0, 1, 0)), 1.0);
 }
 
 }  // namespace

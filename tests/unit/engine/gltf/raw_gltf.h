@@ -13,8 +13,6 @@
 #include <string>
 #include <vector>
 
-#include "tests/support/paths.h"
-
 namespace aleph {
 
 namespace fs = std::filesystem;
@@ -26,30 +24,49 @@ inline bool skip_image(gltf::Image*, const int, std::string*, std::string*, int,
     return true;
 }
 
-/// A file of the glTF assets as tinygltf reads it.
+/// A file as tinygltf reads it.
 struct Raw {
-    explicit Raw(const fs::path& name) {
+    explicit Raw(const fs::path& file) {
         gltf::TinyGLTF parser;
         parser.SetImageLoader(skip_image, nullptr);
         std::string error, warning;
-        const std::string path = (assets_folder() / "gltf" / name).string();
-        const bool read = name.extension() == ".glb" ? parser.LoadBinaryFromFile(&model, &error, &warning, path)
+        const std::string path = file.string();
+        const bool read = file.extension() == ".glb" ? parser.LoadBinaryFromFile(&model, &error, &warning, path)
                                                      : parser.LoadASCIIFromFile(&model, &error, &warning, path);
         EXPECT_TRUE(read) << error;
     }
-    /// Float values of a packed accessor.
+    /// Float values of a packed or sparse accessor.
     std::vector<double> floats(int index) const {
         const gltf::Accessor& accessor = model.accessors.at(static_cast<std::size_t>(index));
-        const gltf::BufferView& view = model.bufferViews.at(static_cast<std::size_t>(accessor.bufferView));
         const auto components =
             static_cast<std::size_t>(gltf::GetNumComponentsInType(static_cast<std::uint32_t>(accessor.type)));
         EXPECT_EQ(accessor.componentType, TINYGLTF_COMPONENT_TYPE_FLOAT);
         std::vector<float> values(accessor.count * components);
-        std::memcpy(
-            values.data(),
-            &model.buffers.at(static_cast<std::size_t>(view.buffer)).data.at(view.byteOffset + accessor.byteOffset),
-            values.size() * sizeof(float));
+        if (accessor.bufferView >= 0) copy(accessor.bufferView, accessor.byteOffset, values);
+        if (accessor.sparse.isSparse) {
+            const auto& indices = accessor.sparse.indices;
+            const auto& replaced = accessor.sparse.values;
+            const auto count = static_cast<std::size_t>(accessor.sparse.count);
+            std::vector<float> rows(count * components);
+            copy(replaced.bufferView, replaced.byteOffset, rows);
+            const int width = gltf::GetComponentSizeInBytes(static_cast<std::uint32_t>(indices.componentType));
+            std::vector<std::uint8_t> places(count * static_cast<std::size_t>(width));
+            copy(indices.bufferView, indices.byteOffset, places);
+            for (std::size_t i = 0; i < count; ++i) {
+                std::size_t place = 0;
+                std::memcpy(&place, &places[i * static_cast<std::size_t>(width)], static_cast<std::size_t>(width));
+                for (std::size_t k = 0; k < components; ++k)
+                    values.at(place * components + k) = rows[i * components + k];
+            }
+        }
         return {values.begin(), values.end()};
+    }
+    template <class T>
+    void copy(int view_number, std::size_t offset, std::vector<T>& values) const {
+        const gltf::BufferView& view = model.bufferViews.at(static_cast<std::size_t>(view_number));
+        const auto& buffer = model.buffers.at(static_cast<std::size_t>(view.buffer)).data;
+        ASSERT_LE(view.byteOffset + offset + values.size() * sizeof(T), buffer.size());
+        std::memcpy(values.data(), buffer.data() + view.byteOffset + offset, values.size() * sizeof(T));
     }
     gltf::Model model;
 };

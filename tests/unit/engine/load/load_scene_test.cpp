@@ -209,13 +209,13 @@ TEST_F(LoadScene, ManyIncludesOfOneFileLoadAndSave) {
     EXPECT_TRUE(without_file(load_scene(folder_ / "again.json")) == without_file(scene));
 }
 
-TEST_F(LoadScene, RealFilesLoadAsScenesAndAsIncludes) {
-    const fs::path assets = assets_folder();
-    if (!fs::exists(assets)) GTEST_SKIP() << missing_asset(assets);
-    for (const char* name : {"gltf/CesiumMilkTruck.glb", "gltf/CornellBox.glb", "room/room.glb"}) {
-        const Scene scene = load_scene(assets / name);
+TEST_F(LoadScene, ModelsLoadAsScenesAndAsIncludes) {
+    const fs::path own = own_assets_folder() / "gltf";
+    for (const fs::path& name : {own / "truck.glb", own / "lamp_box.glb", own / "morph_cube.glb", own / "skin.glb",
+                                 source_folder() / "scenes/room/room.glb"}) {
+        const Scene scene = load_scene(name);
         EXPECT_NO_THROW(find_camera(scene, "")) << name;
-        fs::copy_file(assets / name, folder_ / "lib/asset.glb", fs::copy_options::overwrite_existing);
+        fs::copy_file(name, folder_ / "lib/asset.glb", fs::copy_options::overwrite_existing);
         const Scene included =
             load_scene(write_scene(R"("nodes": [{"name": "place", "scale": 2, "include": "lib/asset.glb"}])"));
         EXPECT_EQ(included.meshes.size(), scene.meshes.size()) << name;
