@@ -1,5 +1,5 @@
 // Writes the scenes `pool` and `pool-still` and their textures: make_pool OUTPUT_FOLDER (usually scenes).
-// Deterministic: tests/unit/scenes/scenes_test.cpp compares the bytes.
+// Deterministic: tests/scenes/scenes_test.cpp compares the bytes.
 
 #include "scenes/common/generator.h"
 #include "scenes/pool/pool_scene.h"

@@ -1,5 +1,5 @@
 #pragma once
-// A locale whose decimal point is a comma (DT-09, tests/hard/README.md), compiled for the test where the system has
+// A locale whose decimal point is a comma (DT-09, tests/HAZARDS.md), compiled for the test where the system has
 // none.
 
 #include <stdlib.h>

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """Writes NAME.scene.json: scene files with the same content as two of the archives, made from NAME.json (the content of
-the archives as the reference library reads it). tests/unit/engine/alembic/authored_test.cpp compares both. Run it in
+the archives as the reference library reads it). tests/engine/alembic/authored_test.cpp compares both. Run it in
 this folder; it needs the JSON files only.
 
 Nodes are named by the path of the object; "#n" at the end distinguishes the parts of one object.

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """Writes the glTF models of this folder, one per group of features; it needs the standard library only. The numbers are
-repeated in tests/unit/engine/gltf/assets_test.cpp; poses_test.cpp there works out the poses.
+repeated in tests/engine/gltf/assets_test.cpp; poses_test.cpp there works out the poses.
 """
 import math
 

@@ -1,0 +1,201 @@
+// glTF reader: keys and rotations.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "engine/pose/pose.h"
+#include "tests/engine/gltf/fixture.h"
+
+namespace aleph {
+namespace {
+
+using GltfAnimation = GltfFixture;
+
+TEST_F(GltfAnimation, KF12_KF13_LinearAndStepAtKeysBetweenAndOutside) {
+    GltfDraft draft = triangle_draft();
+    draft.animate(0, "translation", {0.5f, 1.0f, 2.0f}, {0, 0, 0, 4, 0, 0, 4, 8, 0});
+    draft.animate(0, "scale", {0.0f, 1.0f}, {1, 1, 1, 3, 3, 3}, "STEP");
+    const Scene scene = load(draft);
+    const auto& move = scene.nodes[0].translation;
+    EXPECT_EQ(evaluate(move, 0.0), glm::dvec3(0, 0, 0));
+    EXPECT_EQ(evaluate(move, 0.5), glm::dvec3(0, 0, 0));
+    EXPECT_EQ(evaluate(move, 0.625), glm::dvec3(1, 0, 0));
+    EXPECT_EQ(evaluate(move, 1.0), glm::dvec3(4, 0, 0));
+    EXPECT_EQ(evaluate(move, 1.75), glm::dvec3(4, 6, 0));
+    EXPECT_EQ(evaluate(move, 9.0), glm::dvec3(4, 8, 0));
+    const auto& size = scene.nodes[0].scale;
+    EXPECT_EQ(size.interpolation, Interpolation::step);
+    EXPECT_EQ(evaluate(size, 0.999), glm::dvec3(1.0));
+    EXPECT_EQ(evaluate(size, 1.0), glm::dvec3(3.0));
+    EXPECT_TRUE(scene.warnings.empty());
+}
+
+TEST_F(GltfAnimation, RotationKeysTurnByTheShorterArc) {
+    GltfDraft draft = triangle_draft();
+    const float h = std::sqrt(0.5f);
+    draft.animate(0, "rotation", {0.0f, 2.0f}, {0, 0, 0, 1, 0, 0, h, h});  // 0 to 90 degrees about z
+    const ScenePose frame = pose(load(draft), 0.5);                        // 22.5 degrees
+    const double angle = std::numbers::pi / 8.0;
+    EXPECT_NEAR(frame.world[0][0].x, std::cos(angle), 1e-7);  // the keys are floats
+    EXPECT_NEAR(frame.world[0][0].y, std::sin(angle), 1e-7);
+}
+
+/// 90 degrees about (1, 2, 2) / 3, rounded to integers: lengths are off by up to 7e-3, which needs no warning.
+TEST_F(GltfAnimation, KF06_QuantisedQuaternionsBecomeUnit) {
+    const double h = std::sqrt(0.5);
+    const double parts[] = {h / 3.0, 2.0 * h / 3.0, 2.0 * h / 3.0, h};
+    const auto check = [&]<class C>(C, double tolerance) {
+        GltfDraft draft = triangle_draft();
+        draft.animate(0, "rotation", {0.0f, 1.0f}, {0, 0, 0, 1, 0, 0, 0, 1});
+        std::vector<C> keys(8);
+        for (std::size_t k = 0; k < 8; ++k) {
+            keys[k] = static_cast<C>(std::lround(parts[k % 4] * std::numeric_limits<C>::max()));
+        }
+        draft.json["animations"][0]["samplers"][0]["output"] = draft.add_accessor<C>(keys, "VEC4", 4, true);
+        const Scene scene = load(draft);
+        const glm::dquat q = scene.nodes[0].rotation.values[0];
+        EXPECT_NEAR(glm::length(q), 1.0, 1e-15);
+        EXPECT_NEAR(q.x, parts[0], tolerance);
+        EXPECT_NEAR(q.w, parts[3], tolerance);
+        EXPECT_TRUE(scene.warnings.empty()) << scene.warnings[0];
+    };
+    check(std::int16_t{}, 3e-5);
+    check(std::int8_t{}, 8e-3);
+}
+
+/// Keys 2 s apart with tangents of 1 per second: half-way the value is the mean plus 2 * (1 - -1) / 8.
+TEST_F(GltfAnimation, KF07_CubicTangentsCountTimesTheInterval) {
+    GltfDraft draft = triangle_draft();
+    draft.animate(0, "translation", {1.0f, 3.0f}, {0, 0, 0, 0, 0, 0, 1, 1, 0, -1, 0, 0, 4, 0, 0, 0, 0, 0},
+                  "CUBICSPLINE");
+    const Scene scene = load(draft);
+    const auto& move = scene.nodes[0].translation;
+    EXPECT_EQ(move.interpolation, Interpolation::cubic);
+    EXPECT_EQ(evaluate(move, 2.0), glm::dvec3(2.0 + 0.5, 0.25, 0));
+    const double s = 0.1,
+                 x = 2 * (s * s * s - 2 * s * s + s) + 4 * (3 * s * s - 2 * s * s * s) - 2 * (s * s * s - s * s);
+    EXPECT_NEAR(evaluate(move, 1.2).x, x, 1e-9);
+    EXPECT_EQ(evaluate(move, 1.0), glm::dvec3(0.0));  // KF-12, KF-13: on keys and outside
+    EXPECT_EQ(evaluate(move, 0.0), glm::dvec3(0.0));
+    EXPECT_EQ(evaluate(move, 3.0), glm::dvec3(4, 0, 0));
+    EXPECT_EQ(evaluate(move, 9.0), glm::dvec3(4, 0, 0));
+}
+
+TEST_F(GltfAnimation, KF08_CubicRotationThroughZeroHoldsTheNearerKey) {
+    GltfDraft draft = triangle_draft();
+    draft.animate(0, "rotation", {0.0f, 1.0f},
+                  {0, 0, 0, 0, 0, 0.6f, 0, 0.8f, 0, 0, 0, 0, 0, 0, 0, 0, 0, -0.6f, 0, -0.8f, 0, 0, 0, 0},
+                  "CUBICSPLINE");
+    const Scene scene = load(draft);
+    for (const double t : {0.0, 0.25, 0.499999, 0.5, 0.500001, 0.75, 1.0}) {
+        const glm::dquat q = evaluate(scene.nodes[0].rotation, t);
+        EXPECT_NEAR(glm::length(q), 1.0, 1e-12) << t;
+        EXPECT_NEAR(std::abs(q.y), 0.6, 1e-7) << t;  // q and -q are one rotation: it stands still
+        EXPECT_NEAR(std::abs(q.w), 0.8, 1e-7) << t;
+    }
+}
+
+TEST_F(GltfAnimation, KF09_CubicWithOneKeyIsItsMiddleValue) {
+    GltfDraft draft = triangle_draft();
+    draft.animate(0, "scale", {1.0f}, {7, 7, 7, 2, 3, 4, 9, 9, 9}, "CUBICSPLINE");
+    const Scene scene = load(draft);
+    for (const double t : {0.0, 1.0, 2.0}) EXPECT_EQ(evaluate(scene.nodes[0].scale, t), glm::dvec3(2, 3, 4));
+}
+
+/// A key of length 2 becomes unit, and its tangents half as long, so that the curve is the same turned to unit length.
+TEST_F(GltfAnimation, CubicRotationTangentsFollowTheirKey) {
+    GltfDraft draft = triangle_draft();
+    draft.animate(0, "rotation", {0.0f, 1.0f}, {0, 0, 0, 0, 0, 0, 0, 2, 0, 1, 0, 0, 0, 0, 0, 0, 0, 1, 0, 0, 0, 0, 0, 0},
+                  "CUBICSPLINE");
+    const auto values = load(draft).nodes[0].rotation.values;
+    EXPECT_EQ(values[1], glm::dquat(1, 0, 0, 0));
+    EXPECT_EQ(values[2], glm::dquat(0, 0, 0.5, 0));
+    EXPECT_EQ(values[4], glm::dquat(0, 0, 1, 0));
+}
+
+TEST_F(GltfAnimation, NormalizedIntegerRotationKeys) {
+    GltfDraft draft = triangle_draft();
+    draft.animate(0, "rotation", {0.0f, 1.0f}, {0, 0, 0, 1, 0, 0, 0, 1});
+    const int keys = draft.add_accessor<std::int16_t>({0, 0, 0, 32767, -32768, 0, 0, 0}, "VEC4", 4, true);
+    draft.json["animations"][0]["samplers"][0]["output"] = keys;
+    const Scene scene = load(draft);
+    EXPECT_EQ(scene.nodes[0].rotation.values[0], glm::dquat(1, 0, 0, 0));
+    EXPECT_EQ(scene.nodes[0].rotation.values[1], glm::dquat(0, -1, 0, 0));  // -32768 counts as -1
+}
+
+TEST_F(GltfAnimation, FloatsBecomeDoublesExactly) {
+    GltfDraft draft = triangle_draft();
+    const float time = 0.1f, value = 1e-20f / 3.0f;
+    draft.animate(0, "translation", {0.0f, time}, {0, 0, 0, value, -value, 16777217.0f});
+    const Scene scene = load(draft);
+    EXPECT_EQ(last_time(scene.nodes[0].translation), static_cast<double>(time));
+    EXPECT_EQ(scene.nodes[0].translation.values[1], glm::dvec3(value, -value, 16777216.0));
+}
+
+TEST_F(GltfAnimation, AllAnimationsPlayTogether) {
+    GltfDraft draft = triangle_draft();
+    draft.json["nodes"].push_back({{"mesh", 0}});
+    draft.json["scenes"][0]["nodes"] = {0, 1};
+    draft.animate(0, "translation", {0.0f, 1.0f}, {0, 0, 0, 1, 0, 0});
+    draft.animate(1, "translation", {0.0f, 1.0f}, {0, 0, 0, 0, 1, 0});
+    const ScenePose frame = pose(load(draft), 1.0);
+    EXPECT_EQ(frame.world[0][3], glm::dvec4(1, 0, 0, 1));
+    EXPECT_EQ(frame.world[1][3], glm::dvec4(0, 1, 0, 1));
+}
+
+TEST_F(GltfAnimation, S12_11_ChannelWithoutNodeIsIgnoredWithAWarning) {
+    GltfDraft draft = triangle_draft();
+    draft.animate(0, "translation", {0.0f, 1.0f}, {0, 0, 0, 1, 0, 0});
+    Json channel = {{"sampler", 0}, {"target", {{"path", "translation"}}}};
+    draft.json["animations"][0]["channels"].insert(draft.json["animations"][0]["channels"].begin(), channel);
+    const Scene scene = load(draft);
+    EXPECT_TRUE(warns(scene, "1 channels animate no node"));
+    EXPECT_EQ(scene.nodes[0].translation.key_count(), 2u);
+}
+
+TEST_F(GltfAnimation, KF04_QuaternionsOfAnyLengthBecomeUnitWithAWarning) {
+    for (const double length : {0.5, 2.0, 1e-20, 1e17}) {
+        GltfDraft draft = triangle_draft();
+        draft.json["nodes"][0]["rotation"] = {0.6 * length, 0, 0, 0.8 * length};
+        const Scene scene = load(draft);
+        const glm::dquat q = scene.nodes[0].rotation.values[0];
+        EXPECT_NEAR(q.x, 0.6, 1e-15);
+        EXPECT_NEAR(q.w, 0.8, 1e-15);
+        EXPECT_TRUE(warns(scene, "normalized")) << length;
+    }
+    GltfDraft draft = triangle_draft();
+    draft.json["nodes"][0]["rotation"] = {0.6f, 0.0f, 0.0f, 0.8f};  // off by float rounding only
+    EXPECT_TRUE(load(draft).warnings.empty());
+}
+
+TEST_F(GltfAnimation, KF04_KeysOfAnyLengthGiveOneWarningPerChannel) {
+    GltfDraft draft = triangle_draft();
+    draft.animate(0, "rotation", {0, 1, 2}, {0, 0, 0, 1, 0, 0, 3e-10f, 4e-10f, 6e17f, 0, 0, 8e17f});
+    const Scene scene = load(draft);
+    EXPECT_NEAR(scene.nodes[0].rotation.values[1].z, 0.6, 1e-7);
+    EXPECT_NEAR(scene.nodes[0].rotation.values[2].x, 0.6, 1e-7);
+    EXPECT_TRUE(warns(scene, "node 0 \"node0\": 2 rotation keys are not of length 1"));
+    EXPECT_EQ(scene.warnings.size(), 1u);
+}
+
+TEST_F(GltfAnimation, RP08_KeysFarApartAreWarnedOf) {
+    const auto about_y = [](double degrees) {
+        const double half = degrees / 360.0 * std::numbers::pi;
+        return std::vector<float>{
+            0, 0, 0, 1, 0, static_cast<float>(std::sin(half)), 0, static_cast<float>(std::cos(half))};
+    };
+    GltfDraft draft = triangle_draft();
+    draft.json["nodes"][0]["name"] = "fan";
+    GltfDraft far = draft, near = draft, stepped = draft;
+    far.animate(0, "rotation", {0.0f, 1.0f}, about_y(175.0));
+    near.animate(0, "rotation", {0.0f, 1.0f}, about_y(169.0));
+    stepped.animate(0, "rotation", {0.0f, 1.0f}, about_y(175.0), "STEP");
+    EXPECT_TRUE(warns(load(far), "node 0 \"fan\": rotation keys 0 and 1 are 175.0 degrees apart"));
+    EXPECT_TRUE(load(near).warnings.empty());
+    EXPECT_TRUE(load(stepped).warnings.empty());
+}
+
+}  // namespace
+}  // namespace aleph

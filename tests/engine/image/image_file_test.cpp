@@ -1,0 +1,231 @@
+// Image files that are written and read again, and files that are refused.
+
+#include "engine/image/image_file.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <vector>
+
+#include "engine/base/errors.h"
+#include "tests/support/scratch_folder.h"
+#include "tests/engine/image/file_bytes.h"
+
+namespace aleph {
+namespace {
+
+namespace fs = std::filesystem;
+
+void save_bytes(const fs::path& path, const std::vector<std::uint8_t>& bytes) {
+    std::ofstream(path, std::ios::binary)
+        .write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
+}
+
+ChannelImage small_image() {
+    ChannelImage image;
+    for (const char* name : {"R", "G", "B", "forward.u", "objectId.X"}) {
+        Channel channel{name, Image<float>(7, 5)};
+        for (std::size_t i = 0; i < channel.values.size(); ++i) {
+            channel.values.pixels[i] = static_cast<float>(i) * 0.37f - 3.0f;
+        }
+        image.channels.push_back(channel);
+    }
+    return image;
+}
+
+std::string input_error(const fs::path& path) {
+    try {
+        read_image(path);
+    } catch (const InputError& e) {
+        EXPECT_EQ(e.file(), path.string());
+        return e.reason();
+    }
+    return "(no error)";
+}
+
+TEST(ImageIo, ExrKeepsEveryChannelByName) {
+    const ScratchFolder folder;
+    ChannelImage image = small_image();
+    image.channels[3].values(6, 4) = 42.5f;
+    write_exr(folder / "a.exr", image);
+    const ChannelImage back = read_image(folder / "a.exr");
+    ASSERT_EQ(back.channels.size(), image.channels.size());
+    for (const Channel& channel : image.channels) {
+        const Image<float>* values = back.find(channel.name);
+        ASSERT_NE(values, nullptr) << channel.name;
+        EXPECT_EQ(*values, channel.values) << channel.name;
+    }
+    EXPECT_EQ(back.find("nope"), nullptr);
+}
+
+TEST(ImageIo, ExrKeepsMetadata) {
+    const ScratchFolder folder;
+    ChannelImage image = small_image();
+    image.metadata = {{"software", std::string("aleph")},
+                      {"motion:definition", std::string("next - current, y up, \"pixels\"")},
+                      {"exposure", 0.1},
+                      {"whiteLuminance", 100.0},
+                      {"framesPerSecond", std::array{30000, 1001}}};
+    write_exr(folder / "a.exr", image);
+    EXPECT_EQ(read_image(folder / "a.exr").metadata, image.metadata);
+}
+
+TEST(ImageIo, CopyingAFilesMetadataIsStable) {
+    const ScratchFolder folder;
+    ChannelImage image = small_image();
+    image.metadata = {{"software", std::string("aleph")}, {"framesPerSecond", std::array{24, 1}}};
+    write_exr(folder / "a.exr", image);
+    write_exr(folder / "b.exr", read_image(folder / "a.exr"));
+    EXPECT_EQ(bytes_of(folder / "a.exr"), bytes_of(folder / "b.exr"));
+}
+
+TEST(ImageIo, PngComesBackAsEncoded) {
+    const ScratchFolder folder;
+    Image<Rgb> image(3, 2, Rgb(0.0f));
+    image(0, 0) = {1.0f, 0.5f, 0.0f};
+    image(2, 1) = {0.0031308f, 0.18f, 0.75f};
+    write_png(folder / "a.png", image);
+    const ChannelImage back = read_image(folder / "a.png");
+    ASSERT_EQ(back.channels.size(), 3u);
+    EXPECT_EQ(back.channels[0].name, "R");
+    EXPECT_EQ(back.channels[2].name, "B");
+    // IEC 61966-2-1 by hand: 0.5 -> 188, 0.0031308 -> 10, 0.18 -> 118, 0.75 -> 225.
+    const auto code = [&](const char* name, int x, int y) { return std::lround(255.0f * (*back.find(name))(x, y)); };
+    EXPECT_EQ(code("R", 0, 0), 255);
+    EXPECT_EQ(code("G", 0, 0), 188);
+    EXPECT_EQ(code("B", 0, 0), 0);
+    EXPECT_EQ(code("R", 2, 1), 10);
+    EXPECT_EQ(code("G", 2, 1), 118);
+    EXPECT_EQ(code("B", 2, 1), 225);
+    EXPECT_EQ(code("R", 1, 0), 0);
+}
+
+TEST(ImageIo, TexturesKeepTheirPrecision) {
+    const ScratchFolder folder;
+    Image<Rgb> image(2, 1, Rgb(0.5f));
+    write_png(folder / "a.png", image);
+    const DecodedTexture png = decode_texture(bytes_of(folder / "a.png"), "a.png");
+    EXPECT_TRUE(png.floats.empty());
+    ASSERT_EQ(png.bytes.size(), 2u);
+    EXPECT_EQ(png.bytes(1, 0), (std::array<std::uint8_t, 4>{188, 188, 188, 255}));
+
+    write_exr(folder / "a.exr", small_image());
+    const DecodedTexture exr = decode_texture(bytes_of(folder / "a.exr"), "a.exr");
+    EXPECT_TRUE(exr.bytes.empty());
+    ASSERT_EQ(exr.floats.width, 7);
+    EXPECT_EQ(exr.floats(1, 0)[0], 0.37f - 3.0f);
+    EXPECT_EQ(exr.floats(1, 0)[3], 1.0f);
+
+    ChannelImage grey{{{"Y", Image<float>(1, 1, 7.0f)}}, {}};
+    write_exr(folder / "grey.exr", grey);
+    EXPECT_EQ(decode_texture(bytes_of(folder / "grey.exr"), "g").floats(0, 0),
+              (std::array<float, 4>{7.0f, 7.0f, 7.0f, 1.0f}));
+}
+
+TEST(ImageIo, RefusesWhatIsNoPicture) {
+    const ScratchFolder folder;
+    EXPECT_EQ(input_error(folder / "missing.exr"), "there is no such file");
+    EXPECT_EQ(input_error(folder.path()), "this is not a file");
+    save_bytes(folder / "empty.png", {});
+    EXPECT_EQ(input_error(folder / "empty.png"), "the file is empty");
+    const std::string text = "P6 1 1 255 abc";
+    save_bytes(folder / "real.ppm", {text.begin(), text.end()});
+    EXPECT_EQ(input_error(folder / "real.ppm"), "this is not a PNG, JPEG, EXR or HDR picture");
+    EXPECT_THROW(decode_texture({1, 2, 3}, "texture 4"), InputError);
+}
+
+TEST(ImageIo, RefusesACutFileAtEveryLength) {
+    const ScratchFolder folder;
+    write_exr(folder / "a.exr", small_image());
+    write_png(folder / "a.png", Image<Rgb>(9, 4, Rgb(0.3f)));
+    for (const char* name : {"a.exr", "a.png"}) {
+        const auto whole = bytes_of(folder / name);
+        for (std::size_t length = 0; length < whole.size(); ++length) {
+            const std::vector<std::uint8_t> cut(whole.begin(), whole.begin() + static_cast<std::ptrdiff_t>(length));
+            EXPECT_THROW(decode_texture(cut, name), InputError) << name << " cut to " << length;
+        }
+    }
+}
+
+TEST(ImageIo, DamagedBytesNeverCrash) {
+    const ScratchFolder folder;
+    write_exr(folder / "a.exr", small_image());
+    write_png(folder / "a.png", Image<Rgb>(9, 4, Rgb(0.3f)));
+    int refused = 0;
+    for (const char* name : {"a.exr", "a.png"}) {
+        const auto whole = bytes_of(folder / name);
+        for (std::size_t at = 0; at < whole.size(); ++at) {
+            for (const std::uint8_t flip : {0x01, 0x80, 0xff}) {
+                auto damaged = whole;
+                damaged[at] ^= flip;
+                try {
+                    decode_texture(damaged, name);
+                } catch (const InputError&) {
+                    ++refused;
+                }
+            }
+        }
+    }
+    EXPECT_GT(refused, 100);
+}
+
+TEST(ImageIo, DamagedPngIsOneClearError) {
+    const ScratchFolder folder;
+    write_png(folder / "a.png", Image<Rgb>(9, 4, Rgb(0.3f)));
+    auto bytes = bytes_of(folder / "a.png");
+    const std::string type = "IDAT";
+    const auto data = std::search(bytes.begin(), bytes.end(), type.begin(), type.end());
+    ASSERT_NE(data, bytes.end());
+    data[8] ^= 0x10;
+    save_bytes(folder / "damaged.png", bytes);
+    testing::internal::CaptureStderr();
+    EXPECT_EQ(input_error(folder / "damaged.png"), "the PNG is damaged (wrong checksum in IDAT)");
+    EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
+}
+
+TEST(ImageIo, RefusesHugePicturesFromTheHeader) {
+    const ScratchFolder folder;
+    write_png(folder / "a.png", Image<Rgb>(9, 4, Rgb(0.3f)));
+    auto bytes = bytes_of(folder / "a.png");
+    bytes[16] = bytes[20] = 0x40;  // the high bytes of width and height in IHDR
+    save_bytes(folder / "huge.png", bytes);
+    EXPECT_NE(input_error(folder / "huge.png").find("too large"), std::string::npos);
+    const std::string hdr = "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 100000 +X 100000\n";
+    save_bytes(folder / "huge.hdr", {hdr.begin(), hdr.end()});
+    EXPECT_NE(input_error(folder / "huge.hdr").find("too large"), std::string::npos);
+}
+
+TEST(ImageIo, RefusesDeepAndMultiPartExr) {
+    const ScratchFolder folder;
+    write_exr(folder / "a.exr", small_image());
+    auto bytes = bytes_of(folder / "a.exr");
+    bytes[5] |= 0x10;
+    save_bytes(folder / "multi.exr", bytes);
+    EXPECT_NE(input_error(folder / "multi.exr").find("multi-part"), std::string::npos);
+    bytes[5] = static_cast<std::uint8_t>((bytes[5] & ~0x10) | 0x08);
+    save_bytes(folder / "deep.exr", bytes);
+    EXPECT_NE(input_error(folder / "deep.exr").find("deep"), std::string::npos);
+}
+
+TEST(ImageIo, ReadsRadianceHdr) {
+    const ScratchFolder folder;
+    const std::string header = "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 2\n";
+    std::vector<std::uint8_t> bytes(header.begin(), header.end());
+    // RGBE (Ward 1991): mantissa / 256 * 2^(e - 128). 128, 64, 32 with e = 130 -> 2, 1, .5
+    for (const int b : {128, 64, 32, 130, 0, 0, 0, 0}) bytes.push_back(static_cast<std::uint8_t>(b));
+    save_bytes(folder / "a.hdr", bytes);
+    const ChannelImage image = read_image(folder / "a.hdr");
+    EXPECT_NEAR((*image.find("R"))(0, 0), 2.0f, 0.02f);
+    EXPECT_NEAR((*image.find("G"))(0, 0), 1.0f, 0.01f);
+    EXPECT_NEAR((*image.find("B"))(0, 0), 0.5f, 0.01f);
+    EXPECT_EQ((*image.find("R"))(1, 0), 0.0f);
+}
+
+}  // namespace
+}  // namespace aleph

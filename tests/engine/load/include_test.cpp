@@ -1,0 +1,141 @@
+// Includes: the animation, materials, scale and axis that a scene chooses, and files that are shown more than once.
+
+#include "engine/pose/pose.h"
+#include "tests/engine/load/fixture.h"
+
+namespace aleph {
+namespace {
+
+/// A triangle of two materials. "right" moves it to (10, 0, 0) in a second; an animation without a name turns node 1.
+const std::string two_animations = R"({"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0, 1]}],
+    "nodes": [{"name": "mover", "mesh": 0}, {"name": "other", "mesh": 1}],
+    "materials": [{"name": "steel"}, {"name": "wood"}],
+    "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "indices": 3, "material": 0}]},
+               {"primitives": [{"attributes": {"POSITION": 0}, "indices": 3, "material": 1}]}],
+    "buffers": [{"byteLength": 76, "uri": "data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAAAAAAAAAAgD8AAAAAAAAAAAAAAAAAACBBAAAAAAAAAAAAAAEAAgAAAA=="}],
+    "bufferViews": [{"buffer": 0, "byteLength": 36}, {"buffer": 0, "byteOffset": 36, "byteLength": 8}, {"buffer": 0, "byteOffset": 44, "byteLength": 24}, {"buffer": 0, "byteOffset": 68, "byteLength": 6}],
+    "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3", "min": [0, 0, 0], "max": [1, 1, 0]},
+        {"bufferView": 1, "componentType": 5126, "count": 2, "type": "SCALAR", "min": [0], "max": [1]},
+        {"bufferView": 2, "componentType": 5126, "count": 2, "type": "VEC3"}, {"bufferView": 3, "componentType": 5123, "count": 3, "type": "SCALAR"}],
+    "animations": [
+        {"name": "right", "samplers": [{"input": 1, "output": 2}], "channels": [{"sampler": 0, "target": {"node": 0, "path": "translation"}}]},
+        {"samplers": [{"input": 1, "output": 2}], "channels": [{"sampler": 0, "target": {"node": 1, "path": "translation"}}]}]})";
+
+class IncludeOptions : public LoadScene {
+  protected:
+    void SetUp() override {
+        LoadScene::SetUp();
+        write("two.gltf", two_animations);
+    }
+    /// A scene with the include, and a light so that nothing is added.
+    Scene load(const std::string& include) const {
+        return load_scene(write_scene(R"("environment": [1, 1, 1], "materials": {"oak": {}}, "include": )" + include));
+    }
+    /// Which of the two nodes are animated.
+    static std::pair<bool, bool> animated(const Scene& scene) {
+        return {is_animated(scene.nodes.at(0).translation), is_animated(scene.nodes.at(1).translation)};
+    }
+    void expect_written_again(const Scene& scene) const {
+        save_scene(scene, folder_ / "again.json");
+        Scene again = load_scene(folder_ / "again.json");
+        again.file = scene.file;
+        EXPECT_TRUE(again == scene);
+    }
+};
+
+TEST_F(IncludeOptions, AnimationsAreChosenByName) {
+    EXPECT_EQ(animated(load(R"("two.gltf")")), std::pair(true, true));
+    EXPECT_EQ(animated(load(R"({"file": "two.gltf"})")), std::pair(true, true));
+    EXPECT_EQ(animated(load(R"({"file": "two.gltf", "animation": "right"})")), std::pair(true, false));
+    EXPECT_EQ(animated(load(R"({"file": "two.gltf", "animation": ["animation 1"]})")), std::pair(false, true));
+    const Scene none = load(R"({"file": "two.gltf", "animation": []})");
+    EXPECT_EQ(animated(none), std::pair(false, false));
+    expect_written_again(none);
+}
+
+TEST_F(IncludeOptions, MaterialsOfTheSceneTakeThePlaceOfTheFiles) {
+    const Scene scene = load(R"({"file": "two.gltf", "materials": {"wood": "oak"}})");
+    ASSERT_EQ(scene.meshes.size(), 2u);
+    EXPECT_EQ(scene.materials[scene.meshes[0].material].name, "steel");
+    EXPECT_EQ(scene.meshes[1].material, 0);
+    EXPECT_EQ(scene.materials[0].name, "oak");
+    expect_written_again(scene);
+}
+
+TEST_F(IncludeOptions, ScaleAndAxisApplyToTheWholeFile) {
+    const auto place = [&](const char* up, const glm::dvec3& point) {
+        const Scene scene =
+            load(std::string(R"({"file": "two.gltf", "animation": "right", "scale": 0.5, "up": ")") + up + "\"}");
+        const ScenePose posed = pose(scene, 1.0);
+        for (std::size_t i = 0; i < scene.nodes.size(); ++i) {
+            if (scene.nodes[i].name == "mover") return glm::dvec3(posed.world[i] * glm::dvec4(point, 1.0));
+        }
+        return glm::dvec3(1e9);
+    };
+    const auto expect_near = [](const glm::dvec3& a, const glm::dvec3& b) { EXPECT_LT(glm::length(a - b), 1e-12); };
+    expect_near(place("y", {0, 1, 0}), {5.0, 0.5, 0.0});
+    expect_near(place("z", {0, 0, 1}), {5.0, 0.5, 0.0});  // the file's z points up; the animation moves along its x
+    expect_near(place("x", {1, 0, 0}), {0.0, 5.5, 0.0});
+    expect_written_again(load(R"({"file": "two.gltf", "scale": 0.5, "up": "x"})"));
+}
+
+TEST_F(IncludeOptions, AnIncludeIsShownAgainAndIsAParent) {
+    const Scene scene = load_scene(write_scene(R"("environment": [1, 1, 1], "nodes": [
+        {"name": "first", "translation": [0, 1, 0], "include": {"file": "two.gltf", "scale": 2},
+         "children": [{"name": "hat", "translation": [0, 3, 0], "shape": {"type": "box"}}]},
+        {"name": "second", "translation": [4, 0, 0], "instance": "first"},
+        {"name": "own animation", "include": {"file": "two.gltf", "animation": []}}])"));
+    ASSERT_EQ(scene.includes.size(), 3u);
+    EXPECT_EQ(scene.meshes.size(), 1u + 2u + 2u) << "the first two includes share their meshes";
+    const ScenePose posed = pose(scene, 1.0);
+    std::vector<glm::dvec3> movers, hats;
+    for (std::size_t i = 0; i < scene.nodes.size(); ++i) {
+        if (scene.nodes[i].name == "mover") movers.emplace_back(posed.world[i][3]);
+        if (scene.nodes[i].name.find("hat") != std::string::npos) hats.emplace_back(posed.world[i][3]);
+    }
+    EXPECT_EQ(movers, (std::vector<glm::dvec3>{{20.0, 1.0, 0.0}, {24.0, 0.0, 0.0}, {0.0, 0.0, 0.0}}));
+    EXPECT_EQ(hats, (std::vector<glm::dvec3>{{0.0, 4.0, 0.0}, {4.0, 3.0, 0.0}}));
+    expect_written_again(scene);
+}
+
+TEST_F(IncludeOptions, NodesOfAFileCannotBeNamed) {
+    const auto load = [&](const std::string& include, const std::string& lamp) {
+        return write_scene(include + R"("nodes": [{"name": "robot"}, {"name": "lamp", )" + lamp + "}]");
+    };
+    const std::string top = R"("include": "two.gltf", )", advice = "name the node that has the \"include\"";
+    expect_refused(load(top, R"("parent": "mover")"), "/nodes/1/parent", advice);
+    expect_refused(load(top, R"("instance": "mover")"), "/nodes/1/instance", advice);
+    expect_refused(load("", R"("parent": "mover", "children": [{"include": "two.gltf"}])"), "/nodes/1/parent", advice);
+    expect_refused(load("", R"("parent": "mover")"), "/nodes/1/parent", "there is \"robot\"");
+    try {
+        load_scene(load("", R"("parent": "mover")"));
+    } catch (const InputError& error) {
+        EXPECT_EQ(error.reason().find("include"), std::string::npos) << "no file is included: " << error.what();
+    }
+}
+
+TEST_F(IncludeOptions, WhatIsNotThereIsRefused) {
+    const auto refused = [&](const std::string& include, const std::string& place, const std::string& word) {
+        const fs::path path = write_scene(R"("materials": {"oak": {}}, "include": )" + include);
+        try {
+            load_scene(path);
+            ADD_FAILURE() << include;
+        } catch (const InputError& error) {
+            EXPECT_EQ(error.place(), place) << error.what();
+            EXPECT_NE(error.reason().find(word), std::string::npos) << error.what();
+        }
+    };
+    refused(R"({"file": "two.gltf", "animation": "rigth"})", "",
+            "there is no animation \"rigth\"; did you mean \"right\"?");
+    refused(R"({"file": "two.gltf", "materials": {"woud": "oak"}})", "/include/materials/woud",
+            "did you mean \"wood\"?");
+    refused(R"({"file": "two.gltf", "materials": {"wood": "oka"}})", "/include/materials/wood",
+            "did you mean \"oak\"?");
+    refused(R"({"file": "two.gltf", "scale": 0})", "/include/scale", "a number above 0");
+    refused(R"({"file": "two.gltf", "up": "w"})", "/include/up", "x, y or z");
+    refused(R"({"animation": "right"})", "/include", "file");
+    refused(R"({"file": "lost.gltf"})", "/include", "there is no file");
+}
+
+}  // namespace
+}  // namespace aleph

@@ -1,0 +1,176 @@
+// Rays through a posed scene: invalid rays, packets against single rays, one ray through every pixel.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include "engine/pose/camera_view.h"
+#include "engine/rays/first_hits.h"
+#include "engine/rays/ray_scene.h"
+#include "tests/support/render_scenes.h"
+#include "tests/engine/rays/many_instances.h"
+
+namespace aleph {
+namespace {
+
+TEST(RayScene, PacketsAndSingleRaysAgree) {
+    const Stage stage(make_many());
+    Tracer tracer(stage.rays);
+    RandomRays random;
+    for (const std::size_t count : {1u, 7u, 8u, 9u, 16u, 33u, 1000u}) {
+        std::vector<Ray> rays(count);
+        for (Ray& ray : rays) ray = random.next();
+        for (const bool coherent : {false, true}) {
+            std::vector<Hit> hits(count);
+            tracer.intersect(rays, hits, coherent);
+            for (std::size_t i = 0; i < count; ++i) {
+                const Hit alone = tracer.intersect(rays[i]);
+                ASSERT_EQ(hits[i].instance, alone.instance);
+                ASSERT_EQ(hits[i].primitive, alone.primitive);
+                if (alone.instance != no_index) {
+                    ASSERT_NEAR(hits[i].distance, alone.distance, 1e-4f * alone.distance);
+                }
+            }
+        }
+        std::vector<std::uint8_t> blocked(count);
+        tracer.occluded(rays, blocked);
+        for (std::size_t i = 0; i < count; ++i) {
+            ASSERT_EQ(blocked[i] != 0, tracer.occluded(rays[i]));
+            ASSERT_EQ(blocked[i] != 0, tracer.intersect(rays[i]).instance != no_index);
+        }
+    }
+}
+
+TEST(RayScene, MixedShadowPacketsEnd) {
+    // Directions that differ in sign, finite and float_infinity, dead lanes among them: occlusion packets once looped
+    // for ever.
+    const Stage stage(make_many());
+    Tracer tracer(stage.rays);
+    RandomRays random;
+    std::uint64_t blocked_count = 0;
+    for (int round = 0; round < 3000; ++round) {
+        std::vector<Ray> rays(static_cast<std::size_t>(1 + round % 40));
+        for (std::size_t i = 0; i < rays.size(); ++i) {
+            rays[i] = random.next();
+            if (i % 7 == 2) rays[i].direction = glm::vec3(0.0f, i % 2 ? 1.0f : -1.0f, 0.0f);
+            if (i % 5 == 3) rays[i].direction.x = std::nanf("");
+            if (i % 11 == 4) rays[i].far = -1.0f;
+        }
+        std::vector<std::uint8_t> blocked(rays.size());
+        tracer.occluded(rays, blocked);
+        for (std::size_t i = 0; i < rays.size(); ++i) {
+            if (i % 5 == 3 || i % 11 == 4) {
+                EXPECT_EQ(blocked[i], 0);
+            }
+            blocked_count += blocked[i];
+        }
+    }
+    EXPECT_GT(blocked_count, 1000u);
+}
+
+/// Numbers within the limit, a direction that is not 0, a range of distances from 0 on that is not reversed.
+bool is_traceable_ray(const Ray& ray) {
+    const auto largest = [](const glm::vec3& v) {
+        const bool numbers = v.x == v.x && v.y == v.y && v.z == v.z;
+        return numbers ? std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}) : float_infinity;
+    };
+    return largest(ray.origin) < max_ray_component && largest(ray.direction) < max_ray_component &&
+           largest(ray.direction) >= 1e-30f && ray.near >= 0.0f && ray.near < max_ray_component && ray.far >= ray.near;
+}
+
+TEST(RayScene, RC01_BadRaysAreMissesAndCounted) {
+    const Stage stage(make_many());
+    RandomRays random;
+    std::uint64_t asked = 0, sure_bad = 0, met = 0;
+    const std::uint64_t before = stage.rays.rays_traced(), bad_before = stage.rays.invalid_rays();
+    {
+        Tracer tracer(stage.rays);
+        std::vector<Ray> rays(16);
+        std::vector<Hit> hits(16);
+        std::vector<std::uint8_t> blocked(16);
+        for (int round = 0; round < 1'000'000 / 16; ++round) {
+            for (std::size_t i = 0; i < rays.size(); ++i) {
+                Ray& ray = rays[i];
+                ray = random.next();
+                float* numbers[] = {&ray.origin.x,    &ray.origin.y,    &ray.origin.z, &ray.direction.x,
+                                    &ray.direction.y, &ray.direction.z, &ray.near,     &ray.far};
+                const int changes = static_cast<int>(random.uniform(0.0f, 3.9f));
+                for (int c = 0; c < changes; ++c)
+                    *numbers[static_cast<std::size_t>(random.uniform(0.0f, 7.999f))] = random.special();
+            }
+            tracer.intersect(rays, hits, round % 2 == 0);
+            tracer.occluded(rays, blocked);
+            for (std::size_t i = 0; i < rays.size(); ++i) {
+                const Ray& r = rays[i];
+                // A ray does not depend on its neighbours in the packet.
+                const Hit alone = tracer.intersect(r);
+                const bool blocked_alone = tracer.occluded(r);
+                if (is_traceable_ray(r)) {
+                    ASSERT_EQ(alone, hits[i]);
+                    ASSERT_EQ(blocked_alone, blocked[i] != 0);
+                    ASSERT_EQ(blocked_alone, alone.instance != no_index);
+                    met += alone.instance != no_index;
+                } else {
+                    ++sure_bad;
+                    ASSERT_EQ(hits[i], Hit{});
+                    ASSERT_EQ(alone, Hit{});
+                    ASSERT_EQ(blocked[i], 0);
+                    ASSERT_FALSE(blocked_alone);
+                }
+            }
+            asked += 4 * rays.size();
+        }
+    }
+    const std::uint64_t bad = stage.rays.invalid_rays() - bad_before;
+    EXPECT_EQ(stage.rays.rays_traced() - before + bad, asked);
+    EXPECT_EQ(bad, 4 * sure_bad);
+    EXPECT_GT(sure_bad, 100'000u);
+    EXPECT_GT(met, 100'000u);
+}
+
+TEST(RayScene, RC01_RangesWithoutLengthAreMisses) {
+    const Stage stage(make_many());
+    const glm::vec3 anchor(stage.shading.anchor), to_sphere(0.0f, 0.0f, -1.0f);
+    Tracer tracer(stage.rays);
+    EXPECT_EQ(tracer.intersect({-anchor, to_sphere}).instance, 0);
+    EXPECT_NEAR(tracer.intersect({-anchor, to_sphere}).distance, 4.0f, 0.02f);
+    EXPECT_NEAR(tracer.intersect({-anchor, 2.0f * to_sphere}).distance, 2.0f, 0.01f);  // in lengths of the direction
+    EXPECT_EQ(tracer.intersect({-anchor, to_sphere, 0.0f, 3.0f}).instance, no_index);
+    EXPECT_EQ(tracer.intersect({-anchor, to_sphere, 5.0f, 4.0f}).instance, no_index);
+    EXPECT_EQ(tracer.intersect({-anchor, glm::vec3(0.0f)}).instance, no_index);
+    EXPECT_FALSE(tracer.occluded({-anchor, to_sphere, -0.5f}));
+}
+
+TEST(RayScene, EmptySceneIsAllMisses) {
+    const Stage stage(Scene{}, 8, 6);
+    std::uint64_t cast = 0;
+    for (const Hit& hit : cast_first_hits(stage.rays, stage.view, 0.5, 0.5, &cast).pixels) EXPECT_EQ(hit, Hit{});
+    EXPECT_EQ(cast, 48u);
+    EXPECT_EQ(stage.rays.rays_traced(), 48u);
+}
+
+TEST(FirstHits, OneRayThroughEveryPixelWhateverTheSize) {
+    for (const auto& [width, height] : {std::pair(1, 1), std::pair(5, 3), std::pair(33, 7)}) {
+        Scene scene = make_many();
+        add_camera(scene, {0.0, 0.0, 0.0}, {0.0, 0.0, -5.0}, 1.0);
+        const Stage stage(std::move(scene), width, height);
+        const Image<Hit> hits = cast_first_hits(stage.rays, stage.view, 0.25, 0.75);
+        EXPECT_EQ(stage.rays.rays_traced(), static_cast<std::uint64_t>(width * height));
+        Tracer tracer(stage.rays);
+        for (int y = 0; y < height; ++y) {
+            for (int x = 0; x < width; ++x) {
+                const CameraRay ray = make_camera_ray(stage.view, x + 0.25, y + 0.75);
+                const Hit alone =
+                    tracer.intersect({glm::vec3(ray.origin - stage.rays.anchor()), glm::vec3(ray.direction)});
+                EXPECT_EQ(hits(x, y).instance, alone.instance);
+                EXPECT_EQ(hits(x, y).primitive, alone.primitive);
+            }
+        }
+    }
+}
+
+}  // namespace
+}  // namespace aleph

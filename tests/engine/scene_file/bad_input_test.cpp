@@ -1,0 +1,212 @@
+// Broken scene files: each is refused with the file, the place in it and the reason.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <memory>
+
+#include "tests/engine/scene_file/bad_scene_file.h"
+
+namespace aleph {
+namespace {
+
+std::string nested(int depth, const std::string& open, const std::string& inner, const std::string& close) {
+    std::string out;
+    for (int i = 0; i < depth; ++i) out += open;
+    out += inner;
+    for (int i = 0; i < depth; ++i) out += close;
+    return out;
+}
+
+TEST(BadSceneFile, Syntax) {
+    expect_all_refused({
+        {"", "line 1, column 1", "JSON"},
+        {"  \n ", "line 2, column 2", "unexpected end"},
+        {"{", "line 1, column 2", "unexpected end"},
+        {"{\"aleph\": 1,}", "line 1, column 12", "this comma is one too many"},
+        {"{\"aleph\": 1, \"frames\": [0, 1 ,\n]}", "line 1, column 30", "this comma is one too many"},
+        {"{\"aleph\": 1, \"nodes\": [{} {}]}", "line 1, column 26", "a comma is missing here"},
+        {"{\"aleph\": 1, \"frames\": [0 1]}", "line 1, column 26", "a comma is missing here"},
+        {"{\"aleph\": 1, \"a\": [true  false]}", "line 1, column 24", "a comma is missing here"},
+        {"{\"aleph\": 1, \"a\": [0, 1}", "line 1, column 24", "JSON: syntax error"},
+        {"{\"aleph\": 1}}", "line 1, column 13", "JSON"},
+        {"{\n  \"aleph\": 1\n  \"nodes\": []\n}", "line 2, column 13", "a comma is missing here"},
+        {"{\"aleph\": 01}", "line 1, column 12", "JSON: syntax error"},
+        {"{\"aleph\": NaN}", "line 1, column 11", "JSON"},
+        {"{\"aleph\": 1 /* never closed", "line 1, column 28", "comment"},
+        {"{\"ä\": nul}", "line 1, column 10", "JSON"},
+        {"{\"aleph\": 1, \"name\": \"\xff\"}", "line 1, column 23", "UTF-8"},
+        {std::string("{\"aleph\": 1\0}", 13), "line 1, column 12", "JSON"},
+        {"\x89PNG\r\n", "line 1, column 1", "JSON"},
+    });
+}
+
+TEST(BadSceneFile, KeysOfOtherFormatsNameTheirOwn) {
+    expect_all_refused({
+        scene(R"("nodes": [{"position": [0, 0, 1]}])", "/nodes/0/position", "\"translation\": [x, y, z]"),
+        scene(R"("nodes": [{"children": [{"rotate": [0, 90, 0]}]}])", "/nodes/0/children/0/rotate",
+              "\"axis\": [0, 1, 0], \"degrees\": 90"),
+        scene(R"("nodes": [{"rotation": [0, 90, 0]}])", "/nodes/0/rotation", "{\"rotate_y\": 90}"),
+        scene(R"("nodes": [{"light": {"type": "area"}}])", "/nodes/0/light/type",
+              "a \"material\" that has \"emission\""),
+        scene(R"("nodes": [{"camera": {"look_at": [0, 0, 0]}}])", "/nodes/0/camera/look_at", "-z of its node"),
+        scene(R"("nodes": [{"shape": {"type": "cube"}}])", "/nodes/0/shape/type", "a cube is a \"box\""),
+        scene(R"("settings": {"sampling": "progressive"})", "/settings/sampling", "write \"error\": 1"),
+        scene(R"("objects": [])", "/objects", "listed in \"nodes\""),
+        scene(R"("materials": {"a": {"colour": [1, 1, 1]}})", "/materials/a/colour", "a material is \"base_color\""),
+    });
+}
+
+TEST(BadSceneFile, NumbersThatAreNoDoubles) {
+    expect_all_refused({
+        {"{\"aleph\": 1,\n \"exposure\": 1e999}", "line 2, column 18", "too large"},
+        {"{\"aleph\": -1e999}", "line 1, column 16", "too large"},
+        scene("\"nodes\": [{\"translation\": [0, 1e400, 0]}]", "line 1, column 48", "too large"),
+    });
+}
+
+TEST(BadSceneFile, Limits) {
+    expect_all_refused({
+        {nested(129, "[", "", "]"), "", "128 deep"},
+        {nested(100000, "[", "", ""), "", "128 deep"},
+        {nested(200, "{\"a\":", "1", "}"), "", "128 deep"},
+        scene("\"nodes\": [" + nested(70, "{\"children\": [", "", "]}") + "]", "", "128 deep"),
+        scene(R"("nodes": [{"shape": {"type": "sphere", "segments": 1024}},
+            {"shape": {"type": "sphere", "segments": 4096}}])",
+              "/nodes/1/shape", "lower \"segments\""),
+    });
+    // The memory is never touched: the size is checked before the text.
+    constexpr std::size_t too_large = (std::size_t{64} << 20) + 1;
+    const std::unique_ptr<char, void (*)(void*)> text(static_cast<char*>(std::calloc(too_large, 1)), std::free);
+    EXPECT_THROW(read_scene_text({text.get(), too_large}, "broken.json"), InputError);
+}
+
+TEST(BadSceneFile, TopLevel) {
+    expect_all_refused({
+        {"[]", "", "expected an aleph scene"},
+        {"null", "", "found null"},
+        {"{}", "", "\"aleph\" is missing"},
+        {"{\"aleph\": 2}", "/aleph", "version 2"},
+        {"{\"aleph\": \"1\"}", "/aleph", "expected 1"},
+        {"{\"aleph\": 1, \"aleph\": 1}", "/aleph", "twice"},
+        scene("\"node\": []", "/node", "did you mean \"nodes\""),
+        scene("\"nodes\": {}", "/nodes", "expected a list of nodes"),
+        scene("\"nodes\": [7]", "/nodes/0", "expected a node, found 7"),
+        scene("\"name\": 5", "/name", "a name"),
+        scene("\"fps\": 0", "/fps", "found 0"),
+        scene("\"fps\": -30", "/fps", "found -30"),
+        scene("\"fps\": 23.976", "/fps", "30000/1001"),
+        scene("\"fps\": \"30000/0\"", "/fps", "30000/1001"),
+        scene("\"fps\": \"fast\"", "/fps", "\"fast\""),
+        scene("\"frames\": [0]", "/frames", "2 whole frame numbers, found a list of 1"),
+        scene("\"frames\": [0, 1.5]", "/frames/1", "whole frame number"),
+        scene("\"frames\": [10, 0]", "/frames", "before the first"),
+        scene("\"frames\": [0, 1e9]", "/frames/1", "whole frame number"),
+        scene("\"frames\": [0, 18446744073709551615]", "/frames/1", "must lie within"),
+        scene("\"cuts\": [5, 5]", "/cuts/1", "ascend"),
+        scene("\"viewing\": {\"pixels_per_degree\": 0}", "/viewing/pixels_per_degree", "above 0"),
+        scene("\"viewing\": {\"display_white\": -1}", "/viewing/display_white", "above 0"),
+        scene("\"viewing\": {\"display_white\": null}", "/viewing/display_white", "found null"),
+        scene("\"viewing\": {\"display_white\": 1e19}", "/viewing/display_white", "1e+18"),
+        scene("\"viewing\": {\"ppd\": 31}", "/viewing/ppd", "unknown key"),
+        scene("\"viewing\": {\"persistence\": 2}", "/viewing/persistence", "a number from 0 to 1, found 2"),
+        scene("\"viewing\": {\"persistence\": -0.1}", "/viewing/persistence", "a number from 0 to 1"),
+        scene("\"exposure\": 0", "/exposure", "above 0"),
+        scene("\"environment\": [1, 1]", "/environment", "3 numbers"),
+        scene("\"environment\": [1, -1, 1]", "/environment/1", "at least 0"),
+        scene("\"environment\": \"sky.exr\"", "/environment", "found the text \"sky.exr\""),
+        scene("\"environment_image\": 5", "/environment_image", "an image (name or path), found 5"),
+        scene("\"environment_image\": \"\"", "/environment_image", "an image"),
+        scene("\"environment_image\": \"/srv/sky.exr\"", "/environment_image", "absolute"),
+        scene("\"environment_image\": \"https://a.b/sky.exr\"", "/environment_image", "addresses"),
+        scene("\"environment_rotation\": [0, 0, 0, 1]", "/environment_rotation",
+              "turns \"environment_image\", which is not given"),
+        scene("\"environment_image\": \"s.exr\", \"environment_rotation\": [0, 0, 0, 0]", "/environment_rotation",
+              "zero"),
+        scene("\"environment_image\": \"s.exr\", \"environment_rotation\": 90", "/environment_rotation", "4 numbers"),
+        scene("\"environment_image\": \"s.exr\", \"environment_rotation\": {\"axis\": [0, 1, 0]}",
+              "/environment_rotation", "degrees"),
+        scene("\"environment_image\": \"s.exr\", \"environment_rotation\": {\"axis\": [0, 0, 0], \"degrees\": 5}",
+              "/environment_rotation/axis", "zero"),
+        scene("\"environment_map\": \"s.exr\"", "/environment_map", "did you mean"),
+        scene("\"camera\": [\"main\"]", "/camera", "a name"),
+        scene("\"include\": 5", "/include", "relative path"),
+    });
+}
+
+TEST(BadSceneFile, RP21_FrameRateAndPixelsPerDegreeOfZero) {
+    expect_all_refused({
+        scene("\"fps\": 0", "/fps", "found 0"),
+        scene("\"fps\": \"0/1\"", "/fps", "found the text \"0/1\""),
+        scene("\"viewing\": {\"pixels_per_degree\": 0}", "/viewing/pixels_per_degree", "above 0"),
+        {"{\"aleph\": 1, \"viewing\": {\"pixels_per_degree\": NaN}}", "line 1, column 47", "JSON"},
+    });
+}
+
+TEST(BadSceneFile, Settings) {
+    expect_all_refused({
+        scene("\"settings\": {\"acuracy\": 0.1}", "/settings/acuracy", "did you mean \"accuracy\""),
+        scene("\"settings\": {\"accuracy\": \"high\"}", "/settings/accuracy", "a number from 0 to 1"),
+        scene("\"settings\": {\"accuracy\": -0.1}", "/settings/accuracy", "a number from 0 to 1"),
+        scene("\"settings\": {\"gather\": 10.5}", "/settings/gather", "a whole number"),
+        scene("\"settings\": {\"guide\": \"salience\"}", "/settings/guide", "\"saliency\""),
+        scene("\"settings\": {\"size\": \"640\"}", "/settings/size", "640x480"),
+        scene("\"settings\": {\"size\": \"0x0\"}", "/settings/size", "640x480"),
+        scene("\"settings\": {\"neutral_opponent\": 1}", "/settings/neutral_opponent", "true or false"),
+        scene("\"settings\": [1]", "/settings", "expected settings"),
+    });
+}
+
+// Every place for a number, with values that are not finite numbers up to 1e18.
+TEST(BadSceneFile, InfinityAnywhere) {
+    const std::string file =
+        R"({"aleph": 1, "exposure": @, "viewing": {"pixels_per_degree": @, "display_white": @, "persistence": @},
+        "environment": [@, @, @], "environment_image": "s.exr", "environment_rotation": {"axis": [@, 0, 0], "degrees": @}, "materials": {"m": {"base_color": [@, 0, 0], "alpha": @, "metallic": @, "roughness": @,
+        "specular": @, "specular_color": [0, @, 0], "ior": @, "emission": [0, 0, @], "emission_strength": @, "thickness": @,
+        "attenuation_distance": @, "attenuation_color": [@, 0, 0], "clearcoat": @, "clearcoat_roughness": @, "clearcoat_normal_scale": @,
+        "sheen_color": [0, @, 0], "sheen_roughness": @, "anisotropy": @, "anisotropy_rotation": @, "normal_scale": @}},
+        "cameras": {"c": {"fov": @, "near": @, "shutter": [@, @], "aperture": @, "focus": @}},
+        "lights": {"l": {"type": "point", "color": [@, 1, 1], "intensity": @, "range": @}},
+        "nodes": [{"translation": [@, 0, 0], "rotation": [@, 0, 0, 1], "scale": [@, @, @], "shape": {"type": "box",
+        "size": [@, 1, 1], "uv_scale": [@, 1]}}, {"scale": {"keys": [[@, 1], [5, @]]}, "rotation": {"axis": [@, 1, 1],
+        "degrees": @}, "shape": {"type": "cylinder", "radius": @, "height": @}}, {"matrix": [@, 0, 0, @, 0, 1, 0, 0, 0, 0, 1, 0,
+        0, 0, 0, 1], "visible": true}, {"translation": {"values": [[@, 0, 0]], "start": @, "period": @}}],
+        "settings": {"accuracy": @, "adapter_k": @, "min_radius_pixels": @}})";
+    std::string good = file;
+    std::replace(good.begin(), good.end(), '@', '1');
+    EXPECT_EQ(read_scene_text(good, "good.json").scene.nodes.size(), 4u);
+    int places = 0;
+    for (std::size_t at = file.find('@'); at != std::string::npos; at = file.find('@', at + 1)) {
+        for (const char* bad : {"1e999", "-1e999", "1e19", "-1e19", "NaN", "\"0\""}) {
+            std::string text = file;
+            std::replace(text.begin(), text.end(), '@', '1');
+            text.replace(at, 1, bad);
+            try {
+                read_scene_text(text, "broken.json");
+                ADD_FAILURE() << bad << " was read at " << file.substr(at > 30 ? at - 30 : 0, 40);
+            } catch (const InputError& error) {
+                EXPECT_EQ(error.file(), "broken.json");
+                EXPECT_FALSE(error.place().empty());
+            }
+        }
+        ++places;
+    }
+    EXPECT_EQ(places, 59);
+}
+
+TEST(BadSceneFile, NamesAreEscapedAndShortened) {
+    try {
+        read_scene_text("{\"aleph\": 1, \"camera\": \"\", \"\\u001b[31m" + std::string(5000, 'x') + "\": 1}",
+                        "broken.json");
+        FAIL();
+    } catch (const InputError& error) {
+        const std::string what = error.what();
+        EXPECT_EQ(what.find('\x1b'), std::string::npos);
+        EXPECT_NE(what.find("\\x1b"), std::string::npos);
+        EXPECT_LT(what.size(), 500u);
+    }
+}
+
+}  // namespace
+}  // namespace aleph

@@ -1,0 +1,167 @@
+// How scenes are written as files: short for people, soon for programs; what the format cannot hold is refused.
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "engine/base/errors.h"
+#include "engine/scene_file/fields.h"
+#include "engine/scene_file/scene_text.h"
+#include "tests/engine/scene_file/written_again.h"
+
+namespace aleph {
+namespace {
+
+TEST(SceneJsonWrite, NegativeZeroKeepsItsSign) {
+    Scene scene = read_scene_text(R"({"aleph": 1, "nodes": [{}]})", "test.json").scene;
+    scene.nodes[0].translation = glm::dvec3(-0.0, 0.0, 1.0);  // not all zero: that is left out
+    const glm::dvec3 loaded = again(scene).nodes[0].translation.values[0];
+    EXPECT_TRUE(loaded.x == 0.0 && std::signbit(loaded.x));
+    EXPECT_FALSE(std::signbit(loaded.y));
+}
+
+TEST(SceneJsonWrite, SavedTextIsForPeople) {
+    const Scene scene =
+        read_scene_text(R"({"aleph": 1, "fps": 30, "materials": {"felt": {"base_color": [0.1, 0.4, 0.1]}},
+        "meshes": {"ball": {"shape": {"type": "sphere", "radius": 0.0286}, "material": "felt"}},
+        "nodes": [{"name": "ball 1", "mesh": "ball", "translation": {"keys": [[0, [0, 0.0286, 0]], [12, [1, 0.0286, 0.25]]]},
+                   "rotation": {"axis": [0, 1, 0], "degrees": 45}}]})",
+                        "test.json")
+            .scene;
+    EXPECT_EQ(write_scene_text(scene, "test.json"), R"({
+  "aleph": 1,
+  "fps": 30,
+  "materials": {"felt": {"base_color": [0.1, 0.4, 0.1]}},
+  "meshes": {"ball": {"shape": {"type": "sphere", "radius": 0.0286}, "material": "felt"}},
+  "nodes": [
+    {
+      "name": "ball 1",
+      "translation": {"keys": [[0, [0, 0.0286, 0]], [12, [1, 0.0286, 0.25]]]},
+      "rotation": {"axis": [0, 1, 0], "degrees": 45},
+      "mesh": "ball"
+    }
+  ]
+}
+)");
+}
+
+TEST(SceneJsonWrite, KF24_ChainOfAHundredThousandNodes) {
+    Scene scene;
+    for (int i = 0; i < 100000; ++i) {
+        Node node;
+        node.name = fmt::format("n{}", i);
+        node.parent = i - 1;
+        node.translation = glm::dvec3(0.001 * i, 0.0, 0.0);
+        scene.nodes.push_back(node);
+    }
+    EXPECT_TRUE(again(scene) == scene);
+}
+
+// ordered_json looks for a key by linear search: filling an object by key would take quadratic time.
+TEST(SceneJsonWrite, ManyNamesCostNoMoreThanTheyShould) {
+    Scene scene;
+    for (int i = 0; i < 30000; ++i) {
+        scene.materials.push_back(absent_material());
+        scene.materials.back().name = fmt::format("{} of a material whose name is long", 30000 - i);
+    }
+    EXPECT_TRUE(again(scene) == scene);
+}
+
+/// A scene that can be saved; tests change it.
+Scene make_good_scene() {
+    return read_scene_text(
+               R"({"aleph": 1, "nodes": [{"name": "a", "shape": {"type": "box"}, "material": {}, "light": {"type": "point"}},
+        {"name": "b", "parent": "a", "camera": {}}]})",
+               "test.json")
+        .scene;
+}
+
+void expect_refused(const Scene& scene, const std::string& place, const std::string& word) {
+    try {
+        write_scene_text(scene, "out.json");
+        ADD_FAILURE() << "was written: " << place;
+    } catch (const InputError& error) {
+        EXPECT_EQ(error.file(), "out.json");
+        EXPECT_NE(error.place().find(place), std::string::npos) << error.what();
+        EXPECT_NE(error.reason().find(word), std::string::npos) << error.what();
+    }
+}
+
+template <class Spoil>
+void expect_spoiled(const Spoil& spoil, const std::string& place, const std::string& word) {
+    Scene scene = make_good_scene();
+    spoil(scene);
+    expect_refused(scene, place, word);
+}
+
+TEST(SceneJsonWrite, WhatTheFormatCannotSayIsRefused) {
+    EXPECT_EQ(again(make_good_scene()), make_good_scene());
+    const double nan = std::numeric_limits<double>::quiet_NaN(), inf = std::numeric_limits<double>::infinity();
+    expect_spoiled([](Scene& s) { s.meshes[0].points = 0; }, "mesh 0", "points");
+    expect_spoiled([](Scene& s) { s.meshes[0].uv[0].pop_back(), s.meshes[0].shape.reset(); }, "/meshes/a/shape/uv",
+                   "one for each");
+    expect_spoiled([](Scene& s) { s.meshes[0].shape.reset(), s.meshes[0].positions[3].x = NAN; }, "", "finite");
+    expect_spoiled([](Scene& s) { s.point_caches.emplace_back().name = "p"; }, "\"p\"", "no positions");
+    expect_spoiled([](Scene& s) { s.cages.emplace_back().name = "c"; }, "c", "no element -1");
+    expect_spoiled(
+        [](Scene& s) {
+            PointCache& points = s.point_caches.emplace_back();
+            points.name = "p";
+            points.positions = {{{0, 0, 0}}};
+            Cage& cage = s.cages.emplace_back();
+            cage.name = "c";
+            cage.face_sizes = {5};
+            cage.points = 0;
+        },
+        "c", "corners");
+    expect_spoiled([](Scene& s) { s.meshes[0].positions[3].x += 1.0f; }, "mesh 0", "exactly");
+    expect_spoiled([](Scene& s) { s.images.push_back({.name = "embedded", .path = "", .bytes = {}, .floats = {}}); },
+                   "image", "path");
+    expect_spoiled([](Scene& s) { s.nodes[1].name = "a"; }, "node 1", "name");
+    expect_spoiled([](Scene& s) { s.nodes[0].name = ""; }, "node 1", "parent");
+    expect_spoiled([](Scene& s) { s.materials[0].name = ""; }, "material 0", "name");
+    expect_spoiled([](Scene& s) { s.nodes[0].parent = 1; }, "node 0", "1");
+    expect_spoiled([](Scene& s) { s.nodes[0].meshes = {5}; }, "node 0", "mesh 5");
+    expect_spoiled([](Scene& s) { s.nodes[1].camera = 5; }, "node 1", "camera 5");
+    expect_spoiled([](Scene& s) { s.meshes[0].material = 1; }, "mesh 0", "material 1");
+    expect_spoiled([&](Scene& s) { s.nodes[0].translation = glm::dvec3(0.0, nan, 0.0); }, "translation", "nan");
+    expect_spoiled([&](Scene& s) { s.materials[0].roughness = inf; }, "roughness", "inf");
+    expect_spoiled([&](Scene& s) { s.exposure = nan; }, "", "finite");
+    expect_spoiled([&](Scene& s) { s.viewing.display_white = inf; }, "", "finite");
+    expect_spoiled([](Scene& s) { s.materials[0].roughness = 2.0; }, "/materials/a/roughness", "between 0 and 1");
+    expect_spoiled([](Scene& s) { s.nodes[0].rotation = glm::dquat(0, 0, 0, 0); }, "rotation", "zero");
+    expect_spoiled([](Scene& s) { s.nodes[0].scale.values.clear(); }, "scale", "no keys");
+    expect_spoiled([](Scene& s) { s.nodes[0].visible = 0.5; }, "node 0", "exactly");
+    expect_spoiled([](Scene& s) { s.nodes[0].axis_rotation = AxisRotation{{0, 2, 0}, {0.5}}; }, "node 0", "exactly");
+    expect_spoiled([](Scene& s) { s.frame_rate = {0, 1}; }, "/fps", "whole number");
+    expect_spoiled([](Scene& s) { s.settings["unheard_of"] = 1.0; }, "/settings/unheard_of", "unknown");
+    expect_spoiled([](Scene& s) { s.name = "\xff\xfe"; }, "", "UTF-8");
+    expect_spoiled([](Scene& s) { s.materials[0].normal_scale = NAN; }, "", "finite");
+    expect_spoiled([](Scene& s) { s.materials[0].thickness = -1.0; }, "/materials/a/thickness", "at least 0");
+    expect_spoiled([](Scene& s) { s.materials[0].anisotropy_rotation = NAN; }, "anisotropy_rotation", "nan");
+    expect_spoiled([](Scene& s) { s.viewing.persistence = 2.0; }, "/viewing/persistence", "from 0 to 1");
+    expect_spoiled([](Scene& s) { s.environment_image = 0, s.environment = glm::dvec3(1.0); }, "environment_image",
+                   "no element 0");
+    expect_spoiled(
+        [](Scene& s) {
+            s.images.push_back({.name = "sky", .path = "sky.exr", .bytes = {}, .floats = {}});
+            s.environment_image = 0;
+        },
+        "environment_image", "needs `environment`");
+    expect_spoiled([](Scene& s) { s.environment_rotation = glm::dquat(0, 1, 0, 0); }, "/environment_rotation",
+                   "\"environment_image\", which is not given");
+    expect_spoiled([](Scene& s) { s.includes = {{"b.glb", 1}, {"a.glb", 0}}; }, "includes", "exactly");
+    expect_spoiled([](Scene& s) { s.includes = {{"/abs.glb", 0}}; }, "/nodes/0/include", "absolute");
+    expect_spoiled([](Scene& s) { s.nodes[0].include = 0; }, "node 1", "after");
+    expect_spoiled(
+        [](Scene& s) {
+            s.nodes[0].scale.values = {glm::dvec3(1.0), glm::dvec3(2.0)};  // times of an acyclic sampling left over
+            s.nodes[0].scale.sampling.times = {0.0, 1.0};
+        },
+        "node 0", "exactly");
+}
+
+}  // namespace
+}  // namespace aleph

@@ -1,0 +1,185 @@
+// Rules for includes: they point one way, and every source folder is a layer.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <regex>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "tests/support/paths.h"
+#include "tests/support/read_bytes.h"
+
+namespace aleph {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A folder, and which other folders its files may include.
+struct Layer {
+    std::string folder;
+    std::vector<std::string> may_include;
+};
+
+/// From the bottom up: each may include folders that stand above it in this list only.
+const std::vector<Layer>& layers() {
+    static const std::vector<Layer> all = [] {
+        const std::vector<std::string> model = {"engine/base", "engine/scene", "engine/surface"};
+        const std::vector<std::string> text = {"engine/base", "engine/json", "engine/scene", "engine/surface"};
+        std::vector<std::string> engine = model;
+        for (const char* folder : {"pose", "rays", "image", "json", "scene_file", "gltf", "alembic"})
+            engine.push_back(std::string("engine/") + folder);
+        const std::vector<std::string> below_load = engine;
+        engine.push_back("engine/load");
+        std::vector<std::string> stages = engine;
+        for (const char* folder : {"motion", "perception"}) stages.push_back(folder);
+        // Each includes those before it.
+        std::vector<Layer> rooms;
+        for (const char* room : {"settings", "surface", "pixels", "guide", "light", "path", "cache", "estimate", "time",
+                                 "shade", "plan", "frame", "output", "compare", "images", "budget", "study", "cli"}) {
+            rooms.push_back({std::string("render/") + room, stages});
+            stages.push_back(rooms.back().folder);
+        }
+        const auto with = [](std::vector<std::string> folders, std::initializer_list<const char*> more) {
+            folders.insert(folders.end(), more.begin(), more.end());
+            return folders;
+        };
+        std::vector<Layer> found{
+            {"engine/base", {}},
+            {"engine/scene", {"engine/base"}},
+            {"engine/surface", {"engine/base", "engine/scene"}},
+            {"engine/pose", model},
+            {"engine/rays", with(model, {"engine/pose"})},
+            {"engine/image", {"engine/base"}},
+            {"engine/json", {"engine/base"}},
+            {"engine/scene_file", text},
+            {"engine/gltf/validate", {"engine/base", "engine/json"}},
+            {"engine/gltf", with(text, {"engine/image", "engine/gltf/validate"})},
+            {"engine/alembic", with(model, {"engine/json"})},
+            {"engine/load", below_load},
+            {"motion", engine},
+            {"perception", {"engine/base"}},
+        };
+        found.insert(found.end(), rooms.begin(), rooms.end());
+        return found;
+    }();
+    return all;
+}
+
+/// The layer of a file (a path from the repository's root): the one with the longest folder. Null outside all of them.
+const Layer* layer_of(const std::string& path) {
+    const Layer* found = nullptr;
+    for (const Layer& layer : layers()) {
+        const bool inside = path.starts_with(layer.folder + "/");
+        if (inside && (found == nullptr || layer.folder.size() > found->folder.size())) found = &layer;
+    }
+    return found;
+}
+
+/// What the #include lines of a text name, in quotes or in angle brackets.
+std::vector<std::string> included_paths(const std::string& text) {
+    static const std::regex line(R"re((?:^|\n)[ \t]*#[ \t]*include[ \t]*["<]([^">\n]+)[">])re");
+    std::vector<std::string> paths;
+    for (auto it = std::sregex_iterator(text.begin(), text.end(), line); it != std::sregex_iterator(); ++it) {
+        paths.push_back(fs::path((*it)[1].str()).lexically_normal().generic_string());
+    }
+    return paths;
+}
+
+/// The includes of a file that point the wrong way, as "file includes other".
+std::vector<std::string> find_violations(const std::string& file, const std::string& text) {
+    std::vector<std::string> violations;
+    const Layer* own = layer_of(file);
+    if (own == nullptr) return violations;
+    for (const std::string& path : included_paths(text)) {
+        // Relative to the including file a path could step into another folder without its name.
+        const bool relative = path.starts_with("../") || fs::path(path).is_absolute();
+        const Layer* other = layer_of(path);
+        const bool allowed =
+            other == nullptr || other == own ||
+            std::find(own->may_include.begin(), own->may_include.end(), other->folder) != own->may_include.end();
+        const bool outside = path.starts_with("tests/") || path.starts_with("scenes/");
+        if (relative || !allowed || outside) violations.push_back(file + " includes " + path);
+    }
+    return violations;
+}
+
+TEST(House, IncludesPointOneWay) {
+    const fs::path root = source_folder();
+    int files = 0, own_includes = 0;
+    for (const char* folder : {"engine", "motion", "perception", "render"}) {
+        for (const fs::directory_entry& entry : fs::recursive_directory_iterator(root / folder)) {
+            const std::string path = fs::relative(entry.path(), root).generic_string();
+            if (path.find("node_modules") != std::string::npos) continue;
+            if (!entry.is_regular_file() || (entry.path().extension() != ".h" && entry.path().extension() != ".cpp"))
+                continue;
+            ++files;
+            const std::string text = read_bytes(entry.path());
+            for (const std::string& violation : find_violations(path, text)) ADD_FAILURE() << violation;
+            for (const std::string& included : included_paths(text)) own_includes += layer_of(included) != nullptr;
+        }
+    }
+    EXPECT_GT(files, 40);          // the folders were found
+    EXPECT_GT(own_includes, 100);  // and their includes understood
+}
+
+TEST(House, EveryFolderIsALayer) {
+    const fs::path root = source_folder();
+    std::set<std::string> known;
+    for (const Layer& layer : layers()) known.insert(layer.folder);
+    for (const char* folder : {"engine", "motion", "perception", "render"}) {
+        for (const fs::directory_entry& entry : fs::recursive_directory_iterator(root / folder)) {
+            if (entry.path().extension() != ".h" && entry.path().extension() != ".cpp") continue;
+            const std::string own = fs::relative(entry.path().parent_path(), root).generic_string();
+            if (own.find("node_modules") != std::string::npos) continue;
+            EXPECT_TRUE(known.contains(own)) << entry.path() << " lies in a folder that layers() does not list";
+        }
+    }
+}
+
+TEST(House, LayersHaveNoCycle) {
+    std::set<std::string> lower;
+    for (const Layer& layer : layers()) {
+        for (const std::string& folder : layer.may_include) {
+            EXPECT_TRUE(lower.contains(folder)) << layer.folder << " may include " << folder << ", which comes later";
+        }
+        lower.insert(layer.folder);
+    }
+}
+
+TEST(House, CheckerSeesEveryKindOfViolation) {
+    const auto count = [](const char* file, const char* text) { return find_violations(file, text).size(); };
+    EXPECT_EQ(count("perception/a.cpp", "#include \"engine/scene/scene.h\"\n"), 1u);
+    EXPECT_EQ(count("perception/a.cpp", "#include \"motion/velocity.h\"\n"), 1u);
+    EXPECT_EQ(count("engine/scene/a.cpp", "// c\n  #  include <motion/velocity.h>\n"), 1u);
+    EXPECT_EQ(
+        count("engine/pose/a.cpp", "#include \"perception/perception.h\"\n#include \"render/settings/settings.h\"\n"),
+        2u);
+    EXPECT_EQ(count("engine/base/a.h", "#include \"engine/scene/scene.h\"\n"), 1u);
+    EXPECT_EQ(count("engine/base/a.h", "#include \"engine/base/../scene/scene.h\"\n"), 1u);
+    EXPECT_EQ(count("engine/scene/a.h", "#include \"engine/pose/pose.h\"\n"), 1u);
+    EXPECT_EQ(count("engine/surface/a.h", "#include \"engine/rays/ray_scene.h\"\n"), 1u);
+    EXPECT_EQ(count("engine/json/a.h", "#include \"engine/gltf/gltf.h\"\n"), 1u);
+    EXPECT_EQ(count("engine/gltf/a.cpp", "#include \"engine/scene_file/fields.h\"\n"), 1u);
+    EXPECT_EQ(count("engine/gltf/validate/a.cpp", "#include \"engine/gltf/reader.h\"\n"), 1u);
+    EXPECT_EQ(count("engine/image/a.h", "#include \"engine/load/load_scene.h\"\n"), 1u);
+    EXPECT_EQ(count("motion/a.cpp", "#include \"perception/perception.h\"\n"), 1u);
+    EXPECT_EQ(count("render/frame/a.cpp", "#include \"render/cli/options.h\"\n"), 1u);
+    EXPECT_EQ(count("render/frame/a.cpp", "#include \"../render/settings/settings.h\"\n"), 1u);
+    EXPECT_EQ(count("render/frame/a.cpp", "#include \"tests/support/helper.h\"\n"), 1u);
+
+    EXPECT_EQ(
+        count("perception/a.cpp", "#include <vector>\n#include \"engine/base/image.h\"\n#include \"perception/b.h\"\n"),
+        0u);
+    EXPECT_EQ(count("engine/scene_file/a.cpp", "#include \"engine/base/image.h\"\n#include \"schema.inc\"\n"), 0u);
+    EXPECT_EQ(count("engine/gltf/a.cpp", "#include \"engine/gltf/validate/validate.h\"\n"), 0u);
+    EXPECT_EQ(count("motion/a.cpp", "#include \"engine/scene/scene.h\"\n"), 0u);
+    EXPECT_EQ(count("render/cli/a.cpp", "#include \"render/settings/settings.h\"\n#include \"render/cli/b.h\"\n"), 0u);
+    EXPECT_EQ(count("render/frame/a.cpp", "#include \"perception/perception.h\"\n#include \"motion/velocity.h\"\n"),
+              0u);
+}
+
+}  // namespace
+}  // namespace aleph

@@ -1,0 +1,84 @@
+// `aleph maps --images`: the error messages for pictures and options that it cannot use.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <vector>
+
+#include "engine/image/image_file.h"
+#include "tests/support/image_patterns.h"
+#include "tests/render/cli/maps_images.h"
+
+namespace aleph {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Exit code 2, one line that holds every part.
+void expect_refusal(const std::vector<std::string>& arguments, const std::vector<std::string>& parts) {
+    const Ran ran = run_maps(arguments);
+    EXPECT_EQ(ran.code, 2) << ran.errors;
+    EXPECT_EQ(std::count(ran.errors.begin(), ran.errors.end(), '\n'), 1) << ran.errors;
+    for (const std::string& part : parts)
+        EXPECT_NE(ran.errors.find(part), std::string::npos) << part << ": " << ran.errors;
+}
+
+TEST(MapsImages, GapsAreRefusedByName) {
+    const Frames frames(1, 4);
+    fs::remove(frames.file(3));
+    const std::string out = frames.out();
+    expect_refusal({"--images", frames.pattern(), "-o", out},
+                   {"frame 3 is missing", "f.0002.exr", "f.0004.exr", "--cuts 4"});
+    expect_refusal({"--images", frames.pattern(), "-o", out, "--frames", "2"}, {"frame 3 is missing"});
+    expect_refusal({"--images", frames.pattern(), "-o", out, "--frames", "1-3"}, {"frame 3 is"});
+    expect_refusal({"--images", frames.pattern(), "-o", out, "--frames", "9"}, {"frame 9 is not there", "from 1 to 4"});
+    EXPECT_FALSE(fs::exists(out));
+    EXPECT_EQ(run_maps({"--images", frames.pattern(), "-o", out, "--frames", "1"}).code, 0);
+    EXPECT_EQ(run_maps({"--images", frames.pattern(), "-o", out, "--cuts", "4"}).code, 0);
+}
+
+TEST(MapsImages, SizesMustAgree) {
+    const Frames frames(1, 2);
+    frames.write(3, make_pattern(20, 10, [](int, int) { return 0.5; }));
+    expect_refusal({"--images", frames.pattern(), "-o", frames.out()}, {"f.0003.exr", "20x10", "f.0001.exr", "72x56"});
+}
+
+TEST(MapsImages, RefusesWhatItCannotMean) {
+    const Frames frames(1, 2);
+    const std::string pattern = frames.pattern(), folder = frames.folder.path().string();
+    expect_refusal({}, {"--images"});
+    expect_refusal({"--images", pattern, "scene.json"}, {"--images", "quotes"});
+    expect_refusal({"--images", frames.file(1).string(), frames.file(2).string()}, {"quotes"});
+    expect_refusal({"--images", folder}, {"folder", "name.####.exr"});
+    expect_refusal({"--images", folder + "/g.####.exr"}, {"no file fits"});
+    expect_refusal({"--images", folder + "/f.##.exr"}, {"f.0001.exr would"});
+    expect_refusal({"--images", folder + "/none.exr"}, {"no such file"});
+    expect_refusal({"--images", "/no/such/f.####.exr"}, {"no such folder"});
+    expect_refusal({"--images", folder + "/f.%x.exr"}, {"after '%'"});
+    expect_refusal({"--images", pattern, "--motion", "model"}, {"motion", "needs a scene"});
+    expect_refusal({"--images", pattern, "--size", "64x48"}, {"size", "needs a scene"});
+    expect_refusal({"--images", pattern, "--camera", "main"}, {"--camera"});
+    expect_refusal({"--images", pattern, "--exposure", "0"}, {"--exposure"});
+    expect_refusal({"--images", pattern, "--cuts", "x"}, {"--cuts"});
+    expect_refusal({"--images", pattern, "--fps", "0"}, {"--fps"});
+    expect_refusal({"--images", pattern, "-o", "maps.####.hdr"}, {"write .exr, or .png to look at them"});
+    expect_refusal({"--images", pattern, "-o", "maps.####.hdr"}, {"write .exr"});
+    expect_refusal({"--images", pattern, "-o", pattern}, {"pictures themselves"});
+    expect_refusal({"scene.json", "--cuts", "3"}, {"--cuts"});
+}
+
+TEST(MapsImages, UnreadablePicturesAreNamed) {
+    const Frames frames(1, 2);
+    std::ofstream(frames.file(2)) << "not a picture";
+    expect_refusal({"--images", frames.pattern(), "-o", frames.out()}, {"f.0002.exr"});
+    ChannelImage depth;
+    depth.channels.push_back({"Z", Image<float>(width, height)});
+    write_exr(frames.file(2), depth);
+    expect_refusal({"--images", frames.pattern(), "-o", frames.out()}, {"f.0002.exr", "channels R, G and B"});
+}
+
+}  // namespace
+}  // namespace aleph

@@ -1,0 +1,226 @@
+// `aleph maps --images`: maps of pictures without a scene.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "engine/image/image_file.h"
+#include "motion/image_motion.h"
+#include "render/images/image_sequence.h"
+#include "tests/support/scratch_folder.h"
+#include "tests/render/cli/maps_images.h"
+
+namespace aleph {
+namespace {
+
+float median_of(const Image<float>& image) {
+    std::vector<float> values = image.pixels;
+    std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2), values.end());
+    return values[values.size() / 2];
+}
+
+TEST(MapsImages, WritesTheChannelsThatNeedNoGeometry) {
+    const Frames frames(1, 3);
+    const Ran ran = run_maps({"--images", frames.pattern(), "-o", frames.out()});
+    ASSERT_EQ(ran.code, 0) << ran.errors;
+    EXPECT_EQ(ran.errors, "");
+    const ChannelImage maps = frames.maps(2);
+    std::vector<std::string> names;
+    for (const Channel& channel : maps.channels) names.push_back(channel.name);
+    std::sort(names.begin(), names.end());
+    EXPECT_EQ(names,
+              (std::vector<std::string>{"aleph.Y", "alpha.acc", "conspicuity.color", "conspicuity.intensity",
+                                        "conspicuity.motion", "conspicuity.orientation", "estimate.B", "estimate.G",
+                                        "estimate.R", "forward.u", "forward.v", "motion.valid", "saliency.Y",
+                                        "threshold.Y", "threshold.flicker", "velocity.image", "velocity.retinal"}));
+    EXPECT_FALSE(maps.metadata.contains("worldToCamera"));
+    EXPECT_EQ((std::get<std::array<int, 2>>(maps.metadata.at("framesPerSecond"))), (std::array<int, 2>{30, 1}));
+    for (const Channel& channel : maps.channels) {
+        for (const float v : channel.values.pixels) ASSERT_TRUE(std::isfinite(v)) << channel.name;
+    }
+}
+
+TEST(MapsImages, MotionIsYUpForwardAndBackwardAtTheLastFrame) {
+    const Frames frames(1, 3);
+    ASSERT_EQ(run_maps({"--images", frames.pattern(), "-o", frames.out(), "--fps", "24"}).code, 0);
+    for (const int frame : {1, 2, 3}) {
+        const ChannelImage maps = frames.maps(frame);
+        EXPECT_EQ(median_of(*maps.find("forward.u")), 4.0f) << frame;
+        EXPECT_EQ(median_of(*maps.find("forward.v")), -8.0f) << frame;
+        EXPECT_EQ(median_of(*maps.find("motion.valid")), 1.0f) << frame;
+        EXPECT_NEAR(median_of(*maps.find("velocity.image")), std::hypot(4.0, 8.0) / 31.0 * 24.0, 1e-4) << frame;
+        // The picture itself is the estimate.
+        EXPECT_EQ(maps.find("estimate.G")->pixels, as_channels(picture(frame)).channels[1].values.pixels);
+    }
+}
+
+TEST(MapsImages, EqualsTheStagesByHand) {
+    const Frames frames(1, 2);
+    ASSERT_EQ(run_maps({"--images", frames.pattern(), "-o", frames.out(), "--guide", "full"}).code, 0);
+    const MotionField field = compute_image_motion(picture(1), picture(2));
+    const ChannelImage maps = frames.maps(1);
+    for (std::size_t i = 0; i < field.displacement.size(); ++i) {
+        EXPECT_EQ(maps.find("forward.u")->pixels[i], field.displacement.pixels[i].x);
+        EXPECT_EQ(maps.find("forward.v")->pixels[i], 0.0 - field.displacement.pixels[i].y);
+    }
+    EXPECT_EQ(maps.find("saliency.Y"), nullptr);  // guide full has no saliency map
+}
+
+TEST(MapsImages, ASingleFrameStandsStill) {
+    const Frames frames(7, 7);
+    ASSERT_EQ(run_maps({"--images", frames.file(7).string(), "-o", (frames.folder / "still.exr").string()}).code, 0);
+    const ChannelImage maps = read_image(frames.folder / "still.exr");
+    for (const float v : maps.find("velocity.image")->pixels) EXPECT_EQ(v, 0.0f);
+    for (const float v : maps.find("motion.valid")->pixels) EXPECT_EQ(v, -3.0f);
+    EXPECT_NE(maps.find("saliency.Y"), nullptr);
+}
+
+TEST(MapsImages, NothingMovesAcrossACut) {
+    const Frames frames(1, 4);
+    const Ran ran = run_maps({"--images", frames.pattern(), "-o", frames.out(), "--cuts", "3"});
+    ASSERT_EQ(ran.code, 0) << ran.errors;
+    EXPECT_EQ(median_of(*frames.maps(1).find("forward.u")), 4.0f);
+    EXPECT_EQ(median_of(*frames.maps(2).find("forward.u")), 0.0f);
+    EXPECT_EQ(median_of(*frames.maps(2).find("motion.valid")), -3.0f);
+    EXPECT_EQ(median_of(*frames.maps(3).find("forward.u")), 4.0f);
+    EXPECT_EQ(median_of(*frames.maps(4).find("forward.u")), 4.0f);  // from the frame before
+}
+
+TEST(MapsImages, ExposureAndViewingReachTheMaps) {
+    const Frames frames(1, 2);
+    const auto threshold = [&](const std::vector<std::string>& more) {
+        std::vector<std::string> arguments = {"--images", frames.pattern(), "--frames", "1", "-o", frames.out()};
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        const Ran ran = run_maps(arguments);
+        EXPECT_EQ(ran.code, 0) << ran.errors;
+        return median_of(*frames.maps(1).find("threshold.Y"));
+    };
+    const float plain = threshold({});
+    EXPECT_GT(threshold({"--exposure", "8"}), 2.0f * plain);
+    EXPECT_EQ(threshold({"--set", "exposure=8"}), threshold({"--exposure", "8"}));
+    EXPECT_GT(threshold({"--set", "viewing.display_white=800"}), 2.0f * plain);
+    threshold({"--set", "viewing.pixels_per_degree=62"});
+    EXPECT_NEAR(median_of(*frames.maps(1).find("velocity.image")), std::hypot(4.0, 8.0) / 62.0 * 30.0, 1e-4);
+}
+
+TEST(MapsImages, TheFirstFrameNamesRateAndViewing) {
+    const Frames frames(2, 2);
+    ChannelImage first = as_channels(picture(1));
+    first.metadata["framesPerSecond"] = std::array<int, 2>{24000, 1001};
+    first.metadata["pixelsPerDegree"] = 40.0;
+    first.metadata["whiteLuminance"] = 200.0;
+    first.metadata["displayPersistence"] = 0.25;
+    write_exr(frames.file(1), first);
+    ASSERT_EQ(run_maps({"--images", frames.pattern(), "-o", frames.out()}).code, 0);
+    const ChannelImage maps = frames.maps(1);
+    EXPECT_NEAR(median_of(*maps.find("velocity.image")), std::hypot(4.0, 8.0) / 40.0 * 24000.0 / 1001.0, 1e-4);
+    EXPECT_EQ(std::get<double>(maps.metadata.at("whiteLuminance")), 200.0);
+    EXPECT_EQ(std::get<double>(maps.metadata.at("displayPersistence")), 0.25);
+    ASSERT_EQ(run_maps({"--images", frames.pattern(), "-o", frames.out(), "--fps", "30"}).code, 0);
+    EXPECT_NEAR(median_of(*frames.maps(1).find("velocity.image")), std::hypot(4.0, 8.0) / 40.0 * 30.0, 1e-4);
+}
+
+TEST(MapsImages, PngIsDecodedFromSrgb) {
+    const Frames frames(1, 2);
+    const ScratchFolder folder;
+    for (const int frame : {1, 2}) {
+        write_png(folder / ("g.00" + std::to_string(frame) + ".png"), picture(frame));
+    }
+    const Ran ran = run_maps({"--images", (folder / "g.%03d.png").string(), "-o", (folder / "m.#.exr").string()});
+    ASSERT_EQ(ran.code, 0) << ran.errors;
+    const ChannelImage maps = read_image(folder / "m.1.exr");
+    const Image<Rgb> truth = picture(1);
+    for (std::size_t i = 0; i < truth.size(); ++i) {
+        EXPECT_NEAR(maps.find("estimate.R")->pixels[i], truth.pixels[i].x, 5e-3);
+    }
+    EXPECT_EQ(median_of(*maps.find("forward.u")), 4.0f);
+}
+
+TEST(MapsImages, OneChannelIsGrey) {
+    const ScratchFolder folder;
+    ChannelImage grey;
+    grey.channels.push_back({"Y", as_channels(picture(0)).channels[0].values});
+    write_exr(folder / "y.exr", grey);
+    const Image<Rgb> loaded = read_picture_frame(folder / "y.exr").color;
+    EXPECT_EQ(loaded.pixels, picture(0).pixels);
+}
+
+TEST(MapsImages, BadPixelsAreCountedNotSpread) {
+    const Frames frames(1, 2);
+    Image<Rgb> damaged = picture(1);
+    damaged(10, 10) = Rgb(NAN);
+    damaged(40, 30) = Rgb(INFINITY, 0.0f, 0.0f);
+    frames.write(1, damaged);
+    const std::string stats = (frames.folder / "stats.json").string();
+    ASSERT_EQ(run_maps({"--images", frames.pattern(), "-o", frames.out(), "--stats", stats}).code, 0);
+    std::ifstream stream(stats);
+    const nlohmann::json json = nlohmann::json::parse(stream);
+    EXPECT_EQ(json["frames"].size(), 2u);
+    EXPECT_EQ(json["frames"][0]["estimate"]["replaced"], 2);
+    EXPECT_EQ(json["frames"][0]["rays"]["total"], 0);
+    EXPECT_EQ(json["settings"]["motion"], "image");
+    EXPECT_EQ(json["settings"]["size"], "72x56");
+    for (const char* stage : {"estimate", "motion", "perception", "write", "total"}) {
+        EXPECT_GT(json["frames"][0]["seconds"][stage].get<double>(), 0.0) << stage;
+    }
+    const ChannelImage maps = frames.maps(1);
+    for (const float v : maps.find("aleph.Y")->pixels) EXPECT_TRUE(v >= 1.0f && v <= 251.0f);
+}
+
+TEST(MapsImages, SameBytesForAnyThreadsOrderAndCompany) {
+    const Frames frames(1, 3);
+    const auto bytes_of_frame_2 = [&](const std::vector<std::string>& more) {
+        std::vector<std::string> arguments = {"--images", frames.pattern(), "-o", frames.out()};
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        EXPECT_EQ(run_maps(arguments).code, 0);
+        std::ifstream stream(frames.folder.path() / "out" / "f-maps.0002.exr", std::ios::binary);
+        std::ostringstream text;
+        text << stream.rdbuf();
+        return text.str();
+    };
+    const std::string alone = bytes_of_frame_2({"--frames", "2", "-t", "1"});
+    EXPECT_EQ(alone, bytes_of_frame_2({"-t", "2"}));
+    EXPECT_EQ(alone, bytes_of_frame_2({"--frames", "3,1,2"}));
+}
+
+/// The picture as it is, and five maps with their scales; more light where the map has more.
+TEST(MapsImages, APngShowsTheMapsToPeople) {
+    const Frames frames(1, 2);
+    const std::string out = (frames.folder / "preview.####.png").string();
+    ASSERT_EQ(run_maps({"--images", frames.pattern(), "-o", out}).code, 0);
+    const ChannelImage preview = read_image(frames.folder / "preview.0001.png");
+    constexpr int caption = 26;
+    const Image<float>& red = preview.channels[0].values;
+    EXPECT_EQ(red.width, 3 * width);
+    EXPECT_EQ(red.height, 2 * (height + caption));
+    const Image<Rgb> shown = picture(1);
+    for (int y = 0; y < height; y += 9) {
+        for (int x = 0; x < width; x += 7) {
+            const float expected = linear_to_srgb(std::clamp(shown(x, y)[0], 0.0f, 1.0f));
+            EXPECT_NEAR((*preview.find("R"))(x, y + caption), expected, 0.6 / 255.0);
+        }
+    }
+    ASSERT_EQ(run_maps({"--images", frames.pattern(), "-o", frames.out()}).code, 0);
+    const Image<float> threshold = *frames.maps(1).find("threshold.Y");
+    const auto by_value = [](const Image<float>& image) {
+        return std::minmax_element(image.pixels.begin(), image.pixels.end());
+    };
+    const auto [low, high] = by_value(threshold);
+    const auto brightness = [&](std::size_t i) {
+        const int x = static_cast<int>(i) % width + width, y = static_cast<int>(i) / width + height + 2 * caption;
+        return (*preview.find("R"))(x, y) + (*preview.find("G"))(x, y) + (*preview.find("B"))(x, y);
+    };
+    EXPECT_GT(brightness(static_cast<std::size_t>(high - threshold.pixels.begin())),
+              brightness(static_cast<std::size_t>(low - threshold.pixels.begin())));
+}
+
+}  // namespace
+}  // namespace aleph

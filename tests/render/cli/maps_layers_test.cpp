@@ -1,0 +1,156 @@
+// `aleph maps --images`: pictures of other programs, with layers, motion and depth of their own.
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "engine/image/image_file.h"
+#include "render/images/image_sequence.h"
+#include "tests/render/cli/maps_images.h"
+
+namespace aleph {
+namespace {
+
+void add_flat(ChannelImage& file, const std::string& name, float value) {
+    file.channels.push_back({name, Image<float>(width, height, value)});
+}
+
+/// The picture in a layer of its own.
+ChannelImage in_layer(const std::string& layer, int frame) {
+    ChannelImage file = as_channels(picture(frame));
+    for (Channel& channel : file.channels) channel.name = layer + '.' + channel.name;
+    return file;
+}
+
+/// A frame as Blender writes it: something that moves 3 pixels to the right and 2 up, before a far background.
+ChannelImage blender_frame(int frame) {
+    ChannelImage file = in_layer("ViewLayer.Combined", frame);
+    add_flat(file, "ViewLayer.Vector.X", -1.0f);
+    add_flat(file, "ViewLayer.Vector.Y", 7.0f);
+    add_flat(file, "ViewLayer.Vector.Z", -3.0f);
+    add_flat(file, "ViewLayer.Vector.W", -2.0f);
+    add_flat(file, "ViewLayer.Depth.Z", 5.0f);
+    return file;
+}
+
+Image<float>& channel(ChannelImage& file, const std::string& name) {
+    return const_cast<Image<float>&>(*file.find(name));
+}
+
+/// Writes frames 1 and 2, and runs maps on them.
+template <class Make>
+Ran maps_of(const Frames& frames, const Make& make, std::vector<std::string> options = {}) {
+    for (const int frame : {1, 2}) write_exr(frames.file(frame), make(frame));
+    options.insert(options.begin(), {"--images", frames.pattern(), "-o", frames.out()});
+    return run_maps(options);
+}
+
+TEST(MapsLayers, BlendersPassesAreReadWithTheirSigns) {
+    const Frames frames(1, 0);
+    const Ran ran = maps_of(frames, [](int frame) {
+        ChannelImage file = blender_frame(frame);
+        channel(file, "ViewLayer.Vector.Z")(0, 0) = channel(file, "ViewLayer.Vector.W")(0, 0) = 0.0f;
+        channel(file, "ViewLayer.Depth.Z")(0, 0) = 1e10f;
+        channel(file, "ViewLayer.Vector.Z")(5, 5) = std::numeric_limits<float>::quiet_NaN();
+        return file;
+    });
+    ASSERT_EQ(ran.code, 0) << ran.errors;
+    for (const int frame : {1, 2}) {
+        const ChannelImage maps = frames.maps(frame);
+        const auto at = [&](const char* name, int x, int y) { return (*maps.find(name))(x, y); };
+        EXPECT_EQ(at("forward.u", 30, 30), 3.0f);
+        EXPECT_EQ(at("forward.v", 30, 30), 2.0f);
+        EXPECT_EQ(at("motion.valid", 30, 30), 1.0f);
+        EXPECT_EQ(at("Z", 30, 30), 5.0f);
+        EXPECT_EQ(at("motion.valid", 0, 0), 0.0f) << "background";
+        EXPECT_EQ(at("motion.valid", 5, 5), -3.0f) << "not a number";
+        EXPECT_EQ(at("forward.u", 5, 5), 0.0f);
+        EXPECT_EQ(at("motion.valid", width - 1, 30), -2.0f) << "leaves the picture";
+        EXPECT_EQ(maps.find("estimate.G")->pixels, as_channels(picture(frame)).channels[1].values.pixels);
+        EXPECT_NEAR(at("velocity.image", 30, 30), std::hypot(3.0, 2.0) / 31.0 * 30.0, 1e-4);
+        EXPECT_NE(std::get<std::string>(maps.metadata.at("motion:definition")).find("the picture's file"),
+                  std::string::npos);
+    }
+}
+
+TEST(MapsLayers, OurOwnMotionComesBackAsItWas) {
+    const Frames frames(1, 0);
+    const auto own = [](int frame) {
+        ChannelImage file = as_channels(picture(frame));
+        add_flat(file, "forward.u", 1.25f);
+        add_flat(file, "forward.v", -0.5f);
+        add_flat(file, "motion.valid", 1.0f);
+        channel(file, "motion.valid")(3, 4) = -4.0f;
+        add_flat(file, "Z", 2.0f);
+        return file;
+    };
+    ASSERT_EQ(maps_of(frames, own, {"--cuts", "2"}).code, 0);
+    const ChannelImage cut = frames.maps(1), maps = frames.maps(2);
+    for (const char* name : {"forward.u", "forward.v", "motion.valid", "Z"}) {
+        EXPECT_EQ(maps.find(name)->pixels, own(2).find(name)->pixels) << name;
+    }
+    EXPECT_EQ((*cut.find("forward.u"))(9, 9), 0.0f);
+    EXPECT_EQ((*cut.find("motion.valid"))(9, 9), -3.0f) << "a cut has no motion";
+}
+
+TEST(MapsLayers, FramesWithMotionMayHaveGaps) {
+    const Frames frames(1, 0);
+    for (const int frame : {1, 5}) write_exr(frames.file(frame), blender_frame(frame));
+    EXPECT_EQ(run_maps({"--images", frames.pattern(), "-o", frames.out()}).code, 0);
+    const Ran compared = run_maps({"--images", frames.pattern(), "-o", frames.out(), "--motion-layer", "none"});
+    EXPECT_EQ(compared.code, 2);
+    EXPECT_NE(compared.errors.find("frames 2 to 4 are missing"), std::string::npos) << compared.errors;
+}
+
+TEST(MapsLayers, NoneComparesThePictures) {
+    const Frames frames(1, 0);
+    ASSERT_EQ(maps_of(frames, blender_frame, {"--motion-layer", "none", "--depth-layer", "none"}).code, 0);
+    const ChannelImage maps = frames.maps(1);
+    EXPECT_EQ((*maps.find("forward.u"))(36, 28), 4.0f);
+    EXPECT_EQ((*maps.find("forward.v"))(36, 28), -8.0f);
+    EXPECT_EQ(maps.find("Z"), nullptr);
+}
+
+TEST(MapsLayers, LayersAreChosenByName) {
+    const Frames frames(1, 0);
+    const auto several = [](int frame) {
+        ChannelImage file = blender_frame(frame);
+        for (Channel& other : in_layer("Other.Combined", frame + 7).channels) file.channels.push_back(other);
+        for (const char* c : {"X", "Y", "Z", "W"}) add_flat(file, std::string("Other.Speed.") + c, 1.0f);
+        return file;
+    };
+    const Ran unclear = maps_of(frames, several);
+    EXPECT_EQ(unclear.code, 2);
+    EXPECT_NE(unclear.errors.find("several layers hold colour: Other.Combined, ViewLayer.Combined; choose one with "
+                                  "--layer"),
+              std::string::npos)
+        << unclear.errors;
+    ASSERT_EQ(maps_of(frames, several, {"--layer", "Other.Combined", "--motion-layer", "Other.Speed"}).code, 0);
+    EXPECT_EQ(frames.maps(1).find("estimate.R")->pixels, as_channels(picture(8)).channels[0].values.pixels);
+    EXPECT_EQ((*frames.maps(1).find("forward.u"))(30, 30), -1.0f);
+}
+
+TEST(MapsLayers, WhatIsNotThereIsRefused) {
+    const Frames frames(1, 0);
+    const auto refused = [&](std::vector<std::string> options, const std::string& message) {
+        const Ran ran = maps_of(frames, blender_frame, std::move(options));
+        EXPECT_EQ(ran.code, 2);
+        EXPECT_NE(ran.errors.find(message), std::string::npos) << ran.errors;
+        EXPECT_FALSE(std::filesystem::exists(frames.out())) << "written before the layer was looked for";
+    };
+    refused({"--layer", "ViewLayer.Combind"}, "did you mean \"ViewLayer.Combined\"");
+    refused({"--layer", "ViewLayer.Depth"}, "a frame needs channels R, G and B, or Y");
+    refused({"--motion-layer", "ViewLayer.Depth"}, "motion needs channels u and v, or X, Y, Z and W");
+    refused({"--depth-layer", "ViewLayer.Combined"}, "depth needs a channel Z");
+}
+
+TEST(MapsLayers, AFrameWithoutMotionAmongFramesWithIt) {
+    const Frames frames(1, 0);
+    const Ran ran =
+        maps_of(frames, [](int frame) { return frame == 1 ? blender_frame(1) : in_layer("ViewLayer.Combined", 2); });
+    EXPECT_EQ(ran.code, 2);
+    EXPECT_NE(ran.errors.find("f.0002.exr: this frame has no motion"), std::string::npos) << ran.errors;
+}
+
+}  // namespace
+}  // namespace aleph

@@ -1,0 +1,95 @@
+// The scene `boomerang`: its generator reproduces the files, its solid is closed, and it moves as its README says.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <map>
+
+#include "scenes/boomerang/boomerang_scene.h"
+#include "tests/support/paths.h"
+#include "tests/scenes/authored_scenes.h"
+
+namespace aleph {
+namespace {
+
+TEST(BoomerangScene, ComesFromItsGeneratorByteForByte) {
+    expect_generated(program_path("make_boomerang"), 1u + 4u);
+    EXPECT_TRUE(loaded("boomerang").warnings.empty());
+}
+
+TEST(BoomerangScene, TheSolidIsClosedAndFacesOutwards) {
+    const Mesh mesh = make_boomerang_mesh(0);
+    ASSERT_EQ(mesh.normals.size(), mesh.positions.size());
+    ASSERT_EQ(mesh.uv[0].size(), mesh.positions.size());
+    // Every edge, identified by the positions of its ends, occurs once in each direction.
+    const auto place = [&](std::uint32_t v) {
+        const glm::vec3& p = mesh.positions[v];
+        return std::array<float, 3>{p.x, p.y + 0.0f, p.z};
+    };
+    std::map<std::pair<std::array<float, 3>, std::array<float, 3>>, int> edges;
+    double volume = 0.0;
+    for (const glm::uvec3& t : mesh.triangles) {
+        for (int k = 0; k < 3; ++k) ++edges[{place(t[k]), place(t[(k + 1) % 3])}];
+        const glm::dvec3 a = mesh.positions[t[0]], b = mesh.positions[t[1]], c = mesh.positions[t[2]];
+        volume += glm::dot(a, glm::cross(b, c)) / 6.0;
+        const glm::dvec3 n = glm::cross(b - a, c - a);
+        for (int k = 0; k < 3; ++k) EXPECT_GT(glm::dot(n, glm::dvec3(mesh.normals[t[k]])), 0.0);
+        EXPECT_GT(glm::length(n), 1e-9);
+    }
+    for (const auto& [edge, count] : edges) {
+        EXPECT_EQ(count, 1);
+        EXPECT_TRUE(edges.contains({edge.second, edge.first}));
+    }
+    EXPECT_GT(volume, 1e-4);  // m3
+    EXPECT_LT(volume, 2e-3);
+    glm::dvec3 middle(0.0);
+    for (const glm::vec3& p : mesh.positions) middle += glm::dvec3(p) / static_cast<double>(mesh.positions.size());
+    EXPECT_LT(glm::length(middle), 0.02);  // it spins about its centre of mass
+}
+
+struct Moving {
+    double boomerang_share = 0.0, fastest = 0.0, background = 0.0;
+};
+
+Moving measure(int frame) {
+    constexpr int width = 320, height = 240;  // half the size that the README speaks of
+    const Scene& scene = loaded("boomerang");
+    const auto [hits, field, instances] = compute_motion(scene, frame, width, height);
+    Moving moving;
+    int background = 0;
+    for (std::size_t i = 0; i < hits.size(); ++i) {
+        EXPECT_NE(hits.pixels[i].instance, no_index);  // a closed room
+        if (hits.pixels[i].instance == no_index) continue;
+        const auto& instance = instances[hits.pixels[i].instance];
+        const double speed = 2.0 * glm::length(field.displacement.pixels[i]);
+        if (scene.nodes[instance.node].name == "boomerang") {
+            moving.boomerang_share += 1.0 / static_cast<double>(hits.size());
+            moving.fastest = std::max(moving.fastest, speed);
+        } else {
+            moving.background += speed;
+            ++background;
+        }
+    }
+    moving.background /= background;
+    return moving;
+}
+
+TEST(BoomerangScene, FliesInFrontOfAWallThatHardlyMoves) {
+    for (const int frame : {0, 20, 40, 60, 80, 88}) {
+        SCOPED_TRACE(frame);
+        const Moving moving = measure(frame);
+        EXPECT_GT(moving.boomerang_share, 0.008);
+        EXPECT_GT(moving.fastest, 10.0);
+        EXPECT_LT(moving.fastest, 53.0);  // the reach of image-based motion
+        if (frame < boomerang_still_until) {
+            EXPECT_EQ(moving.background, 0.0);
+        } else {
+            EXPECT_GT(moving.background, 0.5);
+            EXPECT_LT(moving.background, 2.0);
+        }
+    }
+}
+
+}  // namespace
+}  // namespace aleph

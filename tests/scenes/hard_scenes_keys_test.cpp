@@ -1,0 +1,170 @@
+// The scenes of scenes/hard about keys and transforms have the results that scenes/hard/README.md expects.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "tests/scenes/hard_scenes.h"
+
+namespace aleph {
+namespace {
+
+void expect_rotation(const glm::dmat4& world, double scale = 1.0) {
+    for (int a = 0; a < 3; ++a)
+        for (int b = 0; b < 3; ++b)
+            EXPECT_NEAR(glm::dot(glm::dvec3(world[a]), glm::dvec3(world[b])), a == b ? scale * scale : 0.0, 1e-12);
+}
+
+TEST(HardScenes, KF03_HalfTurnGoesOneWay) {
+    const HardScene hard("half_turn");
+    const glm::dmat4 middle = hard.world("thing", 1);
+    expect_rotation(middle);
+    EXPECT_NEAR(std::abs(middle[0].z), 1.0, 1e-12);
+}
+TEST(HardScenes, KF04_KeysOfAnyLengthAreRotations) {
+    const HardScene hard("unequal_quaternions");
+    for (const double frame : {0.0, 0.7, 1.0, 2.0}) expect_rotation(hard.world("thing", frame));
+    EXPECT_TRUE(warns(hard.scene, "length 0.5"));
+}
+TEST(HardScenes, KF08_SplineThroughZeroHolds) {
+    const HardScene hard("spline_through_zero");
+    for (const double frame : {0.9, 1.0, 1.1}) expect_rotation(hard.world("thing", frame));
+}
+TEST(HardScenes, KF12_KF13_KeysHold) {
+    HardScene hard("held_keys");
+    EXPECT_EQ(hard.world("thing", 0), hard.world("thing", 2));
+    EXPECT_EQ(hard.world("thing", 100), hard.world("thing", 4));
+    EXPECT_NEAR(hard.world("thing", 3)[3].x, 0.5, 1e-12);
+    EXPECT_EQ(longest_motion(hard.render(0)), 0.0);
+    EXPECT_GT(longest_motion(hard.render(2)), 1.0);
+}
+TEST(HardScenes, KF14_KF16_TenHoursIn) {
+    const HardScene hard("ten_hours");
+    EXPECT_EQ(hard.world("thing", 1080001)[3].x, 1.0);
+}
+TEST(HardScenes, KF17_MirroredScaleKeepsItsLight) {
+    HardScene hard("mirrored");
+    Scene straight = hard.scene;
+    Node& thing = straight.nodes[hard.node("thing")];
+    thing.scale = glm::dvec3(1.0);  // unmirrored and turned the other way: this gives the mirror image of the picture
+    thing.axis_rotation->angle = Track<double>(-20.0 * std::numbers::pi / 180.0);
+    RenderSettings settings = small_settings();
+    settings.light_samples = 256;
+    settings.gather = 1024;
+    Sequence mirrored(hard.scene, settings), sequence(straight, settings);
+    const Image<Rgb> picture = mirrored.render(0).shaded.color, other = sequence.render(0).shaded.color;
+    double sum = 0.0, difference = 0.0;
+    for (int y = 0; y < picture.height; ++y) {
+        for (int x = 0; x < picture.width; ++x) {
+            const double a = luminance(picture(x, y)), b = luminance(other(picture.width - 1 - x, y));
+            sum += a;
+            difference += std::abs(a - b);
+        }
+    }
+    EXPECT_GT(sum, 1.0);
+    EXPECT_LT(difference / sum, 0.03);  // noise
+}
+TEST(HardScenes, KF18_FlattenedIsLeftOut) {
+    HardScene hard("flattened");
+    const FrameOutput output = hard.render(0);
+    EXPECT_TRUE(hard.pixels_on(output, "thing").empty());
+    EXPECT_TRUE(hard.pixels_on(output, "gone").empty());
+    EXPECT_GT(mean_luminance(output.shaded.color), 0.01);
+}
+/// A box of any size scaled to 1 m: the picture of a box of 1 m.
+TEST(HardScenes, KF19_TinyAndHugeScalesLookLikeABox) {
+    HardScene hard("tiny_scale");
+    const auto render = [&](double size) {
+        Scene scene = hard.scene;
+        Node& thing = scene.nodes[hard.node("thing")];
+        for (glm::vec3& p : scene.meshes[thing.meshes.front()].positions) p = glm::vec3(glm::dvec3(p) * (size / 1e8));
+        thing.scale = glm::dvec3(1.0 / size);
+        Sequence sequence(scene, small_settings());
+        return sequence.render(0, {.frame = true, .maps = true, .progress = {}});
+    };
+    const FrameOutput expected = render(1.0);
+    const std::vector<std::size_t> pixels = hard.pixels_on(expected, "thing");
+    ASSERT_GT(pixels.size(), 50u);
+    for (const double size : {1e-8, 1e-4, 1e4, 1e8}) {
+        SCOPED_TRACE(size);
+        const FrameOutput found = render(size);
+        ASSERT_EQ(hard.pixels_on(found, "thing"), pixels);
+        double error = 0.0;
+        for (const std::size_t i : pixels) {
+            EXPECT_NEAR(found.depth.pixels[i], expected.depth.pixels[i], 1e-5);
+            EXPECT_LT(glm::length(found.normal.pixels[i] - expected.normal.pixels[i]), 1e-5f);
+            error += luminance(found.shaded.color.pixels[i]) - luminance(expected.shaded.color.pixels[i]);
+        }
+        EXPECT_NEAR(error / static_cast<double>(pixels.size()), 0.0, 0.01 * mean_luminance(expected.shaded.color));
+    }
+}
+TEST(HardScenes, KF20_ScaleThroughZeroHasNoMotionThere) {
+    HardScene hard("scale_through_zero");
+    EXPECT_TRUE(hard.pixels_on(hard.render(1), "thing").empty());
+    EXPECT_FALSE(hard.pixels_on(hard.render(0), "thing").empty());
+    EXPECT_FALSE(hard.pixels_on(hard.render(2), "thing").empty());
+}
+TEST(HardScenes, KF21_ShearedKeysAreExact) {
+    const HardScene hard("sheared_matrices");
+    EXPECT_EQ(hard.world("thing", 0)[1].x, 0.5);
+    EXPECT_EQ(hard.world("thing", 2)[0].y, 0.5);
+    EXPECT_NEAR(glm::determinant(glm::dmat3(hard.world("thing", 1))), 1.0, 0.1);
+}
+TEST(HardScenes, KF22_MatrixTurnKeepsItsVolume) {
+    const HardScene hard("matrix_half_turn");
+    EXPECT_NEAR(glm::determinant(glm::dmat3(hard.world("thing", 1))), 1.0, 1e-12);
+}
+TEST(HardScenes, KF23_EqualReflectionsStay) {
+    HardScene hard("reflected_keys");
+    EXPECT_EQ(hard.world("thing", 0), hard.world("thing", 1));
+    EXPECT_EQ(longest_motion(hard.render(0)), 0.0);
+}
+TEST(HardScenes, KF24_AHundredRotationsAddUpToNone) {
+    const HardScene hard("deep_hierarchy");
+    const glm::dmat4 world = hard.world("thing", 0);
+    for (int c = 0; c < 3; ++c)
+        for (int r = 0; r < 3; ++r) EXPECT_NEAR(world[c][r], c == r ? 1.0 : 0.0, 1e-12);
+}
+TEST(HardScenes, KF25_RP02_FarAwayMovesAsNear) {
+    HardScene hard("far_away");
+    Scene near = hard.scene;
+    for (Node& node : near.nodes)
+        for (glm::dvec3& key : node.translation.values) key -= glm::dvec3(1e6, 0.0, -1e6);
+    Sequence sequence(near, small_settings());
+    const FrameOutput far_frame = hard.render(0);
+    const FrameOutput near_frame = sequence.render(0, {.frame = true, .maps = true, .progress = {}});
+    std::size_t compared = 0;
+    for (std::size_t i = 0; i < far_frame.hits.size(); ++i) {
+        if (far_frame.hits.pixels[i].instance != near_frame.hits.pixels[i].instance) continue;  // an edge
+        ++compared;
+        const glm::dvec2 d = far_frame.motion.displacement.pixels[i] - near_frame.motion.displacement.pixels[i];
+        ASSERT_LT(glm::length(d), 1e-6);
+    }
+    EXPECT_GT(compared, far_frame.hits.size() * 99 / 100);
+    EXPECT_GT(longest_motion(far_frame), 0.5);
+}
+TEST(HardScenes, KF26_NormalsOfShearedFaces) {
+    HardScene hard("squeezed_parent");
+    const FrameOutput output = hard.render(0);
+    const glm::dmat3 linear(hard.world("thing", 0));
+    const std::vector<std::size_t> pixels = hard.pixels_on(output, "thing");
+    ASSERT_FALSE(pixels.empty());
+    for (const std::size_t i : pixels) {
+        // Perpendicular to two edges of the box in world space.
+        int perpendicular = 0;
+        for (int axis = 0; axis < 3; ++axis)
+            if (std::abs(glm::dot(glm::normalize(linear[axis]), glm::dvec3(output.normal.pixels[i]))) < 1e-6)
+                ++perpendicular;
+        EXPECT_EQ(perpendicular, 2);
+    }
+}
+TEST(HardScenes, KF27_LookingDownSeesTheBox) {
+    HardScene hard("looking_down");
+    const FrameOutput output = hard.render(0);
+    EXPECT_NEAR(output.normal(24, 18).y, 1.0, 1e-6);
+    EXPECT_NEAR(output.depth(24, 18), 3.0, 1e-5);
+}
+
+}  // namespace
+}  // namespace aleph
