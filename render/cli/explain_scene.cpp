@@ -13,7 +13,7 @@
 #include "render/cli/explain_elements.h"
 #include "render/cli/world_bounds.h"
 #include "render/frame/sequence.h"
-#include "render/frame/sequence_state.h"
+#include "render/frame/shot.h"
 #include "render/surface/node_paths.h"
 
 namespace aleph {

@@ -9,7 +9,7 @@
 #include "engine/base/parallel.h"
 #include "engine/load/load_scene.h"
 #include "engine/rays/first_hits.h"
-#include "render/frame/open_shutter.h"
+#include "render/frame/frame_scene.h"
 #include "render/time/shutter.h"
 #include "tests/support/deforming_scenes.h"
 #include "tests/support/render_scenes.h"
@@ -64,18 +64,16 @@ Scene make_bending_sheet() {
 }
 
 void measure(const std::string& name, Scene scene, std::int64_t frame) {
-    const PosePlan plan = make_pose_plan(scene);
-    const TextureSet textures = make_texture_set(scene);
-    RayScene rays(scene, plan);
-    const double start = scene.frame_rate.seconds_of(frame);
-    const PosedView now = make_posed_view(scene, start, 0, width, height);
-    rays.update(now.pose, compute_anchor(now.view));
-    const ShadingScene shading = make_shading_scene(scene, now.pose, rays, textures);
-    OpenShutter shutter(scene, plan, textures, rays);
+    const Shot shot(std::move(scene), {}, {{.first = 0, .camera = 0}});
+    FrameScene here(shot, shot.pose_plan), shutter(shot, here);
+    here.pose(shot.scene.frame_rate.seconds_of(frame), 0, width, height);
+    here.prepare();
     const ShutterInterval interval{static_cast<double>(frame), static_cast<double>(frame) + half_a_frame};
     const auto move_to = [&](int i) {
-        return shutter.move_to(place_in_shutter(interval, i, 0, 0.3) / scene.frame_rate.per_second(), 0, width, height,
-                               {});
+        const double at = place_in_shutter(interval, i, 0, 0.3) / shot.scene.frame_rate.per_second();
+        shutter.pose(at, 0, width, height);
+        shutter.prepare();
+        return shutter.moment();
     };
     move_to(0);
     double moving = 0.0, finding = 0.0, casting = 0.0;
@@ -85,7 +83,7 @@ void measure(const std::string& name, Scene scene, std::int64_t frame) {
         const SampleMoment moment = move_to(i);
         moving += move.milliseconds() / poses;
         const Stopwatch find;
-        movers = find_movers(shading, moment.lighting.shading).size();
+        movers = find_movers(here.shading(), moment.lighting.shading).size();
         finding += find.milliseconds() / poses;
         const Stopwatch cast;
         cast_first_hits(moment.lighting.rays, moment.view);

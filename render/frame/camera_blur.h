@@ -1,29 +1,18 @@
 #pragma once
-// The effects plan of one frame of a sequence, and the settings and facts that it comes from.
+// How far shutter and lens spread the picture of a point, where only the camera moves.
 
-#include "motion/other_frame.h"
-#include "render/frame/frame_output.h"
-#include "render/pixels/sample_place.h"
+#include <optional>
+#include <vector>
+
+#include "engine/pose/camera_view.h"
 #include "render/plan/effects_plan.h"
-#include "render/time/shutter.h"
 
 namespace aleph {
-
-struct FramePlan {
-    FrameFacts facts;
-    ShutterFacts shutter;
-    LensFacts lens;
-    bool perceives = false, maps = false, has_other = false, moves = true, moments = false;
-    EffectsPlan effects;
-    RenderSettings settings;  ///< the sequence's, without the indirect light that is skipped
-    double seconds = 0.0;     ///< that planning took
-
-    bool skips(Effect effect) const { return effects.skips(effect); }
-};
 
 /// How far the picture moves while a camera takes these values in turn, about the middle one; nothing if that is not
 /// known, because it moves past objects.
 /// @param nearest  m, distance of what is in view; 0: not known
+/// @param largest  set to the largest distance between two places of a point, pixels
 std::optional<BlurMoments> find_camera_blur(const std::vector<CameraValues>& cameras, int width, int height,
                                             double nearest, double& largest);
 

@@ -1,0 +1,96 @@
+#include "render/frame/frame_estimate.h"
+
+#include "perception/sanitize.h"
+#include "render/frame/blurred_estimate.h"
+
+namespace aleph {
+
+Image<Rgb> estimate_scene(const Shot& shot, const FrameScene& scene, const SampleHits& centers,
+                          const EstimateNodes* nodes, RayCounts& counts, Image<float>* indirect_luminance) {
+    return compute_estimate(scene.lighting(), scene.posed().view, centers, shot.settings.estimate, nodes, shot.exposure,
+                            counts, indirect_luminance);
+}
+
+void EstimateLight::gather_around(std::int64_t frame, std::int64_t but, RayCounts& counts) {
+    if (!shot_light_) return;
+    const MomentPair pair = shot_light_->moments_around(frame);
+    for (const std::int64_t moment : {pair.before, pair.after}) {
+        if (kept_.find(moment)) continue;
+        for (const std::int64_t needed : {shot_light_->find_base(moment), moment}) {
+            if (needed == moment && moment == but) continue;
+            if (kept_.find(needed)) continue;
+            moment_.pose(needed);
+            moment_.prepare();
+            find_nodes(needed, moment_, cast_centers(moment_.rays(), moment_.posed().view, &counts.primary), counts);
+        }
+    }
+}
+
+/// Null if there are no key moments.
+std::unique_ptr<CarriedEstimate> EstimateLight::carry(std::int64_t frame) const {
+    if (!shot_light_) return nullptr;
+    const MomentPair pair = shot_light_->moments_around(frame);
+    const auto before = kept_.find(pair.before), after = kept_.find(pair.after);
+    if (!before || !after) return nullptr;
+    return std::make_unique<BlendedEstimate>(before, after, pair.weight);
+}
+
+EstimateNodes EstimateLight::gather_nodes(std::int64_t frame, const FrameScene& scene, const SampleHits& centers,
+                                          RayCounts& counts) const {
+    return gather_estimate(scene.lighting(), scene.posed().view, centers, carry(frame).get(), counts);
+}
+
+EstimateNodes EstimateLight::find_nodes(std::int64_t frame, const FrameScene& scene, const SampleHits& centers,
+                                        RayCounts& counts) {
+    const bool is_moment = shot_light_ && shot_light_->moments_around(frame).before == frame;
+    if (!is_moment) return gather_nodes(frame, scene, centers, counts);
+    if (const auto kept = kept_.find(frame)) return kept->nodes;
+    std::optional<BlendedEstimate> carried;
+    if (const std::int64_t base = shot_light_->find_base(frame); base != frame) {
+        const auto kept = kept_.find(base);
+        carried.emplace(kept, kept, 0.0);
+    }
+    const auto moment = std::make_shared<EstimateMoment>(
+        frame, gather_estimate(scene.lighting(), scene.posed().view, centers, carried ? &*carried : nullptr, counts));
+    scene.copy_to(*moment);
+    kept_.keep(moment);
+    return moment->nodes;
+}
+
+OpenLens find_open_lens(const Shot& shot, std::int64_t frame, const FrameScene& scene, const FramePlan& plan) {
+    OpenLens open;
+    if (!plan.skips(Effect::depth_of_field))
+        open.lens = find_lens(shot.scene, scene.posed().pose.cameras[shot.camera(frame)]);
+    if (!plan.skips(Effect::motion_blur)) open.shutter = shot.open_shutter(frame);
+    return open;
+}
+
+SampleMoment open_scene(const Shot& shot, std::int64_t frame, double at, const FrameScene& scene, FrameScene& shutter) {
+    EffectSet skipped = scene.shading().skipped;
+    if (!shot.settings.forbid.contains(Effect::direct_light))
+        skipped.remove(Effect::direct_light);  // lamps are still seen
+    shutter.pose(at / shot.scene.frame_rate.per_second(), shot.camera(frame), shot.settings.width,
+                 shot.settings.height);
+    shutter.prepare();
+    shutter.leave_out(skipped);
+    return shutter.moment();
+}
+
+void blur_frame_estimate(const Shot& shot, std::int64_t frame, const FrameScene& scene, FrameScene& shutter,
+                         const SampleHits& centers, const EstimateNodes* nodes, const FramePlan& plan,
+                         Image<Rgb>& sharp, RayCounts& counts) {
+    const OpenLens open = find_open_lens(shot, frame, scene, plan);
+    if (!open.shutter && !(open.lens.radius > 0.0)) return;
+    const SharpEstimate estimate{scene.shading(), scene.posed().view,     centers,      sharp,
+                                 nodes,           shot.settings.estimate, shot.exposure};
+    const auto look = [&](double place) -> SampleMoment {
+        if (!open.shutter) return scene.moment();
+        const double at = open.shutter->open + (open.shutter->close - open.shutter->open) * place;
+        return open_scene(shot, frame, at, scene, shutter);
+    };
+    Image<Rgb> blurred = blur_estimate(estimate, open.lens, look, counts);
+    sanitize_estimate(blurred);
+    sharp = std::move(blurred);
+}
+
+}  // namespace aleph

@@ -1,0 +1,90 @@
+#include "render/frame/frame_motion.h"
+
+#include <algorithm>
+#include <numeric>
+
+#include "motion/image_motion.h"
+#include "motion/still_motion.h"
+#include "perception/sanitize.h"
+#include "render/settings/measure.h"
+
+namespace aleph {
+
+namespace {
+
+/// Whether surfaces of one pose can be found in the other.
+bool has_same_elements(const ScenePose& a, const ScenePose& b) {
+    const auto same_size = [](const PosedMesh& m, const PosedMesh& n) {
+        return m.positions.size() == n.positions.size() && m.control.size() == n.control.size();
+    };
+    return a.instances == b.instances && a.world.size() == b.world.size() && a.cameras.size() == b.cameras.size() &&
+           std::ranges::equal(a.meshes, b.meshes, same_size);
+}
+
+PosePlan plan_all(PosePlan plan, std::size_t nodes, std::size_t instances) {
+    std::ranges::fill(plan.moving, std::uint8_t{1});
+    plan.nodes.resize(nodes);
+    std::iota(plan.nodes.begin(), plan.nodes.end(), 0);
+    plan.instances.resize(instances);
+    std::iota(plan.instances.begin(), plan.instances.end(), 0);
+    return plan;
+}
+
+}  // namespace
+
+void FrameMotion::begin_edited(PosedView before) {
+    before_edit_ = std::move(before);
+}
+
+std::optional<PosedView> FrameMotion::end_edited() {
+    edited_.reset();
+    return std::exchange(before_edit_, std::nullopt);
+}
+
+OtherFrame FrameMotion::pose_other(const FrameWork& work, const PosedView& here) {
+    edited_.reset();
+    if (!work.edited || !work.perceive) {
+        if (work.other != OtherFrame::none) other_.pose(other_frame_number(work.frame, work.other));
+        return work.other;
+    }
+    const bool begins_shot = std::ranges::find(shot_.scene.cuts, work.frame) != shot_.scene.cuts.end();
+    if (begins_shot || !has_same_elements(before_edit_->pose, here.pose)) return OtherFrame::none;
+    all_ = plan_all(shot_.pose_plan, shot_.scene.nodes.size(), here.pose.instances.size());
+    edited_ = std::make_unique<FrameScene>(shot_, all_);
+    edited_->pose(*before_edit_);
+    return OtherFrame::previous;
+}
+
+void FrameMotion::compute(const FrameWork& work, const FramePlan& plan, const FrameScene& here,
+                          const SampleHits& centers, EstimateLight& light, StageClock& clock, FrameOutput& out) {
+    const bool has_other = work.other != OtherFrame::none;
+    RayCounts& counts = out.statistics.counts.rays;
+    if (has_other && plan.skips(Effect::motion)) {
+        out.motion = make_still_motion(out.view, centers.hits);
+        return;
+    }
+    FrameScene& other = posed_other();
+    if (shot_.settings.motion == MotionSource::model) {
+        if (!model_) model_.emplace(shot_.scene, shot_.pose_plan);
+        out.motion = model_->compute(here.posed(), has_other ? other.posed() : here.posed(), centers.hits, work.other);
+        if (!has_other || !work.maps) return;
+        other.update_rays();
+        counts.primary += mark_hidden(out.motion, shot_.scene, other.posed(), centers.hits, other.rays());
+        return;
+    }
+    Image<Rgb> other_estimate;
+    if (has_other) {
+        other.prepare();
+        const SampleHits other_centers = cast_centers(other.rays(), other.posed().view, &counts.primary);
+        std::optional<EstimateNodes> nodes;
+        if (shot_.estimates_indirect_light(plan.settings.bounces)) {
+            nodes = light.gather_nodes(other_frame_number(work.frame, work.other), other, other_centers, counts);
+        }
+        other_estimate = estimate_scene(shot_, other, other_centers, nodes ? &*nodes : nullptr, counts);
+        sanitize_estimate(other_estimate);
+    }
+    clock.add_to(out.statistics.seconds.estimate);
+    out.motion = compute_image_motion(out.estimate, other_estimate, work.other);
+}
+
+}  // namespace aleph

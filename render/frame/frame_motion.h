@@ -1,0 +1,51 @@
+#pragma once
+// Motion of a frame to its other frame, and of the first frame after an edit from the frame rendered before it.
+
+#include <memory>
+#include <optional>
+
+#include "motion/model_motion.h"
+#include "render/frame/frame_estimate.h"
+#include "render/settings/measure.h"
+
+namespace aleph {
+
+/// Keeps the scene at the other frame, and updates what moves.
+class FrameMotion {
+  public:
+    /// Keeps references. @param meshes  whose mesh structures the other frame's scene shares
+    FrameMotion(const Shot& shot, const FrameScene& meshes) : shot_(shot), other_(shot, meshes) {}
+
+    /// Motion of the next frame that is prepared leads from this pose, of the scene before it was edited.
+    void begin_edited(PosedView before);
+    /// Whether begin_edited was called and the frame after it has not been rendered yet.
+    bool is_edited() const { return before_edit_.has_value(); }
+    /// Later frames have the motion of the scene's tracks. @return the pose given to begin_edited
+    std::optional<PosedView> end_edited();
+
+    /// Poses the scene at the other frame.
+    /// @param here  the frame's own pose
+    /// @return the other frame; none if the pose before an edit has other elements
+    OtherFrame pose_other(const FrameWork& work, const PosedView& here);
+
+    /// Motion of a frame whose estimate is made, with the hidden pixels if maps are wanted. After pose_other.
+    /// @param clock  adds an estimate of the other frame to that stage
+    void compute(const FrameWork& work, const FramePlan& plan, const FrameScene& here, const SampleHits& centers,
+                 EstimateLight& light, StageClock& clock, FrameOutput& out);
+
+    /// The scene at other frames, for others to pose: it is needed from pose_other to compute only.
+    FrameScene& other() { return other_; }
+    TracedRays traced() const { return edited_ ? other_.traced() + edited_->traced() : other_.traced(); }
+
+  private:
+    FrameScene& posed_other() { return edited_ ? *edited_ : other_; }
+
+    const Shot& shot_;
+    FrameScene other_;
+    std::optional<ModelMotion> model_;
+    std::optional<PosedView> before_edit_;
+    PosePlan all_;                        ///< an edit may have moved what the scene's own tracks leave at rest
+    std::unique_ptr<FrameScene> edited_;  ///< the scene before an edit, while it is the other frame
+};
+
+}  // namespace aleph

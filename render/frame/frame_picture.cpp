@@ -1,0 +1,146 @@
+// The picture of a prepared frame.
+
+#include <optional>
+
+#include "engine/base/parallel.h"
+#include "render/frame/sequence_state.h"
+#include "render/plan/effect_picture.h"
+#include "render/settings/measure.h"
+#include "render/shade/frame.h"
+#include "render/time/shutter.h"
+
+namespace aleph {
+
+namespace {
+
+constexpr std::uint32_t shutter_seed_mask = 0x73687574u;  // keeps the shutter apart from other uses of the same key
+constexpr float background_depth = 1e30f;
+
+void fill_geometry_maps(const ShadingScene& shading, const SampleHits& centers, FrameOutput& out) {
+    const CameraView& view = out.view;
+    out.depth = Image<float>(view.width, view.height, background_depth);
+    out.normal = Image<glm::vec3>(view.width, view.height, glm::vec3(0.0f));
+    out.albedo = Image<Rgb>(view.width, view.height, Rgb(0.0f));
+    const glm::vec3 origin(view.position - shading.anchor);
+    const glm::vec3 forward(-view.axes[2]);
+    parallel_rows(view.height, 16, [&](int begin, int end) {
+        for (int y = begin; y < end; ++y) {
+            for (int x = 0; x < view.width; ++x) {
+                if (centers.hits(x, y).instance == no_index) continue;
+                const PixelSurface surface = make_pixel_surface(shading, view, centers, x, y);
+                out.depth(x, y) = glm::dot(surface.point.position - origin, forward);
+                out.normal(x, y) = surface.point.normal;
+                const SurfaceMaterial& material = surface.material;
+                out.albedo(x, y) =
+                    glm::min(material.diffuse + material.f0 + material.glass * material.glass_tint, Rgb(1.0f));
+            }
+        }
+    });
+}
+
+/// Empty where nothing is known of what a viewer sees.
+Image<Outline> find_visible_outlines(const Shot& shot, const PreparedFrame& frame) {
+    const FrameOutput& out = frame.out;
+    if (out.threshold.empty()) return {};
+    Image<Outline> outlines = find_outlines(out.view, frame.centers.hits, out.motion);
+    const double asked = frame.plan.settings.error, error = asked > 0.0 ? asked : 1.0;
+    mark_contrasts(outlines, out.estimate, out.threshold, error / shot.scene.viewing.display_white);
+    return outlines;
+}
+
+/// Of the light of key moments; nothing if the frame is one itself, or if nothing but the camera changes.
+std::optional<MomentRisk> find_risk(const SequenceState& s, std::int64_t frame) {
+    const std::vector<const ShadingScene*> moments = s.shot_light->scenes_around(frame);
+    if (moments.empty()) return std::nullopt;
+    return find_moment_risk(s.here.shading(), s.shot.pose_plan, moments);
+}
+
+}  // namespace
+
+SampleOptions find_sample_options(SequenceState& s, std::int64_t frame, const FramePlan& plan) {
+    SampleOptions options;
+    const OpenLens open = find_open_lens(s.shot, frame, s.here, plan);
+    options.lens = open.lens;
+    options.blended = s.shot.blended;
+    if (!open.shutter) return options;
+    options.light_lasts = !s.light_breaks.changes(open.shutter->open, open.shutter->close);
+    const double shift = RandomStream({s.shot.settings.seed ^ shutter_seed_mask, s.shot.noise_key(frame), 0, 0}).next();
+    options.at_sample = [&s, frame, shutter = *open.shutter, shift](int sample, int pixel_class) {
+        const double at = place_in_shutter(shutter, sample, pixel_class, shift);
+        return open_scene(s.shot, frame, at, s.here, s.preparation.shutter);
+    };
+    return options;
+}
+
+void shade_prepared(SequenceState& s, std::int64_t frame, PreparedFrame& prepared, const CarriedLight* carried,
+                    SampleOptions options, const FrameProgress& progress) {
+    FrameOutput& out = prepared.out;
+    const Image<Outline> outlines = find_visible_outlines(s.shot, prepared);
+    const VisibleLimits limits{out.threshold,
+                               out.perception.aleph,
+                               out.alpha,
+                               out.indirect_luminance,
+                               outlines,
+                               s.shot.scene.viewing,
+                               prepared.plan.effects.left_out_thresholds()};
+    if (!out.threshold.empty()) options.limits = &limits;
+    std::optional<MomentRisk> risk;
+    if (carried != nullptr) risk = find_risk(s, frame);
+    if (risk) options.risk = &*risk;
+    const LightingContext lighting = s.here.lighting();
+    const IndirectContext context{.lighting = lighting,
+                                  .view = out.view,
+                                  .settings = prepared.plan.settings,
+                                  .accuracy = out.alpha,
+                                  .frame = s.shot.noise_key(frame),
+                                  .max_radius = scene_radius(lighting.shading),
+                                  .progress = progress,
+                                  .carried = carried};
+    out.shaded = shade_frame(context, prepared.centers, s.shot.exposure, options);
+    FrameStatistics& stats = out.statistics;
+    stats.seconds.fill = out.shaded.fill_seconds;
+    stats.seconds.shade = out.shaded.shade_seconds;
+    const RayCounts before = stats.counts.rays;
+    stats.counts = out.shaded.counts;
+    stats.counts.rays += before;
+    if (!out.shaded.errors.total.empty()) stats.error = out.shaded.error_shares;
+}
+
+FrameOutput render_frame(SequenceState& s, std::int64_t frame, const FrameRequest& request) {
+    TracedRays before = s.traced();
+    StageClock total;
+    PreparedFrame prepared = s.prepare(frame, s.shot.needs_perception() || request.maps, request.maps);
+    FrameOutput& out = prepared.out;
+    FrameStatistics& stats = out.statistics;
+    const FramePlan& plan = prepared.plan;
+    if (request.frame) {
+        SampleOptions options = find_sample_options(s, frame, plan);
+        total.add_to(stats.seconds.total);
+        const TracedRays by_frame = s.traced() - before;
+        std::unique_ptr<CarriedLight> carried;
+        if (options.light_lasts) carried = find_carried_light(s, frame, plan, stats.moments);
+        before = s.traced() - by_frame;
+        total = {};
+        s.here.leave_out(plan.effects);
+        options.record_maps = request.maps;
+        shade_prepared(s, frame, prepared, carried.get(), options, request.progress);
+    }
+    if (request.maps) {
+        const ShadingScene& shading = s.here.shading();
+        fill_geometry_maps(shading, prepared.centers, out);
+        out.effects = make_effect_picture(prepared.centers.hits, plan.facts, plan.effects, shading.instances.size());
+    }
+    out.hits = prepared.centers.hits;
+    s.rendered = true;
+    s.preparation.motion.end_edited();
+    const TracedRays traced = s.traced() - before;
+    stats.traced_rays = traced.all;
+    stats.invalid_rays = traced.invalid;
+    stats.plan = plan.effects;
+    stats.plan_seconds = plan.seconds;
+    stats.peak_memory_mib = peak_memory_mib();
+    total.add_to(stats.seconds.total);
+    return std::move(out);
+}
+
+}  // namespace aleph

@@ -1,0 +1,137 @@
+// The effects plan of a frame: what is known before its first rays, and what the model of vision adds.
+
+#include "render/frame/frame_plan.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "render/frame/camera_blur.h"
+#include "render/settings/measure.h"
+
+namespace aleph {
+
+namespace {
+
+/// m: along the view direction for the lens, straight for the shutter.
+struct Nearest {
+    double depth = std::numeric_limits<double>::infinity(), distance = depth;
+};
+
+Nearest find_nearest(const FrameFacts& facts, const CameraView& view) {
+    Nearest nearest;
+    for (const ObjectFacts& object : facts.objects) {
+        if (!object.in_view) continue;
+        const glm::dvec3 outside =
+            glm::max(glm::max(object.bounds.low - view.position, view.position - object.bounds.high), glm::dvec3(0.0));
+        nearest.distance = std::min(nearest.distance, glm::length(outside));
+        for (int i = 0; i < 8; ++i)
+            nearest.depth = std::min(nearest.depth, -to_camera(view, object.bounds.corner(i)).z);
+    }
+    nearest.depth = std::max(nearest.depth, view.near_plane);
+    return nearest;
+}
+
+constexpr int filter_reach = 2;  // pixels to which the filter brings light of a surface, which blur may move a little
+
+bool is_near_surface(const Image<Hit>& hits, int x, int y) {
+    for (int ny = std::max(0, y - filter_reach); ny <= std::min(hits.height - 1, y + filter_reach); ++ny) {
+        for (int nx = std::max(0, x - filter_reach); nx <= std::min(hits.width - 1, x + filter_reach); ++nx) {
+            if (hits(nx, ny).instance != no_index) return true;
+        }
+    }
+    return false;
+}
+
+VisibleFrame find_least_thresholds(const Image<Hit>& hits, const Image<float>& threshold) {
+    constexpr double none = std::numeric_limits<double>::infinity();
+    VisibleFrame visible{none, none, 0.0};
+    for (int y = 0; y < threshold.height; ++y) {
+        for (int x = 0; x < threshold.width; ++x) {
+            const double here = threshold(x, y);
+            visible.threshold = std::min(visible.threshold, here);
+            if (here < visible.on_surfaces && is_near_surface(hits, x, y)) visible.on_surfaces = here;
+        }
+    }
+    return visible;
+}
+
+}  // namespace
+
+/// How far the picture moves while the shutter is open, where only the camera moves.
+ShutterFacts FramePlanner::find_shutter_facts(const FrameWork& work, const FrameFacts& facts, double nearest) {
+    ShutterFacts shutter;
+    const std::optional<ShutterInterval> interval = shot_.open_shutter(work.frame);
+    shutter.open = interval.has_value();
+    if (!interval) return shutter;
+    const int camera = shot_.camera(work.frame);
+    const double rate = shot_.scene.frame_rate.per_second();
+    const double open_at = interval->open / rate, close_at = interval->close / rate;
+    shutter.changes = !shot_.steady.is_steady(camera, open_at, close_at);
+    if (shutter.changes && !facts.sees_all && shot_.steady.is_world_steady(open_at, close_at)) {
+        shutter.blur = find_camera_blur(camera_span_.look(camera, open_at, close_at), shot_.settings.width,
+                                        shot_.settings.height, nearest, shutter.largest);
+    }
+    return shutter;
+}
+
+FramePlan FramePlanner::begin(const FrameWork& work, const PosedView& posed) {
+    StageClock clock;
+    FramePlan plan;
+    if (!facts_) facts_ = find_shot_facts(shot_.scene, shot_.textures, shot_.pose_plan);
+    const Lens lens = find_lens(shot_.scene, posed.pose.cameras[shot_.camera(work.frame)]);
+    const bool blurs = shot_.open_shutter(work.frame) || lens.radius > 0.0;
+    plan.facts = find_frame_facts(shot_.scene, *facts_, shot_.textures, posed.pose, posed.view, blurs);
+    bound_direct_light(plan.facts);
+    plan.lens.radius = lens.radius;
+    const Nearest nearest = find_nearest(plan.facts, posed.view);
+    if (lens.radius > 0.0) {
+        const double depth = plan.facts.sees_all ? posed.view.near_plane : nearest.depth;
+        plan.lens.circle = find_largest_circle(posed.view, lens.radius, lens.focus_distance, depth);
+    }
+    plan.shutter = find_shutter_facts(work, plan.facts, nearest.distance);
+    plan.perceives = work.perceive;
+    plan.maps = work.maps;
+    plan.has_other = work.other != OtherFrame::none;
+    plan.moments = shot_.reads_moments();
+    if (work.perceive && plan.has_other && !work.edited) {
+        const double now = posed.pose.seconds, other = shot_.seconds(other_frame_number(work.frame, work.other));
+        plan.moves = !shot_.steady.is_steady(shot_.camera(work.frame), std::min(now, other), std::max(now, other));
+    }
+    plan.settings = shot_.settings;
+    plan.effects = make_plan(plan, std::nullopt);
+    if (plan.skips(Effect::indirect_diffuse)) plan.settings.bounces = 0;
+    clock.add_to(plan.seconds);
+    return plan;
+}
+
+EffectsPlan FramePlanner::make_plan(const FramePlan& plan, const std::optional<VisibleFrame>& visible) const {
+    return plan_effects({.scene = shot_.scene,
+                         .settings = shot_.settings,
+                         .facts = plan.facts,
+                         .shutter = plan.shutter,
+                         .lens = plan.lens,
+                         .perceives = plan.perceives,
+                         .maps = plan.maps,
+                         .has_other = plan.has_other,
+                         .moves = plan.moves,
+                         .moments = plan.moments,
+                         .luminance_scale = shot_.exposure * shot_.scene.viewing.display_white},
+                        visible);
+}
+
+void FramePlanner::finish(const Image<Hit>& hits, const FrameOutput& out, FramePlan& plan) const {
+    if (out.threshold.empty()) return;
+    StageClock clock;
+    VisibleFrame visible = find_least_thresholds(hits, out.threshold);
+    for (const Rgb& pixel : out.estimate.pixels)
+        visible.brightest = std::max(visible.brightest, double{luminance(pixel)});
+    visible.brightest *= shot_.scene.viewing.display_white;
+    plan.effects = make_plan(plan, visible);
+    plan.settings.bounces = shot_.settings.bounces;
+    if (plan.skips(Effect::indirect_diffuse)) plan.settings.bounces = 0;
+    if (plan.skips(Effect::more_bounces)) plan.settings.bounces = std::min(plan.settings.bounces, 1);
+    clock.add_to(plan.seconds);
+}
+
+}  // namespace aleph

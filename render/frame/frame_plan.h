@@ -1,0 +1,57 @@
+#pragma once
+// The effects plan of one frame of a sequence, and the settings and facts that it comes from.
+
+#include "engine/pose/posed_view.h"
+#include "motion/other_frame.h"
+#include "render/frame/frame_output.h"
+#include "render/frame/shot.h"
+#include "render/pixels/sample_place.h"
+#include "render/plan/effects_plan.h"
+#include "render/time/camera_span.h"
+#include "render/time/shutter.h"
+
+namespace aleph {
+
+struct FramePlan {
+    FrameFacts facts;
+    ShutterFacts shutter;
+    LensFacts lens;
+    bool perceives = false, maps = false, has_other = false, moves = true, moments = false;
+    EffectsPlan effects;
+    RenderSettings settings;  ///< the sequence's, without the indirect light that is skipped
+    double seconds = 0.0;     ///< that planning took
+
+    bool skips(Effect effect) const { return effects.skips(effect); }
+};
+
+/// What is made of a frame before its picture.
+struct FrameWork {
+    std::int64_t frame = 0;
+    bool perceive = false;  ///< estimate, motion, and the model of vision
+    bool maps = false;      ///< every map
+    OtherFrame other = OtherFrame::none;
+    bool edited = false;  ///< motion leads from a frame before an edit
+};
+
+/// Makes the effects plans of a shot's frames.
+class FramePlanner {
+  public:
+    explicit FramePlanner(const Shot& shot) : shot_(shot), camera_span_(shot.scene, shot.pose_plan) {}
+
+    /// What cannot change the picture is skipped. Known before the first ray.
+    FramePlan begin(const FrameWork& work, const PosedView& posed);
+
+    /// Adds what a viewer cannot see, once the frame has been estimated.
+    /// @param hits  through the pixel centres
+    void finish(const Image<Hit>& hits, const FrameOutput& out, FramePlan& plan) const;
+
+  private:
+    EffectsPlan make_plan(const FramePlan& plan, const std::optional<VisibleFrame>& visible) const;
+    ShutterFacts find_shutter_facts(const FrameWork& work, const FrameFacts& facts, double nearest);
+
+    const Shot& shot_;
+    CameraSpan camera_span_;
+    std::optional<ShotFacts> facts_;  ///< once a frame was planned
+};
+
+}  // namespace aleph

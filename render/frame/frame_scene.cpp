@@ -1,0 +1,62 @@
+#include "render/frame/frame_scene.h"
+
+namespace aleph {
+
+void FrameScene::pose(double seconds, int camera, int width, int height) {
+    if (posed_ && posed_->view.width == width && posed_->view.height == height) {
+        update_posed_view(shot_.scene, plan_, seconds, camera, *posed_);
+        return;
+    }
+    shading_.reset();
+    posed_ = make_posed_view(shot_.scene, seconds, camera, width, height);
+}
+
+void FrameScene::pose(std::int64_t frame) {
+    pose(shot_.seconds(frame), shot_.camera(frame), shot_.settings.width, shot_.settings.height);
+}
+
+void FrameScene::pose(const PosedView& given) {
+    shading_.reset();
+    posed_ = given;
+}
+
+std::size_t FrameScene::update_rays() {
+    if (!rays_) rays_ = meshes_->rays().share_meshes();
+    return rays_->update_moving(posed_->pose, compute_anchor(posed_->view));
+}
+
+std::size_t FrameScene::prepare() {
+    const std::size_t touched = update_rays();
+    if (shading_) {
+        update_shading_scene(*shading_, plan_, *rays_);
+    } else {
+        shading_ = make_shading_scene(shot_.scene, posed_->pose, *rays_, shot_.textures);
+    }
+    lights_ = make_light_set(*shading_);
+    leave_out(shot_.settings.forbid);
+    shading_->points_unshadowed = false;
+    return touched;
+}
+
+void FrameScene::copy_to(KeyPose& kept) const {
+    kept.posed = *posed_;
+    kept.shading = make_shading_scene(shot_.scene, kept.posed.pose, *rays_, shot_.textures);
+}
+
+void FrameScene::leave_out(const EffectSet& effects) {
+    shading_->skipped = effects;
+    if (effects.contains(Effect::direct_light)) remove_all_lights(lights_);
+}
+
+void FrameScene::leave_out(const EffectsPlan& effects) {
+    shading_->skipped = effects.left_out();
+    shading_->points_unshadowed = effects.points_unshadowed;
+    if (shot_.settings.forbid.contains(Effect::direct_light) || effects.lights_left_out.empty()) return;
+    std::vector<int> instances, punctual;
+    for (const LightFacts& light : effects.lights_left_out) {
+        (light.kind == LightFacts::Kind::surface ? instances : punctual).push_back(light.number);
+    }
+    remove_lights(*shading_, instances, punctual, lights_);
+}
+
+}  // namespace aleph

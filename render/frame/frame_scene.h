@@ -1,0 +1,77 @@
+#pragma once
+// The scene at one time, made ready step by step: pose, rays, shading and lights.
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+
+#include "engine/pose/posed_view.h"
+#include "render/frame/shot.h"
+#include "render/light/light_choice.h"
+#include "render/plan/effects_plan.h"
+#include "render/shade/sample_shading.h"
+#include "render/time/moment_light.h"
+
+namespace aleph {
+
+/// Counted where rays are traced.
+struct TracedRays {
+    std::uint64_t all = 0, invalid = 0;
+    TracedRays operator+(const TracedRays& o) const { return {all + o.all, invalid + o.invalid}; }
+    TracedRays operator-(const TracedRays& o) const { return {all - o.all, invalid - o.invalid}; }
+};
+
+/// Keeps its structures from time to time and updates what moved, which gives the same as making them anew.
+class FrameScene {
+  public:
+    /// Keeps references to shot and plan.
+    /// @param plan  what can move: the shot's own plan, or one of more
+    FrameScene(const Shot& shot, const PosePlan& plan)
+        : shot_(shot), plan_(plan), rays_(std::in_place, shot.scene, plan) {}
+    /// Shares the mesh structures of another one, once it needs rays. Keeps a reference to it.
+    FrameScene(const Shot& shot, const FrameScene& meshes) : shot_(shot), plan_(shot.pose_plan), meshes_(&meshes) {}
+    FrameScene(const FrameScene&) = delete;
+
+    /// Poses the scene, seen by one of its cameras.
+    /// @param camera  index into ScenePose::cameras
+    /// @param width, height  pixels
+    void pose(double seconds, int camera, int width, int height);
+    /// Poses the scene as the shot has it at a frame.
+    void pose(std::int64_t frame);
+    /// Takes a pose of the same elements from elsewhere.
+    void pose(const PosedView& given);
+
+    /// Brings the rays to the pose. @return instances that were updated
+    std::size_t update_rays();
+    /// Brings rays, shading and lights to the pose, with all effects but those that the settings forbid.
+    /// @return instances that were updated
+    std::size_t prepare();
+    /// Leaves out of shading what a plan for this frame skips. To be called after prepare.
+    void leave_out(const EffectsPlan& effects);
+    /// Leaves effects out of shading; the lights stay, unless direct light is among the effects.
+    void leave_out(const EffectSet& effects);
+
+    /// Copies pose and shading, so that they stay when this is posed again.
+    void copy_to(KeyPose& kept) const;
+
+    const PosedView& posed() const { return *posed_; }
+    const RayScene& rays() const { return *rays_; }
+    const ShadingScene& shading() const { return *shading_; }
+    LightingContext lighting() const { return {*shading_, lights_, *rays_}; }
+    /// The scene while a sample is taken, valid until it is posed again.
+    SampleMoment moment() const { return {lighting(), posed_->view}; }
+
+    /// Rays that were traced so far, and those of them that were invalid.
+    TracedRays traced() const { return rays_ ? TracedRays{rays_->rays_traced(), rays_->invalid_rays()} : TracedRays{}; }
+
+  private:
+    const Shot& shot_;
+    const PosePlan& plan_;
+    const FrameScene* meshes_ = nullptr;  ///< null: `rays_` is its own from the beginning
+    std::optional<RayScene> rays_;
+    std::optional<PosedView> posed_;
+    std::optional<ShadingScene> shading_;
+    LightSet lights_;
+};
+
+}  // namespace aleph

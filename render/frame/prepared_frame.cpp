@@ -1,0 +1,78 @@
+#include "render/frame/prepared_frame.h"
+
+#include "perception/sanitize.h"
+#include "render/frame/frame_vision.h"
+#include "render/settings/measure.h"
+
+namespace aleph {
+
+namespace {
+
+/// Estimate, motion, blur and vision of a frame whose first hits are cast.
+void perceive(Preparation& kept, const FrameScene& here, const FrameWork& work, StageClock& clock,
+              PreparedFrame& frame) {
+    const Shot& shot = kept.shot;
+    const FramePlan& plan = frame.plan;
+    FrameOutput& out = frame.out;
+    RayCounts& counts = out.statistics.counts.rays;
+    std::optional<EstimateNodes> nodes;
+    if (shot.estimates_indirect_light(plan.settings.bounces))
+        nodes = kept.estimate_light.find_nodes(work.frame, here, frame.centers, counts);
+    const EstimateNodes* indirect = nodes ? &*nodes : nullptr;
+    const bool tolerance = needs_indirect_luminance(shot.settings, work.maps);
+    out.estimate =
+        estimate_scene(shot, here, frame.centers, indirect, counts, tolerance ? &out.indirect_luminance : nullptr);
+    note_estimate(out, sanitize_estimate(out.estimate), shot.scene.viewing);
+    clock.add_to(out.statistics.seconds.estimate);
+    kept.motion.compute(work, plan, here, frame.centers, kept.estimate_light, clock, out);
+    blur_frame_estimate(shot, work.frame, here, kept.shutter, frame.centers, indirect, plan, out.estimate, counts);
+    clock.add_to(out.statistics.seconds.estimate);
+    RenderSettings vision = shot.settings;
+    if (plan.skips(Effect::saliency) && vision.perception.guide == Guide::saliency)
+        vision.perception.guide = Guide::full;
+    compute_frame_vision(out, shot.scene, vision, work.maps, clock);
+}
+
+}  // namespace
+
+PreparedFrame prepare_frame(Preparation& kept, FrameScene& here, FrameWork work) {
+    const Shot& shot = kept.shot;
+    PreparedFrame frame;
+    FrameOutput& out = frame.out;
+    FrameStatistics& stats = out.statistics;
+    RayCounts& counts = stats.counts.rays;
+    stats.frame = work.frame;
+    work.other = work.perceive ? shot.other_frame(work.frame) : OtherFrame::none;
+
+    StageClock clock;
+    here.pose(work.frame);
+    out.view = here.posed().view;
+    frame.plan = kept.planner.begin(work, here.posed());
+    clock.add_to(stats.seconds.pose);
+    if (work.perceive && shot.estimates_indirect_light(frame.plan.settings.bounces)) {
+        kept.estimate_light.gather_around(work.frame, work.frame, counts);
+        if (work.other != OtherFrame::none && shot.settings.motion == MotionSource::image)
+            kept.estimate_light.gather_around(other_frame_number(work.frame, work.other), work.frame, counts);
+    }
+    clock.add_to(stats.seconds.estimate);
+    here.pose(work.frame);  // which gathering moved if `here` is where key moments are prepared
+    work.other = kept.motion.pose_other(work, here.posed());
+    clock.add_to(stats.seconds.pose);
+
+    stats.instances_touched = here.prepare();
+    here.leave_out(frame.plan.effects);
+    clock.add_to(stats.seconds.update);
+
+    frame.centers = cast_centers(here.rays(), out.view, &counts.primary);
+    clock.add_to(stats.seconds.first_hits);
+    if (work.perceive) {
+        perceive(kept, here, work, clock, frame);
+    } else {
+        out.perception.aleph = Image<float>(shot.settings.width, shot.settings.height, 1.0f);
+        out.alpha = Image<float>(shot.settings.width, shot.settings.height, static_cast<float>(shot.settings.accuracy));
+    }
+    kept.planner.finish(frame.centers.hits, out, frame.plan);
+    return frame;
+}
+
+}  // namespace aleph

@@ -1,0 +1,36 @@
+#pragma once
+// A frame before its picture: pose, first hits and, where something obeys it, estimate, motion and the model of vision.
+
+#include "render/frame/frame_estimate.h"
+#include "render/frame/frame_motion.h"
+
+namespace aleph {
+
+struct PreparedFrame {
+    FramePlan plan;
+    SampleHits centers;  ///< hits through the pixel centres
+    FrameOutput out;     ///< all but the picture
+};
+
+/// What preparing frames keeps from one to the next. All of it is updated to the same values as made anew.
+struct Preparation {
+    /// Keeps references. @param shot_light  see EstimateLight
+    Preparation(const Shot& given, const std::optional<ShotLight>& shot_light, FrameScene& here, FrameScene& moment)
+        : shot(given),
+          planner(given),
+          estimate_light(given, shot_light, moment),
+          motion(given, here),
+          shutter(given, here) {}
+
+    const Shot& shot;
+    FramePlanner planner;
+    EstimateLight estimate_light;
+    FrameMotion motion;
+    FrameScene shutter;  ///< the scene while the shutter is open
+};
+
+/// The stages of a frame before its picture, with their times and counts.
+/// @param here  posed and prepared for the frame; without what its plan leaves out
+PreparedFrame prepare_frame(Preparation& kept, FrameScene& here, FrameWork work);
+
+}  // namespace aleph

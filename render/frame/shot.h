@@ -1,0 +1,74 @@
+#pragma once
+// What all frames of a sequence have in common: the scene, its settings, and what follows from the two alone.
+
+#include <algorithm>
+#include <optional>
+#include <vector>
+
+#include "engine/pose/pose.h"
+#include "engine/pose/steady.h"
+#include "engine/scene/scene.h"
+#include "motion/other_frame.h"
+#include "render/pixels/pixel_surfaces.h"
+#include "render/settings/settings.h"
+#include "render/surface/shading_scene.h"
+#include "render/time/shutter.h"
+
+namespace aleph {
+
+/// @throws InputError if the camera has an aperture without a focus distance
+Lens find_lens(const Scene& scene, const CameraValues& camera);
+
+/// Const but for the exposure, which Sequence sets once. Frames are integers, times are seconds.
+struct Shot {
+    /// @param camera_shots  list_camera_shots(given, name)
+    Shot(Scene given, const RenderSettings& chosen, const std::vector<CameraShot>& camera_shots);
+    Shot(const Shot&) = delete;
+
+    /// Index into ScenePose::cameras of the camera of a frame.
+    int camera(std::int64_t frame) const { return camera_at(shots, frame); }
+    /// Open and close of the frame's camera, frames relative to the frame.
+    glm::dvec2 shutter(std::int64_t frame) const;
+    /// The shutter of a frame, if something can change while it is open.
+    std::optional<ShutterInterval> open_shutter(std::int64_t frame) const;
+    /// The time that stands for a frame: its shutter's centre.
+    double seconds(std::int64_t frame) const;
+    /// The frame that a frame's motion leads to: the next one; the previous one at the scene's last frame; none across
+    /// a cut.
+    OtherFrame other_frame(std::int64_t frame) const;
+    /// Key of a frame's random numbers: the same for all frames if its camera never moves, so that their noise is too,
+    /// where nothing else does.
+    std::uint32_t noise_key(std::int64_t frame) const {
+        return is_still(camera(frame)) ? 0u : static_cast<std::uint32_t>(frame);
+    }
+    bool can_change() const { return is_world_animated(scene) || !pose_plan.cameras.empty() || shots.size() > 1; }
+    /// Whether a camera has the same view at all times.
+    bool is_still(int camera) const { return std::ranges::find(pose_plan.cameras, camera) == pose_plan.cameras.end(); }
+    /// Paths do not follow the map.
+    bool is_guided() const {
+        return settings.perception.guide != Guide::none && settings.integrator == Integrator::cache;
+    }
+    /// Whether something obeys the visible threshold.
+    bool needs_perception() const { return is_guided() || settings.sampling != Sampling::uniform; }
+    /// @param bounces  of the frame's settings
+    bool estimates_indirect_light(int bounces) const {
+        return bounces > 0 && settings.estimate == EstimateKind::direct;
+    }
+    /// Whether frames with a closed shutter read their indirect light from key moments.
+    bool reads_moments() const {
+        return settings.integrator == Integrator::cache && settings.light_step > 0 && settings.bounces > 0 &&
+               settings.path_depth > 1 && settings.accuracy > 0.0;
+    }
+
+    const Scene scene;  ///< cages at the levels that are rendered, changes of cameras among the cuts
+    const RenderSettings settings;
+    const std::vector<CameraShot> shots;
+    const FrameRange range;
+    const TextureSet textures;
+    const PosePlan pose_plan;
+    const SteadySpans steady;
+    const bool blended;  ///< blended surfaces are in the scene
+    double exposure = 1.0;
+};
+
+}  // namespace aleph
