@@ -1,17 +1,13 @@
 #include "render/shade/frame.h"
-#include "render/guide/error_report.h"
 
 #include <algorithm>
 #include <mutex>
 
 #include "engine/base/parallel.h"
-#include "render/cache/bounce_levels.h"
-#include "render/cache/bounce_places.h"
-#include "render/cache/mirror_places.h"
+#include "render/guide/error_report.h"
 #include "render/pixels/sample_place.h"
 #include "render/settings/measure.h"
-#include "render/shade/frame_irradiance.h"
-#include "render/shade/pending_samples.h"
+#include "render/shade/integrator.h"
 #include "render/shade/progressive.h"
 #include "render/shade/resolve.h"
 #include "render/shade/sample_packet.h"
@@ -20,10 +16,9 @@ namespace aleph {
 
 namespace {
 
-constexpr double fill_share = 0.3;            // of a frame's time, for progress only
-constexpr std::size_t task_ranges = 64;       // pixels of a task
-constexpr int progressive_light_samples = 4;  // of direct light, per pixel sample
-constexpr int slice_samples = 1 << 17;        // that may wait for light at a time: more only for the sake of threads
+constexpr double fill_share = 0.3;       // of a frame's time, for progress only
+constexpr std::size_t task_ranges = 64;  // pixels of a task
+constexpr int slice_samples = 1 << 17;   // that may wait for light at a time: more only for the sake of threads
 constexpr std::size_t slice_ranges = 64 * task_ranges;
 
 class FrameShading {
@@ -33,36 +28,23 @@ class FrameShading {
         : context_(context),
           options_(options),
           out_(out),
-          by_paths_(context.settings.integrator == Integrator::path),
-          indirect_(context.settings.bounces > 0 && context.settings.path_depth > 1),
-          cached_(!by_paths_ && indirect_ && context.settings.accuracy > 0.0 && options.light_lasts),
-          cache_(make_cache(context.lighting.shading)),
-          known_(context_, cached_ ? &cache_ : nullptr),
-          direct_(context.max_radius),
           pixels_(context.view.width, context.view.height),
-          place_(make_sample_place(context.settings, options.lens, options.blended, context.frame, 0)) {
-        if (cached_) context_.direct = &direct_;
-        context_.deeper = make_deeper_light(context.settings, nullptr);
-        if (options.record_maps && !by_paths_) uses_ = Image<RecordUse>(context_.view.width, context_.view.height);
+          place_(make_sample_place(context.settings, options.lens, options.blended, context.frame, 0)),
+          integrator_(make_integrator({context, options, out, place_.moment, systematic_})) {
         const bool as_centers = !options.at_sample && !options.blended && !(options.lens.radius > 0.0);
         if (place_.centered && as_centers) first_ = &centers;
     }
 
     /// Of pixel samples, the first alone: where others need light beside them, they get it before they are added.
     void fill() {
-        if (!cached_) return;
+        if (!integrator_->shares_light()) return;
         if (context_.progress) context_.progress(0.0, "fill");
         if (first_ == nullptr) {
             cast_first_ = cast_sample(context_.lighting.rays, context_.view, place_, &out_.counts.rays.primary);
             first_ = &cast_first_;
         }
         if (options_.part != nullptr) leave_part();
-        if (options_.risk != nullptr) context_.carried = &checked_.emplace(context_, *options_.risk, *first_);
-        fill_fewer_bounces(*first_);
-        if (checked_) checked_->check(cache_, context_, out_);
-        fill_cache(cache_, context_, *first_, out_);
-        fill_mirror_places(cache_, context_, *first_, out_);
-        cache_.finish();
+        integrator_->fill(*first_);
         if (options_.at_sample) first_ = nullptr;  // of the shutter's centre
     }
 
@@ -76,9 +58,7 @@ class FrameShading {
 
     void resolve(double exposure) {
         if (options_.part != nullptr) return count_samples(pixels_, out_);
-        const bool with_variance = context_.settings.integrator == Integrator::path && context_.settings.spp > 1;
-        resolve_pixels(pixels_, exposure, !by_paths_, with_variance, out_);
-        if (!uses_.empty()) resolve_uses(uses_, pixels_, out_);
+        integrator_->resolve(pixels_, exposure);
         if (options_.limits != nullptr && context_.settings.spp > 1) report_errors(exposure);
     }
 
@@ -89,14 +69,6 @@ class FrameShading {
         first_ = &cast_first_;
     }
 
-    void fill_fewer_bounces(const SampleHits& sample) {
-        if (context_.deeper.bounces == 0) return;
-        std::vector<PixelSurface> seen;
-        add_seen_surfaces(context_, sample, seen, out_.counts.rays);
-        fewer_bounces_ = fill_levels(context_, seen, out_.counts);
-        if (fewer_bounces_) context_.deeper = make_deeper_light(context_.settings, &*fewer_bounces_);
-    }
-
     SamplePlace place(int index) const {
         SamplePlace place = place_;
         place.index = index;
@@ -104,46 +76,18 @@ class FrameShading {
         return place;
     }
 
-    SampleShading make_shading() {
-        const RenderSettings& settings = context_.settings;
-        const bool uniform = settings.sampling == Sampling::uniform;
-        return {.context = context_,
-                .moment = place_.moment,
-                .by_paths = by_paths_,
-                .indirect = indirect_,
-                .cache = cached_ ? &cache_ : nullptr,
-                .known = options_.at_sample ? nullptr : &known_,
-                .blurred = static_cast<bool>(options_.at_sample),
-                .points = {(settings.light_samples + settings.spp - 1) / settings.spp, 0, settings.spp},
-                .light_samples = uniform ? 0 : progressive_light_samples,
-                .tolerance = systematic_ ? &*systematic_ : nullptr,
-                .records = &out_.records,
-                .uses = uses_.empty() ? nullptr : &uses_};
-    }
-
     /// Takes the samples of a stage.
     void take(std::span<const PixelRange> ranges) {
         if (!options_.at_sample) {
-            take_at({context_.lighting, context_.view}, make_shading(), ranges);
+            take_at({context_.lighting, context_.view}, ranges);
         } else {
-            take_in_turn(ranges, [this](int i, int c, auto now) { take_blurred(options_.at_sample(i, c), now); });
+            take_in_turn(ranges, [this](int i, int c, auto now) { take_at(options_.at_sample(i, c), now); });
         }
         ++stage_;
     }
 
-    void take_blurred(const SampleMoment& moment, std::span<const PixelRange> ranges) {
-        SampleShading shading = make_shading();
-        std::optional<ShutterLight> light;
-        if (cached_) {
-            shading.shutter = &light.emplace(context_.lighting.shading, moment.lighting.shading, context_.carried,
-                                             &cache_, context_.settings.shade_reach);
-            context_.seen = &moment.lighting.shading;
-        }
-        take_at(moment, shading, ranges);
-        context_.seen = nullptr;
-    }
-
-    void take_at(const SampleMoment& moment, const SampleShading& shading, std::span<const PixelRange> ranges) {
+    void take_at(const SampleMoment& moment, std::span<const PixelRange> ranges) {
+        integrator_->begin(moment);
         std::size_t begin = 0, end = 0;
         while (begin < ranges.size()) {
             int samples = 0;
@@ -151,30 +95,30 @@ class FrameShading {
                 samples += ranges[end].last - ranges[end].first;
                 ++end;
             }
-            take_slice(moment, shading, ranges.subspan(begin, end - begin));
+            take_slice(moment, ranges.subspan(begin, end - begin));
             report_progress(static_cast<double>(end) / static_cast<double>(ranges.size()));
             begin = end;
         }
     }
 
     /// Takes samples, and then finds the light of those that the cache did not cover.
-    void take_slice(const SampleMoment& moment, const SampleShading& shading, std::span<const PixelRange> ranges) {
+    void take_slice(const SampleMoment& moment, std::span<const PixelRange> ranges) {
         std::vector<std::vector<PendingSample>> waiting((ranges.size() + task_ranges - 1) / task_ranges);
         parallel_for(ranges.size(), task_ranges, [&](std::size_t begin, std::size_t end) {
             thread_local GatherScratch scratch;
             ShadingTask task(moment.lighting.rays, context_.lighting.rays, scratch);
-            take_ranges(shading, moment, task, ranges.subspan(begin, end - begin), waiting[begin / task_ranges]);
+            take_ranges(moment, task, ranges.subspan(begin, end - begin), waiting[begin / task_ranges]);
             finish(task);
         });
         std::vector<PendingSample> pending;
         for (const auto& chunk : waiting) pending.insert(pending.end(), chunk.begin(), chunk.end());
         waiting.clear();
-        fill_pending(cache_, context_, pending, out_);
-        add_pending(shading, moment, pending);
+        integrator_->fill_waiting(pending);
+        add_pending(moment, pending);
     }
 
-    void take_ranges(const SampleShading& shading, const SampleMoment& moment, ShadingTask& task,
-                     std::span<const PixelRange> ranges, std::vector<PendingSample>& waiting) {
+    void take_ranges(const SampleMoment& moment, ShadingTask& task, std::span<const PixelRange> ranges,
+                     std::vector<PendingSample>& waiting) {
         SamplePacket samples(moment, task);
         const auto shade = [&](const SamplePlace& at, int x, int y, const glm::vec3& direction, const Hit& hit) {
             SampleLight light;
@@ -185,7 +129,8 @@ class FrameShading {
             }
             const PixelSurface surface =
                 make_pixel_surface(moment.lighting.shading, moment.view, at, hit, direction, x, y);
-            if (shade_sample(shading, moment, task, surface, pixels_(x, y), light)) {
+            begin_light(surface, light);
+            if (integrator_->shade(task, surface, pixels_(x, y), light)) {
                 add_sample(task, x, y, light);
             } else {
                 waiting.push_back({surface, light});
@@ -201,14 +146,12 @@ class FrameShading {
         samples.finish(shade);
     }
 
-    void add_pending(const SampleShading& shading, const SampleMoment& moment, std::vector<PendingSample>& pending) {
+    void add_pending(const SampleMoment& moment, std::vector<PendingSample>& pending) {
         if (pending.empty()) return;
         parallel_for(pending.size(), task_ranges, [&](std::size_t begin, std::size_t end) {
             thread_local GatherScratch scratch;
             ShadingTask task(moment.lighting.rays, context_.lighting.rays, scratch);
-            for (std::size_t i = begin; i < end; ++i) {
-                add_indirect(shading, moment, task, pending[i].surface, pending[i].light);
-            }
+            for (std::size_t i = begin; i < end; ++i) integrator_->add_waiting(task, pending[i]);
             finish(task);
         });
         ShadingTask task(moment.lighting.rays, context_.lighting.rays, pending_scratch_);
@@ -253,30 +196,24 @@ class FrameShading {
     /// How many stages follow is not known: each is taken for half of what was left.
     void report_progress(double stage) {
         if (!context_.progress) return;
-        const double begin = cached_ ? fill_share : 0.0;
+        const double begin = integrator_->shares_light() ? fill_share : 0.0;
         const Sampling rule = context_.settings.sampling;
         const bool only_one = rule == Sampling::uniform || rule == Sampling::protocol;
         const double left = std::pow(0.5, stage_), done = only_one ? stage : 1.0 - left + 0.5 * left * stage;
         context_.progress(begin + (1.0 - begin) * done, "shade");
     }
 
-    IndirectContext context_;
+    const IndirectContext& context_;
     const SampleOptions& options_;
     ShadedFrame& out_;
-    bool by_paths_, indirect_, cached_;
-    IrradianceCache cache_;
-    std::optional<CheckedLight> checked_;
-    FrameIrradiance known_;
-    std::optional<IrradianceCache> fewer_bounces_;
-    DirectGrid direct_;
     Image<PixelSamples> pixels_;
     SamplePlace place_;  ///< of the first sample
     std::optional<SystematicTolerance> systematic_;
+    const std::unique_ptr<LightIntegrator> integrator_;
     const SampleHits* first_ = nullptr;  ///< hits of the pixels' first samples, if they are cast already
     SampleHits cast_first_;
     GatherScratch pending_scratch_;
     int stage_ = 0;
-    Image<RecordUse> uses_;  ///< empty: not asked for
     std::mutex mutex_;
 };
 

@@ -8,21 +8,13 @@ namespace aleph {
 
 namespace {
 
-/// Keeps the random numbers of paths apart from those of direct light and of gathers (gather_at.cpp).
-constexpr std::uint32_t path_seed_mask = 0x70617468u, irradiance_seed_mask = 0x69727261u;
+constexpr std::uint32_t irradiance_seed_mask = 0x69727261u;  // apart from path_seed_mask and others (gather_at.cpp)
 
 constexpr int lights_in_mirrors = 4;  // PathState::light_samples
 
 RandomStream path_stream(const SampleShading& shading, const PixelSurface& surface,
                          std::uint32_t mask = path_seed_mask) {
-    return RandomStream({shading.context.settings.seed ^ mask, shading.moment, surface.pixel,
-                         static_cast<std::uint32_t>(surface.sample)});
-}
-
-PathState start_path(const RenderSettings& settings) {
-    PathState state;
-    state.left = {settings.bounces, settings.path_depth};
-    return state;
+    return path_stream(shading.context.settings.seed, shading.moment, surface, mask);
 }
 
 /// Indirect irradiance from key moments or from the cache; nothing where neither has a record.
@@ -83,26 +75,12 @@ Rgb sample_path(const SampleShading& shading, const SampleMoment& moment, Shadin
                                   random);
 }
 
-/// Share of light that reaches the camera: it may stand in what it sees from inside.
-Rgb share_left(const PixelSurface& surface) {
-    const Rgb loss = Media().attenuation(surface);
-    return loss == Rgb(0.0f) ? Rgb(1.0f) : glm::exp(-loss * surface.distance);
-}
-
 /// Adds what the surface reflects of its irradiance.
 void add_irradiance(const PixelSurface& surface, const Rgb& irradiance, SampleLight& light) {
     const LitSurface lit(surface);
     light.indirect =
         diffuse_radiance(surface.material, lit.cos_view, irradiance) * lit.below_sheen * share_left(surface);
     light[LightPart::surface] += light.indirect;
-}
-
-void add_by_paths(const SampleShading& shading, const SampleMoment& moment, ShadingTask& task,
-                  const PixelSurface& surface, SampleLight& light) {
-    RandomStream random = path_stream(shading, surface);
-    light[LightPart::surface] = surface.material.emission;
-    light[LightPart::gloss] =
-        scatter_light(moment.lighting, task, surface, start_path(shading.context.settings), random);
 }
 
 /// Lobes to sample, and what stands in for the others where the irradiance is known.
@@ -175,26 +153,39 @@ std::optional<Rgb> look_up(const SampleShading& shading, ShadingTask& task, cons
 
 }  // namespace
 
-bool shade_sample(const SampleShading& shading, const SampleMoment& moment, ShadingTask& task,
-                  const PixelSurface& surface, const PixelSamples& pixel, SampleLight& light) {
-    light = {};
+RandomStream path_stream(std::uint32_t seed, std::uint32_t moment, const PixelSurface& surface, std::uint32_t mask) {
+    return RandomStream({seed ^ mask, moment, surface.pixel, static_cast<std::uint32_t>(surface.sample)});
+}
+
+PathState start_path(const RenderSettings& settings) {
+    PathState state;
+    state.left = {settings.bounces, settings.path_depth};
+    return state;
+}
+
+Rgb share_left(const PixelSurface& surface) {
+    const Rgb loss = Media().attenuation(surface);
+    return loss == Rgb(0.0f) ? Rgb(1.0f) : glm::exp(-loss * surface.distance);
+}
+
+void begin_light(const PixelSurface& surface, SampleLight& light) {
     light.instance = surface.hit.instance;
     light.position = surface.point.position;
     light.footprint = surface.footprint;
     light.geometric = surface.point.geometric;
     light.normal = surface.point.normal;
-    const bool needs_irradiance = !shading.by_paths && shading.indirect && surface.material.has_diffuse();
+}
+
+bool shade_sample(const SampleShading& shading, const SampleMoment& moment, ShadingTask& task,
+                  const PixelSurface& surface, const PixelSamples& pixel, SampleLight& light) {
+    const bool needs_irradiance = shading.indirect && surface.material.has_diffuse();
     std::optional<Rgb> irradiance;
     bool waits = false;  // for a record
     if (needs_irradiance) {
         irradiance = pixel.find_irradiance(light);
         if (!irradiance) irradiance = light.irradiance = look_up(shading, task, surface, waits);
     }
-    if (shading.by_paths) {
-        add_by_paths(shading, moment, task, surface, light);
-    } else {
-        add_with_cache(shading, moment, task, surface, irradiance, light);
-    }
+    add_with_cache(shading, moment, task, surface, irradiance, light);
     const Rgb left = share_left(surface);
     for (Rgb& part : light.parts) part *= left;
     if (!needs_irradiance) return true;

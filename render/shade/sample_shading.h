@@ -39,7 +39,6 @@ struct SystematicTolerance {
 struct SampleShading {
     const IndirectContext& context;
     std::uint32_t moment = 0;  ///< of SamplePlace
-    bool by_paths = false;     ///< all light along paths
     bool indirect = false;     ///< there is indirect light
     /// Finished; null: irradiance that no key moment knows is gathered at every sample.
     const IrradianceCache* cache = nullptr;
@@ -54,9 +53,27 @@ struct SampleShading {
     Image<RecordUse>* uses = nullptr;                ///< records that were read; null: not asked for
 };
 
-/// Light that a pixel's surface sends to the camera.
+/// Keeps the random numbers of paths apart from those of direct light and of gathers (gather_at.cpp).
+inline constexpr std::uint32_t path_seed_mask = 0x70617468u;
+
+/// Random numbers of a pixel sample's path.
+/// @param moment  SamplePlace::moment
+RandomStream path_stream(std::uint32_t seed, std::uint32_t moment, const PixelSurface& surface,
+                         std::uint32_t mask = path_seed_mask);
+
+/// A path of the settings' length that begins at a pixel's surface.
+PathState start_path(const RenderSettings& settings);
+
+/// Share of light that reaches the camera, which may stand in what it sees from inside.
+Rgb share_left(const PixelSurface& surface);
+
+/// Sets what a sample's light tells of its surface.
+/// @param light  new
+void begin_light(const PixelSurface& surface, SampleLight& light);
+
+/// Finds the light that a pixel's surface sends to the camera, with the cache.
 /// @param pixel  its samples so far
-/// @param light  set
+/// @param light  after begin_light
 /// @return false: the cache has no record here, and `light` lacks indirect light (add_indirect)
 bool shade_sample(const SampleShading& shading, const SampleMoment& moment, ShadingTask& task,
                   const PixelSurface& surface, const PixelSamples& pixel, SampleLight& light);

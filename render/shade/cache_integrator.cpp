@@ -1,0 +1,116 @@
+// Direct light and gloss by samples, indirect light from the irradiance cache.
+
+#include "render/cache/bounce_levels.h"
+#include "render/cache/bounce_places.h"
+#include "render/cache/cache_fill.h"
+#include "render/cache/mirror_places.h"
+#include "render/shade/frame_irradiance.h"
+#include "render/shade/integrator.h"
+#include "render/shade/resolve.h"
+
+namespace aleph {
+
+namespace {
+
+constexpr int progressive_light_samples = 4;  // of direct light, per pixel sample
+
+class CacheIntegrator final : public LightIntegrator {
+  public:
+    explicit CacheIntegrator(const IntegratorInput& input)
+        : input_(input),
+          context_(input.context),
+          indirect_(context_.settings.bounces > 0 && context_.settings.path_depth > 1),
+          cached_(indirect_ && context_.settings.accuracy > 0.0 && input.options.light_lasts),
+          cache_(make_cache(context_.lighting.shading)),
+          known_(context_, cached_ ? &cache_ : nullptr),
+          direct_(context_.max_radius) {
+        if (cached_) context_.direct = &direct_;
+        context_.deeper = make_deeper_light(context_.settings, nullptr);
+        if (input.options.record_maps) uses_ = Image<RecordUse>(context_.view.width, context_.view.height);
+    }
+
+    bool shares_light() const override { return cached_; }
+
+    void fill(const SampleHits& first) override {
+        if (input_.options.risk != nullptr) context_.carried = &checked_.emplace(context_, *input_.options.risk, first);
+        fill_fewer_bounces(first);
+        if (checked_) checked_->check(cache_, context_, input_.out);
+        fill_cache(cache_, context_, first, input_.out);
+        fill_mirror_places(cache_, context_, first, input_.out);
+        cache_.finish();
+    }
+
+    void begin(const SampleMoment& moment) override {
+        moment_ = &moment;
+        const RenderSettings& settings = context_.settings;
+        const bool blurred = static_cast<bool>(input_.options.at_sample);
+        const bool uniform = settings.sampling == Sampling::uniform;
+        context_.seen = nullptr;
+        shutter_.reset();
+        if (blurred && cached_) {
+            shutter_.emplace(context_.lighting.shading, moment.lighting.shading, context_.carried, &cache_,
+                             settings.shade_reach);
+            context_.seen = &moment.lighting.shading;
+        }
+        shading_.emplace(
+            SampleShading{.context = context_,
+                          .moment = input_.moment,
+                          .indirect = indirect_,
+                          .cache = cached_ ? &cache_ : nullptr,
+                          .known = blurred ? nullptr : &known_,
+                          .blurred = blurred,
+                          .shutter = shutter_ ? &*shutter_ : nullptr,
+                          .points = {(settings.light_samples + settings.spp - 1) / settings.spp, 0, settings.spp},
+                          .light_samples = uniform ? 0 : progressive_light_samples,
+                          .tolerance = input_.tolerance ? &*input_.tolerance : nullptr,
+                          .records = &input_.out.records,
+                          .uses = uses_.empty() ? nullptr : &uses_});
+    }
+
+    bool shade(ShadingTask& task, const PixelSurface& surface, const PixelSamples& pixel, SampleLight& light) override {
+        return shade_sample(*shading_, *moment_, task, surface, pixel, light);
+    }
+
+    void fill_waiting(const std::vector<PendingSample>& waiting) override {
+        fill_pending(cache_, context_, waiting, input_.out);
+    }
+
+    void add_waiting(ShadingTask& task, PendingSample& sample) override {
+        add_indirect(*shading_, *moment_, task, sample.surface, sample.light);
+    }
+
+    void resolve(const Image<PixelSamples>& pixels, double exposure) override {
+        resolve_pixels(pixels, exposure, true, false, input_.out);
+        if (!uses_.empty()) resolve_uses(uses_, pixels, input_.out);
+    }
+
+  private:
+    void fill_fewer_bounces(const SampleHits& first) {
+        if (context_.deeper.bounces == 0) return;
+        std::vector<PixelSurface> seen;
+        add_seen_surfaces(context_, first, seen, input_.out.counts.rays);
+        fewer_bounces_ = fill_levels(context_, seen, input_.out.counts);
+        if (fewer_bounces_) context_.deeper = make_deeper_light(context_.settings, &*fewer_bounces_);
+    }
+
+    const IntegratorInput input_;
+    IndirectContext context_;
+    const bool indirect_, cached_;
+    IrradianceCache cache_;
+    std::optional<CheckedLight> checked_;
+    FrameIrradiance known_;
+    std::optional<IrradianceCache> fewer_bounces_;
+    DirectGrid direct_;
+    Image<RecordUse> uses_;  ///< empty: not asked for
+    std::optional<ShutterLight> shutter_;
+    std::optional<SampleShading> shading_;  ///< since `begin`
+    const SampleMoment* moment_ = nullptr;
+};
+
+}  // namespace
+
+std::unique_ptr<LightIntegrator> make_cache_integrator(const IntegratorInput& input) {
+    return std::make_unique<CacheIntegrator>(input);
+}
+
+}  // namespace aleph

@@ -1,0 +1,58 @@
+#pragma once
+// What an integrator is: how the light of a frame's samples is found. To add one, write a class like those of
+// cache_integrator.cpp and path_integrator.cpp, give it a row in make_integrator (integrator.cpp) and a name in the
+// setting table.
+
+#include <memory>
+#include <vector>
+
+#include "render/shade/frame.h"
+#include "render/shade/pending_samples.h"
+#include "render/shade/sample_shading.h"
+
+namespace aleph {
+
+/// How light is found, for one frame. Its samples are placed, cast and added up by others (frame.cpp).
+class LightIntegrator {
+  public:
+    virtual ~LightIntegrator() = default;
+
+    /// Whether light is computed before the samples, which they share.
+    virtual bool shares_light() const { return false; }
+    /// Computes it.
+    /// @param first  the first sample of every pixel
+    virtual void fill(const SampleHits& first);
+
+    /// Samples are taken at this time until the next call.
+    virtual void begin(const SampleMoment& moment) = 0;
+
+    /// Finds the light that a pixel's surface sends to the camera. Called from any thread.
+    /// @param pixel  its samples so far
+    /// @param light  set, but for what begin_light sets
+    /// @return false: it lacks light that fill_waiting computes
+    virtual bool shade(ShadingTask& task, const PixelSurface& surface, const PixelSamples& pixel,
+                       SampleLight& light) = 0;
+    /// Computes light that samples wait for.
+    virtual void fill_waiting(const std::vector<PendingSample>& waiting);
+    /// Adds it to a sample. Called from any thread.
+    virtual void add_waiting(ShadingTask& task, PendingSample& sample);
+
+    /// Makes the frame's images.
+    virtual void resolve(const Image<PixelSamples>& pixels, double exposure) = 0;
+};
+
+/// What an integrator is made from; all of it must outlive the integrator.
+struct IntegratorInput {
+    const IndirectContext& context;
+    const SampleOptions& options;
+    ShadedFrame& out;
+    std::uint32_t moment = 0;  ///< SamplePlace::moment
+    /// Errors that do not fall with the number of samples; empty: nothing may be left out.
+    const std::optional<SystematicTolerance>& tolerance;
+};
+
+std::unique_ptr<LightIntegrator> make_integrator(const IntegratorInput& input);
+std::unique_ptr<LightIntegrator> make_cache_integrator(const IntegratorInput& input);
+std::unique_ptr<LightIntegrator> make_path_integrator(const IntegratorInput& input);
+
+}  // namespace aleph

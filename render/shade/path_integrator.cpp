@@ -1,0 +1,40 @@
+// All light along paths, without bias.
+
+#include "render/shade/integrator.h"
+#include "render/shade/resolve.h"
+
+namespace aleph {
+
+namespace {
+
+class PathIntegrator final : public LightIntegrator {
+  public:
+    explicit PathIntegrator(const IntegratorInput& input) : input_(input) {}
+
+    void begin(const SampleMoment& moment) override { moment_ = &moment; }
+
+    bool shade(ShadingTask& task, const PixelSurface& surface, const PixelSamples&, SampleLight& light) override {
+        const RenderSettings& settings = input_.context.settings;
+        RandomStream random = path_stream(settings.seed, input_.moment, surface);
+        const Rgb left = share_left(surface);
+        light[LightPart::surface] = surface.material.emission * left;
+        light[LightPart::gloss] = scatter_light(moment_->lighting, task, surface, start_path(settings), random) * left;
+        return true;
+    }
+
+    void resolve(const Image<PixelSamples>& pixels, double exposure) override {
+        resolve_pixels(pixels, exposure, false, input_.context.settings.spp > 1, input_.out);
+    }
+
+  private:
+    const IntegratorInput input_;
+    const SampleMoment* moment_ = nullptr;
+};
+
+}  // namespace
+
+std::unique_ptr<LightIntegrator> make_path_integrator(const IntegratorInput& input) {
+    return std::make_unique<PathIntegrator>(input);
+}
+
+}  // namespace aleph
