@@ -9,7 +9,6 @@
 #include "render/estimate/estimate.h"
 #include "render/frame/sequence_state.h"
 #include "render/plan/effect_picture.h"
-#include "render/plan/forbidden_effects.h"
 #include "render/shade/frame.h"
 #include "render/time/shutter.h"
 

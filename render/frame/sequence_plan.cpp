@@ -121,7 +121,6 @@ FramePlan SequenceState::begin_plan(std::int64_t frame, OtherFrame which, bool p
     const Lens lens = find_lens(scene, now->pose.cameras[camera(frame)]);
     const std::optional<ShutterInterval> interval = find_open_shutter(frame);
     plan.facts = find_frame_facts(scene, *shot_facts, textures, now->pose, now->view, interval || lens.radius > 0.0);
-    bound_direct_light(plan.facts);
     plan.lens.radius = lens.radius;
     const Nearest nearest = find_nearest(plan.facts, now->view);
     if (lens.radius > 0.0) {
