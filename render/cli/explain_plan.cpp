@@ -59,10 +59,11 @@ std::vector<int> choose_planned_frames(const Scene& scene) {
 }
 
 ordered_json explain_plan(Sequence& sequence, const std::vector<int>& frames) {
-    std::array<std::vector<PlannedFrames>, effect_count> shot;
+    std::vector<std::vector<PlannedFrames>> shot;
     for (const int frame : frames) {
         const EffectsPlan plan = sequence.plan(frame);
-        for (std::size_t i = 0; i < effect_count; ++i) {
+        shot.resize(plan.effects.size());
+        for (std::size_t i = 0; i < plan.effects.size(); ++i) {
             const PlannedEffect& planned = plan.effects[i];
             if (!shot[i].empty() && shot[i].back().planned.decision == planned.decision) {
                 join(shot[i].back(), frame, planned);
@@ -72,9 +73,9 @@ ordered_json explain_plan(Sequence& sequence, const std::vector<int>& frames) {
         }
     }
     ordered_json list = ordered_json::array();
-    for (std::size_t i = 0; i < effect_count; ++i) {
-        for (const PlannedFrames& part : shot[i]) {
-            ordered_json item = to_json(static_cast<Effect>(i), part.planned);
+    for (const std::vector<PlannedFrames>& effect : shot) {
+        for (const PlannedFrames& part : effect) {
+            ordered_json item = to_json(part.planned);
             item["frames"] = {part.first, part.last};
             list.push_back(std::move(item));
         }

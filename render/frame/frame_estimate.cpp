@@ -67,8 +67,9 @@ OpenLens find_open_lens(const Shot& shot, std::int64_t frame, const FrameScene& 
 
 SampleMoment open_scene(const Shot& shot, std::int64_t frame, double at, const FrameScene& scene, FrameScene& shutter) {
     EffectSet skipped = scene.shading().skipped;
-    if (!shot.settings.forbid.contains(Effect::direct_light))
-        skipped.remove(Effect::direct_light);  // lamps are still seen
+    // The plan knows the lights at the shutter's centre alone: at other times lamps are seen and cast shadows.
+    for (const Effect effect : {Effect::direct_light, Effect::area_shadows})
+        if (!shot.settings.forbid.contains(effect)) skipped.remove(effect);
     shutter.pose(at / shot.scene.frame_rate.per_second(), shot.camera(frame), shot.settings.width,
                  shot.settings.height);
     shutter.prepare();

@@ -82,7 +82,6 @@ FramePlan FramePlanner::begin(const FrameWork& work, const PosedView& posed) {
     const Lens lens = find_lens(shot_.scene, posed.pose.cameras[shot_.camera(work.frame)]);
     const bool blurs = shot_.open_shutter(work.frame) || lens.radius > 0.0;
     plan.facts = find_frame_facts(shot_.scene, *facts_, shot_.textures, posed.pose, posed.view, blurs);
-    bound_direct_light(plan.facts);
     plan.lens.radius = lens.radius;
     const Nearest nearest = find_nearest(plan.facts, posed.view);
     if (lens.radius > 0.0) {

@@ -6,7 +6,6 @@
 #include "engine/load/validate_scene.h"
 #include "render/frame/sequence_state.h"
 #include "render/guide/accuracy_map.h"
-#include "render/plan/forbidden_effects.h"
 #include "render/settings/measure.h"
 
 namespace aleph {

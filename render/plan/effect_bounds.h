@@ -1,44 +1,39 @@
 #pragma once
-// How much an effect can change a picture, at most: from boxes and brightness alone. All radiances are before exposure.
+// Light at most: what surfaces can receive, reflect and show, from boxes and brightness alone. The bounds of several
+// effects are made of it. All radiances are before exposure.
 
-#include "render/pixels/pixel_filter.h"
+#include <limits>
+
 #include "render/plan/effect_facts.h"
 
 namespace aleph {
 
-/// Illuminance that a light can bring to surfaces in a box, without shadows. Infinite where a point light may touch it.
-double largest_illuminance(const LightFacts& light, const Bounds& box);
+inline constexpr double unbounded = std::numeric_limits<double>::infinity();
+
+double distance_to(const Bounds& box, const glm::dvec3& point);
+
+/// True if all of a box lies in the plane of a flat object.
+bool is_in_plane(const ObjectFacts& flat, const Bounds& box);
 
 /// Sets ObjectFacts::lit_radiance. The functions below need it.
 void bound_direct_light(FrameFacts& facts);
 
-/// Whether anything may stand between a light and a surface.
-bool may_be_shadowed(const FrameFacts& facts, const LightFacts& light);
+/// Illuminance that a light can bring to surfaces in a box, without shadows. Infinite where a point light may touch it.
+double largest_illuminance(const LightFacts& light, const Bounds& box);
 
-/// Radiance that pixels can have of indirect light: what each surface that is seen can receive from all others, by the
-/// solid angles of spheres around them. 0 where no surface sees another.
-/// @param bounces  of indirect light
-double bound_indirect_light(const FrameFacts& facts, int bounces);
+double largest_diffuse(const FrameFacts& facts);
+double largest_direct_radiance(const FrameFacts& facts);
 
-/// Of it, what comes after the first `bounces` bounces: by the largest albedo alone.
-/// @param most  bounces in all
-double bound_further_bounces(const FrameFacts& facts, int bounces, int most);
+/// Radiance that a ray can meet, without the highlights of lights that have no area.
+double largest_radiance(const FrameFacts& facts, int bounces);
 
-/// Radiance that pixels can have from lobes that have a width.
-double bound_glossy_light(const FrameFacts& facts, int bounces);
+/// Largest f cos of the lobes that have a width, 1/sr: F D G2 / (4 n.v) at its peak.
+double lobe_peak(const MaterialFacts& material);
 
-/// Radiance that a light can bring to pixels.
-double bound_light(const FrameFacts& facts, const LightFacts& light, int bounces);
+/// Radiance that an object's lobes can have from lights without area.
+double largest_highlight(const FrameFacts& facts, const ObjectFacts& object);
 
-/// How far blur moves what a pixel shows, in pixels: over the shutter's time, or over the lens.
-struct BlurMoments {
-    double mean = 0.0;         ///< distance from where the sharp picture has it
-    double shift = 0.0;        ///< length of the mean displacement
-    double mean_square = 0.0;  ///< of the distance
-};
-
-/// What blur can change, as a share of the picture's contrast: by the slope and the curvature that a picture can have
-/// behind the filter. Taylor's theorem; what moves alike to both sides of its place cancels to first order.
-double bound_blur(const BlurMoments& blur, PixelFilter filter);
+/// The sum of powers of an albedo, from power `first` to `last`.
+double sum_powers(double albedo, int first, int last);
 
 }  // namespace aleph

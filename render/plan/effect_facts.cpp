@@ -5,7 +5,7 @@
 
 #include "engine/base/parallel.h"
 #include "engine/scene/transforms.h"
-#include "render/surface/convex_mesh.h"
+#include "render/plan/effect_bounds.h"
 #include "render/surface/ggx.h"
 
 namespace aleph {
@@ -18,7 +18,7 @@ float largest_channel(const glm::vec3& c) {
     return std::max({c.x, c.y, c.z});
 }
 
-/// Over the channels that a use of the texture reads; 1 without a texture.
+/// The largest value of each channel that a use of the texture reads; 1 without a texture.
 glm::vec3 largest_texel(const TextureSet& set, const TextureUse& use) {
     return use.texture == no_index ? glm::vec3(1.0f) : set.textures[use.texture].largest;
 }
@@ -55,7 +55,7 @@ void add_layers(const MaterialValues& values, const MaterialTextures& textures, 
     facts.glass = values.transmission > 0.0f && values.metallic < 1.0f;
 }
 
-/// Normal maps are not counted.
+/// True for any texture but normal maps.
 bool has_texture(const MaterialTextures& textures) {
     const auto uses = {&textures.base_color,  &textures.metallic_roughness, &textures.emission,
                        &textures.specular,    &textures.specular_color,     &textures.transmission,
@@ -88,25 +88,15 @@ MaterialFacts find_material_facts(const Material* material, const MaterialValues
     return facts;
 }
 
-Bounds find_bounds(const std::vector<glm::vec3>& positions) {
-    Bounds bounds;
-    for (const glm::vec3& p : positions) bounds.add(glm::dvec3(p));
-    return bounds;
-}
-
 MeshFacts find_mesh_facts(const Mesh& mesh) {
     MeshFacts facts;
-    facts.bounds = find_bounds(mesh.positions);
+    for (const glm::vec3& p : mesh.positions) facts.bounds.add(glm::dvec3(p));
     for (const glm::vec4& c : mesh.colors) facts.color = std::max(facts.color, largest_channel(glm::vec3(c)));
-    const ConvexMesh shape = find_convex(mesh);
-    facts.convex = shape.convex;
-    facts.flat = shape.flat;
-    facts.point = shape.point;
-    facts.normal = shape.normal;
+    facts.shape = find_convex(mesh);
     return facts;
 }
 
-/// Whether a box may be in the picture.
+/// True if a box may be in the picture.
 bool is_in_view(const CameraView& view, const Bounds& box) {
     // Planes through the camera, and that of the camera: outside if all corners are beyond one of them.
     int left = 0, right = 0, above = 0, below = 0, behind = 0;
@@ -128,7 +118,7 @@ bool contains(const Bounds& box, const glm::dvec3& point) {
     return glm::all(glm::lessThanEqual(box.low, point)) && glm::all(glm::lessThanEqual(point, box.high));
 }
 
-/// Whether a ray of the camera may start in a box: all start at one place, or on a plane as wide as the picture.
+/// True if a ray of the camera may start in a box: all start at one place, or on a plane as wide as the picture.
 bool may_start_inside(const CameraView& view, const Bounds& box) {
     if (!view.orthographic) return contains(box, view.position);
     int behind = 0;
@@ -209,16 +199,18 @@ FrameFacts find_frame_facts(const Scene& scene, const ShotFacts& shot, const Tex
         object.in_view = all_in_view || is_in_view(view, object.bounds);
         if (pose.meshes[m].positions.empty()) {
             // Seen from inside, a closed body sees itself.
-            object.convex = known.flat || (known.convex && !all_in_view && !may_start_inside(view, object.bounds));
-            object.flat = known.flat;
-            object.point = glm::dvec3(pose.world[node] * glm::dvec4(known.point, 1.0));
+            const ConvexMesh& shape = known.shape;
+            object.convex = shape.flat || (shape.convex && !all_in_view && !may_start_inside(view, object.bounds));
+            object.flat = shape.flat;
+            object.point = glm::dvec3(pose.world[node] * glm::dvec4(shape.point, 1.0));
             object.normal =
-                known.flat ? glm::normalize(normal_matrix(pose.world[node]) * known.normal) : glm::dvec3(0.0);
+                shape.flat ? glm::normalize(normal_matrix(pose.world[node]) * shape.normal) : glm::dvec3(0.0);
         }
         facts.sees_all = facts.sees_all || (object.in_view && object.material.has_specular());
         facts.objects.push_back(object);
     }
     add_lights(scene, shot, pose, facts);
+    bound_direct_light(facts);
     return facts;
 }
 

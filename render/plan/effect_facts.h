@@ -1,13 +1,14 @@
 #pragma once
-// What of a posed scene decides which effects a frame calls for: boxes, brightness and layers. Cheap to find, and never
-// less than what is there.
+// Facts of a posed scene that decide which effects a frame calls for: boxes, brightness and layers. They are cheap to
+// find, and never less than what is there.
 
-#include <optional>
+#include <algorithm>
 #include <vector>
 
 #include "engine/base/bounds.h"
 #include "engine/pose/camera_view.h"
 #include "engine/pose/plan.h"
+#include "render/surface/convex_mesh.h"
 #include "render/surface/texture.h"
 
 namespace aleph {
@@ -34,12 +35,10 @@ struct MeshFacts {
     Bounds bounds;         ///< m
     float color = 1.0f;    ///< largest vertex colour, at least 1
     bool deforms = false;  ///< in different ways at different times
-    bool convex = false;   ///< closed or flat, and no point of its outside sees another
-    bool flat = false;
-    glm::dvec3 point{0.0}, normal{0.0};  ///< of the plane of a flat one
+    ConvexMesh shape;
 };
 
-/// What does not change over a shot.
+/// Facts that do not change over a shot.
 struct ShotFacts {
     std::vector<MeshFacts> meshes;
     float environment = 0.0f;  ///< largest value of the environment's picture; 1 without a picture
@@ -53,9 +52,10 @@ struct ObjectFacts {
     bool deforms = false;  ///< in different ways at different times
     MaterialFacts material;
     Bounds bounds;              ///< world, m
-    double lit_radiance = 0.0;  ///< of its Lambert layer, lit by the lights alone, at most (bound_direct_light)
+    double lit_radiance = 0.0;  ///< of its Lambert layer, lit by the lights alone, at most
     bool in_view = false;
-    bool convex = false, flat = false;
+    bool convex = false;  ///< closed or flat, and no point that is seen of it sees another
+    bool flat = false;
     glm::dvec3 point{0.0}, normal{0.0};  ///< world, of the plane of a flat one; the normal is unit
 };
 
@@ -73,14 +73,16 @@ struct LightFacts {
     bool has_area() const { return kind == Kind::surface || kind == Kind::surroundings; }
 };
 
-/// Of one frame.
+/// Facts of one frame.
 struct FrameFacts {
     std::vector<ObjectFacts> objects;
     std::vector<LightFacts> lights;
-    /// Whether mirrors, glass or glossy surfaces are in view, so that anything may be seen.
+    /// Mirrors, glass or glossy surfaces are in view, so anything may be seen.
     bool sees_all = false;
 
     bool is_seen(const ObjectFacts& object) const { return sees_all || object.in_view; }
+    /// @param layer  a member of MaterialFacts
+    bool any(auto layer) const { return std::ranges::any_of(objects, layer, &ObjectFacts::material); }
 };
 
 /// @param textures  make_texture_set(scene)

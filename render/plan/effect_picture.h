@@ -1,19 +1,16 @@
 #pragma once
-// What was left out of each pixel, as colours.
+// The effects that were left out of each pixel, as colours.
 
 #include "engine/base/image.h"
 #include "engine/rays/hit.h"
-#include "render/plan/effects_plan.h"
+#include "render/plan/effect_table.h"
 
 namespace aleph {
-
-/// The colour of an effect in the picture; black for those that have none, because they change no light of a pixel.
-Rgb effect_color(Effect effect);
 
 /// For each pixel the mean colour of the effects that its surface has and that are left out; black where all are
 /// simulated, and behind all surfaces.
 /// @param hits  first hits through the pixel centres
 Image<Rgb> make_effect_picture(const Image<Hit>& hits, const FrameFacts& facts, const EffectsPlan& plan,
-                               std::size_t instances);
+                               std::size_t instances, const EffectTable& table = effect_table());
 
 }  // namespace aleph

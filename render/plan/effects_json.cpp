@@ -16,8 +16,8 @@ ordered_json finite_or_null(double value) {
 
 }  // namespace
 
-ordered_json to_json(Effect effect, const PlannedEffect& planned) {
-    ordered_json json = {{"effect", effect_name(effect)},
+ordered_json to_json(const PlannedEffect& planned) {
+    ordered_json json = {{"effect", planned.name},
                          {"decision", decision_name(planned.decision)},
                          {"reason", planned.reason},
                          {"bound", nullptr}};
@@ -30,8 +30,7 @@ ordered_json to_json(Effect effect, const PlannedEffect& planned) {
 
 ordered_json to_json(const EffectsPlan& plan) {
     ordered_json list = ordered_json::array();
-    if (plan.effects.front().reason.empty()) return list;
-    for (std::size_t i = 0; i < effect_count; ++i) list.push_back(to_json(static_cast<Effect>(i), plan.effects[i]));
+    for (const PlannedEffect& effect : plan.effects) list.push_back(to_json(effect));
     return list;
 }
 

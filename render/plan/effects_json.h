@@ -9,7 +9,7 @@ namespace aleph {
 
 /// {"effect":NAME,"decision":"simulate|simplify|skip","reason":...,"bound":{"luminance":cd/m2,"thresholds":...}}; a
 /// bound is null where none is known.
-nlohmann::ordered_json to_json(Effect effect, const PlannedEffect& planned);
+nlohmann::ordered_json to_json(const PlannedEffect& planned);
 
 /// All effects, in order; an empty list for a plan that was not made: pictures without a scene have none.
 nlohmann::ordered_json to_json(const EffectsPlan& plan);

@@ -4,14 +4,9 @@
 
 namespace aleph {
 
-const std::array<std::string, effect_count>& effect_names() {
-    static const std::array<std::string, effect_count> names{
-        "direct_light", "area_shadows",    "indirect_diffuse", "more_bounces", "glossy_reflection", "mirror_reflection",
-        "refraction",   "caustics",        "environment",      "emission",     "textures",          "normal_maps",
-        "alpha",        "motion_blur",     "depth_of_field",   "subdivision",  "deformation",       "motion",
-        "saliency",     "cache_carry_over"};
-    return names;
-}
+static_assert(std::ranges::all_of(effect_list,
+                                  [](const EffectName& effect) { return &effect == &describe(effect.id); }),
+              "effect_list has the order of Effect");
 
 EffectSet parse_effects(const std::string& text, std::string& unknown) {
     EffectSet effects;
@@ -23,21 +18,20 @@ EffectSet parse_effects(const std::string& text, std::string& unknown) {
         begin = end + 1;
         name.erase(0, name.find_first_not_of(' '));
         name.erase(name.find_last_not_of(' ') + 1);
-        const auto found = std::ranges::find(effect_names(), name);
-        if (found == effect_names().end()) {
+        const auto found = std::ranges::find(effect_list, name, &EffectName::name);
+        if (found == effect_list.end()) {
             unknown = name.empty() ? "between commas" : name;
             return effects;
         }
-        effects.add(static_cast<Effect>(found - effect_names().begin()));
+        effects.add(found->id);
     }
     return effects;
 }
 
 std::string format_effects(const EffectSet& effects) {
     std::string text;
-    for (std::size_t i = 0; i < effect_count; ++i) {
-        if (!effects.contains(static_cast<Effect>(i))) continue;
-        text += (text.empty() ? "" : ",") + effect_names()[i];
+    for (const EffectName& effect : effect_list) {
+        if (effects.contains(effect.id)) text += (text.empty() ? "" : ",") + std::string(effect.name);
     }
     return text;
 }

@@ -134,7 +134,7 @@ void add_perception(std::vector<Setting>& table) {
 /// A set of effects, by their names.
 Setting effects_setting(std::string key, std::string help, EffectSet RenderSettings::*field) {
     Setting setting = new_setting(std::move(key), SettingType::names, std::move(help));
-    setting.choices.assign(effect_names().begin(), effect_names().end());
+    for (const EffectName& effect : effect_list) setting.choices.push_back(effect.name);
     setting.get = [field](const RenderSettings& s) { return SettingValue(format_effects(s.*field)); };
     setting.set = [field](RenderSettings& s, const SettingValue& value) {
         std::string unknown;

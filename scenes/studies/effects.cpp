@@ -1,5 +1,5 @@
-// Whether the effects plan keeps its word: every effect that it leaves out is forced, and the picture compared with the
-// bound that was given; and what the plan saves.
+// Checks that the effects plan keeps its word: every effect that it leaves out is forced, and the picture compared with
+// the bound that was given; and what the plan saves.
 
 #include <fmt/format.h>
 
@@ -47,7 +47,7 @@ Picture render_picture(const Scene& scene, const RenderSettings& settings, std::
     return picture;
 }
 
-/// Of luminance, cd/m2.
+/// Differences of luminance, cd/m2.
 Image<double> find_differences(const Picture& a, const Picture& b, double white) {
     Image<double> differences(a.color.width, a.color.height);
     for (std::size_t i = 0; i < a.color.size(); ++i) {
@@ -114,18 +114,15 @@ std::vector<Trial> list_trials(const EffectsPlan& plan) {
     constexpr Effect alone[] = {Effect::direct_light, Effect::area_shadows, Effect::indirect_diffuse};
     std::vector<Trial> trials;
     Trial others{"all others", {}, {}};
-    for (std::size_t i = 0; i < effect_count; ++i) {
-        const Effect effect = static_cast<Effect>(i);
-        const PlannedEffect& planned = plan.effects[i];
+    for (const auto& [effect, name, description] : effect_list) {
+        const PlannedEffect& planned = plan.of(effect);
         if (planned.decision == Decision::simulate || planned.by_user || !planned.bound) continue;
         const bool one = planned.bound->luminance > 0.0 || std::ranges::find(alone, effect) != std::end(alone);
         if (!one) {
             others.effects.add(effect);
             continue;
         }
-        Trial trial{effect_name(effect), {}, *planned.bound};
-        trial.effects.add(effect);
-        trials.push_back(trial);
+        trials.push_back({name, EffectSet(effect), *planned.bound});
     }
     if (!others.effects.empty()) trials.push_back(others);
     return trials;
@@ -147,7 +144,7 @@ bool differs(const Rgb& a, const Rgb& b) {
     return false;
 }
 
-/// What a trial found.
+/// The result of a trial.
 struct Finding {
     double difference = 0.0, noise = 0.0;  ///< the largest; of the noise what is allowed for, cd/m2
     double seconds = 0.0, rays = 0.0;      ///< with the effect
@@ -229,7 +226,7 @@ void try_frame(const FrameOfScene& which, const EffectsOptions& options, const S
     }
 }
 
-/// What --quick stands for.
+/// Sets the frames of --quick.
 void make_quick(EffectsOptions& options) {
     options.study.size = "32x24";
     options.frames = {"scenes/cornell/scene.json@3",      "scenes/pool-still/scene.json@0",

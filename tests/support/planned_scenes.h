@@ -61,8 +61,8 @@ inline void make_surroundings(Scene& scene, double radiance) {
 /// Names of the effects that a plan does not skip.
 inline std::set<std::string> simulated(const EffectsPlan& plan) {
     std::set<std::string> names;
-    for (std::size_t i = 0; i < effect_count; ++i) {
-        if (plan.effects[i].decision != Decision::skip) names.insert(effect_names()[i]);
+    for (const PlannedEffect& effect : plan.effects) {
+        if (effect.decision != Decision::skip) names.insert(effect.name);
     }
     return names;
 }
@@ -70,8 +70,8 @@ inline std::set<std::string> simulated(const EffectsPlan& plan) {
 /// Every effect, or all but these.
 inline EffectSet all_effects(const std::set<std::string>& but = {}) {
     EffectSet effects;
-    for (std::size_t i = 0; i < effect_count; ++i) {
-        if (!but.contains(effect_names()[i])) effects.add(static_cast<Effect>(i));
+    for (const EffectName& effect : effect_list) {
+        if (!but.contains(effect.name)) effects.add(effect.id);
     }
     return effects;
 }

@@ -1,4 +1,4 @@
-// What the effects plan leaves out changes no pixel by more than the bound it gives.
+// The bounds of the effects plan: leaving an effect out changes no pixel by more.
 
 #include <gtest/gtest.h>
 
@@ -18,10 +18,18 @@ RenderSettings seen_settings() {
     return settings;
 }
 
-RenderSettings force(RenderSettings settings, const char* name) {
-    std::string unknown;
-    settings.force = parse_effects(name, unknown);
+RenderSettings force(RenderSettings settings, Effect effect) {
+    settings.force = EffectSet(effect);
     return settings;
+}
+
+RenderSettings forbid(RenderSettings settings, Effect effect) {
+    settings.forbid = EffectSet(effect);
+    return settings;
+}
+
+Decision decide(const Scene& scene, const RenderSettings& settings, Effect effect, std::int64_t frame = 0) {
+    return Sequence(scene, settings).plan(frame).of(effect).decision;
 }
 
 struct LeftOut {
@@ -31,18 +39,18 @@ struct LeftOut {
 };
 
 /// The difference that forcing the effect makes in frame 0.
-LeftOut compare_forced(const Scene& scene, const RenderSettings& settings, const char* name) {
-    std::string unknown;
-    const EffectSet one = parse_effects(name, unknown);
+LeftOut compare_forced(const Scene& scene, const RenderSettings& settings, Effect effect) {
     const FrameOutput planned = Sequence(scene, settings).render(0);
-    const FrameOutput forced = Sequence(scene, force(settings, name)).render(0);
-    LeftOut out;
-    for (std::size_t i = 0; i < effect_count; ++i) {
-        if (one.contains(static_cast<Effect>(i))) out.planned = planned.statistics.plan.effects[i];
-    }
-    out.difference = largest_difference(scene, planned, forced);
-    out.differs = planned.shaded.color.pixels != forced.shaded.color.pixels;
-    return out;
+    const FrameOutput forced = Sequence(scene, force(settings, effect)).render(0);
+    return {planned.statistics.plan.of(effect), largest_difference(scene, planned, forced),
+            planned.shaded.color.pixels != forced.shaded.color.pixels};
+}
+
+/// @param slack  cd/m2, of rounding or noise
+void expect_skipped_within_bound(const LeftOut& out, double slack = 0.0) {
+    EXPECT_EQ(out.planned.decision, Decision::skip) << out.planned.reason;
+    EXPECT_GT(out.planned.bound->luminance, 0.0);
+    EXPECT_LE(out.difference, out.planned.bound->luminance + slack);
 }
 
 void expect_within_bound(const LeftOut& out, Decision decision) {
@@ -70,12 +78,13 @@ TEST(EffectsBounds, FX14_TheSumOfLightsThatAreLeftOutFits) {
     // Together they are a hundredth of a threshold or less.
     const Scene dim = make_far_lights(1000, 1e-5);
     EXPECT_EQ(left_out(dim), 1000u);
-    expect_within_bound(compare_forced(dim, settings, "direct_light"), Decision::simplify);
+    expect_within_bound(compare_forced(dim, settings, Effect::direct_light), Decision::simplify);
     // Each is below what may be left out, and their sum is not.
     const std::size_t some = left_out(make_far_lights(1000, 1e-2));
     EXPECT_GT(some, 0u);
     EXPECT_LT(some, 1000u);
-    expect_within_bound(compare_forced(make_far_lights(1000, 1e-2), settings, "direct_light"), Decision::simplify);
+    expect_within_bound(compare_forced(make_far_lights(1000, 1e-2), settings, Effect::direct_light),
+                        Decision::simplify);
     // One near lamp of the same power.
     Scene near = make_lit_square();
     add_light(near, Light::Kind::point, glm::dvec3(1.0), {0.0, 0.0, 1.0});
@@ -91,7 +100,7 @@ TEST(EffectsBounds, FX14_LampsThatAreLeftOutAreStillSeen) {
     ASSERT_EQ(plan.lights_left_out.size(), 1u);
     EXPECT_EQ(plan.lights_left_out[0].kind, LightFacts::Kind::surface);
     EXPECT_FALSE(plan.skips(Effect::emission));
-    expect_within_bound(compare_forced(scene, seen_settings(), "direct_light"), Decision::simplify);
+    expect_within_bound(compare_forced(scene, seen_settings(), Effect::direct_light), Decision::simplify);
 }
 
 /// Two walls that face each other, lit by a lamp in front of the camera; one is seen.
@@ -108,23 +117,22 @@ Scene make_corridor(double albedo) {
 TEST(EffectsBounds, FX16_ASecondBounceBetweenDarkWalls) {
     RenderSettings settings = seen_settings();
     settings.bounces = 2;
-    expect_within_bound(compare_forced(make_corridor(0.05), settings, "more_bounces"), Decision::skip);
-    EXPECT_EQ(Sequence(make_corridor(0.9), settings).plan(0).of(Effect::more_bounces).decision, Decision::simulate);
+    expect_within_bound(compare_forced(make_corridor(0.05), settings, Effect::more_bounces), Decision::skip);
+    EXPECT_EQ(decide(make_corridor(0.9), settings, Effect::more_bounces), Decision::simulate);
     // The bound holds where it is not small enough either.
-    RenderSettings one = settings, forbidden = settings;
-    std::string unknown;
-    forbidden.forbid = parse_effects("more_bounces", unknown);
+    RenderSettings one = settings;
+    one.bounces = 1;
     for (const double albedo : {0.05, 0.5, 0.9}) {
         const Scene scene = make_corridor(albedo);
-        one.bounces = 1;
-        const FrameOutput with = Sequence(scene, force(settings, "more_bounces")).render(0);
+        const FrameOutput with = Sequence(scene, force(settings, Effect::more_bounces)).render(0);
         const FrameOutput without = Sequence(scene, one).render(0);
         const std::optional<EffectBound> bound = without.statistics.plan.of(Effect::more_bounces).bound;
         ASSERT_TRUE(bound) << albedo;
         const double difference = largest_difference(scene, with, without);
         EXPECT_GT(difference, 0.0);
         EXPECT_LE(difference, bound->luminance) << albedo;
-        EXPECT_EQ(largest_difference(scene, Sequence(scene, forbidden).render(0), without), 0.0);
+        const FrameOutput forbidden = Sequence(scene, forbid(settings, Effect::more_bounces)).render(0);
+        EXPECT_EQ(largest_difference(scene, forbidden, without), 0.0);
     }
 }
 
@@ -134,10 +142,7 @@ TEST(EffectsBounds, FX13_AFarSmallBodySendsHardlyAnyLight) {
     add_mesh(scene, make_faceted_sphere(0.01, 8, 0), {3.0, 0.0, 30.0});
     RenderSettings settings = seen_settings();
     settings.gather = 4096;
-    const LeftOut out = compare_forced(scene, settings, "indirect_diffuse");
-    EXPECT_EQ(out.planned.decision, Decision::skip) << out.planned.reason;
-    EXPECT_GT(out.planned.bound->luminance, 0.0);
-    EXPECT_LE(out.difference, out.planned.bound->luminance);
+    expect_skipped_within_bound(compare_forced(scene, settings, Effect::indirect_diffuse));
 }
 
 TEST(EffectsBounds, FX13_AMirrorOutOfViewThatLightsWhatIsInView) {
@@ -156,10 +161,8 @@ TEST(EffectsBounds, FX13_AMirrorOutOfViewThatLightsWhatIsInView) {
     const EffectsPlan plan = Sequence(scene, settings).plan(0);
     EXPECT_EQ(plan.of(Effect::caustics).decision, Decision::simulate);
     EXPECT_EQ(plan.of(Effect::mirror_reflection).decision, Decision::skip);
-    RenderSettings without = settings;
-    std::string unknown;
-    without.forbid = parse_effects("caustics", unknown);
-    const FrameOutput lit = Sequence(scene, settings).render(0), unlit = Sequence(scene, without).render(0);
+    const FrameOutput lit = Sequence(scene, settings).render(0);
+    const FrameOutput unlit = Sequence(scene, forbid(settings, Effect::caustics)).render(0);
     EXPECT_GT(largest_difference(scene, lit, unlit), 0.1);
 }
 
@@ -168,9 +171,9 @@ TEST(EffectsBounds, FX13_GlossThatHardlyReflects) {
     scene.range = FrameRange{0, 0};
     scene.materials[0].specular = 1e-4;
     scene.materials[0].roughness = 0.7;
-    expect_within_bound(compare_forced(scene, seen_settings(), "glossy_reflection"), Decision::skip);
+    expect_within_bound(compare_forced(scene, seen_settings(), Effect::glossy_reflection), Decision::skip);
     scene.materials[0].specular = 1.0;
-    EXPECT_EQ(Sequence(scene, seen_settings()).plan(0).of(Effect::glossy_reflection).decision, Decision::simulate);
+    EXPECT_EQ(decide(scene, seen_settings(), Effect::glossy_reflection), Decision::simulate);
 }
 
 /// The camera turns by this angle while the shutter is open.
@@ -189,16 +192,14 @@ TEST(EffectsBounds, FX15_AShutterInWhichThePictureHardlyMoves) {
     RenderSettings settings = seen_settings();
     settings.filter = PixelFilter::blackman_harris;
     settings.spp = 1024;
-    const LeftOut out = compare_forced(make_turning_view(0.05), settings, "motion_blur");
-    EXPECT_EQ(out.planned.decision, Decision::skip) << out.planned.reason;
-    EXPECT_GT(out.planned.bound->luminance, 0.0);
-    EXPECT_LE(out.difference, out.planned.bound->luminance + 0.05);  // noise of samples at edges
-    EXPECT_EQ(Sequence(make_turning_view(3.0), settings).plan(0).of(Effect::motion_blur).decision, Decision::simulate);
+    constexpr double noise = 0.05;  // of samples at edges
+    expect_skipped_within_bound(compare_forced(make_turning_view(0.05), settings, Effect::motion_blur), noise);
+    EXPECT_EQ(decide(make_turning_view(3.0), settings, Effect::motion_blur), Decision::simulate);
 }
 
 TEST(EffectsBounds, FX15_WhatChangesWhileTheShutterIsOpen) {
     const auto decision = [](const Scene& scene, std::int64_t frame = 0) {
-        return Sequence(scene, seen_settings()).plan(frame).of(Effect::motion_blur).decision;
+        return decide(scene, seen_settings(), Effect::motion_blur, frame);
     };
     Scene scene = make_lit_square();
     scene.cameras[0].shutter = {0.0, 0.8};
@@ -228,11 +229,9 @@ TEST(EffectsBounds, FX12_AnApertureThatHardlyBlurs) {
     RenderSettings settings = seen_settings();
     settings.filter = PixelFilter::blackman_harris;
     settings.spp = 256;
-    const LeftOut out = compare_forced(scene, settings, "depth_of_field");
-    EXPECT_EQ(out.planned.decision, Decision::skip) << out.planned.reason;
-    EXPECT_LE(out.difference, out.planned.bound->luminance + 1e-3);
+    expect_skipped_within_bound(compare_forced(scene, settings, Effect::depth_of_field), 1e-3);
     scene.cameras[0].aperture = 0.1;
-    EXPECT_EQ(Sequence(scene, settings).plan(0).of(Effect::depth_of_field).decision, Decision::simulate);
+    EXPECT_EQ(decide(scene, settings, Effect::depth_of_field), Decision::simulate);
 }
 
 }  // namespace

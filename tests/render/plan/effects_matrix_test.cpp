@@ -5,12 +5,9 @@
 
 #include <gtest/gtest.h>
 
-#include "engine/surface/limit_surface.h"
 #include "render/plan/effects_plan.h"
-#include "tests/support/deforming_scenes.h"
 #include "tests/support/keyed_track.h"
 #include "tests/support/planned_scenes.h"
-#include "tests/support/subdivision_cages.h"
 
 namespace aleph {
 namespace {
@@ -116,6 +113,43 @@ TEST(EffectsPlan, EachTinySceneCallsForItsEffectsAlone) {
         EXPECT_TRUE(c.effects != Names{"direct_light"} || rays.shadow == 0) << c.name;
         EXPECT_EQ(rays.total(), statistics.traced_rays) << c.name;
     }
+}
+
+TEST(EffectsPlan, FX13_ForcingWhatWasSkippedChangesNothing) {
+    for (const Case& c : make_cases()) {
+        RenderSettings forced = c.settings;
+        forced.force = all_effects(c.effects);
+        Sequence sequence(c.scene, forced);
+        const FrameOutput with = sequence.render(0), planned = Sequence(c.scene, c.settings).render(0);
+        EXPECT_EQ(simulated(with.statistics.plan).size(), effect_count) << c.name;
+        EXPECT_EQ(with.shaded.color.pixels, planned.shaded.color.pixels) << c.name;
+        RenderSettings off = c.settings;
+        off.plan = EffectsPlanning::off;
+        EXPECT_EQ(Sequence(c.scene, off).render(0).shaded.color.pixels, planned.shaded.color.pixels) << c.name;
+    }
+}
+
+TEST(EffectsPlan, ForbiddenEffectsAreLeftOut) {
+    for (const Case& c : make_cases()) {
+        for (const std::string& name : c.effects) {
+            RenderSettings settings = c.settings;
+            std::string unknown;
+            settings.forbid = parse_effects(name, unknown);
+            const FrameOutput without = Sequence(c.scene, settings).render(0);
+            const FrameOutput with = Sequence(c.scene, c.settings).render(0);
+            EXPECT_FALSE(simulated(without.statistics.plan).contains(name)) << c.name;
+            const bool of_light = name != "motion" && name != "saliency" && name != "cache_carry_over" &&
+                                  name != "more_bounces" && name != "normal_maps" && name != "alpha" &&
+                                  std::string(c.name) != "a mirror out of view";
+            EXPECT_TRUE(!of_light || without.shaded.color.pixels != with.shaded.color.pixels) << c.name << ": " << name;
+        }
+    }
+}
+
+TEST(EffectsPlan, EveryEffectHasATinyScene) {
+    Names called_for{"subdivision", "deformation"};  // FX-07, FX-08
+    for (const Case& c : make_cases()) called_for.insert(c.effects.begin(), c.effects.end());
+    for (const EffectName& effect : effect_list) EXPECT_TRUE(called_for.contains(effect.name)) << effect.name;
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// The effects plan: tiny scenes that call for one effect each, and what must not mislead the plan.
+// The effects plan: scenes that could mislead it.
 
 #include "render/plan/effects_plan.h"
 
@@ -17,37 +17,6 @@ using Names = std::set<std::string>;
 
 Names effects_of(const Scene& scene, const RenderSettings& settings = planned_settings(), std::int64_t frame = 0) {
     return simulated(Sequence(scene, settings).plan(frame));
-}
-
-TEST(EffectsPlan, FX13_ForcingWhatWasSkippedChangesNothing) {
-    for (const Case& c : make_cases()) {
-        RenderSettings forced = c.settings;
-        forced.force = all_effects(c.effects);
-        Sequence sequence(c.scene, forced);
-        const FrameOutput with = sequence.render(0), planned = Sequence(c.scene, c.settings).render(0);
-        EXPECT_EQ(simulated(with.statistics.plan), simulated({})) << c.name;
-        EXPECT_EQ(with.shaded.color.pixels, planned.shaded.color.pixels) << c.name;
-        RenderSettings off = c.settings;
-        off.plan = EffectsPlanning::off;
-        EXPECT_EQ(Sequence(c.scene, off).render(0).shaded.color.pixels, planned.shaded.color.pixels) << c.name;
-    }
-}
-
-TEST(EffectsPlan, ForbiddenEffectsAreLeftOut) {
-    for (const Case& c : make_cases()) {
-        for (const std::string& name : c.effects) {
-            RenderSettings settings = c.settings;
-            std::string unknown;
-            settings.forbid = parse_effects(name, unknown);
-            const FrameOutput without = Sequence(c.scene, settings).render(0);
-            const FrameOutput with = Sequence(c.scene, c.settings).render(0);
-            EXPECT_FALSE(simulated(without.statistics.plan).contains(name)) << c.name;
-            const bool of_light = name != "motion" && name != "saliency" && name != "cache_carry_over" &&
-                                  name != "more_bounces" && name != "normal_maps" && name != "alpha" &&
-                                  std::string(c.name) != "a mirror out of view";
-            EXPECT_TRUE(!of_light || without.shaded.color.pixels != with.shaded.color.pixels) << c.name << ": " << name;
-        }
-    }
 }
 
 TEST(EffectsPlan, FX01_FX09_MotionIsComputedWhereSomethingMoves) {

@@ -1,0 +1,116 @@
+// The table of effects: what one more row needs.
+
+#include "render/plan/effect_table.h"
+
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "render/cli/explain.h"
+#include "render/plan/effect_picture.h"
+#include "render/plan/effects_json.h"
+#include "tests/support/paths.h"
+#include "tests/support/read_bytes.h"
+
+namespace aleph {
+namespace {
+
+TEST(EffectTable, HasARowForEveryEffectAndThePageDescribesIt) {
+    const std::string page = read_bytes(source_folder() / "render/plan/README.md");
+    ASSERT_EQ(effect_table().size(), effect_count);
+    for (std::size_t i = 0; i < effect_count; ++i) {
+        const EffectName& effect = effect_table()[i].effect;
+        EXPECT_EQ(effect.id, static_cast<Effect>(i));
+        const std::string row = std::string("\n| `") + effect.name + "` | " + effect.description + " | ";
+        EXPECT_NE(page.find(row), std::string::npos) << row;
+    }
+}
+
+constexpr Effect lamp_reach{effect_count};
+constexpr double cut_radiance = 0.01;
+
+/// An effect that the renderer does not have: lamps whose light ends at a range.
+EffectRow make_example() {
+    return {.effect = {lamp_reach, "lamp_reach", "lamps whose light ends at a distance"},
+            .find =
+                [](Planning& frame) {
+                    const bool ends =
+                        std::ranges::any_of(frame.in.facts.lights, [](const LightFacts& l) { return l.range > 0.0; });
+                    return simulate_if_visible(frame, ends ? cut_radiance : 0.0, "lamps end", "no lamp ends");
+                },
+            .color = {0.2f, 0.4f, 0.6f},
+            .shows = [](const MaterialFacts& material, const FrameFacts&) { return material.diffuse > 0.0f; },
+            .remove =
+                [](Scene& scene) {
+                    for (Light& light : scene.lights) light.range = Track<double>(0.0);
+                },
+            .turn_off = [](RenderSettings& settings) { settings.spp = 7; }};
+}
+
+/// A lamp with a range, and two objects: one is diffuse, one black.
+struct ExampleFrame {
+    ExampleFrame() {
+        table.push_back(make_example());
+        facts.lights = {{.kind = LightFacts::Kind::point, .strength = 1.0, .range = 3.0}};
+        scene.meshes.resize(1);
+        facts.objects.resize(2);
+        facts.objects[1].instance = 1;
+        facts.objects[0].material.diffuse = 0.5f;
+        scene.lights.emplace_back().range = Track<double>(3.0);
+    }
+    EffectsPlan plan(double threshold) const {
+        return plan_effects({.scene = scene, .settings = settings, .facts = facts, .shutter = {}, .lens = {}},
+                            VisibleFrame{threshold, threshold, 1.0}, table);
+    }
+
+    EffectTable table = effect_table();
+    Scene scene;
+    RenderSettings settings;
+    FrameFacts facts;
+};
+
+TEST(EffectTable, ARowGoesThroughThePlanAndTheUserOverridesIt) {
+    ExampleFrame frame;
+    EXPECT_EQ(frame.plan(0.01).of(lamp_reach).decision, Decision::simulate);
+    const PlannedEffect faint = frame.plan(1.0).of(lamp_reach);
+    EXPECT_EQ(faint.decision, Decision::skip);
+    EXPECT_EQ(faint.bound->luminance, cut_radiance);
+    EXPECT_TRUE(frame.plan(1.0).left_out().contains(lamp_reach));
+    EXPECT_EQ(frame.plan(1.0).left_out_thresholds(), cut_radiance);
+    frame.settings.force = EffectSet(lamp_reach);
+    EXPECT_EQ(frame.plan(1.0).of(lamp_reach).decision, Decision::simulate);
+    frame.settings.forbid = EffectSet(lamp_reach);
+    EXPECT_EQ(frame.plan(1.0).of(lamp_reach).reason, "forbidden");
+    remove_forbidden(frame.settings.forbid, frame.scene, frame.table);
+    EXPECT_EQ(frame.scene.lights[0].range, Track<double>(0.0));
+    EXPECT_EQ(without_forbidden(frame.settings, frame.table).spp, 7);
+    frame.facts.lights[0].range = 0.0;
+    frame.settings = {};
+    EXPECT_EQ(frame.plan(1.0).of(lamp_reach).reason, "no lamp ends");
+}
+
+TEST(EffectTable, ARowHasItsJsonItsLineAndItsColour) {
+    const ExampleFrame frame;
+    const EffectsPlan plan = frame.plan(1.0);
+    nlohmann::ordered_json item = to_json(plan).back();
+    EXPECT_EQ(item.dump(),
+              R"({"effect":"lamp_reach","decision":"skip","reason":"lamps end, but too little to be seen",)"
+              R"("bound":{"luminance":0.01,"thresholds":0.01}})");
+    item["frames"] = {3, 4};
+    const std::string text = plan_text(nlohmann::ordered_json::array({item}), {3, 4});
+    EXPECT_NE(text.find("  lamp_reach         3-4         skip      lamps end, but too little to be seen [0.01 cd/m2"),
+              std::string::npos)
+        << text;
+    EffectsPlan alone;
+    alone.effects.resize(frame.table.size());
+    alone.of(lamp_reach) = plan.of(lamp_reach);
+    Image<Hit> hits(2, 1);
+    hits(0, 0).instance = 0;
+    hits(1, 0).instance = 1;
+    const Image<Rgb> picture = make_effect_picture(hits, frame.facts, alone, 2, frame.table);
+    EXPECT_EQ(picture(0, 0), frame.table.back().color);
+    EXPECT_EQ(picture(1, 0), Rgb(0.0f));
+}
+
+}  // namespace
+}  // namespace aleph
