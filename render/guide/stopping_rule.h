@@ -10,7 +10,7 @@ namespace aleph {
 
 /// Standard errors that a tolerance has to hold. At the limit, 5 % of a normal distribution would lie beyond. But few
 /// pixels are at the limit: numbers of samples double, and halves overrate the error of even samples. In pictures, less
-/// than half a percent of the pixels is beyond (render/README.md).
+/// than half a percent of the pixels is beyond (scenes/studies/README.md).
 inline constexpr double error_deviations = 2.0;
 
 /// What is known of a pixel's mean. A pixel's own samples never decide when it stops: a pixel whose first samples

@@ -157,7 +157,7 @@ std::vector<ChannelInfo> geometry_channels() {
          "no unit, 0 to 1",
          "0"},
         {{"effects.R", "effects.G", "effects.B"},
-         "what the effects plan leaves out of the pixel, as a colour; render/README.md has the colours (scene)",
+         "what the effects plan leaves out of the pixel, as a colour; render/output/README.md has the colours (scene)",
          "mean colour of the effects that the surface has and that are left out (effects plan); black where all are "
          "simulated",
          "a colour, 0 to 1",

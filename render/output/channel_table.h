@@ -1,6 +1,6 @@
 #pragma once
 // The table of EXR channels: the one place for their meaning, unit, range and background. `aleph maps --help`, the
-// attributes of EXR files and render/README.md have it; a test compares the latter.
+// attributes of EXR files and render/output/README.md have it; a test compares the latter.
 
 #include <string>
 #include <vector>

@@ -24,7 +24,7 @@ struct BudgetStatistics {
 };
 
 /// The channels R, G, B, A if the picture was rendered, and with `maps` those of every map that was made.
-/// render/README.md describes the channels. forward.v is positive upwards; MotionField of C++ is positive downwards.
+/// README.md describes the channels. forward.v is positive upwards; MotionField of C++ is positive downwards.
 ChannelImage make_frame_image(const FrameOutput& output, bool maps, const Scene& scene, const RenderSettings& settings,
                               double exposure);
 

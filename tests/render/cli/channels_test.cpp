@@ -1,4 +1,4 @@
-// The EXR channels of a frame, the table in render/README.md and `aleph maps --help` name the same channels.
+// The EXR channels of a frame, the table in render/output/README.md and `aleph maps --help` name the same channels.
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -43,7 +43,7 @@ std::set<std::string> written_channels() {
 
 /// The rows of the table under "EXR channels".
 std::vector<std::string> documented_rows() {
-    std::ifstream file(source_folder() / "render" / "README.md");
+    std::ifstream file(source_folder() / "render" / "output" / "README.md");
     std::vector<std::string> rows;
     bool inside = false;
     for (std::string line; std::getline(file, line);) {
