@@ -1,9 +1,11 @@
 #!/usr/bin/env bash
-# The whole renderer in one command: set-up, build, frames of `pool` with and without guidance, a table and a picture.
+# The whole renderer in one command: set-up, build, two frames of `pool` with and without guidance, a table, pictures and a page.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 bash scenes/setup.sh
-cmake -S . -B build -G Ninja -DCMAKE_BUILD_TYPE=Release -DALEPH_PRECOMPILE=ON >/dev/null
-ninja -C build --quiet aleph study_demo
-mkdir -p build/demo
-build/study_demo scenes/pool/scene.json --frames 20,60 -o build/demo/demo.png
+# A folder that was configured before keeps its options; a new one builds what it is asked for in any case.
+[ -f build/build.ninja ] || cmake -S . -B build -G Ninja -DCMAKE_BUILD_TYPE=Release -DALEPH_PRECOMPILE=ON >/dev/null
+ninja -C build --quiet aleph
+build/aleph study scenes/studies/demo.json -o build/demo --errors guide=none --errors guide=saliency
+build/aleph maps scenes/pool/scene.json --frames 60 --size 240x180 -q -o build/demo/maps.png
+echo "Pictures: build/demo/errors.jpg, build/demo/maps.png; a page to open: build/demo/report.html"

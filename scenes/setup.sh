@@ -14,7 +14,6 @@ packages=(
   libglm-dev libtbb-dev libcli11-dev libfmt-dev
   libgtest-dev libgmock-dev libbenchmark-dev           # tests, benchmarks
   fonts-dejavu-core    # labels on the pictures that studies draw
-  gnuplot-nox          # charts of studies
   locales              # the tests check that a comma locale changes nothing
 )
 

@@ -79,7 +79,6 @@ nlohmann::ordered_json comparison_json(const CompareResult& result) {
     json["nan"] = {result.a.nan, result.b.nan};
     json["inf"] = {result.a.inf, result.b.inf};
     json["beyond"] = pixels_json(result, result.beyond);
-    json["yee"] = result.yee ? pixels_json(result, *result.yee) : nlohmann::ordered_json();
     json["luminance"] = result.luminance ? luminance_json(*result.luminance, result) : nlohmann::ordered_json();
     json["threshold"] = nullptr;
     if (const auto& threshold = result.threshold) {
@@ -135,7 +134,6 @@ void print_comparison(const CompareOptions& options, const CompareResult& result
     }
     print_pixels("beyond the tolerance", result, result.beyond);
     if (result.luminance) print_luminance(options, result);
-    if (result.yee) print_pixels("fail Yee's metric", result, *result.yee);
     if (const auto& threshold = result.threshold) {
         print_pixels("beyond the Aleph map", result, threshold->beyond,
                      fmt::format(", at worst {:.4g} thresholds; white is {:g} cd/m2", threshold->worst,

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <iostream>
 
 #include "engine/base/errors.h"
@@ -11,6 +12,7 @@
 #include "render/cli/progress.h"
 #include "render/cli/scene_options.h"
 #include "render/cli/study_output.h"
+#include "render/settings/setting_table.h"
 #include "render/study/error_sheet.h"
 #include "render/study/prepared_study.h"
 #include "render/study/study_file.h"
@@ -20,10 +22,11 @@ namespace aleph {
 namespace {
 
 struct StudyCommandOptions {
-    std::string file, frames, size, output, reference, errors;
+    std::string file, frames, size, output, reference;
     std::vector<std::string> sweeps, sets, viewers, judges;
     int passes = 0, spp = 0, repeats = 0, seeds = 0, threads = 0;
-    bool quiet = false, markdown = false, viewer_test = false;
+    bool quiet = false, markdown = false;
+    StudyExtras extras;
 };
 
 /// "error=.5,1,2"
@@ -127,7 +130,7 @@ int run(const StudyCommandOptions& options, const std::string& command_line) {
     Study study = make_study(options);
     override_study(options, study);
     const PreparedStudy prepared = prepare_study(std::move(study));
-    if (!options.errors.empty()) check_variant_name(prepared, options.errors);
+    for (const std::string& variant : options.extras.errors) check_variant_name(prepared, variant);
     if (!options.quiet) {
         for (const PreparedStudyScene& scene : prepared.scenes) {
             for (const std::string& warning : scene.scene.warnings)
@@ -144,11 +147,11 @@ int run(const StudyCommandOptions& options, const std::string& command_line) {
     }
     print_study(prepared, results, options.markdown, std::cout);
     const StudyContext context{command_line, study_date(), thread_count(), folder};
-    write_study(prepared, results, context, folder, options.viewer_test, options.errors, options.quiet);
+    write_study(prepared, results, context, options.extras, options.quiet);
     return exit_done;
 }
 
-void add_study_options(CLI::App& study, StudyCommandOptions& options) {
+void add_options(CLI::App& study, StudyCommandOptions& options) {
     study.add_option("study", options.file, "study file (.json), or a scene with --sweep")
         ->required()
         ->type_name("FILE|SCENE");
@@ -179,7 +182,7 @@ void add_study_options(CLI::App& study, StudyCommandOptions& options) {
         .add_option("--viewers", options.viewers,
                     "models of vision that judge, such as thesis,castle (castle: a display that holds its frames)")
         ->delimiter(',')
-        ->check(CLI::IsMember({"thesis", "laird", "castle"}));
+        ->check(CLI::IsMember(std::ranges::find(setting_table(), "vision", &Setting::key)->choices));
     study
         .add_option("--judge", options.judges,
                     "maps of visible differences by another program, 1 where a difference is just visible: for each "
@@ -190,14 +193,16 @@ void add_study_options(CLI::App& study, StudyCommandOptions& options) {
     study.add_option("-o,--output", options.output, "folder of the results; default: NAME-study")->type_name("FOLDER");
     add_value(study, "-t,--threads", options.threads, "number of threads, 0 to 4096; 0: all processors");
     study.add_flag(
-        "--viewer-test", options.viewer_test,
+        "--viewer-test", options.extras.viewer_test,
         "also write viewer-test.html: a test in which viewers say which of two sequences had the errors, the "
         "reference or a variant; several consecutive --frames make sequences");
     study
         .add_option(
-            "--errors", options.errors,
-            "also write errors.jpg: where the errors of this variant lie, in visible thresholds of every viewer")
-        ->type_name("VARIANT");
+            "--errors", options.extras.errors,
+            "also write errors.jpg: where the errors of this variant lie, in visible thresholds of every viewer; may "
+            "be given several times, for variants side by side")
+        ->type_name("VARIANT")
+        ->allow_extra_args(false);
     study.add_flag("--markdown", options.markdown, "print the table as Markdown");
     study.add_flag("-q,--quiet", options.quiet, "print no progress and no list of files");
 }
@@ -207,15 +212,17 @@ void add_study_options(CLI::App& study, StudyCommandOptions& options) {
 void add_study_command(CLI::App& app, Command& command) {
     CLI::App* study = app.add_subcommand("study", "measure what settings cost in time, and what error they leave");
     const auto options = std::make_shared<StudyCommandOptions>();
-    add_study_options(*study, *options);
+    add_options(*study, *options);
     study->footer(
         "Every variant is rendered and compared with a reference, in units of what a viewer just sees. The folder gets "
-        "study.json and study.csv with all figures, study.png with error against time, and report.html, a page to "
-        "look at the frames and their maps. Finished variants are kept there: a study that was stopped goes on.\n"
-        "Seconds are of a processor. --repeats and --seeds give times and errors their uncertainty.\n\n"
+        "study.json and study.csv with all figures, and report.html, a page to look at error against time, the frames "
+        "and their maps. Finished variants are kept there: a study that was stopped goes on.\n"
+        "Seconds are of a processor. --repeats and --seeds give times and errors their uncertainty; two seeds of "
+        "consecutive frames tell how much flickers.\n\n"
         "Examples:\n"
         "  aleph study scenes/pool/scene.json --frames 20 --sweep error=.5,1,2,4 --sweep guide=none,saliency\n"
         "  aleph study scenes/cornell/scene.json --sweep accuracy=.05,.15,.5 --reference path --repeats 3\n"
+        "  aleph study scenes/pool/scene.json --frames 20-29 --sweep error=1,2 --seeds 2\n"
         "  aleph study scenes/studies/pool.json -o out/pool");
     study->callback([options, &command] { command = [options] { return run(*options, study_command_line()); }; });
 }

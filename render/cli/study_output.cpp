@@ -13,7 +13,6 @@
 #include "engine/base/files.h"
 #include "render/study/error_sheet.h"
 #include "render/study/report_page.h"
-#include "render/study/study_plot.h"
 #include "render/study/viewer_page.h"
 
 namespace aleph {
@@ -109,7 +108,8 @@ void print_study(const PreparedStudy& prepared, const StudyResults& results, boo
 }
 
 void write_study(const PreparedStudy& prepared, const StudyResults& results, const StudyContext& context,
-                 const std::filesystem::path& folder, bool viewer_test, const std::string& errors, bool quiet) {
+                 const StudyExtras& extras, bool quiet) {
+    const std::filesystem::path& folder = context.folder;
     const nlohmann::ordered_json json = study_json(prepared, results, context);
     write_file(folder / "study.json",
                json.dump(1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n");
@@ -119,14 +119,12 @@ void write_study(const PreparedStudy& prepared, const StudyResults& results, con
         write_file(folder / "report.html", make_report(report_template(), json, results));
         files += ", report.html";
     }
-    if (viewer_test && !viewer_template().empty()) {
+    if (extras.viewer_test && !viewer_template().empty()) {
         write_file(folder / "viewer-test.html", make_viewer_test(viewer_template(), prepared, results, context));
         files += ", viewer-test.html";
     }
-    const bool plotted = draw_with_gnuplot(folder / "study.png", plot_program(prepared, results));
-    if (plotted) files += ", study.png";
-    if (!errors.empty()) {
-        write_error_sheet(folder / "errors.jpg", prepared, results, errors);
+    if (!extras.errors.empty()) {
+        write_error_sheet(folder / "errors.jpg", prepared, results, extras.errors);
         files += ", errors.jpg";
     }
     if (quiet) return;
@@ -136,7 +134,6 @@ void write_study(const PreparedStudy& prepared, const StudyResults& results, con
         std::cerr << "aleph: no page was written: this program was built without it; install node and npm (Debian: "
                      "nodejs npm), and build in a new folder\n";
     }
-    if (!plotted) std::cerr << "aleph: no chart was drawn: that needs gnuplot (Debian: gnuplot-nox)\n";
 }
 
 }  // namespace aleph

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <iosfwd>
 #include <string>
+#include <vector>
 
 #include "render/study/run_study.h"
 #include "render/study/study_files.h"
@@ -19,12 +20,16 @@ std::string study_command_line();
 /// A row per variant, with the means over its frames.
 void print_study(const PreparedStudy& prepared, const StudyResults& results, bool markdown, std::ostream& out);
 
-/// Writes study.json, study.csv, study.png (where gnuplot is installed) and report.html (where the page was built), and
-/// says which on standard error.
-/// @param viewer_test  also writes viewer-test.html
-/// @param errors       name of a variant, for errors.jpg; may be empty
+/// What write_study writes beside the usual files.
+struct StudyExtras {
+    bool viewer_test = false;         ///< viewer-test.html
+    std::vector<std::string> errors;  ///< names of variants, for errors.jpg; may be empty
+};
+
+/// Writes study.json, study.csv and report.html (where the page was built) into the folder of the context, and says
+/// which on standard error.
 /// @throws OutputError
 void write_study(const PreparedStudy& prepared, const StudyResults& results, const StudyContext& context,
-                 const std::filesystem::path& folder, bool viewer_test, const std::string& errors, bool quiet);
+                 const StudyExtras& extras, bool quiet);
 
 }  // namespace aleph

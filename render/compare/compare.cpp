@@ -4,9 +4,7 @@
 #include <cmath>
 
 #include "engine/base/errors.h"
-#include "engine/base/viewing.h"
 #include "render/compare/compare_channels.h"
-#include "render/compare/yee_metric.h"
 
 namespace aleph {
 
@@ -74,29 +72,12 @@ ChannelDifference compare_channel(const ChannelPair& pair, const CompareSettings
     return result;
 }
 
-bool all_finite(const Image<Rgb>& image) {
-    return std::all_of(image.pixels.begin(), image.pixels.end(),
-                       [](const Rgb& c) { return std::isfinite(c.x) && std::isfinite(c.y) && std::isfinite(c.z); });
-}
-
 ThresholdDifference compare_with_threshold(const ChannelImage& a, const ChannelImage& b,
                                            const ChannelImage& aleph_map) {
     const Image<float>* threshold = aleph_map.find("threshold.Y");
     if (!threshold) throw InputError("", "threshold map", "has no channel 'threshold.Y'");
     const LuminanceError error = compute_luminance_error(a, b);
     return {summarize(measure_error(error, *threshold)), error.display_white};
-}
-
-/// The colours of both pictures: Yee's metric, and the difference of luminance.
-void compare_colours(const ChannelImage& a, const ChannelImage& b, const CompareSettings& settings,
-                     const std::vector<ChannelPair>& colour, CompareResult& result) {
-    result.colour = difference_of(colour);
-    const Image<Rgb> colour_a = linear_colour(a), colour_b = linear_colour(b);
-    if (all_finite(colour_a) && all_finite(colour_b)) {
-        result.yee = count_visible_differences(colour_a, colour_b, {.display_white = display_white_of(a, b)});
-    }
-    result.luminance =
-        compare_luminance(a, b, {settings.tolerance, settings.relative, settings.standard_errors.value_or(3.0)});
 }
 
 /// Pixels that `share` limits.
@@ -149,7 +130,11 @@ CompareResult compare_images(const ChannelImage& a, const ChannelImage& b, const
     }
     result.beyond = static_cast<std::size_t>(std::count(beyond.begin(), beyond.end(), true));
     result.all = difference_of(pairs);
-    if (const auto colour = colour_pairs(pairs); !colour.empty()) compare_colours(a, b, settings, colour, result);
+    if (const auto colour = colour_pairs(pairs); !colour.empty()) {
+        result.colour = difference_of(colour);
+        result.luminance =
+            compare_luminance(a, b, {settings.tolerance, settings.relative, settings.standard_errors.value_or(3.0)});
+    }
     refuse_limits_without_luminance(result, settings);
     if (aleph_map) result.threshold = compare_with_threshold(a, b, *aleph_map);
     result.exceeded = exceeded_limits(result, settings);

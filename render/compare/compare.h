@@ -65,7 +65,6 @@ struct CompareResult {
     std::optional<Difference> colour;              ///< over R, G and B, where they are compared
     NonFinite a, b;                                ///< over the compared channels
     std::size_t beyond = 0;                        ///< pixels beyond the tolerance in any channel
-    std::optional<std::size_t> yee;                ///< pixels that fail Yee's metric; none without finite R, G, B
     std::optional<LuminanceDifference> luminance;  ///< where both pictures have R, G and B
     std::optional<ThresholdDifference> threshold;  ///< if a map was given
     std::vector<std::string> exceeded;             ///< limits that are exceeded: "share", "max_error", ...
@@ -80,8 +79,7 @@ struct CompareResult {
 /// Compares `a` with the reference `b`. The same: no NaN or infinity in either (not even in both), at most `share`
 /// percent of the pixels beyond the tolerance or, where an Aleph map is given, beyond its threshold, and no other limit
 /// exceeded. compare_channels.h says which channels count.
-/// Yee's metric is taken at 31 pixels per degree (thesis 5.1.3). 8-bit pictures count as sRGB for
-/// luminance and for Yee's metric.
+/// 8-bit pictures count as sRGB for luminance.
 /// @param aleph_map  holds `threshold.Y` in cd/m2, or null
 /// @throws InputError if sizes or channels differ, a named channel is missing, or a limit needs R, G and B or
 /// `variance.Y` that are not there

@@ -72,6 +72,13 @@ void draw_scale(OIIO::ImageBuf& sheet, const Panel& panel, int right, int top) {
     draw_text(sheet, bar_right + 5, top + 18, panel.high, 12, OIIO::ImageBufAlgo::TextAlignX::Left);
 }
 
+/// Size of a caption's letters, so that it fits into so many pixels.
+int caption_size(const std::string& caption, int room) {
+    int size = 15;
+    while (size > 7 && OIIO::ImageBufAlgo::text_size(caption, size, caption_font).width() > room) --size;
+    return size;
+}
+
 /// Draws a panel with its caption above it. @param left,top  of the caption
 void draw_panel(OIIO::ImageBuf& sheet, const Panel& panel, int left, int top, int width, int height) {
     const Image<Rgb>& display = panel.display;
@@ -80,7 +87,9 @@ void draw_panel(OIIO::ImageBuf& sheet, const Panel& panel, int left, int top, in
                     display.pixels.data());
     const OIIO::ImageBuf scaled = OIIO::ImageBufAlgo::resize(full, "triangle", 0.0f, OIIO::ROI(0, width, 0, height));
     OIIO::ImageBufAlgo::paste(sheet, left, top + caption_height, 0, 0, scaled);
-    draw_text(sheet, left + 8, top + 19, panel.caption, 15, OIIO::ImageBufAlgo::TextAlignX::Left);
+    const int room = width - 16 - (panel.low.empty() ? 0 : scale_width + 2 * scale_text + 8);
+    draw_text(sheet, left + 8, top + 19, panel.caption, caption_size(panel.caption, room),
+              OIIO::ImageBufAlgo::TextAlignX::Left);
     draw_scale(sheet, panel, left + width, top);
 }
 
@@ -105,21 +114,6 @@ Panel map_panel(const std::string& caption, const Image<float>& map, const MapRa
         }
     }
     return {caption, to_image(color_scale(positions)), fmt::format("{:g}", range.low), fmt::format("{:g}", range.high)};
-}
-
-Panel records_panel(const std::string& caption, const Image<float>& records) {
-    Panel panel{caption, Image<Rgb>(records.width, records.height, Rgb(0.03f))};
-    for (int y = 0; y < records.height; ++y) {
-        for (int x = 0; x < records.width; ++x) {
-            if (records(x, y) <= 0.0f) continue;
-            for (int dy = 0; dy <= 1 && y + dy < records.height; ++dy) {
-                for (int dx = 0; dx <= 1 && x + dx < records.width; ++dx) {
-                    panel.display(x + dx, y + dy) = Rgb(1.0f, 0.85f, 0.4f);
-                }
-            }
-        }
-    }
-    return panel;
 }
 
 void write_sheet(const std::filesystem::path& path, const std::vector<Panel>& panels, int columns, int width) {

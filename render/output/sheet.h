@@ -28,9 +28,6 @@ struct MapRange {
 /// A map in a perceptually uniform colour scale, which is drawn with the ends of the range.
 Panel map_panel(const std::string& caption, const Image<float>& map, const MapRange& range);
 
-/// The pixels at which irradiance was computed, as dots of 2x2 pixels, so that they survive scaling.
-Panel records_panel(const std::string& caption, const Image<float>& records);
-
 /// Writes panels in rows of `columns`, each `width` pixels wide, with captions: a JPEG if the path ends in .jpg, else a
 /// PNG.
 /// @throws OutputError if the file cannot be written

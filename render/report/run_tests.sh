@@ -14,27 +14,19 @@ skip() {
   exit 77
 }
 
-for tool in node npm; do
-  command -v "$tool" >/dev/null || skip "$tool is not installed; scenes/setup.sh can"
-done
+command -v npm >/dev/null || skip "npm is not installed; scenes/setup.sh can"
 browser=
 for name in "${CHROMIUM:-}" chromium chromium-browser google-chrome; do
   [ -n "$name" ] && browser=$(command -v "$name") && break
 done
 [ -n "$browser" ] || skip "Chromium is not installed; scenes/setup.sh chromium can"
 modules=$build/report
-mkdir -p "$modules"
-if ! cmp -s "$here/package-lock.json" "$modules/package-lock.json" || [ ! -f "$modules/installed" ]; then
-  rm -f "$modules/installed"
-  cp "$here/package.json" "$here/package-lock.json" "$modules/"
-  (cd "$modules" && npm ci --no-audit --no-fund >npm.log 2>&1) ||
-    skip "npm could not install the packages of the page, perhaps for want of a network; its log is in the build folder"
-  : >"$modules/installed"
-fi
+bash "$here/bundle.sh" "$modules" "$modules/report-template.html" "$modules/viewer-template.html"
+[ -f "$modules/installed" ] || skip "npm could not install the packages of the page, perhaps for want of a network"
 
 code=0
 cd "$modules"
-node "$here/build.mjs" "$modules/report-template.html" || code=1
+[ -s report-template.html ] || code=1
 if [ "$code" = 0 ]; then
   CHROMIUM=$browser BUILD=$modules node --test --test-concurrency=1 --test-reporter=spec "$here"/test/*.test.mjs || code=1
   if [ -z "$report" ] && [ -x "$build/aleph" ]; then

@@ -37,25 +37,27 @@ void check_variant_name(const PreparedStudy& prepared, const std::string& varian
 }
 
 void write_error_sheet(const std::filesystem::path& path, const PreparedStudy& prepared, const StudyResults& results,
-                       const std::string& variant) {
-    check_variant_name(prepared, variant);
-    const auto found = std::ranges::find(results.variants, variant, &VariantResult::name);
+                       const std::vector<std::string>& variants) {
     std::vector<Panel> panels;
-    int width = least_width;
     for (std::size_t i = 0; i < results.frames.size(); ++i) {
         const JudgingFrame& frame = results.frames[i];
-        const ChannelImage picture = read_image(found->frames.at(i).picture);
-        const LuminanceError error =
-            compute_luminance_error(picture, expose_like(picture, read_image(frame.reference)));
-        const Image<Rgb> colour = linear_colour(picture);
-        width = std::max(width, colour.width);
-        panels.push_back(color_panel(fmt::format("{}, frame {}", frame.scene, frame.frame), colour));
-        for (std::size_t v = 0; v < frame.thresholds.size(); ++v) {
-            panels.push_back(map_panel(fmt::format("error, {}", prepared.study.viewers[v].name),
-                                       divide_error(error, frame.thresholds[v]), {0.1, 10.0, true}));
+        for (const std::string& variant : variants) {
+            check_variant_name(prepared, variant);
+            const auto found = std::ranges::find(results.variants, variant, &VariantResult::name);
+            const ChannelImage picture = read_image(found->frames.at(i).picture);
+            const LuminanceError error =
+                compute_luminance_error(picture, expose_like(picture, read_image(frame.reference)));
+            const std::string name = variants.size() > 1 ? ": " + variant : "";
+            panels.push_back(
+                color_panel(fmt::format("{}, frame {}{}", frame.scene, frame.frame, name), linear_colour(picture)));
+            for (std::size_t v = 0; v < frame.thresholds.size(); ++v) {
+                panels.push_back(map_panel(fmt::format("error, {}", prepared.study.viewers[v].name),
+                                           divide_error(error, frame.thresholds[v]), {0.1, 10.0, true}));
+            }
         }
     }
-    write_sheet(path, panels, static_cast<int>(1 + prepared.study.viewers.size()), width);
+    const std::size_t columns = variants.size() * (1 + prepared.study.viewers.size());
+    write_sheet(path, panels, static_cast<int>(columns), std::max(least_width, panels.front().display.width));
 }
 
 }  // namespace aleph

@@ -6,8 +6,6 @@
 
 #include "render/compare/compare_luminance.h"
 #include "render/compare/compare_threshold.h"
-#include "render/compare/yee_metric.h"
-#include "render/study/flip_tool.h"
 #include "render/study/reference_picture.h"
 
 namespace aleph {
@@ -42,13 +40,6 @@ ChannelImage indirect_of(const ChannelImage& picture) {
     return out;
 }
 
-double yee_percent(const ChannelImage& picture, const ChannelImage& reference, double display_white) {
-    ViewingConditions viewing;
-    viewing.display_white = display_white;
-    const Image<Rgb> a = linear_colour(picture), b = linear_colour(reference);
-    return 100.0 * static_cast<double>(count_visible_differences(a, b, viewing)) / static_cast<double>(a.size());
-}
-
 }  // namespace
 
 ChannelImage expose_like(const ChannelImage& picture, const ChannelImage& reference) {
@@ -58,9 +49,6 @@ ChannelImage expose_like(const ChannelImage& picture, const ChannelImage& refere
 }
 
 MetricValues measure_errors(const ChannelImage& picture, const FrameTruth& truth, const std::vector<Metric>& metrics) {
-    const auto wants = [&](const char* name) {
-        return std::ranges::find(metrics, name, &Metric::name) != metrics.end();
-    };
     const ChannelImage reference = expose_like(picture, truth.reference);
     MetricValues all;
     const LuminanceError error = compute_luminance_error(picture, reference);
@@ -75,11 +63,9 @@ MetricValues measure_errors(const ChannelImage& picture, const FrameTruth& truth
     const ChannelImage indirect = indirect_of(picture), true_indirect = indirect_of(reference);
     if (!indirect.channels.empty() && !true_indirect.channels.empty())
         all["relative_mse_indirect"] = compare_luminance(indirect, true_indirect, {}).relative_mse;
-    if (wants("yee")) all["yee"] = yee_percent(picture, reference, truth.display_white);
-    if (wants("flip")) {
-        if (const auto flip = run_flip(linear_colour(picture), linear_colour(reference))) all["flip"] = *flip;
-    }
-    std::erase_if(all, [&](const auto& value) { return !wants(value.first.c_str()); });
+    std::erase_if(all, [&](const auto& value) {
+        return std::ranges::find(metrics, value.first, &Metric::name) == metrics.end();
+    });
     return all;
 }
 

@@ -14,7 +14,6 @@ namespace aleph {
 struct FrameTruth {
     ChannelImage reference;                ///< R, G, B, variance.Y, and indirect.R/G/B where it has them
     std::vector<Image<float>> thresholds;  ///< cd/m2, of each viewer
-    double display_white = 100.0;          ///< cd/m2 of a value of 1
 };
 
 /// The reference at the picture's exposure, if the picture says which.
@@ -22,8 +21,7 @@ ChannelImage expose_like(const ChannelImage& picture, const ChannelImage& refere
 
 using MetricValues = std::map<std::string, double>;
 
-/// The metrics of errors; those that do not apply (indirect light of a traced picture, FLIP without its tool) are
-/// absent.
+/// The metrics of errors; those that do not apply (indirect light of a traced picture) are absent.
 /// @param picture  R, G, B, and indirect.R/G/B where it has them
 /// @throws InputError if sizes differ
 MetricValues measure_errors(const ChannelImage& picture, const FrameTruth& truth, const std::vector<Metric>& metrics);

@@ -14,29 +14,29 @@ namespace {
 
 struct Row {
     const char *name, *title, *unit;
-    bool cost, usual, of_viewer;
+    bool cost, of_viewer;
 };
 
 constexpr Row rows[] = {
-    {"processor_seconds", "processor seconds", "s", true, true, false},
-    {"share_beyond", "pixels beyond one visible threshold", "%", false, true, true},
-    {"share_certain", "pixels certainly beyond it, whatever the noise of the reference", "%", false, true, true},
-    {"mean_error", "mean error", "visible thresholds", false, true, true},
-    {"p99_error", "99th percentile of the error", "visible thresholds", false, true, true},
-    {"relative_mse", "relative MSE of luminance, less the noise of the reference", "", false, true, false},
-    {"relative_mse_indirect", "relative MSE of indirect light", "", false, true, false},
-    {"bias", "bias of the mean luminance", "%", false, true, false},
-    {"yee", "pixels that Yee's metric of 2004 finds different", "%", false, true, false},
-    {"flip", "mean FLIP error", "", false, false, false},
-    {"rays", "rays", "million", true, true, false},
-    {"gather_rays", "rays for irradiance values", "million", true, true, false},
-    {"samples", "samples per pixel", "", true, true, false},
-    {"records", "irradiance values computed", "", true, true, false},
-    {"wall_seconds", "seconds of a clock", "s", true, true, false},
+    {"processor_seconds", "processor seconds", "s", true, false},
+    {"share_beyond", "pixels beyond one visible threshold", "%", false, true},
+    {"share_certain", "pixels certainly beyond it, whatever the noise of the reference", "%", false, true},
+    {"mean_error", "mean error", "visible thresholds", false, true},
+    {"p99_error", "99th percentile of the error", "visible thresholds", false, true},
+    {"relative_mse", "relative MSE of luminance, less the noise of the reference", "", false, false},
+    {"relative_mse_indirect", "relative MSE of indirect light", "", false, false},
+    {"bias", "bias of the mean luminance", "%", false, false},
+    {"seed_difference", "pixels in which two seeds differ by more than one visible threshold", "%", false, false},
+    {"seed_flicker", "pixels in which that difference flickers along the motion", "%", false, false},
+    {"rays", "rays", "million", true, false},
+    {"gather_rays", "rays for irradiance values", "million", true, false},
+    {"samples", "samples per pixel", "", true, false},
+    {"records", "irradiance values computed", "", true, false},
+    {"wall_seconds", "seconds of a clock", "s", true, false},
 };
 
 Metric make_metric(const Row& row, const Study& study, int viewer) {
-    Metric metric{row.name, row.title, row.unit, row.cost, row.usual, viewer};
+    Metric metric{row.name, row.title, row.unit, row.cost, viewer};
     if (viewer > 0) {
         const std::string& name = study.viewers[static_cast<std::size_t>(viewer)].name;
         metric.name += "." + name;
@@ -54,17 +54,22 @@ std::vector<Metric> make_all(const Study& study) {
     return all;
 }
 
+bool needs_two_seeds(std::string_view metric) {
+    return metric.starts_with("seed_");
+}
+
 }  // namespace
 
 std::vector<Metric> list_metrics(const Study& study) {
     std::vector<Metric> all = make_all(study);
-    if (study.metrics.empty()) {
-        std::erase_if(all, [](const Metric& metric) { return !metric.usual; });
-        return all;
-    }
+    const bool one_seed = study.seeds.size() < 2;
+    if (one_seed) std::erase_if(all, [](const Metric& metric) { return needs_two_seeds(metric.name); });
+    if (study.metrics.empty()) return all;
     std::vector<std::string> known;
     for (const Row& row : rows) known.emplace_back(row.name);
     for (const std::string& name : study.metrics) {
+        if (one_seed && needs_two_seeds(name))
+            throw InputError("", "metrics", fmt::format("{} needs two seeds", printable(name)));
         if (std::ranges::find(known, name) != known.end()) continue;
         throw InputError("", "metrics",
                          fmt::format("there is no metric {}{}; known are {}", printable(name),

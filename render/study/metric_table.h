@@ -13,12 +13,11 @@ struct Metric {
     std::string title;  ///< in tables and charts
     std::string unit;   ///< empty: none
     bool cost = false;  ///< of time or work; else of error
-    bool usual = true;  ///< measured unless the study names its metrics
     int viewer = -1;    ///< index of the viewer whose thresholds it is in; -1: of none
 };
 
-/// All metrics of a study, those of every viewer among them. The first cost and the first error are what charts show
-/// first: processor_seconds and share_beyond.
+/// All metrics of a study, or those that it names, of every viewer; of two seeds only where it has them. The first cost
+/// and the first error are what charts show first: processor_seconds and share_beyond.
 /// @throws InputError for a name in `Study::metrics` that is unknown
 std::vector<Metric> list_metrics(const Study& study);
 

@@ -29,6 +29,10 @@ PreparedStudyScene prepare_scene(const StudyScene& given) {
     return scene;
 }
 
+bool has_consecutive_frames(const PreparedStudyScene& scene) {
+    return std::ranges::adjacent_find(scene.frames, [](int a, int b) { return b == a + 1; }) != scene.frames.end();
+}
+
 /// All variants are compared pixel by pixel, and seeds are a study's own list.
 void refuse(const SettingMap& settings, const std::string& place) {
     if (settings.contains("size"))
@@ -58,13 +62,15 @@ std::string name_scene(const std::filesystem::path& file) {
 PreparedStudy prepare_study(Study study) {
     PreparedStudy prepared;
     prepared.variants = list_variants(study);
-    prepared.metrics = list_metrics(study);
     for (const StudyScene& scene : study.scenes) {
         prepared.scenes.push_back(prepare_scene(scene));
         const std::string& name = prepared.scenes.back().name;
         if (std::ranges::count(prepared.scenes, name, &PreparedStudyScene::name) > 1)
             throw InputError(scene.file.string(), "scenes", fmt::format("two scenes are called {}", printable(name)));
     }
+    prepared.metrics = list_metrics(study);
+    if (std::ranges::none_of(prepared.scenes, has_consecutive_frames))
+        std::erase_if(prepared.metrics, [](const Metric& metric) { return metric.name == "seed_flicker"; });
     prepared.study = std::move(study);
     check(prepared);
     return prepared;

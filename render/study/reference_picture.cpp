@@ -12,7 +12,6 @@
 #include "render/frame/sequence.h"
 #include "render/output/frame_files.h"
 #include "render/settings/program_build.h"
-#include "render/study/processor_time.h"
 
 namespace aleph {
 
@@ -20,8 +19,7 @@ namespace {
 
 constexpr std::uint32_t reference_seed = 0x70696374u;  // keeps references apart from all that they judge
 constexpr float infinite = std::numeric_limits<float>::infinity();
-constexpr const char *variance_name = "variance.Y", *passes_key = "passes", *exposure_key = "exposureFactor",
-                     *seconds_key = "processorSeconds";
+constexpr const char *variance_name = "variance.Y", *passes_key = "passes", *exposure_key = "exposureFactor";
 
 double number_in(const ChannelImage& image, const char* key) {
     const auto found = image.metadata.find(key);
@@ -83,14 +81,12 @@ ChannelImage render_pass(const Scene& scene, RenderSettings settings, std::int64
     settings.spp += static_cast<int>(pass);
     settings.light_samples = light_samples_each * settings.spp;
     Sequence sequence(scene, settings);
-    const double start = processor_seconds();
     FrameRequest request;
     request.progress = progress;
     const FrameOutput output = sequence.render(frame, request);
     ChannelImage all = make_frame_image(output, false, sequence.scene(), settings, sequence.exposure());
     std::erase_if(all.channels, [](const Channel& channel) { return channel.name.size() > 1 || channel.name == "A"; });
     add_indirect(all, output.shaded);
-    all.metadata[seconds_key] = processor_seconds() - start;
     return all;
 }
 
@@ -118,10 +114,6 @@ double reference_passes(const ChannelImage& reference) {
     return number_in(reference, passes_key);
 }
 
-double reference_seconds(const ChannelImage& reference) {
-    return number_in(reference, seconds_key);
-}
-
 void add_pass(ChannelImage& mean, const ChannelImage& pass) {
     const double count = reference_passes(mean);
     if (count == 0.0) {
@@ -145,7 +137,6 @@ void add_pass(ChannelImage& mean, const ChannelImage& pass) {
         }
     }
     mean.metadata[passes_key] = count + 1.0;
-    mean.metadata[seconds_key] = number_in(mean, seconds_key) + number_in(pass, seconds_key);
 }
 
 ChannelImage with_exposure(ChannelImage picture, double exposure) {

@@ -1,5 +1,5 @@
 #pragma once
-// Path-traced pictures that judge others: rendered once, kept as files, and refined on demand.
+// Pictures that judge others: rendered once, kept as files, and refined on demand.
 
 #include <array>
 #include <filesystem>
@@ -15,15 +15,15 @@ namespace aleph {
 
 /// Where reference pictures are kept, since they take minutes, and what they are.
 struct ReferencePictureOptions {
-    int passes = 16;  ///< renderings that it is the mean of, at least 2
+    int passes = 4;  ///< renderings that it is the mean of, at least 2
     /// Samples per pixel of the first. Each has one more than the one before (reference_picture.cpp).
     int pass_spp = 32;
     /// "path": traced paths. "gather": no cache, 16 gather rays and 2 samples of every light at every pixel sample,
     /// which have the noise of paths that take several times as long. "settings": as the settings are.
-    std::string kind = "path";
-    std::string folder = "build/references";
-    std::string name = "scene";  ///< of the scene, for the name of the file
-    std::string identity;        ///< of what is rendered (hash_scene): another one has another file
+    std::string kind = "gather";
+    std::string folder;
+    std::string name;      ///< of the scene, for the name of the file
+    std::string identity;  ///< of what is rendered (hash_scene): another one has another file
 };
 
 /// Called as a reference is made, with the renderings that are finished.
@@ -42,9 +42,8 @@ ChannelImage load_or_render_reference_picture(const Scene& scene, const RenderSe
 std::filesystem::path reference_picture_path(const RenderSettings& settings, std::int64_t frame,
                                              const ReferencePictureOptions& options);
 
-/// Renderings that a reference is the mean of, and the seconds of a processor that they took.
+/// Renderings that a reference is the mean of.
 double reference_passes(const ChannelImage& reference);
-double reference_seconds(const ChannelImage& reference);
 
 /// Adds a rendering, R, G and B, to a mean of others; variance.Y is the variance of the mean's luminance as their
 /// differences tell it, infinite of one rendering.

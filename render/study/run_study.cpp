@@ -10,6 +10,7 @@
 #include "render/frame/sequence.h"
 #include "render/output/frame_files.h"
 #include "render/study/run_store.h"
+#include "render/study/seed_metrics.h"
 
 namespace aleph {
 
@@ -59,6 +60,8 @@ class StudyRunner {
                 std::ranges::move(summarize_runs(prepared_.scenes[s].name, runs[v][s]),
                                   std::back_inserter(result.frames));
             average_frames(result);
+            if (study_.seeds.size() > 1)
+                add_seed_metrics(results_.frames, pictures_of(runs[v], 0), pictures_of(runs[v], 1), result);
             results_.variants.push_back(std::move(result));
         }
         results_.judges = study_.judges;
@@ -67,6 +70,14 @@ class StudyRunner {
     }
 
   private:
+    /// Of a seed, by its number, in all scenes.
+    static std::vector<std::string> pictures_of(const std::vector<std::vector<MeasuredRun>>& scenes, std::size_t seed) {
+        std::vector<std::string> pictures;
+        for (const std::vector<MeasuredRun>& runs : scenes)
+            pictures.insert(pictures.end(), runs.at(seed).pictures.begin(), runs.at(seed).pictures.end());
+        return pictures;
+    }
+
     std::size_t runs_of_scene() const {
         return prepared_.variants.size() * study_.seeds.size() * static_cast<std::size_t>(study_.repeats);
     }
@@ -88,7 +99,6 @@ class StudyRunner {
                 FrameOutput output = sequence.render(scene.frames[i], request);
                 truths[i].thresholds.push_back(output.threshold);
                 if (truths[i].thresholds.size() > 1) continue;
-                truths[i].display_white = sequence.scene().viewing.display_white;
                 JudgingFrame& frame = results_.frames.emplace_back();
                 frame.scene = scene.name;
                 frame.frame = scene.frames[i];

@@ -8,7 +8,6 @@
 #include "engine/base/errors.h"
 #include "engine/base/files.h"
 #include "render/compare/compare_luminance.h"
-#include "render/study/other_program.h"
 #include "render/study/script_json.h"
 
 namespace aleph {
@@ -17,11 +16,13 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// A picture as the data of a PNG file in a link.
-std::string picture_link(const ChannelImage& picture, const TemporaryFolder& folder) {
-    const std::filesystem::path file = folder.path() / "frame.png";
-    write_png(file, linear_colour(picture));
+/// A picture as the data of a PNG file in a link; for a moment that file stands beside it.
+std::string picture_link(const std::filesystem::path& picture) {
+    std::filesystem::path file = picture;
+    file += ".png";
+    write_png(file, linear_colour(read_image(picture)));
     const Bytes bytes = read_regular_file(file, file.string(), "");
+    std::filesystem::remove(file);
     return "data:image/png;base64," +
            OIIO::Strutil::base64_encode({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
 }
@@ -59,7 +60,6 @@ std::string make_viewer_test(std::string_view page, const PreparedStudy& prepare
     const Scene& scene = prepared.scenes.front().scene;
     const RenderSettings settings = with_settings_of(prepared.scenes.front(), prepared.study, {}).settings;
     const std::string& name = prepared.scenes.front().name;
-    const TemporaryFolder folder;
     const StudyAxis* axis = find_level_axis(prepared.study);
     Json json{{"schema_version", 1},
               {"title", prepared.study.title},
@@ -73,14 +73,13 @@ std::string make_viewer_test(std::string_view page, const PreparedStudy& prepare
               {"reference", {{"frames", Json::array()}}},
               {"tests", Json::array()}};
     for (const JudgingFrame& frame : results.frames) {
-        if (frame.scene == name)
-            json["reference"]["frames"].push_back(picture_link(read_image(frame.reference), folder));
+        if (frame.scene == name) json["reference"]["frames"].push_back(picture_link(frame.reference));
     }
     for (const VariantResult& variant : results.variants) {
         Json& test = json["tests"].emplace_back();
         test = {{"id", variant.name}, {"level", level_of(variant, axis)}, {"frames", Json::array()}};
         for (const FrameResult& frame : variant.frames) {
-            if (frame.scene == name) test["frames"].push_back(picture_link(read_image(frame.picture), folder));
+            if (frame.scene == name) test["frames"].push_back(picture_link(frame.picture));
         }
     }
     std::string text(page);

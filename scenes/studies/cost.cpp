@@ -7,12 +7,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/base/errors.h"
 #include "engine/load/load_scene.h"
 #include "render/budget/cost_pilot.h"
 #include "render/cli/options.h"
+#include "render/frame/sequence.h"
 #include "render/settings/measure.h"
+#include "render/study/prepared_study.h"
 #include "scenes/studies/cost_fit.h"
-#include "scenes/studies/study_frame.h"
 #include "scenes/studies/study_options.h"
 #include "scenes/studies/study_table.h"
 
@@ -21,9 +23,8 @@ namespace aleph {
 namespace {
 
 struct CostOptions {
-    StudyOptions study{.size = "320x240", .gather = 0, .spp = 0, .threads = 1};
-    std::vector<std::string> fit, check, sets, errors = {"10", "2", "1", ".5"};
-    bool markdown = false;
+    StudyOptions study{.threads = 1};
+    std::vector<std::string> fit, check, errors = {"10", "2", "1", ".5"};
 };
 
 /// Seconds of a frame rendered whole.
@@ -46,9 +47,9 @@ MeasuredFrame measure_frame(const std::string& text, const CostOptions& options)
     const FrameOfScene which = parse_frame_of_scene(text);
     const Scene scene = load_scene(which.file);
     const std::int64_t number = which.frame.value_or(0);
-    const RenderSettings settings = scene_settings(scene, which.file, options.study.size, options.sets);
+    const RenderSettings settings = scene_settings(scene, which.file, options.study);
     MeasuredFrame frame;
-    frame.name = fmt::format("{} {}", scene_name(which.file), number);
+    frame.name = fmt::format("{} {}", name_scene(which.file), number);
     PilotRequest request{scene, "", {number}, {}, [](const PilotSeconds&, double) { return true; }};
     for (const std::string& error : options.errors) {
         request.settings.push_back(with_settings(settings, {"error=" + error}));
@@ -115,8 +116,9 @@ void print_parts(const std::vector<MeasuredFrame>& frames, const CostCoefficient
     fmt::print("\n");
 }
 
-void run_cost(const CostOptions& options) {
+int run_cost(const CostOptions& options) {
     std::vector<MeasuredFrame> fit_frames, check_frames;
+    if (options.fit.empty() && options.check.empty()) throw InputError("", "--check", "name frames to fit or to check");
     for (const std::string& text : options.fit) fit_frames.push_back(measure_frame(text, options));
     for (const std::string& text : options.check) check_frames.push_back(measure_frame(text, options));
     const CostCoefficients fitted = fit_frames.empty() ? fitted_coefficients() : fit_coefficients(fit_frames);
@@ -128,9 +130,10 @@ void run_cost(const CostOptions& options) {
          {std::pair{&fit_frames, "frames that were fitted"}, std::pair{&check_frames, "others"}}) {
         if (frames->empty()) continue;
         fmt::print("Seconds of the {}, measured / predicted:\n\n", title);
-        print_parts(*frames, fitted, options.markdown);
-        print_check(*frames, fitted, options.markdown);
+        print_parts(*frames, fitted, options.study.markdown);
+        print_check(*frames, fitted, options.study.markdown);
     }
+    return exit_done;
 }
 
 }  // namespace
@@ -147,9 +150,6 @@ int main(int argc, char** argv) {
     app.add_option("--errors", options.errors, "errors to ask for, the largest first")
         ->delimiter(',')
         ->capture_default_str();
-    app.add_option("--size", options.study.size, "WIDTHxHEIGHT of the frames in pixels")->capture_default_str();
-    aleph::add_set_option(app, options.sets);
-    aleph::add_value(app, "-t,--threads", options.study.threads, "number of threads; 0: all");
-    app.add_flag("--markdown", options.markdown, "print the tables as Markdown");
-    return aleph::run_study(app, options.study, argc, argv, [&] { aleph::run_cost(options); });
+    aleph::add_study_program_options(app, options.study);
+    return aleph::run_study_program(app, options.study, argc, argv, [&] { return aleph::run_cost(options); });
 }

@@ -12,7 +12,8 @@
 #include "render/cli/options.h"
 #include "render/cli/progress.h"
 #include "render/frame/sequence.h"
-#include "scenes/studies/study_frame.h"
+#include "render/study/prepared_study.h"
+#include "render/study/processor_time.h"
 #include "scenes/studies/study_options.h"
 #include "scenes/studies/study_table.h"
 
@@ -21,11 +22,10 @@ namespace aleph {
 namespace {
 
 struct EffectsOptions {
-    StudyOptions study{.size = "320x240", .gather = 0, .spp = 0};
+    StudyOptions study;
     std::vector<std::string> frames;  ///< SCENE or SCENE@FRAME
-    std::vector<std::string> sets;
     int seeds = 4;
-    bool markdown = false, quick = false;
+    bool quick = false, quiet = false;
 };
 
 /// A picture and what it took, key moments included.
@@ -191,9 +191,9 @@ Finding compare_with_bound(const Scene& scene, const RenderSettings& settings, s
 
 void try_frame(const FrameOfScene& which, const EffectsOptions& options, const StudyTable& table, Totals& totals) {
     const Scene scene = load_scene(which.file);
-    const RenderSettings settings = scene_settings(scene, which.file, options.study.size, options.sets);
+    const RenderSettings settings = scene_settings(scene, which.file, options.study);
     const std::int64_t frame = which.frame.value_or(frame_range(scene).first);
-    const std::string name = fmt::format("{} {}", scene_name(which.file), frame);
+    const std::string name = fmt::format("{} {}", name_scene(which.file), frame);
     const Picture planned = render_picture(scene, settings, frame);
     RenderSettings off = settings;
     off.plan = EffectsPlanning::off;
@@ -238,11 +238,11 @@ void make_quick(EffectsOptions& options) {
 int run_effects(const EffectsOptions& options) {
     const StudyTable table({"frame", "forced", "bound, cd/m2", "thresholds", "difference", "noise", "seconds", "forced",
                             "share of rays", "violations"},
-                           2, options.markdown);
+                           2, options.study.markdown);
     Totals totals;
     if (options.seeds < 2) throw InputError("", "--seeds", "expected at least 2: one has no variance");
     if (options.frames.empty()) throw InputError("", "frames", "name scene files, or give --quick");
-    Progress progress("frames", static_cast<double>(options.frames.size()), progress_look(options.study.quiet));
+    Progress progress("frames", static_cast<double>(options.frames.size()), progress_look(options.quiet));
     for (std::size_t i = 0; i < options.frames.size(); ++i) {
         try_frame(parse_frame_of_scene(options.frames[i]), options, table, totals);
         progress.update(static_cast<double>(i + 1));
@@ -268,15 +268,10 @@ int main(int argc, char** argv) {
         ->type_name("FRAME");
     app.add_flag("--quick", options.quick, "a few frames of scenes of this repository, small: about 20 seconds");
     aleph::add_value(app, "--seeds", options.seeds, "pairs of renderings where a bound is above 0, at least 2");
-    app.add_option("--size", options.study.size, "WIDTHxHEIGHT of the frames in pixels")->capture_default_str();
-    aleph::add_value(app, "-t,--threads", options.study.threads, "number of threads; 0: all");
-    aleph::add_quiet_option(app, options.study);
-    aleph::add_set_option(app, options.sets);
-    app.add_flag("--markdown", options.markdown, "print the table as Markdown");
-    int violations = 0;
-    const int code = aleph::run_study(app, options.study, argc, argv, [&] {
+    app.add_flag("-q,--quiet", options.quiet, "do not show progress");
+    aleph::add_study_program_options(app, options.study);
+    return aleph::run_study_program(app, options.study, argc, argv, [&] {
         if (options.quick) aleph::make_quick(options);
-        violations = aleph::run_effects(options);
+        return aleph::run_effects(options);
     });
-    return code != 0 ? code : violations;
 }

@@ -8,23 +8,27 @@
 #include <functional>
 
 #include "engine/load/load_scene.h"
+#include "engine/pose/posed_view.h"
+#include "engine/rays/ray_scene.h"
 #include "motion/image_motion.h"
 #include "motion/model_motion.h"
 #include "render/cli/options.h"
 #include "render/frame/sequence.h"
 #include "render/output/sheet.h"
+#include "render/pixels/pixel_surfaces.h"
+#include "render/study/processor_time.h"
 #include "scenes/studies/raster_motion.h"
-#include "scenes/studies/study_frame.h"
 #include "scenes/studies/study_options.h"
+#include "scenes/studies/study_table.h"
 
 namespace aleph {
 
 namespace {
 
 struct MotionOptions {
-    StudyOptions study{.picture = "motion.png", .gather = 256, .spp = 4};
+    StudyOptions study{.size = "640x480"};
+    std::string scene, picture = "motion.jpg";
     int frame = 40;
-    double accuracy = 0.2;
 };
 
 /// For every instance: does it move between the frame and the next, apart from the camera?
@@ -73,7 +77,8 @@ std::vector<double> list_errors(const MotionField& field, const MotionField& tru
     return errors;
 }
 
-void print_row(const std::string& source, const Region& region, const std::vector<double>& errors) {
+void add_row(const StudyTable& table, const std::string& source, const Region& region,
+             const std::vector<double>& errors) {
     if (errors.empty()) return;
     const auto quantile = [&](double q) {
         return errors[std::min(errors.size() - 1, static_cast<std::size_t>(q * static_cast<double>(errors.size())))];
@@ -81,9 +86,9 @@ void print_row(const std::string& source, const Region& region, const std::vecto
     double mean = 0.0;
     for (const double e : errors) mean += e / static_cast<double>(errors.size());
     const auto beyond = errors.end() - std::upper_bound(errors.begin(), errors.end(), 1.0);
-    fmt::print("| {} | {} | {} | {:.2f} | {:.2f} | {:.1f} | {:.1f} |\n", source, region.name, errors.size(),
-               quantile(0.5), mean, quantile(0.95),
-               100.0 * static_cast<double>(beyond) / static_cast<double>(errors.size()));
+    table.add({source, region.name, fmt::format("{}", errors.size()), fmt::format("{:.2f}", quantile(0.5)),
+               fmt::format("{:.2f}", mean), fmt::format("{:.1f}", quantile(0.95)),
+               fmt::format("{:.1f}", 100.0 * static_cast<double>(beyond) / static_cast<double>(errors.size()))});
 }
 
 Image<float> lengths_of(const Image<glm::dvec2>& displacement) {
@@ -112,14 +117,19 @@ struct Motions {
 /// Model-based motion once more, by itself, and what rasterized maps would give.
 void time_model(const Sequence& sequence, const RenderSettings& settings, int frame, Motions& motions) {
     const Scene& scene = sequence.scene();
-    StudyFrame now(sequence, settings, frame);
-    const PosedView other =
-        make_posed_view(scene, scene.frame_rate.seconds_of(frame + 1), now.camera, settings.width, settings.height);
+    const int camera = find_camera(scene, "");
+    const auto pose_frame = [&](int number) {
+        return make_posed_view(scene, scene.frame_rate.seconds_of(number), camera, settings.width, settings.height);
+    };
+    const PosedView now = pose_frame(frame), other = pose_frame(frame + 1);
+    const PosePlan plan = make_pose_plan(scene);
+    RayScene rays(scene, plan);
+    rays.update(now.pose, compute_anchor(now.view));
     double start = processor_seconds();
-    const SampleHits hits = cast_centers(now.rays, now.posed.view, nullptr);
+    const SampleHits hits = cast_centers(rays, now.view, nullptr);
     motions.hits_seconds = processor_seconds() - start;
     start = processor_seconds();
-    compute_model_motion(scene, now.posed, other, hits.hits, OtherFrame::next);
+    compute_model_motion(scene, now, other, hits.hits, OtherFrame::next);
     motions.model_seconds = processor_seconds() - start;
     motions.from_raster = compute_raster_motion(scene, other, motions.now.hits, motions.model());
 }
@@ -138,16 +148,16 @@ Motions find_motions(const Scene& scene, const RenderSettings& settings, int fra
     return motions;
 }
 
-void print_table(const Motions& motions, const std::vector<bool>& movers) {
+void print_table(const Motions& motions, const std::vector<bool>& movers, bool markdown) {
     MotionField nothing = motions.model();
     std::fill(nothing.displacement.pixels.begin(), nothing.displacement.pixels.end(), glm::dvec2(0.0));
-    fmt::print("| motion from | region | pixels | median | mean | 95 % | beyond 1 px (%) |\n");
-    fmt::print("| --- | --- | ---: | ---: | ---: | ---: | ---: |\n");
+    const StudyTable table({"motion from", "region", "pixels", "median", "mean", "95 %", "beyond 1 px (%)"}, 2,
+                           markdown);
     for (const Region& region : list_regions(motions.now, movers)) {
-        print_row("rendered frames", region, list_errors(motions.from_frames, motions.model(), region));
-        print_row("ID and UV maps of 8 bits", region, list_errors(motions.from_raster, motions.model(), region));
-        print_row("quick estimates", region, list_errors(motions.from_estimates, motions.model(), region));
-        print_row("nothing: 0 everywhere", region, list_errors(nothing, motions.model(), region));
+        add_row(table, "rendered frames", region, list_errors(motions.from_frames, motions.model(), region));
+        add_row(table, "ID and UV maps of 8 bits", region, list_errors(motions.from_raster, motions.model(), region));
+        add_row(table, "quick estimates", region, list_errors(motions.from_estimates, motions.model(), region));
+        add_row(table, "nothing: 0 everywhere", region, list_errors(nothing, motions.model(), region));
     }
 }
 
@@ -165,23 +175,20 @@ std::vector<Panel> make_panels(const Motions& motions, int frame) {
             map_panel(fmt::format("error of image-based motion, 0 to {:g} px", range.high), lengths_of(error), range)};
 }
 
-void run_motion(const MotionOptions& options) {
-    const StudyOptions& study = options.study;
-    const Scene scene = load_scene(study.scene);
-    RenderSettings settings = study_settings(scene, study.scene, study);
-    settings.accuracy = options.accuracy;
-    validate(settings);
+int run_motion(const MotionOptions& options) {
+    const Scene scene = load_scene(options.scene);
+    const RenderSettings settings = scene_settings(scene, options.scene, options.study);
     const Motions motions = find_motions(scene, settings, options.frame);
-    fmt::print("{}, frames {} and {}, {}; errors against model-based motion, pixels\n\n", study.scene, options.frame,
-               options.frame + 1, study.size);
-    print_table(motions, find_movers(scene, options.frame));
+    fmt::print("{}, frames {} and {}, {}; errors against model-based motion, pixels\n\n", options.scene, options.frame,
+               options.frame + 1, options.study.size);
+    print_table(motions, find_movers(scene, options.frame), options.study.markdown);
     fmt::print(
         "\nProcessor seconds: model-based motion {:.4f}, and first hits {:.4f}, which the frame needs anyway; "
-        "image-based "
-        "motion {:.4f}\n",
+        "image-based motion {:.4f}\n",
         motions.model_seconds, motions.hits_seconds, motions.image_seconds);
-    write_sheet(study.picture, make_panels(motions, options.frame), 2, 400);
-    fmt::print("\nThe picture: {}\n", study.picture);
+    write_sheet(options.picture, make_panels(motions, options.frame), 2, 400);
+    fmt::print("\nThe picture: {}\n", options.picture);
+    return exit_done;
 }
 
 }  // namespace
@@ -190,9 +197,9 @@ void run_motion(const MotionOptions& options) {
 int main(int argc, char** argv) {
     CLI::App app{"Compares image-based with model-based motion: errors by region, and a picture of both."};
     aleph::MotionOptions options;
-    aleph::add_scene_option(app, options.study);
-    aleph::add_study_options(app, options.study);
-    aleph::add_accuracy_option(app, options.accuracy);
+    app.add_option("scene", options.scene, "a scene file")->required();
     aleph::add_value(app, "--frame", options.frame, "the first of two frames");
-    return aleph::run_study(app, options.study, argc, argv, [&] { aleph::run_motion(options); });
+    app.add_option("-o,--output", options.picture, "file of the picture, .png or .jpg")->capture_default_str();
+    aleph::add_study_program_options(app, options.study);
+    return aleph::run_study_program(app, options.study, argc, argv, [&] { return aleph::run_motion(options); });
 }

@@ -1,11 +1,46 @@
 #!/usr/bin/env bash
-# Runs the study pool.json and makes report.jpg, a picture of its page. Takes a few minutes.
+# Runs the studies whose results README.md and THESIS.md have, in out/studies, and makes their pictures.
+#   bash scenes/studies/report.sh [study ...]     pool takes minutes, all of them hours
 set -euo pipefail
-here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
-root=$(cd "$here/../.." && pwd)
-cd "$root"
+cd "$(dirname "$0")/../.."
 bash scenes/setup.sh chromium
 cmake -S . -B build -G Ninja >/dev/null
-ninja -C build --quiet aleph
-build/aleph study scenes/studies/pool.json -o build/study-pool
-bash render/report/picture.sh build build/study-pool/report.html "$here/report.jpg"
+ninja -C build --quiet aleph study_motion
+
+# study FILE NAME [OPTION ...]
+study() {
+  local file=scenes/studies/$1.json name=$2
+  shift 2
+  build/aleph study "$file" -o "out/studies/$name" "$@"
+}
+
+# The same, guided by either model of vision.
+both() {
+  study "$1" "$1"
+  study "$1" "$1-castle" --set vision=castle --set viewing.persistence=1 --viewers castle,thesis
+}
+
+run() {
+  case $1 in
+    demo)
+      bash scenes/demo.sh
+      cp build/demo/errors.jpg scenes/studies/demo.jpg
+      cp build/demo/maps.png scenes/studies/maps.png ;;
+    pool)
+      study pool pool
+      bash render/report/picture.sh build out/studies/pool/report.html scenes/studies/report.jpg ;;
+    scenes)
+      study scenes scenes -t 1 --errors "error 1, thesis"
+      cp out/studies/scenes/errors.jpg scenes/studies/errors.jpg ;;
+    choices | antique-room) study "$1" "$1" -t 1 ;;
+    effects) study effects effects -t 1 --repeats 3 ;;
+    thesis-pool | thesis-gallery | thesis-antique-room) both "$1" ;;
+    motion)
+      build/study_motion scenes/boomerang/scene.json --frame 24 --set spp=8 --set gather=256 --set light_step=0 --markdown \
+        -o scenes/boomerang/motion.jpg ;;
+    *) echo "report.sh: there is no study $1" >&2; exit 2 ;;
+  esac
+}
+
+[ $# -gt 0 ] || set -- demo motion pool thesis-pool thesis-gallery thesis-antique-room scenes choices effects antique-room
+for name in "$@"; do run "$name"; done

@@ -1,69 +1,35 @@
 #pragma once
-// The command line of the studies.
+// The command line of the study programs.
 
 #include <CLI/CLI.hpp>
 #include <functional>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "render/settings/settings.h"
 
 namespace aleph {
 
+/// Options that all of them have.
 struct StudyOptions {
-    std::string scene{};           ///< a scene file
-    std::string size = "640x480";  ///< of the frames, WIDTHxHEIGHT in pixels
-    std::string picture{};         ///< .png or .jpg; empty: the study draws none
-    int gather = 1024;             ///< rays per irradiance value
-    int spp = 1;                   ///< 0: the study takes pixel centres and has no option for it
+    std::string size = "320x240";  ///< of the frames, WIDTHxHEIGHT in pixels
+    std::vector<std::string> sets{};
     int threads = 0;
-    bool quiet = false;
+    bool markdown = false;
 };
 
-/// SCENE, the one positional argument of most studies.
-void add_scene_option(CLI::App& app, StudyOptions& options);
-/// --size, --gather, --threads; --spp where there are samples, --output where there is a picture.
-void add_study_options(CLI::App& app, StudyOptions& options);
-/// -q, --quiet.
-void add_quiet_option(CLI::App& app, StudyOptions& options);
-/// The name of the folder for a file called scene.json, else the name of the file.
-std::string scene_name(const std::string& file);
+/// --size, --set, --threads, --markdown.
+void add_study_program_options(CLI::App& app, StudyOptions& options);
 
-/// The numbers of a list.
-/// @throws CLI::ConversionError naming the option
-std::vector<double> parse_values(const std::vector<std::string>& texts, const char* option);
-
-/// Whether there is a setting of this name in this version.
-bool has_setting(const std::string& key);
-
-/// Hexadecimal digits that tell texts apart; a number for the bytes of a file.
-std::string hash_text(const std::string& text);
-std::string hash_file(const std::string& file);
-
-/// --set.
-void add_set_option(CLI::App& app, std::vector<std::string>& sets);
-
-/// --accuracy.
-void add_accuracy_option(CLI::App& app, double& accuracy);
-
-/// The settings of a scene, with those of the options in their places.
+/// The settings of a scene at the size of the options, with those of --set in their places.
 /// @param file  of the scene, for errors
-/// @throws InputError for a setting that is out of range
-RenderSettings study_settings(const Scene& scene, const std::string& file, const StudyOptions& options);
-
-/// The settings of a scene for a size, WIDTHxHEIGHT, with those of "KEY=VALUE" texts in their places.
-/// @param file  of the scene, for errors
-/// @throws InputError for a setting that is out of range
-RenderSettings scene_settings(const Scene& scene, const std::string& file, const std::string& size,
-                              const std::vector<std::string>& sets);
+/// @throws InputError for a setting that is unknown or out of range
+RenderSettings scene_settings(const Scene& scene, const std::string& file, const StudyOptions& options);
 
 /// With the settings of texts "KEY=VALUE", all at once: what `error` sets, the others override.
 /// @throws InputError for an unknown key, or a value that is out of range
 RenderSettings with_settings(RenderSettings settings, const std::vector<std::string>& texts);
-
-/// With a setting that is a choice, by the names of the scene file.
-/// @throws InputError for an unknown name
-RenderSettings with_choice(RenderSettings settings, const std::string& key, const std::string& value);
 
 struct FrameOfScene {
     std::string file;
@@ -74,9 +40,9 @@ struct FrameOfScene {
 /// @throws InputError if no number follows the last @
 FrameOfScene parse_frame_of_scene(const std::string& text);
 
-/// Reads the command line and runs a study on the number of threads that the options ask for.
-/// @return the exit code
-int run_study(CLI::App& app, const StudyOptions& options, int argc, const char* const* argv,
-              const std::function<void()>& study);
+/// Reads the command line and calls the program on the number of threads that the options ask for.
+/// @param program  returns the exit code
+int run_study_program(CLI::App& app, const StudyOptions& options, int argc, const char* const* argv,
+                      const std::function<int()>& program);
 
 }  // namespace aleph

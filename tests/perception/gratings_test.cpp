@@ -8,9 +8,8 @@
 #include "perception/castle.h"
 #include "perception/castle_row.h"
 #include "perception/sensitivity.h"
-#include "scenes/studies/grating_run.h"
-#include "scenes/studies/vision_formulas.h"
-#include "scenes/studies/vision_maps.h"
+#include "tests/perception/grating_run.h"
+#include "tests/perception/vision_formulas.h"
 #include "tests/support/numbers.h"
 #include "tests/support/perception_reference.h"
 
@@ -148,16 +147,6 @@ TEST(Gratings, LairdPeaksWhereItsConstantsSay) {
     EXPECT_NEAR(csf_max(0.15, laird_2006) / written_laird_sensitivity(peak, 0.3), 1.0, 1e-12);
     EXPECT_GT(csf_max(0.3, laird_2006), written_laird_sensitivity(1.001 * peak, 0.3));
     EXPECT_GT(csf_max(0.3, laird_2006), written_laird_sensitivity(0.999 * peak, 0.3));
-}
-
-TEST(VisionMaps, RankCorrelationAndQuantilesOfKnownValues) {
-    EXPECT_DOUBLE_EQ(rank_correlation({1, 5, 9}, {2, 20, 200}), 1.0);
-    EXPECT_DOUBLE_EQ(rank_correlation({1, 5, 9}, {3, 2, 1}), -1.0);
-    EXPECT_DOUBLE_EQ(rank_correlation({1, 2, 2, 3}, {1, 3, 2, 4}), 4.5 / std::sqrt(4.5 * 5.0));  // with a tie
-    EXPECT_EQ(rank_correlation({1, 1, 1}, {1, 2, 3}), 0.0);
-    EXPECT_EQ(quantile({5, 1, 3, 2, 4}, 0.5), 3.0);
-    EXPECT_EQ(quantile({5, 1, 3, 2, 4}, 0.0), 1.0);
-    EXPECT_EQ(quantile({5, 1, 3, 2, 4}, 1.0), 5.0);
 }
 
 }  // namespace

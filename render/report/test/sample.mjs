@@ -92,7 +92,7 @@ function metricsOf(error, guide, frame = 0) {
     processor_seconds: { value: (guided ? 1.1 : 2) / error + frame / 400, error: 0.04 },
     share_beyond: { value: error < 1 && !guided ? 0 : 0.8 * error ** 1.5 * (guided ? 1.6 : 1), error: 0.1 },
     relative_mse: { value: 0.002 * error ** 2 },
-    yee: null,
+    seed_flicker: null,
   };
 }
 
@@ -152,7 +152,7 @@ export function makeStudy(size) {
       { name: 'processor_seconds', title: 'processor seconds', unit: 's', log: true },
       { name: 'share_beyond', title: 'pixels beyond one visible threshold', unit: '%', log: true },
       { name: 'relative_mse', title: 'relative mean squared error', log: true },
-      { name: 'yee', title: 'difference by Yee', unit: '%' },
+      { name: 'seed_flicker', title: 'flicker of two seeds', unit: '%' },
     ],
     variants: errors.flatMap(error => guides.map(guide => variantOf(writer, error, guide))),
     pictures: frames.map(frame => ({

@@ -117,7 +117,7 @@ describe('other parts', () => {
     await page.waitForFunction(() => /relative mean squared error/.test(document.querySelector('#results-title').textContent)
       || /relative mean squared error/.test(document.querySelector('#chart svg').textContent));
     assert.equal(await page.$eval('#chart-note', node => node.textContent), '');
-    await choose(page, '#chart-controls', 'Vertical axis', 'yee');
+    await choose(page, '#chart-controls', 'Vertical axis', 'seed_flicker');
     await page.waitForFunction(() => /6 variants have no value/.test(document.querySelector('#chart-note').textContent));
   });
 });

@@ -76,17 +76,6 @@ TEST(Sheet, AMapRunsFromBlackOverRedToYellow) {
     EXPECT_EQ(middle.display(3, 0), middle.display(0, 0));
 }
 
-TEST(Sheet, RecordsAreDotsOfFourPixels) {
-    Image<float> records(6, 5, 0.0f);
-    records(1, 1) = 1.0f;
-    records(5, 4) = 1.0f;
-    const Panel panel = records_panel("", records);
-    int bright = 0;
-    for (const Rgb& pixel : panel.display.pixels) bright += pixel.x == 1.0f;
-    EXPECT_EQ(bright, 5);
-    for (const auto& [x, y] : {std::pair(1, 1), {2, 1}, {1, 2}, {2, 2}, {5, 4}}) EXPECT_EQ(panel.display(x, y).x, 1.0f);
-}
-
 TEST(MapPreview, HoldsTheMapsThatTheFrameHas) {
     const ScratchFolder folder;
     FrameOutput output;

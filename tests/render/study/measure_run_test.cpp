@@ -1,15 +1,8 @@
-// Errors of pictures whose differences are known, and other programs that measure.
+// Errors of pictures whose differences are known.
 
 #include "render/study/measure_run.h"
 
 #include <gtest/gtest.h>
-#include <sys/stat.h>
-
-#include <fstream>
-
-#include "render/study/flip_tool.h"
-#include "render/study/other_program.h"
-#include "tests/support/scratch_folder.h"
 
 namespace aleph {
 namespace {
@@ -36,7 +29,7 @@ std::vector<Metric> all_metrics(int viewers) {
 
 FrameTruth truth_of(ChannelImage reference, double variance) {
     reference.channels.push_back({"variance.Y", Image<float>(10, 10, static_cast<float>(variance))});
-    return {std::move(reference), {Image<float>(10, 10, 2.0f), Image<float>(10, 10, 0.5f)}, white};
+    return {std::move(reference), {Image<float>(10, 10, 2.0f), Image<float>(10, 10, 0.5f)}};
 }
 
 TEST(MeasureErrors, KnownDifferences) {
@@ -75,31 +68,6 @@ TEST(MeasureErrors, ExposureAndIndirectLight) {
     for (std::size_t c = 3; c < 6; ++c) picture.channels[c].values.pixels[0] = 0.6f;
     const MetricValues changed = measure_errors(picture, truth_of(grey(0.5f, true), 0.0), all_metrics(1));
     EXPECT_NEAR(changed.at("relative_mse_indirect"), 0.01 / 0.25 / 100.0, 1e-6);
-}
-
-TEST(OtherPrograms, AreRunInTheirFolderWithTheirInput) {
-    const ScratchFolder folder;
-    EXPECT_TRUE(find_program("sh").has_value());
-    EXPECT_FALSE(find_program("no-such-program-here").has_value());
-    const ProgramOutput output = run_program_in(folder.path(), {"sh", "-c", "pwd; cat; exit 3"}, "in");
-    EXPECT_EQ(output.code, 3);
-    EXPECT_EQ(output.text, std::filesystem::canonical(folder.path()).string() + "\nin");
-    EXPECT_NE(run_program_in(folder.path(), {"no-such-program-here"}, "").code, 0);
-}
-
-TEST(OtherPrograms, FlipIsReadFromWhatItPrints) {
-    const ScratchFolder folder;
-    const std::filesystem::path flip = folder / "flip";
-    std::ofstream(flip) << "#!/bin/sh\ntest -s test.png && test -s reference.png && echo '  Mean: 0.0625'\n";
-    ::chmod(flip.c_str(), 0755);
-    const std::string path = std::getenv("PATH");
-    ::setenv("PATH", (folder.path().string() + ":" + path).c_str(), 1);
-    Study study;
-    study.viewers.push_back({"one", {}});
-    study.metrics = {"flip"};
-    const MetricValues values = measure_errors(grey(0.5f), truth_of(grey(0.5f), 0.0), list_metrics(study));
-    ::setenv("PATH", path.c_str(), 1);
-    EXPECT_EQ(values.at("flip"), 0.0625);
 }
 
 }  // namespace

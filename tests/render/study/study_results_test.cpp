@@ -8,7 +8,6 @@
 #include <nlohmann/json.hpp>
 
 #include "render/study/study_files.h"
-#include "render/study/study_plot.h"
 #include "tests/support/german_locale.h"
 
 namespace aleph {
@@ -94,7 +93,7 @@ Draft draft_study() {
     study.viewers.push_back({"own", {}});
     study.sweep = {{"guide", {std::string("a,b")}}};
     draft.prepared.variants = list_variants(study);
-    draft.prepared.metrics = {{"processor_seconds", "", "", true, true, -1}, {"share_beyond", "", "", false, true, 0}};
+    draft.prepared.metrics = {{"processor_seconds", "", "", true, -1}, {"share_beyond", "", "", false, 0}};
     VariantResult variant = variant_of(draft.prepared.variants[0].name, 1.5, 0.0);
     variant.settings = draft.prepared.variants[0].settings;
     FrameResult& frame = variant.frames.emplace_back();
@@ -112,22 +111,9 @@ TEST(StudyResults, DT09_CsvHasQuotesWhereNeededAndPointsInEveryLocale) {
         "scene,frame,variant,guide,processor_seconds,processor_seconds_error,share_beyond,share_beyond_error\n"
         "\"say \"\"pool\"\"\",-3,\"guide=a,b\",\"a,b\",1.5,0.25,,\n";
     EXPECT_EQ(study_csv(draft.prepared, draft.results), expected);
-    const std::string plot = plot_program(draft.prepared, draft.results);
     const GermanLocale locale;
     if (!locale.available()) GTEST_SKIP() << "the locale de_DE is not installed";
     EXPECT_EQ(study_csv(draft.prepared, draft.results), expected);
-    EXPECT_EQ(plot_program(draft.prepared, draft.results), plot);
-}
-
-TEST(StudyResults, ChartsAreDrawnWhereGnuplotIs) {
-    const Draft draft = draft_study();
-    const std::string program = plot_program(draft.prepared, draft.results);
-    EXPECT_NE(program.find(R"("\\{\"quoted\", \\_under\\_\\}")"), std::string::npos)
-        << "markup characters stand for themselves:\n"
-        << program;
-    const ScratchFolder folder;
-    if (!draw_with_gnuplot(folder / "plot.png", program)) GTEST_SKIP() << "gnuplot is not installed";
-    EXPECT_GT(std::filesystem::file_size(folder / "plot.png"), 2000u);
 }
 
 TEST(StudyResults, DateFollowsTheEnvironment) {

@@ -1,4 +1,4 @@
-#include "scenes/studies/grating.h"
+#include "tests/perception/grating.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,11 +1,11 @@
-#include "scenes/studies/grating_run.h"
+#include "tests/perception/grating_run.h"
 
 #include <algorithm>
 #include <cmath>
 
 #include "perception/castle_row.h"
 #include "perception/perception.h"
-#include "scenes/studies/vision_formulas.h"
+#include "tests/perception/vision_formulas.h"
 
 namespace aleph {
 

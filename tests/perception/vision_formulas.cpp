@@ -1,14 +1,14 @@
-#include "scenes/studies/vision_formulas.h"
+#include "tests/perception/vision_formulas.h"
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
+#include "tests/support/numbers.h"
+
 namespace aleph {
 
 namespace {
-
-constexpr double pi = std::numbers::pi;
 
 double kelly_gain(double v, double c2) {
     return 6.1 + 7.3 * std::pow(std::abs(std::log10(c2 * v / 3.0)), 3.0);

@@ -4,7 +4,7 @@
 #include "engine/base/frame_rate.h"
 #include "engine/base/viewing.h"
 #include "perception/perception_settings.h"
-#include "scenes/studies/grating.h"
+#include "tests/perception/grating.h"
 
 namespace aleph {
 
