@@ -103,7 +103,7 @@ std::optional<FrameRate> find_frame_rate(const AlembicArchive& archive) {
 
 }  // namespace
 
-AlembicTiming append_alembic(const std::filesystem::path& path, Scene& scene, int parent_node, int include_index) {
+FileTiming append_alembic(const std::filesystem::path& path, Scene& scene, int parent_node, int include_index) {
     const std::string file = path.string();
     const AlembicArchive archive(read_regular_file(path, file, ""), file);
     AlembicReader reader(archive);
@@ -113,7 +113,7 @@ AlembicTiming append_alembic(const std::filesystem::path& path, Scene& scene, in
     } catch (const std::bad_alloc&) {
         throw InputError(file, "", "there is not enough memory for what the archive holds");
     }
-    AlembicTiming timing;
+    FileTiming timing;
     timing.frame_rate = find_frame_rate(archive);
     if (reader.first <= reader.last) {
         timing.first = reader.first;

@@ -17,7 +17,7 @@ double half_width_tangent(std::span<const double> core) {
     return core[horizontal_aperture] * mm_per_cm / (2.0 * core[focal_length]);
 }
 
-/// Of the 16 numbers, what Camera needs: radians, heights of the picture, scene units.
+/// The numbers that Camera needs: radians, heights of the picture, scene units.
 struct View {
     double fov, shift_x, shift_y, focus;
 };

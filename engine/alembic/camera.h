@@ -35,7 +35,7 @@ struct FilmWindow {
     double left = -1.0, right = 1.0, bottom = -1.0, top = 1.0;
 };
 
-/// Of a camera's 16 numbers. @param film_back  applied to the corners (column vectors)
+/// The film window that a camera's 16 numbers describe. @param film_back  applied to the corners (column vectors)
 /// @param overscan  false: the film's frame alone, which is what a picture shows
 FilmWindow film_window(std::span<const double> core, const glm::dmat3& film_back, bool overscan);
 

@@ -97,7 +97,7 @@ bool are_faces_clockwise(const RunSurface& surface) {
     return clockwise >= 0;
 }
 
-/// What makes two corners one vertex, and the corner.
+/// A corner, and what makes it one vertex with others.
 struct CornerKey {
     std::array<std::uint32_t, 6> value{};
     std::uint32_t face = 0, corner = 0;

@@ -139,7 +139,7 @@ Track<double> make_presence(const std::vector<SurfaceRun>& runs, std::size_t run
     return track;
 }
 
-/// What a surface is made of.
+/// The parts of a surface.
 struct SurfaceSamples {
     Sampled points, counts, indices;
 };
@@ -191,8 +191,8 @@ class RunSplitter {
         runs_.back().sampling.times.push_back(time);
     }
 
-    /// Whether the topology at a time differs from that of the last run; it is in next_ then. Samples that share their
-    /// storage are not read again.
+    /// True where the topology at a time differs from that of the last run; it is in next_ then. Samples that share
+    /// their storage are not read again.
     bool changes_topology(double time, std::size_t point_count) {
         const AlembicArchive& archive = reader_.archive;
         const std::uint64_t counts_sample = samples_.counts.index_at(time);

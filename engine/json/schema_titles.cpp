@@ -48,7 +48,7 @@ std::string describe(const json& schema, const json& root) {
     return type == "array" ? "a list" : "an object";
 }
 
-/// Whether the value is a schema that checks something. A property may be called "type": its value is an object.
+/// True for a schema that checks something. A property may be called "type": its value is an object.
 bool is_schema(const json& value) {
     if (!value.is_object()) return false;
     const auto type = value.find("type");

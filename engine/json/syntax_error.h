@@ -1,5 +1,5 @@
 #pragma once
-// What is wrong with text that is not JSON, in plain words.
+// Reasons why a text is not JSON, in plain words.
 
 #include <string>
 #include <string_view>

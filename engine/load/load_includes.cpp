@@ -5,10 +5,7 @@
 #include <algorithm>
 #include <numbers>
 
-#include "engine/alembic/alembic.h"
 #include "engine/base/errors.h"
-#include "engine/base/files.h"
-#include "engine/gltf/gltf.h"
 #include "engine/json/close_names.h"
 #include "engine/scene/append.h"
 
@@ -16,9 +13,9 @@ namespace aleph {
 
 namespace {
 
-/// What an include appended.
+/// The nodes that an include appended.
 struct Included {
-    int begin = 0, end = 0;  ///< nodes
+    int begin = 0, end = 0;
 };
 
 bool is_same_content(const Include& a, const Include& b) {
@@ -67,25 +64,23 @@ void replace_materials(Scene& scene, int index, const std::string& place) {
     }
 }
 
-void append_file(Scene& scene, int index, const std::filesystem::path& path, const std::string& place,
-                 const LoadLimits& limits) {
+void append_file(Scene& scene, int index, const std::string& place, const LoadRequest& request) {
     const Include include = scene.includes[index];
-    const int parent = add_axes_node(scene, index);
-    if (lower_extension(path) != ".abc") {
-        append_gltf(path, scene, parent, index, limits, include.animations ? &*include.animations : nullptr);
-    } else {
-        if (include.animations) {
-            throw InputError(scene.file, place + "/animation", "an Alembic archive has no animations to choose from");
-        }
-        append_alembic(path, scene, parent, index);
+    const SceneFormat& format = require_format(request.formats, FormatUse::include, include.path, scene.file, place);
+    if (include.animations && !format.has_animation_names) {
+        throw InputError(scene.file, place + "/animation",
+                         fmt::format("{} has no animations to choose from", format.description));
     }
+    const int parent = add_axes_node(scene, index);
+    format.append({request.path.parent_path() / include.path, parent, index, request.limits,
+                   include.animations ? &*include.animations : nullptr},
+                  scene);
     replace_materials(scene, index, place);
 }
 
 }  // namespace
 
-void load_includes(Scene& scene, const std::filesystem::path& folder, const std::vector<std::string>& places,
-                   const LoadLimits& limits) {
+void load_includes(Scene& scene, const std::vector<std::string>& places, const LoadRequest& request) {
     std::vector<Included> included;
     for (int i = 0; i < std::ssize(scene.includes); ++i) {
         const Include& include = scene.includes[i];
@@ -98,7 +93,7 @@ void load_includes(Scene& scene, const std::filesystem::path& folder, const std:
         if (same < i) {
             append_copy(scene, included[same].begin, included[same].end, include.node, i);
         } else {
-            append_file(scene, i, folder / include.path, places[i], limits);
+            append_file(scene, i, places[i], request);
         }
         included.push_back({begin, static_cast<int>(scene.nodes.size())});
     }

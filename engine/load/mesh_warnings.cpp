@@ -63,7 +63,7 @@ struct UvNeed {
     int uv_set = 0;
 };
 
-/// Whether a texture gives directions: those are relative to the directions of u and v.
+/// True for a texture that gives directions: those are relative to the directions of u and v.
 bool is_directional(const MaterialTexture& texture) {
     return texture.member == &Material::normal_texture || texture.member == &Material::clearcoat_normal_texture ||
            texture.member == &Material::anisotropy_texture;

@@ -9,6 +9,7 @@
 #include <set>
 
 #include "engine/base/errors.h"
+#include "engine/pose/pose.h"
 #include "engine/scene/operations.h"
 
 namespace aleph {
@@ -25,7 +26,7 @@ void for_each_key(const Track<double>& track, const Use& use) {
     for (std::size_t key = 0; key < track.key_count(); ++key) use(key_value(track, key));
 }
 
-/// Whether angles given as degrees are multiples of 15 degrees in radians, such as 1.5708, and at most two turns.
+/// True where angles given as degrees are multiples of 15 degrees in radians, such as 1.5708, and at most two turns.
 /// @param angles  radians
 bool look_like_radians(const std::vector<double>& angles) {
     constexpr double step = std::numbers::pi / 12.0;

@@ -12,7 +12,7 @@ namespace aleph {
 /// @throws InputError: Scene::file, the element (`node 3 "ball"`), the reason
 void validate(const Scene& scene);
 
-/// Of a mesh of the scene: sizes and indices of its arrays, and its points.
+/// A mesh of the scene: sizes and indices of its arrays, and its points.
 /// @throws InputError
 void validate_mesh(const Scene& scene, int mesh);
 

@@ -10,7 +10,7 @@ namespace aleph {
 /// environment's picture.
 void add_rotation_warnings(Scene& scene);
 
-/// Whether surfaces of the material give light at some time.
+/// True where surfaces of the material give light at some time.
 bool gives_light(const Material& material);
 
 /// True if something gives light at some time: a light on a node, an environment, a used material that emits.

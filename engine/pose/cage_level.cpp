@@ -29,7 +29,7 @@ double distance_to_segment(const glm::dvec3& a, const glm::dvec3& b) {
     return glm::length(a + t * along);
 }
 
-/// Of the origin to a triangle.
+/// The distance of the origin to a triangle.
 double distance_to_triangle(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
     const glm::dvec3 n = glm::cross(b - a, c - a);
     const double square = glm::dot(n, n);

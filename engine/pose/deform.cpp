@@ -200,14 +200,15 @@ std::vector<Deformer> find_deformers(const Scene& scene, std::span<const std::ui
     return deformers;
 }
 
-void deform(const Scene& scene, std::span<const Deformer> deformers, std::span<const std::uint8_t> shown,
-            std::span<const glm::dmat4> world, double seconds, bool all, std::vector<PosedMesh>& posed) {
+void deform(const Scene& scene, std::span<const Deformer> deformers, std::span<const std::uint8_t> shown, bool all,
+            ScenePose& posed) {
+    const double seconds = posed.seconds;
     LastCage last;
     for (std::size_t d = 0; d < deformers.size(); ++d) {
         const Deformer& deformer = deformers[d];
         const auto m = static_cast<std::size_t>(deformer.mesh);
         const Mesh& mesh = scene.meshes[m];
-        PosedMesh& target = posed[m];
+        PosedMesh& target = posed.meshes[m];
         if (shown[d] == 0) {
             target = {};
         } else if (!all && !deformer.changes && !target.positions.empty()) {
@@ -218,7 +219,7 @@ void deform(const Scene& scene, std::span<const Deformer> deformers, std::span<c
             deform_points(scene, deformer, seconds, target);
         } else {
             morph(mesh, seconds, target);
-            if (is_skinned(mesh)) apply_skin(scene, mesh, deformer.node, world, target);
+            if (is_skinned(mesh)) apply_skin(scene, mesh, deformer.node, posed.world, target);
         }
     }
 }

@@ -9,7 +9,7 @@
 
 namespace aleph {
 
-/// What is known about a mesh whose points pose() replaces; found once.
+/// A mesh whose points pose() replaces, and what is known about it; found once.
 struct Deformer {
     int mesh = no_index;
     int node = no_index;   ///< skinned: the only node that carries the mesh
@@ -25,11 +25,10 @@ struct Deformer {
 /// @param moving_nodes  per node, true where its transform can change, and with it a skin
 std::vector<Deformer> find_deformers(const Scene& scene, std::span<const std::uint8_t> moving_nodes);
 
-/// Fills what `posed` holds of each deformer whose mesh is shown, and clears it of the others.
-/// @param shown  per deformer: whether some instance shows its mesh
-/// @param world  per node, object to world
+/// Fills the mesh of each deformer that is shown, and clears the others, for a pose whose time and nodes are set.
+/// @param shown  per deformer: some instance shows its mesh
 /// @param all    false: leaves meshes that do not change and are filled already
-void deform(const Scene& scene, std::span<const Deformer> deformers, std::span<const std::uint8_t> shown,
-            std::span<const glm::dmat4> world, double seconds, bool all, std::vector<PosedMesh>& posed);
+void deform(const Scene& scene, std::span<const Deformer> deformers, std::span<const std::uint8_t> shown, bool all,
+            ScenePose& posed);
 
 }  // namespace aleph

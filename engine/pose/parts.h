@@ -10,7 +10,7 @@ namespace aleph {
 /// Transform and visibility of a node. Those of its parent must be in `posed` already.
 void place_node(const Scene& scene, int node, double seconds, ScenePose& posed);
 
-/// Whether the instance's node is visible and its mesh present, at posed.seconds.
+/// True where the instance's node is visible and its mesh present, at posed.seconds.
 bool is_shown(const Scene& scene, const ScenePose& posed, std::size_t instance);
 
 /// Whatever the sampling of its track.

@@ -77,7 +77,7 @@ void update_pose(const Scene& scene, const PosePlan& plan, double seconds, Scene
         std::vector<std::uint8_t> shown(plan.deformers.size(), 0);
         for (std::size_t d = 0; d < shown.size(); ++d)
             for (const int i : plan.deformer_instances[d]) shown[d] |= posed.shown[i];
-        deform(scene, plan.deformers, shown, posed.world, seconds, false, posed.meshes);
+        deform(scene, plan.deformers, shown, false, posed);
     }
     for (const int material : plan.materials) {
         const auto m = static_cast<std::size_t>(material);

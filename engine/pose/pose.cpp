@@ -30,7 +30,7 @@ ScenePose pose(const Scene& scene, double seconds) {
     const std::vector<Deformer> deformers = find_deformers(scene, std::vector<std::uint8_t>(nodes, 1));
     std::vector<std::uint8_t> shown;
     for (const Deformer& deformer : deformers) shown.push_back(shown_meshes[deformer.mesh]);
-    deform(scene, deformers, shown, posed.world, seconds, true, posed.meshes);
+    deform(scene, deformers, shown, true, posed);
     posed.materials.reserve(scene.materials.size());
     for (const Material& material : scene.materials) posed.materials.push_back(pose_material(material, seconds));
     pose_environment(scene, seconds, posed);

@@ -38,7 +38,7 @@ bool is_steady(const Track<T>& track, double from, double to) {
         if (key_value(track, key) != key_value(track, first)) return false;
     }
     if (track.interpolation != Interpolation::cubic) return true;
-    // Of a key's in-tangent, value and out-tangent: those tangents that lie between the first key and the last.
+    // A key's value, and those of its tangents that lie between the first key and the last.
     const T zero = key_value(track, first) - key_value(track, first);
     for (std::size_t key = first; key < last; ++key) {
         if (track.values[3 * key + 2] != zero || track.values[3 * (key + 1)] != zero) return false;

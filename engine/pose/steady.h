@@ -15,7 +15,7 @@ class SteadySpans {
     /// @param plan  make_pose_plan(scene)
     SteadySpans(const Scene& scene, const PosePlan& plan);
 
-    /// Whether the scene has the same pose at all times of a span, both ends included. Other cameras do not count.
+    /// True where the scene has the same pose at all times of a span, both ends included. Other cameras do not count.
     /// Tracks have the same bits at all these times (evaluate).
     /// @param camera    index into ScenePose::cameras
     /// @param from, to  s; from <= to
@@ -24,7 +24,7 @@ class SteadySpans {
     /// The same without any camera.
     bool is_world_steady(double from, double to) const;
 
-    /// Whether that holds for all times, whichever camera looks.
+    /// True where that holds for all times, whichever camera looks.
     bool is_always_steady() const { return !changes_; }
 
   private:
@@ -34,7 +34,7 @@ class SteadySpans {
     };
 
     const Scene& scene_;
-    // What can change: indices into the scene's lists.
+    // The parts that can change: indices into the scene's lists.
     std::vector<int> nodes_;   ///< with a mesh, a light or a joint at or below them
     std::vector<int> meshes_;  ///< under some node
     std::vector<int> point_caches_, materials_, lights_;

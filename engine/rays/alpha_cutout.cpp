@@ -35,7 +35,7 @@ bool is_opaque(const SceneImage& image) {
            std::ranges::all_of(image.floats.pixels, [](const glm::vec4& p) { return p.w == 1.0f; });
 }
 
-/// Whether alpha is 1 everywhere, at every time.
+/// True where alpha is 1 everywhere, at every time.
 bool is_opaque(const Scene& scene, const Mesh& mesh, const Material& material) {
     const int image = material.base_color_texture.image;
     return !is_animated(material.alpha) && evaluate(material.alpha, 0.0) == 1.0 &&

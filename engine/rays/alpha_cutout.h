@@ -22,7 +22,7 @@ struct AlphaTexture {
 
 AlphaTexture make_alpha_texture(const Scene& scene, const TextureRef& reference);
 
-/// What is needed to find the holes of a mesh with such a material.
+/// The material and the texture coordinates that the holes of a mesh are found from.
 struct AlphaCutout {
     int material = no_index;
     float cutoff = 0.5f;
@@ -40,7 +40,7 @@ struct AlphaCutout {
 /// False for meshes without holes: those cost nothing. So are masked and blended ones whose alpha is 1 everywhere.
 bool has_cutout(const Scene& scene, const Mesh& mesh);
 
-/// Whether a mesh that some node carries has a blended material, and an alpha that can differ from 1.
+/// True where a mesh that some node carries has a blended material, and an alpha that can differ from 1.
 bool has_blended(const Scene& scene);
 
 /// For a mesh that has_cutout.

@@ -75,8 +75,8 @@ glm::dvec3 choose_origin(const std::vector<Candidate>& candidates) {
     return glm::round(origin / cell) * cell;
 }
 
-/// Whether coordinates relative to the origin are precise enough: its own already are about as large, or it lies near
-/// the origin.
+/// True where coordinates relative to the origin are precise enough: its own already are about as large, or it lies
+/// near the origin.
 bool fits(const Candidate& candidate, const glm::dvec3& origin) {
     const double reach = std::max(largest(candidate.bounds.low - origin), largest(candidate.bounds.high - origin));
     const double size = largest(candidate.bounds.high - candidate.bounds.low);

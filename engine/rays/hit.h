@@ -15,7 +15,7 @@ struct Ray {
     float far = std::numeric_limits<float>::infinity();
 };
 
-/// What a ray hits first. instance is an index into ScenePose::instances, primitive a triangle of its mesh;
+/// The first thing that a ray hits. instance is an index into ScenePose::instances, primitive a triangle of its mesh;
 /// the point is (1 - u - v) p0 + u p1 + v p2.
 struct Hit {
     int instance = no_index;  ///< no_index: nothing

@@ -69,20 +69,21 @@ ObjectLayer::ObjectLayer(const EmbreeDevice& device, std::size_t count) : device
 }
 
 bool ObjectLayer::place(std::size_t index, const PlacedTree& object, const glm::dmat4& world, const glm::dvec3& anchor,
-                        bool shown, bool usable, bool changed) {
+                        const ObjectState& state) {
     Placement& placement = placements_[index];
     const glm::dvec3 place = glm::dvec3(world[3]) - anchor;
     Bounds bounds;
-    bool enabled = shown && usable && is_traceable(world);
+    bool enabled = state.shown && state.usable && is_traceable(world);
     if (enabled && !object.tree->bounds().empty()) {
         glm::dmat4 placed = world;
         placed[3] = glm::dvec4(place, 1.0);
         object.tree->bounds().add_corners_to(bounds, placed);
         enabled = is_below(bounds, max_coordinate);
     }
-    skipped_ = skipped_ + (shown && !enabled ? 1 : 0) - (placement.skipped ? 1 : 0);
-    placement.skipped = shown && !enabled;
-    const bool same = !changed && world == placement.world && place == placement.place && placement.object == object;
+    skipped_ = skipped_ + (state.shown && !enabled ? 1 : 0) - (placement.skipped ? 1 : 0);
+    placement.skipped = state.shown && !enabled;
+    const bool same =
+        !state.changed && world == placement.world && place == placement.place && placement.object == object;
     if (enabled == placement.enabled && (!enabled || same)) return false;
     enabled_ = enabled_ + (enabled ? 1 : 0) - (placement.enabled ? 1 : 0);
     placement.enabled = enabled;

@@ -27,6 +27,12 @@ struct Placement {
     bool skipped = false;  ///< shown, but no ray can meet it
 };
 
+struct ObjectState {
+    bool shown = true;     ///< false: rays do not meet it
+    bool usable = true;    ///< false: shown, but it has no points to be met
+    bool changed = false;  ///< its triangles have
+};
+
 class ObjectLayer {
   public:
     /// @param device  must outlive this
@@ -42,12 +48,9 @@ class ObjectLayer {
     RTCScene scene() const { return scene_.get(); }
 
     /// Places an object, or hides it.
-    /// @param shown    false: rays do not meet it
-    /// @param usable   false: shown, but it has no points to be met
-    /// @param changed  its triangles have
     /// @return whether anything changed; commit() then has to follow
     bool place(std::size_t index, const PlacedTree& object, const glm::dmat4& world, const glm::dvec3& anchor,
-               bool shown, bool usable, bool changed);
+               const ObjectState& state);
     void commit();
 
   private:

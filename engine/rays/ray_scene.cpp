@@ -28,24 +28,28 @@ void note_alpha(RayScene::State& state, const ScenePose& posed) {
     for (const MaterialValues& material : posed.materials) state.alpha.push_back(material.alpha);
 }
 
-/// Places the layer's first `count` objects.
-/// @param first  the layer's first object
+/// Objects of a layer that follow each other, from the layer's first.
+struct LayerObjects {
+    ObjectLayer& layer;
+    std::span<const MeshStructures::Object> objects;
+};
+
 /// @return how many changed
-std::size_t place_objects(ObjectLayer& layer, std::size_t first, std::size_t count, const RayScene::State& state,
+std::size_t place_objects(const LayerObjects& part, const RayScene::State& state,
                           const std::vector<RefitMesh::Change>& changes, const ScenePose& posed,
                           const glm::dvec3& anchor) {
     std::size_t touched = 0;
-    for (std::size_t i = 0; i < count; ++i) {
-        const MeshStructures::Object& object = state.meshes->objects[first + i];
+    for (std::size_t i = 0; i < part.objects.size(); ++i) {
+        const MeshStructures::Object& object = part.objects[i];
         const bool deforms = object.deforming != no_index;
         const RefitMesh::Change change = deforms ? changes[object.deforming] : RefitMesh::Change::none;
         const TriangleTree* const tree = deforms ? state.refits[object.deforming]->tree() : object.tree;
         const bool usable = change != RefitMesh::Change::unusable && tree != nullptr;
-        const bool moved = layer.place(i, {tree, object.first_instance}, posed.world[object.node], anchor,
-                                       posed.shown[object.instance] != 0, usable, change == RefitMesh::Change::moved);
+        const ObjectState now{posed.shown[object.instance] != 0, usable, change == RefitMesh::Change::moved};
+        const bool moved = part.layer.place(i, {tree, object.first_instance}, posed.world[object.node], anchor, now);
         touched += moved ? 1 : 0;
     }
-    if (touched > 0) layer.commit();
+    if (touched > 0) part.layer.commit();
     return touched;
 }
 
@@ -89,9 +93,10 @@ std::size_t RayScene::update(const ScenePose& posed, const glm::dvec3& anchor) {
     const FlushDenormals flush;
     note_alpha(*state_, posed);
     const std::vector<RefitMesh::Change> changes = refit_meshes(*state_, posed);
+    const std::span<const MeshStructures::Object> objects(state_->meshes->objects);
     const std::size_t first = state_->moving->size();
-    std::size_t touched = place_objects(*state_->moving, 0, first, *state_, changes, posed, anchor);
-    touched += place_objects(*state_->still, first, state_->still->size(), *state_, changes, posed, anchor);
+    std::size_t touched = place_objects({*state_->moving, objects.first(first)}, *state_, changes, posed, anchor);
+    touched += place_objects({*state_->still, objects.subspan(first)}, *state_, changes, posed, anchor);
     if (!state_->placed || anchor != state_->anchor) touched += state_->meshes->flat_count;
     state_->anchor = anchor;
     state_->flat_shift = anchor - state_->meshes->flat_origin;
@@ -104,7 +109,9 @@ std::size_t RayScene::update_moving(const ScenePose& posed, const glm::dvec3& an
     const FlushDenormals flush;
     note_alpha(*state_, posed);
     const std::vector<RefitMesh::Change> changes = refit_meshes(*state_, posed);
-    return place_objects(*state_->moving, 0, state_->meshes->moving_count, *state_, changes, posed, anchor);
+    const std::span<const MeshStructures::Object> objects(state_->meshes->objects);
+    return place_objects({*state_->moving, objects.first(state_->meshes->moving_count)}, *state_, changes, posed,
+                         anchor);
 }
 
 const glm::dvec3& RayScene::anchor() const {

@@ -22,11 +22,11 @@ inline constexpr float max_ray_component = 1e9f;
 /// Geometry with a coordinate of this size or more is refused, in m or in the object's own space.
 inline constexpr float max_coordinate = 1.84e18f;
 
-/// Whether an instance can be traced: its transform keeps volume and is below max_coordinate. One whose points would be
-/// beyond it in the world cannot either.
+/// True for an instance that can be traced: its transform keeps volume and is below max_coordinate. One whose points
+/// would be beyond it in the world cannot either.
 bool is_traceable(const glm::dmat4& world);
 
-/// Whether the posed points of a deforming mesh can be traced: finite and below max_coordinate.
+/// True for posed points of a deforming mesh that can be traced: finite and below max_coordinate.
 bool are_traceable(const std::vector<glm::dvec3>& positions);
 
 class RayScene {
@@ -55,8 +55,8 @@ class RayScene {
     std::size_t update_moving(const ScenePose& posed, const glm::dvec3& anchor);
 
     const glm::dvec3& anchor() const;
-    /// Whether the instance stands still and its triangles are traced in one tree with others, in coordinates relative
-    /// to flat_origin (m, world), not to its object's. Rounding of a hit follows that distance.
+    /// True where the instance stands still and its triangles are traced in one tree with others, in coordinates
+    /// relative to flat_origin (m, world), not to its object's. Rounding of a hit follows that distance.
     bool is_flat(int instance) const;
     const glm::dvec3& flat_origin() const;
     std::size_t degenerate_triangles() const;
@@ -73,7 +73,7 @@ class RayScene {
     std::unique_ptr<State> state_;
 };
 
-/// What surfaces of materials with AlphaMode::blend do to rays. Alpha masks are the same in both.
+/// The effect of surfaces with AlphaMode::blend on rays. Alpha masks are the same in both.
 enum class Blend {
     cutout,  ///< rays pass where alpha is below .5: no noise, for maps and quick pictures
     /// At each surface a ray passes with probability 1 - alpha, so that pictures and shadows are right on average. The

@@ -10,7 +10,7 @@
 
 namespace aleph {
 
-/// What does not change when the points of a deforming mesh move.
+/// The parts of a deforming mesh that stay when its points move.
 struct DeformingMesh {
     DeformingMesh(const Mesh& mesh, int index, int place_in_node, bool can_change, const AlphaCutout* holes);
 

@@ -23,7 +23,7 @@ struct Crossing {
     glm::vec3 normal;  ///< across the triangle, as long as twice its area, in the tree's space
 };
 
-/// Of the triangles that a ray meets at about one distance the lowest (instance, primitive) counts, so that of two
+/// The nearest triangle that a ray meets. At about one distance the lowest (instance, primitive) counts, so that of two
 /// surfaces in one plane the same is seen everywhere. Within an instance, triangles that face the ray come before those
 /// that show their back: from afar both sides of a thin wall are at one distance, and the near one must be met.
 /// The result does not depend on the order in which triangles are offered.
@@ -104,7 +104,7 @@ struct Traversal {
     bool occlusion = false;
 
     Traversal(const RayScene::State& of, RayLane* rays, Blend blend, bool any_hit);
-    /// Of one of its rays.
+    /// One of its rays.
     Traversal(const Traversal& outer, RayLane& lane);
 };
 

@@ -1,9 +1,17 @@
 #pragma once
 // Appends the content of an included file to the scene that includes it.
 
+#include <optional>
+
 #include "engine/scene/scene.h"
 
 namespace aleph {
+
+/// Frame rate and times that a file states, for a scene that consists of that file.
+struct FileTiming {
+    std::optional<FrameRate> frame_rate{};
+    std::optional<double> first{}, last{};  ///< sample of what changes, s; unset where nothing does
+};
 
 /// Appends every list of elements, and the warnings, and shifts the indices accordingly. If memory runs out the scene
 /// stays as it was.
@@ -17,7 +25,7 @@ void append_part(Scene& scene, Scene&& part, int parent_node, int include);
 /// @param include      index of the include that the copies come from
 void append_copy(Scene& scene, int begin, int end, int parent_node, int include);
 
-/// Whether append_copy can show these nodes: a mesh with a skin or morph targets stands under one node only.
+/// True for nodes that append_copy can show: a mesh with a skin or morph targets stands under one node only.
 bool can_be_copied(const Scene& scene, int begin, int end);
 
 }  // namespace aleph

@@ -101,7 +101,7 @@ struct Camera {
     bool operator==(const Camera&) const = default;
 };
 
-/// A .gltf, .glb or .abc file whose content hangs below a node. Its elements follow the scene's own.
+/// A file whose content hangs below a node (.glb, .abc, ...). Its elements follow the scene's own.
 struct Include {
     enum class Up : std::uint8_t { x, y, z };
     std::string path;  ///< relative to the scene file

@@ -94,7 +94,7 @@ bool is_bare_keys(const json& value) {
     return value.is_array() && !value.empty() && std::ranges::all_of(value, is_key);
 }
 
-/// What to write for a value of another kind than expected.
+/// Advice for a value of another kind than expected.
 std::string advise_value(const json::json_pointer& place, std::string_view list, const json& value) {
     const std::string& key = place.back();
     if (is_three_angles(place, value)) return std::string(about_rotation);

@@ -1,5 +1,5 @@
 #pragma once
-// What to write in place of keys and values that other formats and programs have.
+// Advice for keys and values that other formats and programs have: what to write in their place.
 
 #include <nlohmann/json.hpp>
 

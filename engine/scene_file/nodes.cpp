@@ -87,7 +87,7 @@ class NodeReader {
                             printable(at.string()), what));
     }
 
-    /// What to do where the name may be that of a node of an included file.
+    /// Advice for a name that may be that of a node of an included file.
     const char* included_nodes_advice() const {
         if (!has_includes_) return "";
         return "; nodes of an included file cannot be named here: name the node that has the \"include\"";

@@ -52,7 +52,7 @@ Profile read_profile(const Shape& shape) {
     profile.closed = knots.size() > 3 && knots.front().point == knots.back().point;
     if (profile.closed) knots.front().sharp = knots.back().sharp = knots.front().sharp || knots.back().sharp;
     const double volume = signed_volume(knots);
-    // What encloses nothing is a flat ring or disc: it faces up.
+    // An outline that encloses nothing is a flat ring or disc: it faces up.
     if (volume > 0.0 || (volume == 0.0 && knots.back().point.x < knots.front().point.x)) {
         std::reverse(knots.begin(), knots.end());
     }

@@ -46,16 +46,4 @@ nlohmann::ordered_json explain_moment(const Scene& scene, double seconds);
 /// @param max_objects  number of objects listed; 0: all
 std::string explain_text(const nlohmann::ordered_json& explained, std::size_t max_objects);
 
-/// A file that a scene file or glTF names and that does not exist.
-struct MissingFile {
-    std::string file;   ///< the file that names it
-    std::string place;  ///< where in that file
-    std::string path;   ///< as written there
-};
-
-/// The files that a scene file or glTF, and the glTF files it includes, name and that do not exist. (Loading stops at
-/// the first.) Files that cannot be read are left out; loading reports them.
-/// @param limits  those of the loading that failed: a file that is refused for its size is not parsed here either
-std::vector<MissingFile> list_missing_files(const std::filesystem::path& path, const LoadLimits& limits = {});
-
 }  // namespace aleph

@@ -105,7 +105,7 @@ int explain(const ExplainOptions& options) {
 void add_explain_command(CLI::App& app, Command& command) {
     CLI::App* explain_app = app.add_subcommand("explain", "describe a scene without rendering it");
     const auto options = std::make_shared<ExplainOptions>();
-    explain_app->add_option("scene", options->scene, "scene file: .json, .gltf, .glb or .abc")
+    explain_app->add_option("scene", options->scene, "scene file: " + list_endings(scene_formats(), FormatUse::load))
         ->required()
         ->type_name("SCENE");
     explain_app->add_flag("--json", options->json, "print everything as JSON");

@@ -144,7 +144,9 @@ void add_setting_options(CLI::App& app, SettingMap& settings) {
 }
 
 void add_scene_options(CLI::App& app, SceneOptions& options) {
-    app.add_option("scene", options.scene, "scene file: .json, .gltf, .glb or .abc")->required()->type_name("SCENE");
+    app.add_option("scene", options.scene, "scene file: " + list_endings(scene_formats(), FormatUse::load))
+        ->required()
+        ->type_name("SCENE");
     app.add_option("--frames", options.frames,
                    "frames, such as 1-10,20-40x2 (x2: every second); default: the scene's range")
         ->type_name("LIST");

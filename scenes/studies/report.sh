@@ -24,8 +24,7 @@ run() {
   case $1 in
     demo)
       bash scenes/demo.sh
-      cp build/demo/errors.jpg scenes/studies/demo.jpg
-      cp build/demo/maps.png scenes/studies/maps.png ;;
+      cp build/demo/errors.jpg scenes/studies/demo.jpg ;;
     pool)
       study pool pool
       bash render/report/picture.sh build out/studies/pool/report.html scenes/studies/report.jpg ;;

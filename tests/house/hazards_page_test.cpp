@@ -4,7 +4,6 @@
 
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 #include <map>
 #include <regex>
 #include <set>
@@ -12,16 +11,12 @@
 #include <vector>
 
 #include "tests/support/paths.h"
+#include "tests/support/read_bytes.h"
 
 namespace aleph {
 namespace {
 
 namespace fs = std::filesystem;
-
-std::string read_text(const fs::path& path) {
-    std::ifstream file(path);
-    return {std::istreambuf_iterator<char>(file), {}};
-}
 
 /// Every match of a pattern's first group.
 std::vector<std::string> find_all(const std::string& text, const std::regex& pattern) {
@@ -71,7 +66,7 @@ const std::map<fs::path, std::set<std::string>>& ids_by_file() {
             const std::string kind = entry.path().extension().string();
             if (kind == ".cpp" || kind == ".h" || kind == ".sh") files.push_back(entry.path());
         }
-        for (const fs::path& file : files) ids[file] = list_ids(read_text(file));
+        for (const fs::path& file : files) ids[file] = list_ids(read_bytes(file));
         return ids;
     }();
     return all;

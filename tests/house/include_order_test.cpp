@@ -78,7 +78,7 @@ const Layer* layer_of(const std::string& path) {
     return found;
 }
 
-/// What the #include lines of a text name, in quotes or in angle brackets.
+/// The names in the #include lines of a text, in quotes or in angle brackets.
 std::vector<std::string> included_paths(const std::string& text) {
     static const std::regex line(R"re((?:^|\n)[ \t]*#[ \t]*include[ \t]*["<]([^">\n]+)[">])re");
     std::vector<std::string> paths;

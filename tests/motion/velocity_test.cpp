@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "engine/base/errors.h"
+#include "tests/support/refusal.h"
 
 namespace aleph {
 namespace {
@@ -65,12 +66,8 @@ TEST(Velocity, KeepsTheFieldsShape) {
 TEST(Velocity, RP21_RatesThatAreNotPositiveAndFiniteAreRefused) {
     const double inf = std::numeric_limits<double>::infinity(), nan = std::numeric_limits<double>::quiet_NaN();
     for (const double bad : {0.0, -0.0, -1.0, inf, -inf, nan}) {
-        try {
-            velocity_of(1.0, {.pixels_per_degree = bad});
-            FAIL() << bad;
-        } catch (const InputError& error) {
-            EXPECT_EQ(error.place(), "pixels per degree");
-        }
+        EXPECT_EQ(find_refusal([&] { velocity_of(1.0, {.pixels_per_degree = bad}); }).place, "pixels per degree")
+            << bad;
     }
     const FrameRate none{0, 1}, minus_none{0, -1}, minus_one{-1, 1}, infinite{1, 0}, minus_infinite{-1, 0},
         unknown{0, 0};

@@ -1,5 +1,5 @@
 #pragma once
-// What the optimizer must not change: every map of one synthetic frame, by each model of vision.
+// Results that the optimizer must not change: every map of one synthetic frame, by each model of vision.
 
 #include <vector>
 

@@ -21,7 +21,7 @@ struct Allocations {
     double peak_mebibytes() const { return static_cast<double>(peak) / (1 << 20); }
 };
 
-/// What `work` allocates; zeros under a sanitizer. An exception passes through.
+/// The allocations of `work`; zeros under a sanitizer. An exception passes through.
 Allocations count_allocations(const std::function<void()>& work);
 
 }  // namespace aleph

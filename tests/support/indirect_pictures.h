@@ -5,7 +5,7 @@
 
 namespace aleph {
 
-/// What surfaces reflect of their indirect irradiance: a picture less the same picture's direct light.
+/// The light that surfaces reflect of their indirect irradiance: a picture less the same picture's direct light.
 struct IndirectPicture {
     Image<Rgb> all;       ///< with direct light
     Image<Rgb> indirect;  ///< without
@@ -22,7 +22,7 @@ inline IndirectPicture shade_indirect(const Stage& stage, RenderSettings setting
     return out;
 }
 
-/// What a surface reflects of the irradiance of a gather with so many strata and random numbers of its own.
+/// The light that a surface reflects of the irradiance of a gather with so many strata and random numbers of its own.
 inline Rgb gather_indirect(const Stage& stage, const PixelSurface& surface, int strata) {
     RayTask task(stage.rays);
     GatherScratch scratch;

@@ -1,32 +1,26 @@
 #pragma once
-// What reading a file costs, counted: hostile files must end within limits.
+// The cost of reading a file, counted: hostile files must end within limits.
 
 #include <gtest/gtest.h>
 
 #include <string>
 
-#include "engine/base/errors.h"
 #include "tests/support/allocations.h"
+#include "tests/support/refusal.h"
 
 namespace aleph {
 
 struct LoadCost {
-    bool refused = false;  ///< with an InputError
-    std::string message;   ///< of the InputError
+    Refusal refusal;
     Allocations memory;
+
+    bool refused() const { return !refusal.message.empty(); }
 };
 
 /// Any exception but an InputError passes through.
 inline LoadCost load_cost(const std::function<void()>& work) {
     LoadCost cost;
-    cost.memory = count_allocations([&] {
-        try {
-            work();
-        } catch (const InputError& error) {
-            cost.refused = true;
-            cost.message = error.what();
-        }
-    });
+    cost.memory = count_allocations([&] { cost.refusal = find_refusal(work); });
     return cost;
 }
 

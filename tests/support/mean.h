@@ -1,12 +1,12 @@
 #pragma once
-// Mean and standard error.
+// Means with their standard errors.
 
 #include <cmath>
 #include <cstddef>
 
 namespace aleph {
 
-/// Of independent values.
+/// The mean of independent values.
 class Mean {
   public:
     void add(double value) {

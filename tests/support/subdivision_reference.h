@@ -36,7 +36,7 @@ struct ReferenceMesh {
 
 inline constexpr double reference_infinite = 10.0;
 
-/// What the rules need to know about a point.
+/// The properties of a point that the rules need.
 struct ReferencePoint {
     std::vector<int> neighbours, faces;
     std::vector<int> sharp_neighbours;

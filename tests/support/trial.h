@@ -53,7 +53,7 @@ class Trial {
     void at_most(double found, double error, double bound, Place place = Place::current()) {
         judge(found <= bound + limit * error, found, error, bound, place);
     }
-    /// Of `all` independent events, `share` are expected.
+    /// A share of `all` independent events is expected.
     void counts(double found, double all, double share, double slack = 0.0, Place place = Place::current()) {
         near(found, std::sqrt(share * (1.0 - share) * all), share * all, slack, place);
     }

@@ -10,7 +10,7 @@
 
 namespace aleph {
 
-/// What later checks need to know of an accessor.
+/// The properties of an accessor that later checks need.
 struct AccessorInfo {
     std::int64_t component_type = 0;
     std::string type;
@@ -48,7 +48,7 @@ struct GltfCheck {
 inline constexpr std::int64_t type_i8 = 5120, type_u8 = 5121, type_i16 = 5122, type_u16 = 5123, type_u32 = 5125,
                               type_float = 5126;
 
-/// Of counts, offsets and lengths: sizes made of them fit 64 bits (2^31 elements of at most 64 bytes).
+/// The largest count, offset or length: sizes made of them fit 64 bits (2^31 elements of at most 64 bytes).
 inline constexpr std::int64_t max_gltf_count = 0x7fffffff;
 
 inline bool is_float(const AccessorInfo& info) {

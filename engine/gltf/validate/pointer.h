@@ -46,7 +46,7 @@ enum class GltfProperty {
 /// smaller keys are clamped to it. Below it the rays of neighbouring pixels are the same in single precision.
 inline constexpr double min_gltf_size = 1e-6;
 
-/// What owns a property: the array whose length limits the pointer's index.
+/// The kind of element that owns a property: the array whose length limits the pointer's index.
 enum class GltfOwner { node, camera, light, material };
 
 /// A property that can be animated, and what its keys must be.

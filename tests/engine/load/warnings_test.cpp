@@ -1,4 +1,4 @@
-// What load_scene adds to scenes without light, and what it warns of.
+// The light that load_scene adds to scenes without one, and its warnings.
 
 #include "engine/load/warnings.h"
 

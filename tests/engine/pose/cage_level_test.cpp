@@ -39,8 +39,8 @@ CageLevelSettings with_triangles(std::size_t most) {
     return settings;
 }
 
-/// Of a sheet's triangles at a level: the longest edge, and the largest distance of finer triangles' points from these
-/// triangles' edges' middles, pixels. All triangles as if at the sheet's nearest point.
+/// The fineness of a sheet at a level: its triangles' longest edge, and the largest distance of finer triangles' points
+/// from these triangles' edges' middles, pixels. All triangles as if at the sheet's nearest point.
 struct Fineness {
     double edge = 0.0, bend = 0.0;
 };

@@ -12,6 +12,7 @@
 #include "tests/support/expect_near.h"
 #include "tests/support/keyed_track.h"
 #include "tests/support/numbers.h"
+#include "tests/support/refusal.h"
 
 namespace aleph {
 namespace {
@@ -236,12 +237,8 @@ TEST(FindCamera, ByNodeThenByCameraThenTheScenesChoice) {
     EXPECT_EQ(find_camera(scene, "near"), 1);
     scene.camera = "near";
     EXPECT_EQ(find_camera(scene, ""), 1);
-    try {
-        find_camera(scene, "wall");
-        FAIL();
-    } catch (const InputError& error) {
-        EXPECT_STREQ(error.what(), "room.json: camera: there is no camera 'wall'; there is 'left', 'wide'");
-    }
+    EXPECT_EQ(find_refusal([&] { find_camera(scene, "wall"); }).message,
+              "room.json: camera: there is no camera 'wall'; there is 'left', 'wide'");
 }
 
 TEST(IsWorldAnimated, CamerasDoNotCount) {

@@ -8,6 +8,7 @@
 #include "engine/base/parallel.h"
 #include "engine/rays/alpha_cutout.h"
 #include "engine/rays/ray_scene.h"
+#include "tests/engine/rays/ray_patterns.h"
 #include "tests/support/deforming_scenes.h"
 #include "tests/support/trial.h"
 
@@ -39,8 +40,8 @@ std::vector<Ray> make_rays(std::size_t count = ray_count, std::uint32_t seed = 0
     std::uniform_real_distribution<float> place(-0.95f, 0.95f);
     std::vector<Ray> rays(count);
     for (Ray& ray : rays) {
-        ray.origin = {place(random), place(random), 5.0f};
-        ray.direction = {0.0f, 0.0f, -1.0f};
+        const float x = place(random), y = place(random);
+        ray = ray_down(x, y);
     }
     return rays;
 }

@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "engine/rays/ray_scene.h"
+#include "tests/engine/rays/ray_patterns.h"
 #include "tests/support/deforming_scenes.h"
 
 namespace aleph {
@@ -30,17 +31,10 @@ Scene make_masked_scene(Material::AlphaMode mode) {
     return scene;
 }
 
-Ray ray_at(float x, float y) {
-    Ray ray;
-    ray.origin = {x, y, 5.0f};
-    ray.direction = {0.0f, 0.0f, -1.0f};
-    return ray;
-}
-
-/// Whether a ray hits something. A single ray, a packet and a shadow ray must agree.
+/// True where a ray hits something. A single ray, a packet and a shadow ray must agree.
 bool is_met(const RayScene& scene, float x, float y) {
     Tracer tracer(scene);
-    const Ray ray = ray_at(x, y);
+    const Ray ray = ray_down(x, y);
     const bool met = tracer.intersect(ray).instance != no_index;
     EXPECT_EQ(tracer.occluded(ray), met);
     const std::vector<Ray> rays(21, ray);
@@ -75,8 +69,8 @@ TEST(AlphaCutout, WhatLiesBehindAHoleIsMet) {
     scene.nodes[1].translation = glm::dvec3(0.0, 0.0, -1.0);
     RayScene rays(scene);
     rays.update(pose(scene, 0.0), glm::dvec3(0.0));
-    EXPECT_EQ(Tracer(rays).intersect(ray_at(-0.5f, 0.25f)).instance, 0);
-    const Hit behind = Tracer(rays).intersect(ray_at(0.5f, 0.25f));
+    EXPECT_EQ(Tracer(rays).intersect(ray_down(-0.5f, 0.25f)).instance, 0);
+    const Hit behind = Tracer(rays).intersect(ray_down(0.5f, 0.25f));
     EXPECT_EQ(behind.instance, 1);
     EXPECT_FLOAT_EQ(behind.distance, 6.0f);
 }

@@ -6,6 +6,7 @@
 #include <new>
 
 #include "engine/rays/state.h"
+#include "tests/engine/rays/ray_patterns.h"
 #include "tests/support/deforming_scenes.h"
 
 namespace aleph {
@@ -23,8 +24,7 @@ bool spend(void* budget, ssize_t bytes, bool) {
 RayScene make_rays(const Scene& scene, Budget& budget) {
     auto device = std::make_unique<EmbreeDevice>();
     rtcSetDeviceMemoryMonitorFunction(device->handle(), spend, &budget);
-    return RayScene(std::make_unique<RayScene::State>(
-        std::make_shared<MeshStructures>(scene, make_pose_plan(scene), std::move(device))));
+    return make_ray_scene(scene, std::move(device));
 }
 
 /// Two sheets: one stands still, one folds.

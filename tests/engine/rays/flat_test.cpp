@@ -8,15 +8,11 @@
 
 #include "engine/rays/state.h"
 #include "engine/surface/shapes.h"
+#include "tests/engine/rays/ray_patterns.h"
 #include "tests/support/deforming_scenes.h"
 
 namespace aleph {
 namespace {
-
-RayScene make_rays(const Scene& scene, bool flatten) {
-    return RayScene(std::make_unique<RayScene::State>(
-        std::make_shared<MeshStructures>(scene, make_pose_plan(scene), std::make_unique<EmbreeDevice>(), flatten)));
-}
 
 Node make_node(int mesh, const glm::dvec3& place) {
     Node node;
@@ -91,7 +87,7 @@ double count_differences(const RayScene& a, const RayScene& b, const std::vector
 
 TEST(FlatTree, RaysMeetTheSameAsThroughInstances) {
     const Scene scene = make_objects(glm::dvec3(0.0));
-    RayScene flat = make_rays(scene, true), nodes = make_rays(scene, false);
+    RayScene flat(scene), nodes = make_ray_scene(scene, std::make_unique<EmbreeDevice>(), false);
     EXPECT_TRUE(flat.is_flat(0));
     EXPECT_FALSE(flat.is_flat(11));
     EXPECT_FALSE(nodes.is_flat(0));
@@ -108,7 +104,7 @@ TEST(FlatTree, RaysMeetTheSameAsThroughInstances) {
 
 TEST(FlatTree, ItIsSharedAndFollowsTheAnchor) {
     const Scene scene = make_objects(glm::dvec3(0.0));
-    RayScene one = make_rays(scene, true), two = one.share_meshes();
+    RayScene one(scene), two = one.share_meshes();
     one.update(pose(scene, 0.0), glm::dvec3(0.0));
     two.update(pose(scene, 0.0), glm::dvec3(0.0, 0.0, 32.0));
     const std::vector<Ray> rays = make_random_rays(1000, glm::vec3(0.0f));
@@ -129,7 +125,7 @@ TEST(FlatTree, ItIsSharedAndFollowsTheAnchor) {
 TEST(FlatTree, FarFromTheOriginOfTheWorldItIsAsPrecise) {
     const glm::dvec3 place(1e6, -2e5, 3e6);
     const Scene scene = make_objects(place), near = make_objects(glm::dvec3(0.0));
-    RayScene far_rays = make_rays(scene, true), near_rays = make_rays(near, true);
+    RayScene far_rays(scene), near_rays(near);
     EXPECT_TRUE(far_rays.is_flat(0));
     EXPECT_LT(glm::length(far_rays.flat_origin() - place), 8.0);
     far_rays.update(pose(scene, 0.0), place);

@@ -9,6 +9,7 @@
 
 #include "engine/rays/state.h"
 #include "engine/surface/shapes.h"
+#include "tests/engine/rays/ray_patterns.h"
 
 namespace aleph {
 namespace {
@@ -55,8 +56,7 @@ struct Answers {
 
 /// @param configuration  null: this processor's own
 Answers trace(const Scene& scene, const std::vector<Ray>& rays, const char* configuration) {
-    RayScene placed(std::make_unique<RayScene::State>(
-        std::make_shared<MeshStructures>(scene, make_pose_plan(scene), std::make_unique<EmbreeDevice>(configuration))));
+    RayScene placed = make_ray_scene(scene, std::make_unique<EmbreeDevice>(configuration));
     placed.update(pose(scene, 0.0), glm::dvec3(0.0));
     Tracer tracer(placed);
     Answers answers;

@@ -7,21 +7,14 @@
 #include <vector>
 
 #include "engine/rays/ray_scene.h"
+#include "tests/engine/rays/ray_patterns.h"
 #include "tests/support/deforming_scenes.h"
 
 namespace aleph {
 namespace {
 
 std::vector<Ray> make_rays(std::size_t count, float half_size) {
-    std::mt19937 random(11);
-    std::uniform_real_distribution<float> inside(-half_size, half_size);
-    std::vector<Ray> rays(count);
-    for (std::size_t i = 0; i < count; ++i) {
-        const float x = inside(random), y = inside(random);
-        rays[i].origin = {0.3f, 0.2f, 5.0f};
-        rays[i].direction = glm::vec3(x, y, 0.0f) - rays[i].origin;
-    }
-    return rays;
+    return rays_through_square(count, {0.3f, 0.2f, 5.0f}, half_size, 11);
 }
 
 /// Rays at the edges and corners of make_sheet(cells).

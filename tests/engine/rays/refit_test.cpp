@@ -9,21 +9,14 @@
 
 #include "engine/pose/plan.h"
 #include "engine/rays/ray_scene.h"
+#include "tests/engine/rays/ray_patterns.h"
 #include "tests/support/deforming_scenes.h"
 
 namespace aleph {
 namespace {
 
 std::vector<Ray> make_rays(std::size_t count) {
-    std::mt19937 random(5);
-    std::uniform_real_distribution<float> inside(-4.0f, 4.0f);
-    std::vector<Ray> rays(count);
-    for (Ray& ray : rays) {
-        const float x = inside(random), y = inside(random);
-        ray.origin = {0.5f, 0.25f, 9.0f};
-        ray.direction = glm::vec3(x, y, 0.0f) - ray.origin;
-    }
-    return rays;
+    return rays_through_square(count, {0.5f, 0.25f, 9.0f}, 4.0f, 5);
 }
 
 std::vector<Hit> trace(const RayScene& scene, const std::vector<Ray>& rays) {

@@ -14,6 +14,7 @@
 #include "engine/scene/transforms.h"
 #include "tests/support/keyed_track.h"
 #include "tests/support/numbers.h"
+#include "tests/support/refusal.h"
 
 namespace aleph {
 namespace {
@@ -29,12 +30,7 @@ glm::dquat exact_turn(long double angle) {
 
 template <class T>
 std::string refusal(const Track<T>& track) {
-    try {
-        validate(track, "ship.glb", "/animations/2/samplers/5");
-    } catch (const InputError& error) {
-        return error.what();
-    }
-    return "";
+    return find_refusal([&] { validate(track, "ship.glb", "/animations/2/samplers/5"); }).message;
 }
 
 TEST(Keyframes, KF01_SlerpOfAlmostEqualKeys) {

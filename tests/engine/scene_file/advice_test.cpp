@@ -1,21 +1,18 @@
-// What messages advise in place of keys and values that other programs have.
+// Advice of messages about keys and values that other programs have.
 
 #include <gtest/gtest.h>
 
 #include "engine/base/errors.h"
 #include "tests/engine/scene_file/short_text.h"
+#include "tests/support/refusal.h"
 
 namespace aleph {
 namespace {
 
 std::string refusal(const std::string& body) {
-    try {
-        read(", " + body);
-    } catch (const InputError& error) {
-        return error.reason();
-    }
-    ADD_FAILURE() << body << " was read";
-    return "";
+    const Refusal found = find_refusal([&] { read(", " + body); });
+    EXPECT_NE(found.message, "") << body << " was read";
+    return found.reason;
 }
 
 std::string node_refusal(const std::string& node) {

@@ -8,6 +8,7 @@
 
 #include "engine/base/errors.h"
 #include "engine/scene_file/scene_text.h"
+#include "tests/support/refusal.h"
 
 namespace aleph {
 
@@ -18,15 +19,10 @@ struct BadScene {
 };
 
 inline void expect_refused(const BadScene& c) {
-    try {
-        read_scene_text(c.text, "broken.json");
-        ADD_FAILURE() << "was read: " << c.text.substr(0, 200);
-    } catch (const InputError& error) {
-        EXPECT_EQ(error.file(), "broken.json");
-        EXPECT_EQ(error.place(), c.place) << error.what() << "\n  in " << c.text.substr(0, 200);
-        EXPECT_NE(error.reason().find(c.word), std::string::npos) << error.what() << "\n  has no " << c.word;
-        EXPECT_LT(std::string(error.what()).size(), 700u);
-    }
+    SCOPED_TRACE(c.text.substr(0, 200));
+    const Refusal found = find_refusal([&] { read_scene_text(c.text, "broken.json"); });
+    expect_refusal(found, "broken.json", c.place, c.word);
+    EXPECT_LT(found.message.size(), 700u);
 }
 
 inline void expect_all_refused(const std::vector<BadScene>& cases) {

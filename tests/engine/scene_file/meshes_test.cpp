@@ -11,6 +11,7 @@
 #include "engine/pose/pose.h"
 #include "engine/scene_file/scene_text.h"
 #include "tests/engine/scene_file/written_again.h"
+#include "tests/support/refusal.h"
 
 namespace aleph {
 namespace {
@@ -137,7 +138,7 @@ TEST(SceneJsonMeshes, CageWarningsStayWithTheScene) {
     EXPECT_EQ(again(scene), scene);
 }
 
-struct Refusal {
+struct BadShape {
     std::string shape, place, word;
 };
 
@@ -146,7 +147,7 @@ TEST(SceneJsonMeshes, WhatDoesNotFitTogetherIsRefusedAtItsPlace) {
     const std::string faces = "\"positions\": [0,0,0, 1,0,0, 1,1,0, 0,1,0], \"faces\": [[0,1,2,3]]";
     const auto mesh = [](const std::string& body) { return "\"type\": \"mesh\", " + body; };
     const auto cage = [](const std::string& body) { return "\"type\": \"cage\", \"cage\": {" + body + "}"; };
-    const std::vector<Refusal> refusals = {
+    const std::vector<BadShape> bad = {
         {mesh("\"triangles\": [0,1,2]"), "", "needs \"positions\""},
         {mesh("\"positions\": [0,0,0]"), "", "\"triangles\" is missing"},
         {mesh("\"positions\": [0,0], \"triangles\": []"), "/positions", "groups of 3"},
@@ -198,29 +199,22 @@ TEST(SceneJsonMeshes, WhatDoesNotFitTogetherIsRefusedAtItsPlace) {
         {"\"type\": \"cage\"", "", "\"cage\" is missing"},
         {cage(faces) + ", \"part\": 1", "/part", "must lie within"},
     };
-    for (const Refusal& refusal : refusals) {
-        try {
-            read("\"nodes\": [{\"shape\": {" + refusal.shape + "}}]");
-            ADD_FAILURE() << "was read: " << refusal.shape;
-        } catch (const InputError& error) {
-            EXPECT_EQ(error.place(), "/nodes/0/shape" + refusal.place) << error.what() << "\n  in " << refusal.shape;
-            EXPECT_NE(error.reason().find(refusal.word), std::string::npos)
-                << error.what() << "\n  no " << refusal.word;
-        }
+    for (const BadShape& refused : bad) {
+        const Refusal found = find_refusal([&] { read("\"nodes\": [{\"shape\": {" + refused.shape + "}}]"); });
+        EXPECT_EQ(found.place, "/nodes/0/shape" + refused.place) << found.message << "\n  in " << refused.shape;
+        EXPECT_NE(found.reason.find(refused.word), std::string::npos) << found.message << "\n  no " << refused.word;
     }
 }
 
 TEST(SceneJsonMeshes, TooManyTrianglesOfACageAreRefusedBeforeTheyAreMade) {
     std::string faces = "[0,1,2,3]";
     for (int i = 0; i < 20; ++i) faces += ", [0,1,2,3]";
-    try {
+    const Refusal found = find_refusal([&] {
         read(R"("nodes": [{"shape": {"type": "cage", "cage": {"positions": [0,0,0, 1,0,0, 1,1,0, 0,1,0], "faces": [)" +
              faces + R"(], "level": 10, "max_level": 10}}}])");
-        FAIL();
-    } catch (const InputError& error) {
-        EXPECT_EQ(error.place(), "/nodes/0/shape");
-        EXPECT_NE(error.reason().find("lower the cage's \"level\""), std::string::npos) << error.what();
-    }
+    });
+    EXPECT_EQ(found.place, "/nodes/0/shape");
+    EXPECT_NE(found.reason.find("lower the cage's \"level\""), std::string::npos) << found.message;
 }
 
 }  // namespace

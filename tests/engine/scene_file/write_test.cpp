@@ -10,6 +10,7 @@
 #include "engine/scene_file/fields.h"
 #include "engine/scene_file/scene_text.h"
 #include "tests/engine/scene_file/written_again.h"
+#include "tests/support/refusal.h"
 
 namespace aleph {
 namespace {
@@ -79,14 +80,10 @@ Scene make_good_scene() {
 }
 
 void expect_refused(const Scene& scene, const std::string& place, const std::string& word) {
-    try {
-        write_scene_text(scene, "out.json");
-        ADD_FAILURE() << "was written: " << place;
-    } catch (const InputError& error) {
-        EXPECT_EQ(error.file(), "out.json");
-        EXPECT_NE(error.place().find(place), std::string::npos) << error.what();
-        EXPECT_NE(error.reason().find(word), std::string::npos) << error.what();
-    }
+    const Refusal found = find_refusal([&] { write_scene_text(scene, "out.json"); });
+    EXPECT_EQ(found.file, "out.json");
+    EXPECT_NE(found.place.find(place), std::string::npos) << place << ": " << found.message;
+    EXPECT_NE(found.reason.find(word), std::string::npos) << found.message;
 }
 
 template <class Spoil>

@@ -11,19 +11,17 @@
 #include "engine/base/errors.h"
 #include "engine/surface/cage_checks.h"
 #include "engine/surface/limit_surface.h"
+#include "tests/support/refusal.h"
 #include "tests/support/subdivision_cages.h"
 
 namespace aleph {
 
 inline std::string refusal(const Cage& cage, std::size_t points) {
-    try {
-        validate(cage, points);
-    } catch (const InputError& error) {
-        EXPECT_EQ(error.place(), "cage test");
-        EXPECT_THROW(LimitSurface(cage, points, 1), InputError);
-        return error.reason();
-    }
-    return "";
+    const Refusal found = find_refusal([&] { validate(cage, points); });
+    if (found.message.empty()) return "";
+    EXPECT_EQ(found.place, "cage test");
+    EXPECT_THROW(LimitSurface(cage, points, 1), InputError);
+    return found.reason;
 }
 
 inline void expect_refused(const Cage& cage, std::size_t points, const std::string& part) {

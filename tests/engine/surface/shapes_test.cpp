@@ -12,6 +12,7 @@
 
 #include "engine/base/errors.h"
 #include "tests/engine/surface/shape_cases.h"
+#include "tests/support/refusal.h"
 
 namespace aleph {
 namespace {
@@ -169,13 +170,8 @@ TEST(Shapes, SizesAreChecked) {
         EXPECT_THROW(make_shape_mesh(make_shape(Shape::Kind::sphere, segments)), InputError);
         EXPECT_THROW(make_shape_mesh(make_shape(Shape::Kind::cylinder, segments)), InputError);
     }
-    try {
-        validate(make_shape(Shape::Kind::sphere, 2), "a.json", "/nodes/0/shape");
-        FAIL();
-    } catch (const InputError& error) {
-        EXPECT_EQ(error.file(), "a.json");
-        EXPECT_EQ(error.place(), "/nodes/0/shape");
-    }
+    expect_refusal([] { validate(make_shape(Shape::Kind::sphere, 2), "a.json", "/nodes/0/shape"); }, "a.json",
+                   "/nodes/0/shape", "");
 }
 
 }  // namespace

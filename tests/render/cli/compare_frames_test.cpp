@@ -11,6 +11,8 @@
 #include "engine/base/errors.h"
 #include "engine/image/image_file.h"
 #include "render/cli/frame_pattern.h"
+#include "tests/support/grey_image.h"
+#include "tests/support/refusal.h"
 #include "tests/support/run_compare.h"
 #include "tests/support/scratch_folder.h"
 
@@ -20,9 +22,7 @@ namespace {
 namespace fs = std::filesystem;
 
 ChannelImage grey(float value, int width = 6, int height = 5) {
-    ChannelImage image;
-    for (const char* name : {"R", "G", "B"}) image.channels.push_back({name, Image<float>(width, height, value)});
-    return image;
+    return grey_image(width, height, value);
 }
 
 /// Two sequences and the maps of the second. The first is brighter by `steps`.
@@ -184,12 +184,8 @@ TEST(FramePattern, FoldersHoldOneSequence) {
     EXPECT_THROW(find_folder_frames(path, "first"), InputError);
     fs::remove(folder / "s.1.exr");
     touch("t.0001.exr");
-    try {
-        find_folder_frames(path, "first");
-        FAIL();
-    } catch (const InputError& e) {
-        EXPECT_NE(std::string(e.what()).find("s.#.exr and t.#.exr"), std::string::npos) << e.what();
-    }
+    const std::string message = find_refusal([&] { find_folder_frames(path, "first"); }).message;
+    EXPECT_NE(message.find("s.#.exr and t.#.exr"), std::string::npos) << message;
     const ScratchFolder dashes;
     std::ofstream(dashes / "shot-0007.png") << "x";
     EXPECT_EQ(find_folder_frames(dashes.path().string(), "first").begin()->first, 7);

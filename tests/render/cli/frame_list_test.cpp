@@ -9,6 +9,7 @@
 
 #include "engine/base/errors.h"
 #include "render/cli/output_path.h"
+#include "tests/support/refusal.h"
 #include "tests/support/scratch_folder.h"
 
 namespace aleph {
@@ -17,13 +18,9 @@ namespace {
 using Frames = std::vector<int>;
 
 std::string refusal(std::string_view text) {
-    try {
-        parse_frame_list(text);
-    } catch (const InputError& e) {
-        EXPECT_EQ(e.place(), "--frames");
-        return e.reason();
-    }
-    return "(accepted)";
+    const Refusal found = find_refusal([&] { parse_frame_list(text); });
+    EXPECT_EQ(found.place, "--frames");
+    return found.reason;
 }
 
 TEST(FrameList, ReadsNumbersRangesAndSteps) {
@@ -114,12 +111,7 @@ TEST(OutputPath, RefusesPatternsWithTwoMeanings) {
 
 /// The message that refuses a pattern; empty if it is taken.
 std::string refused_pattern(const std::string& pattern) {
-    try {
-        output_path(pattern, "pool", 1);
-        return "";
-    } catch (const InputError& e) {
-        return e.what();
-    }
+    return find_refusal([&] { output_path(pattern, "pool", 1); }).message;
 }
 
 TEST(OutputPath, RefusesOtherFormatsAndStandardOutput) {

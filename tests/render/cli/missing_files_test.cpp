@@ -48,8 +48,8 @@ TEST(MissingFiles, S13_11_RefusedTextsAreNotParsedForTheirMissingFiles) {
     write_text(folder / "scene.json", "{\"aleph\": 1, \"include\": [" + includes + "]}");
     for (const char* name : {"hostile.gltf", "hostile.glb", "scene.json"}) {
         const LoadCost cost = load_cost([&] { explain(folder / name, {}); });
-        EXPECT_TRUE(cost.refused) << name;
-        EXPECT_NE(cost.message.find("MiB"), std::string::npos) << cost.message;
+        EXPECT_TRUE(cost.refused()) << name;
+        EXPECT_NE(cost.refusal.message.find("MiB"), std::string::npos) << cost.refusal.message;
         expect_bounded(cost, name);
     }
 }

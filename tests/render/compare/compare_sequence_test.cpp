@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "engine/base/errors.h"
+#include "tests/support/grey_image.h"
 
 namespace aleph {
 namespace {
@@ -16,9 +17,7 @@ constexpr int picture_width = 10, picture_height = 8;
 constexpr std::size_t pixels = picture_width * picture_height;
 
 ChannelImage grey(float value, int w = picture_width, int h = picture_height) {
-    ChannelImage image;
-    for (const char* name : {"R", "G", "B"}) image.channels.push_back({name, Image<float>(w, h, value)});
-    return image;
+    return grey_image(w, h, value);
 }
 
 /// Maps of a surface at rest, with a threshold of 1 cd/m2.

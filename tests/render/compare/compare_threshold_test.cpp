@@ -13,17 +13,12 @@
 
 #include "engine/base/errors.h"
 #include "render/compare/compare.h"
+#include "tests/support/grey_image.h"
 #include "tests/support/numbers.h"
 #include "tests/support/trial.h"
 
 namespace aleph {
 namespace {
-
-ChannelImage grey(int width, int height, float value) {
-    ChannelImage image;
-    for (const char* name : {"R", "G", "B"}) image.channels.push_back({name, Image<float>(width, height, value)});
-    return image;
-}
 
 void add_channel(ChannelImage& image, const std::string& name, float value) {
     const Image<float>& size = image.channels.front().values;
@@ -32,7 +27,7 @@ void add_channel(ChannelImage& image, const std::string& name, float value) {
 
 /// Grey pictures of a known noise: every pixel is `mean` plus a normal number of deviation `sigma`.
 ChannelImage noisy(int width, int height, float mean, float sigma, unsigned seed) {
-    ChannelImage image = grey(width, height, mean);
+    ChannelImage image = grey_image(width, height, mean);
     std::mt19937 random(seed);
     std::normal_distribution<float> normal(0.0f, sigma);
     for (std::size_t i = 0; i < image.channels[0].values.size(); ++i) {
@@ -102,7 +97,7 @@ TEST(RatioHistogram, SumsAreThoseOfAllValues) {
 
 TEST(CompareNoise, ByHand) {
     // Standard error .01 of Y is 1 cd/m2. The error is 2, 4.5 and 0 cd/m2, the threshold 1: 4.5 > 1 + 3.
-    ChannelImage b = grey(3, 1, 0.5f), a = b;
+    ChannelImage b = grey_image(3, 1, 0.5f), a = b;
     add_channel(b, "variance.Y", 1e-4f);
     for (Channel& channel : a.channels) {
         channel.values(0, 0) += 0.02f;
@@ -128,7 +123,7 @@ TEST(CompareNoise, PictureOfNoiseAloneIsBeyondAsOftenAsTheNormalDistributionSays
     const double n = width * height;
     for (const double sigma : {0.3, 0.7, 1.5}) {  // in thresholds
         EXPECT_TRUE(holds([&](Trial& trial) {
-            const ChannelImage truth = grey(width, height, 0.5f);
+            const ChannelImage truth = grey_image(width, height, 0.5f);
             const ChannelImage reference =
                 noisy(width, height, 0.5f, static_cast<float>(0.01 * sigma), 11 + trial.seed);
             const ChannelImage map{{{"threshold.Y", Image<float>(width, height, 1.0f)}}, {}};
@@ -172,12 +167,12 @@ TEST(CompareNoise, StandardErrorsReplaceTheChannels) {
     EXPECT_FALSE(compare_images(shifted, b, settings).same);
     settings.tolerance = 0.2;
     EXPECT_TRUE(compare_images(shifted, b, settings).same);
-    EXPECT_THROW(compare_images(grey(4, 4, 0.5f), grey(4, 4, 0.5f), settings), InputError);
+    EXPECT_THROW(compare_images(grey_image(4, 4, 0.5f), grey_image(4, 4, 0.5f), settings), InputError);
 }
 
 TEST(CompareNoise, NothingIsCertainOfABrokenVariance) {
-    const ChannelImage a = grey(4, 1, 0.9f);
-    ChannelImage b = grey(4, 1, 0.5f);
+    const ChannelImage a = grey_image(4, 1, 0.9f);
+    ChannelImage b = grey_image(4, 1, 0.5f);
     add_channel(b, "variance.Y", 0.0f);
     b.channels[3].values(1, 0) = std::numeric_limits<float>::quiet_NaN();
     b.channels[3].values(2, 0) = -1.0f;

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/support/path_estimates.h"
+#include "tests/support/pixel_mean.h"
 
 namespace aleph {
 namespace {
@@ -21,11 +22,7 @@ Scene make_furnace(double albedo) {
 
 /// The mean of all pixels.
 Mean mean_of(const Stage& stage, const RenderSettings& settings) {
-    const ShadedFrame out = shade(stage, settings);
-    EXPECT_EQ(out.counts.invalid_samples, 0u);
-    Mean mean;
-    for (const Rgb& pixel : out.color.pixels) mean.add(pixel.x);
-    return mean;
+    return mean_of_pixels(shade(stage, settings));
 }
 
 void expect_value(const Stage& stage, RenderSettings settings, double expected) {

@@ -4,6 +4,7 @@
 
 #include "render/cache/bounce_levels.h"
 #include "tests/support/frame_bytes.h"
+#include "tests/support/pixel_mean.h"
 #include "tests/support/shot_scenes.h"
 #include "tests/support/trial.h"
 #include "tests/support/with_threads.h"
@@ -41,16 +42,9 @@ RenderSettings cache_settings(int bounces, double accuracy, int gather) {
     return settings;
 }
 
-Mean mean_of(const ShadedFrame& frame) {
-    EXPECT_EQ(frame.counts.invalid_samples, 0u);
-    Mean mean;
-    for (const Rgb& pixel : frame.color.pixels) mean.add(pixel.x);
-    return mean;
-}
-
 /// Facets are nearer to the lamp than the sphere: what direct light alone shows is 1.
 double direct_of(const Stage& stage) {
-    return mean_of(shade(stage, cache_settings(0, 0.3, 64))).mean();
+    return mean_of_pixels(shade(stage, cache_settings(0, 0.3, 64))).mean();
 }
 
 TEST(SeveralBounces, IC23_EachAddsItsTermOnce) {
@@ -60,7 +54,7 @@ TEST(SeveralBounces, IC23_EachAddsItsTermOnce) {
     for (const int bounces : {2, 3, 4}) {
         const ShadedFrame frame = shade(stage, cache_settings(bounces, 0.3, 64));
         const double expected = direct * sum_of_powers(bounces);
-        EXPECT_NEAR(mean_of(frame).mean(), expected, 0.004 * expected) << bounces;
+        EXPECT_NEAR(mean_of_pixels(frame).mean(), expected, 0.004 * expected) << bounces;
         // Hardly a look-up finds no record.
         EXPECT_LT(frame.counts.rays.deeper, frame.counts.rays.gather / 50) << bounces;
     }
@@ -70,7 +64,7 @@ TEST(SeveralBounces, IC23_MoreThanHaveCaches) {
     const Stage stage(make_lit_sphere(), 12, 9);
     const RenderSettings settings = cache_settings(30, 0.5, 64);
     const double expected = direct_of(stage) / (1.0 - albedo);
-    EXPECT_NEAR(mean_of(shade(stage, settings)).mean(), expected, 0.006 * expected);
+    EXPECT_NEAR(mean_of_pixels(shade(stage, settings)).mean(), expected, 0.006 * expected);
 }
 
 TEST(SeveralBounces, IC23_NoSurfaceBeyondThePathsDepthScatters) {
@@ -79,7 +73,7 @@ TEST(SeveralBounces, IC23_NoSurfaceBeyondThePathsDepthScatters) {
     settings.path_depth = 3;
     EXPECT_EQ(count_bounces(settings), 2);
     const double expected = direct_of(stage) * sum_of_powers(2);
-    EXPECT_NEAR(mean_of(shade(stage, settings)).mean(), expected, 0.004 * expected);
+    EXPECT_NEAR(mean_of_pixels(shade(stage, settings)).mean(), expected, 0.004 * expected);
 }
 
 TEST(SeveralBounces, IC23_NorDoesOneThatReflects) {
@@ -90,11 +84,11 @@ TEST(SeveralBounces, IC23_NorDoesOneThatReflects) {
     const Stage stage(std::move(scene), 12, 9);
     RenderSettings settings = path_settings(2, 64);
     settings.path_depth = 3;
-    const Mean paths = mean_of(shade(stage, settings));
+    const Mean paths = mean_of_pixels(shade(stage, settings));
     settings.integrator = Integrator::cache;
     settings.accuracy = 0.3;
     settings.gather = 256;
-    EXPECT_NEAR(mean_of(shade(stage, settings)).mean(), paths.mean(), 0.015 * paths.mean());
+    EXPECT_NEAR(mean_of_pixels(shade(stage, settings)).mean(), paths.mean(), 0.015 * paths.mean());
 }
 
 /// It is direct light of the surface that is asked.
@@ -125,7 +119,7 @@ TEST(SeveralBounces, IC23_RandomPathsWhereThereIsNoCache) {
             RenderSettings settings = cache_settings(bounces, 0.0, trial.times(32));
             settings.seed = trial.seed;
             const ShadedFrame frame = shade(stage, settings);
-            const Mean mean = mean_of(frame);
+            const Mean mean = mean_of_pixels(frame);
             trial.near(mean, expected, 1e-3 * expected);
             EXPECT_LT(mean.error(), 0.004 * expected);
             EXPECT_GT(frame.counts.rays.deeper, frame.counts.rays.gather / 2);
@@ -137,7 +131,7 @@ TEST(SeveralBounces, IC23_AFurnaceGainsNoLight) {
     const Stage stage(make_sphere(glm::dvec3(1.0)), 16, 12);
     for (const int bounces : {2, 4}) {
         const double expected = sum_of_powers(bounces + 1);
-        const Mean mean = mean_of(shade(stage, cache_settings(bounces, 0.3, 64)));
+        const Mean mean = mean_of_pixels(shade(stage, cache_settings(bounces, 0.3, 64)));
         EXPECT_NEAR(mean.mean(), expected, 0.01 * expected) << bounces;
     }
 }

@@ -8,6 +8,7 @@
 #include <set>
 
 #include "engine/base/errors.h"
+#include "tests/support/refusal.h"
 
 namespace aleph {
 namespace {
@@ -49,16 +50,10 @@ const std::map<std::string, SettingValue>& other_values() {
 /// What an error says, and that it names source and key.
 std::string refusal(const std::string& key, const SettingValue& value) {
     RenderSettings settings;
-    try {
-        apply_settings(settings, {{key, value}}, "--set");
-    } catch (const InputError& e) {
-        EXPECT_EQ(e.file(), "--set");
-        EXPECT_EQ(e.place(), key);
-        EXPECT_EQ(settings, RenderSettings()) << "changed by a refused " << key;
-        return e.reason();
-    }
-    ADD_FAILURE() << key << " was taken";
-    return {};
+    const Refusal found = find_refusal([&] { apply_settings(settings, {{key, value}}, "--set"); });
+    expect_refusal(found, "--set", key, "");
+    EXPECT_EQ(settings, RenderSettings()) << "changed by a refused " << key;
+    return found.reason;
 }
 
 TEST(Settings, EveryKeyRoundTrips) {
@@ -206,15 +201,11 @@ TEST(Settings, Sizes) {
 
 TEST(Settings, UnknownKeysListTheKnown) {
     RenderSettings settings;
-    try {
-        apply_settings(settings, {{"acuracy\x01", 0.1}}, "scene.json");
-        FAIL();
-    } catch (const InputError& e) {
-        EXPECT_EQ(e.file(), "scene.json");
-        EXPECT_NE(e.place().find("acuracy"), std::string::npos);
-        EXPECT_EQ(e.place().find('\x01'), std::string::npos);
-        for (const Setting& setting : setting_table()) EXPECT_NE(e.reason().find(setting.key), std::string::npos);
-    }
+    const Refusal found = find_refusal([&] { apply_settings(settings, {{"acuracy\x01", 0.1}}, "scene.json"); });
+    EXPECT_EQ(found.file, "scene.json");
+    EXPECT_NE(found.place.find("acuracy"), std::string::npos);
+    EXPECT_EQ(found.place.find('\x01'), std::string::npos);
+    for (const Setting& setting : setting_table()) EXPECT_NE(found.reason.find(setting.key), std::string::npos);
 }
 
 TEST(Settings, ValidateChecksStructsFilledByHand) {

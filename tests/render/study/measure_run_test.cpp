@@ -4,14 +4,15 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/support/grey_image.h"
+
 namespace aleph {
 namespace {
 
 constexpr double white = 100.0;  // cd/m2
 
 ChannelImage grey(float value, bool with_indirect = false) {
-    ChannelImage image;
-    for (const char* name : {"R", "G", "B"}) image.channels.push_back({name, Image<float>(10, 10, value)});
+    ChannelImage image = grey_image(10, 10, value);
     if (with_indirect) {
         for (const char* name : {"indirect.R", "indirect.G", "indirect.B"})
             image.channels.push_back({name, Image<float>(10, 10, 0.5f * value)});

@@ -9,6 +9,7 @@
 
 #include "engine/base/errors.h"
 #include "tests/support/paths.h"
+#include "tests/support/refusal.h"
 #include "tests/support/scratch_folder.h"
 
 namespace aleph {
@@ -164,15 +165,10 @@ TEST(RunStudy, DamagedRunsAreNamed) {
 
 TEST(RunStudy, ChecksEverythingBeforeItRenders) {
     const auto error_of = [](Study study) -> std::string {
-        try {
-            prepare_study(std::move(study));
-        } catch (const InputError& error) {
-            return error.what();
-        }
-        return "none";
+        return find_refusal([&] { prepare_study(std::move(study)); }).message;
     };
     Study study = small_study();
-    EXPECT_EQ(error_of(study), "none");
+    EXPECT_EQ(error_of(study), "");
     study.sweep.push_back({"gathr", {1.0}});
     EXPECT_NE(error_of(study).find("gather"), std::string::npos) << "did you mean";
     study = small_study();

@@ -7,6 +7,7 @@
 
 #include "engine/base/errors.h"
 #include "render/study/metric_table.h"
+#include "tests/support/refusal.h"
 
 namespace aleph {
 namespace {
@@ -61,14 +62,12 @@ TEST(StudyFile, HasDefaults) {
 
 /// "place: reason" of the error that a study text gives.
 std::string error_of(const std::string& text) {
-    try {
+    const auto read = [&] {
         const Study study = parse_study(text, "s.json");
         list_variants(study);
         list_metrics(study);
-    } catch (const InputError& error) {
-        return error.what();
-    }
-    return "none";
+    };
+    return find_refusal(read).message;
 }
 
 TEST(StudyFile, NamesWhatIsWrong) {

@@ -9,6 +9,7 @@
 
 #include "tests/support/numbers.h"
 #include "tests/support/path_estimates.h"
+#include "tests/support/pixel_mean.h"
 
 namespace aleph {
 namespace {
@@ -242,9 +243,7 @@ TEST(EnvironmentMap, MC24_AConstantPictureIsAFurnace) {
     add_camera(scene, {0.0, 0.0, 4.0}, {0.0, 0.0, 0.0}, 0.7);
     const Stage stage(std::move(scene), 16, 12);
     EXPECT_TRUE(holds([&](Trial& trial) {
-        Mean mean;
-        const RenderSettings settings = path_settings(3, trial.times(64), trial.seed);
-        for (const Rgb& pixel : shade(stage, settings).color.pixels) mean.add(pixel.x);
+        const Mean mean = mean_of_pixels(shade(stage, path_settings(3, trial.times(64), trial.seed)));
         trial.near(mean, 1.0, 1e-4);
         EXPECT_LT(mean.error(), 0.01);
     }));

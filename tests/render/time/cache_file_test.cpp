@@ -15,6 +15,7 @@
 #include "engine/base/errors.h"
 #include "engine/scene/scene_hash.h"
 #include "tests/support/frame_bytes.h"
+#include "tests/support/refusal.h"
 #include "tests/support/shot_scenes.h"
 
 namespace aleph {
@@ -39,14 +40,9 @@ std::string render_with(const std::filesystem::path& file, const Scene& scene, c
 
 /// Why the file is refused.
 std::string refusal(const std::filesystem::path& file, const Scene& scene, const RenderSettings& settings) {
-    try {
-        Sequence(scene, settings).load_light(file);
-    } catch (const InputError& e) {
-        EXPECT_EQ(e.file(), file.string());
-        return e.reason();
-    }
-    ADD_FAILURE() << "the file was taken";
-    return {};
+    const Refusal found = find_refusal([&] { Sequence(scene, settings).load_light(file); });
+    EXPECT_EQ(found.file, file.string()) << found.message;
+    return found.reason;
 }
 
 TEST(CacheFile, IC22_FramesAreEqualWithAndWithoutIt) {
@@ -191,10 +187,7 @@ TEST(CacheFile, IC22_SizesAreCheckedBeforeMemoryIsTaken) {
         bad[place + 7 < bad.size() ? place + 7 : place] = '\x7f';
         bad += hash_bytes(bad);
         write_file(folder / "bad", bad);
-        try {
-            read_cache_file(folder / "bad", fingerprint);  // a changed record is no damage
-        } catch (const InputError&) {
-        }
+        find_refusal([&] { read_cache_file(folder / "bad", fingerprint); });  // a changed record is no damage
     }
 }
 

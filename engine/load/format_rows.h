@@ -1,0 +1,15 @@
+#pragma once
+// One function per row of scene_formats(); only this folder uses them.
+
+#include "engine/load/scene_format.h"
+
+namespace aleph {
+
+SceneFormat scene_file_format();  ///< aleph's own
+SceneFormat gltf_format();
+SceneFormat alembic_format();
+
+/// @throws InputError where the path leads to nothing, or to a folder or a device
+void check_regular_file(const std::filesystem::path& path, const std::string& file, const std::string& place);
+
+}  // namespace aleph

@@ -1,0 +1,162 @@
+// The format of aleph's own scene files (.json): the pictures and files that they name, and saving.
+#include <fmt/format.h>
+
+#include <set>
+#include <system_error>
+
+#include "engine/base/atomic_file.h"
+#include "engine/base/errors.h"
+#include "engine/base/files.h"
+#include "engine/image/image_file.h"
+#include "engine/load/environment_picture.h"
+#include "engine/load/format_rows.h"
+#include "engine/load/load_includes.h"
+#include "engine/pose/pose.h"
+#include "engine/scene_file/scene_text.h"
+
+namespace aleph {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+void load_images(SceneText& text, const fs::path& folder, const std::string& file) {
+    for (std::size_t i = 0; i < text.scene.images.size(); ++i) {
+        SceneImage& image = text.scene.images[i];
+        const std::string& place = text.image_places[i];
+        check_regular_file(folder / image.path, file, place);
+        try {
+            const DecodedTexture decoded =
+                decode_texture(read_regular_file(folder / image.path, file, place), image.path);
+            image.bytes = Image<glm::u8vec4>(decoded.bytes.width, decoded.bytes.height);
+            for (std::size_t p = 0; p < image.bytes.size(); ++p) {
+                const auto& c = decoded.bytes.pixels[p];
+                image.bytes.pixels[p] = {c[0], c[1], c[2], c[3]};
+            }
+            image.floats = Image<glm::vec4>(decoded.floats.width, decoded.floats.height);
+            for (std::size_t p = 0; p < image.floats.size(); ++p) {
+                const auto& c = decoded.floats.pixels[p];
+                image.floats.pixels[p] = {c[0], c[1], c[2], c[3]};
+            }
+        } catch (const InputError& error) {
+            if (error.file() == file) throw;
+            throw InputError(file, place, fmt::format("{}: {}", error.file(), error.reason()));
+        }
+    }
+}
+
+void check_cameras(const Scene& scene, const std::string& file) {
+    if (!scene.camera.empty()) {
+        try {
+            find_camera(scene, scene.camera);
+        } catch (const InputError& error) {
+            throw InputError(file, "/camera", error.reason());
+        }
+    }
+    for (std::size_t i = 0; i < scene.camera_keys.size(); ++i) {
+        try {
+            find_camera(scene, scene.camera_keys[i].camera);
+        } catch (const InputError& error) {
+            throw InputError(file, fmt::format("/camera/keys/{}", i), error.reason());
+        }
+    }
+}
+
+SceneText read_text_of(const LoadRequest& request) {
+    const Bytes bytes = read_regular_file(request.path, request.file, "");
+    return read_scene_text({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, request.file, request.limits);
+}
+
+Scene load_scene_file(const LoadRequest& request) {
+    const std::string& file = request.file;
+    if (std::error_code error; fs::file_size(request.path, error) > request.limits.text()) {
+        throw InputError(file, "",
+                         fmt::format("the file is larger than {} MiB; keep large meshes in a .glb or .abc file and "
+                                     "include that",
+                                     request.limits.text() >> 20));
+    }
+    SceneText text = read_text_of(request);
+    Scene& scene = text.scene;
+    scene.file = file;
+    const fs::path folder = request.path.parent_path();
+    for (std::size_t i = 0; i < scene.includes.size(); ++i) {
+        const std::string &path = scene.includes[i].path, &place = text.include_places[i];
+        require_format(request.formats, FormatUse::include, path, file, place);
+        check_regular_file(folder / path, file, place);
+    }
+    load_images(text, folder, file);
+    make_environment_linear(scene);
+    load_includes(scene, text.include_places, request);
+    check_cameras(scene, file);
+    return std::move(scene);
+}
+
+/// A path relative to the folder `from`, made relative to `to`.
+std::string move_path(const std::string& path, const fs::path& from, const fs::path& to) {
+    return path.empty() ? path : (from / path).lexically_relative(to).generic_string();
+}
+
+fs::path folder_of(const fs::path& file) {
+    std::error_code error;
+    const fs::path folder = fs::weakly_canonical(fs::absolute(file).parent_path(), error);
+    return error ? fs::absolute(file).parent_path() : folder;
+}
+
+void save_scene_file(const Scene& scene, const fs::path& path) {
+    const std::string file = path.string();
+    Scene own = without_includes(scene, file);
+    if (!scene.file.empty()) {  // paths are relative to the file they stand in
+        const fs::path from = folder_of(scene.file), to = folder_of(path);
+        if (from != to) {
+            for (Include& include : own.includes) include.path = move_path(include.path, from, to);
+            for (SceneImage& image : own.images) image.path = move_path(image.path, from, to);
+        }
+    }
+    write_file(path, write_scene_text(own, file));
+}
+
+bool is_there(const fs::path& path) {
+    std::error_code error;
+    return fs::is_regular_file(path, error);
+}
+
+/// The pictures and includes that are not there, and what included files miss.
+void list_missing_of_scene_file(const LoadRequest& request, std::vector<MissingFile>& missing) {
+    std::error_code error;
+    if (fs::file_size(request.path, error) > request.limits.text()) return;  // also where the size is not known
+    const SceneText text = read_text_of(request);
+    const fs::path folder = request.path.parent_path();
+    for (std::size_t i = 0; i < text.scene.images.size(); ++i) {
+        if (!is_there(folder / text.scene.images[i].path))
+            missing.push_back({request.file, text.image_places[i], text.scene.images[i].path});
+    }
+    std::set<fs::path> seen;  // a thousand includes of one large file cost one
+    for (std::size_t i = 0; i < text.scene.includes.size(); ++i) {
+        const fs::path include = folder / text.scene.includes[i].path;
+        if (!is_there(include)) {
+            missing.push_back({request.file, text.include_places[i], text.scene.includes[i].path});
+            continue;
+        }
+        const SceneFormat* format = find_format(request.formats, include);
+        if (format == nullptr || format->append == nullptr || format->list_missing == nullptr) continue;
+        if (!seen.insert(fs::weakly_canonical(include, error)).second) continue;
+        try {
+            format->list_missing({include, include.string(), request.limits, request.formats}, missing);
+        } catch (const InputError&) {  // the other includes may miss files too
+        }
+    }
+}
+
+}  // namespace
+
+SceneFormat scene_file_format() {
+    SceneFormat format;
+    format.endings = {".json"};
+    format.description = "a scene file";
+    format.load = load_scene_file;
+    format.save = save_scene_file;
+    format.list_missing = list_missing_of_scene_file;
+    return format;
+}
+
+}  // namespace aleph

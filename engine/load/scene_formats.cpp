@@ -1,0 +1,103 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <system_error>
+
+#include "engine/alembic/alembic.h"
+#include "engine/base/errors.h"
+#include "engine/base/files.h"
+#include "engine/load/format_rows.h"
+
+namespace aleph {
+
+namespace {
+
+bool serves(const SceneFormat& format, FormatUse use) {
+    switch (use) {
+        case FormatUse::load:
+            return format.load != nullptr || format.append != nullptr;
+        case FormatUse::include:
+            return format.append != nullptr;
+        case FormatUse::save:
+            return format.save != nullptr;
+    }
+    return false;
+}
+
+}  // namespace
+
+SceneFormat alembic_format() {
+    SceneFormat format;
+    format.endings = {".abc"};
+    format.description = "an Alembic archive";
+    format.append = [](const AppendRequest& request, Scene& scene) {
+        return append_alembic(request.path, scene, request.parent_node, request.include);
+    };
+    return format;
+}
+
+const SceneFormats& scene_formats() {
+    static const SceneFormats formats = {scene_file_format(), gltf_format(), alembic_format()};
+    return formats;
+}
+
+const SceneFormat* find_format(const SceneFormats& formats, const std::filesystem::path& path) {
+    const std::string ending = lower_extension(path);
+    for (const SceneFormat& format : formats) {
+        if (std::find(format.endings.begin(), format.endings.end(), ending) != format.endings.end()) return &format;
+    }
+    return nullptr;
+}
+
+std::string list_endings(const SceneFormats& formats, FormatUse use) {
+    std::vector<std::string> endings;
+    for (const SceneFormat& format : formats) {
+        if (serves(format, use)) endings.insert(endings.end(), format.endings.begin(), format.endings.end());
+    }
+    std::string text;
+    for (std::size_t i = 0; i < endings.size(); ++i) {
+        if (i > 0) text += i + 1 < endings.size() ? ", " : " or ";
+        text += endings[i];
+    }
+    return text;
+}
+
+const SceneFormat& require_format(const SceneFormats& formats, FormatUse use, const std::filesystem::path& path,
+                                  const std::string& file, const std::string& place) {
+    const SceneFormat* format = find_format(formats, path);
+    if (format != nullptr && serves(*format, use)) return *format;
+    const std::string known = list_endings(formats, use);
+    if (use == FormatUse::save) {
+        throw InputError(
+            file, place,
+            fmt::format("the name of a scene file must end in {}: load_scene tells files apart by it", known));
+    }
+    throw InputError(file, place,
+                     fmt::format("files of the kind \"{}\" are not read; expected a {} file",
+                                 printable(lower_extension(path)), known));
+}
+
+void check_regular_file(const std::filesystem::path& path, const std::string& file, const std::string& place) {
+    namespace fs = std::filesystem;
+    std::error_code error;
+    const fs::file_status status = fs::status(path, error);
+    if (!fs::exists(status))
+        throw InputError(file, place, fmt::format("there is no file {}", printable(path.string(), 300)));
+    if (!fs::is_regular_file(status)) {
+        throw InputError(file, place, fmt::format("{} is not a regular file", printable(path.string(), 300)));
+    }
+}
+
+std::vector<MissingFile> list_missing_files(const std::filesystem::path& path, const LoadLimits& limits,
+                                            const SceneFormats& formats) {
+    std::vector<MissingFile> missing;
+    const SceneFormat* format = find_format(formats, path);
+    if (format == nullptr || format->list_missing == nullptr) return missing;
+    try {
+        format->list_missing({path, path.string(), limits, formats}, missing);
+    } catch (const InputError&) {  // loading says what is wrong with the file
+    }
+    return missing;
+}
+
+}  // namespace aleph
