@@ -12,6 +12,7 @@
 #include "engine/base/errors.h"
 #include "engine/base/parallel.h"
 #include "perception/threshold.h"
+#include "perception/tvi.h"
 
 namespace aleph {
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "perception/vision_model.h"
 #include "render/settings/setting_check.h"
 
 namespace aleph {
@@ -79,6 +80,22 @@ Setting size_setting() {
     return setting;
 }
 
+/// The choice of a model of vision. A program's own model has a name of its own.
+Setting vision_setting() {
+    Setting setting = new_setting("vision", SettingType::choice, "contrast sensitivity");
+    for (const VisionModel* const model : vision_list()) {
+        setting.help += fmt::format("{} {} ({})", setting.choices.empty() ? ":" : ",", model->summary(), model->name());
+        setting.choices.push_back(model->name());
+    }
+    setting.get = [](const RenderSettings& s) {
+        return SettingValue(s.perception.vision == nullptr ? std::string() : s.perception.vision->name());
+    };
+    setting.set = [](RenderSettings& s, const SettingValue& value) {
+        s.perception.vision = find_vision(std::get<std::string>(value));
+    };
+    return setting;
+}
+
 Setting without_scene(Setting setting) {
     setting.needs_scene = false;
     return setting;
@@ -102,12 +119,7 @@ void add_perception(std::vector<Setting>& table) {
         "motion", "source of motion: the scene, exact (model), or a comparison of two quick estimates (image)",
         [](S& s) -> MotionSource& { return s.motion; },
         {{"model", MotionSource::model}, {"image", MotionSource::image}})));
-    table.push_back(without_scene(choice_setting<Vision>(
-        "vision",
-        "contrast sensitivity: Kelly 1979 with the thesis's constants (thesis) or those of Laird 2006 (laird), or "
-        "castleCSF 2024 with the blur of displays that hold frames (castle)",
-        [](S& s) -> Vision& { return s.perception.vision; },
-        {{"thesis", Vision::thesis}, {"laird", Vision::laird}, {"castle", Vision::castle}})));
+    table.push_back(without_scene(vision_setting()));
     table.push_back(without_scene(choice_setting<Bands>(
         "bands",
         "frequencies of the contrast bands: as the thesis prints them (printed), or of these filters (measured)",

@@ -80,7 +80,7 @@ void run_cache(const CacheOptions& options) {
     const StudyOptions& study = options.study;
     const Scene scene = load_scene(study.scene);
     RenderSettings settings = study_settings(scene, study.scene, study);
-    Sequence viewer = make_vision_sequence(scene, settings, Guide::spatial, Vision::thesis);
+    Sequence viewer = make_vision_sequence(scene, settings, Guide::spatial, &thesis_vision());
     const FrameVision vision = compute_vision(viewer, options.frame);
     settings.perception.guide = Guide::none;
     const Sequence sequence(scene, settings);

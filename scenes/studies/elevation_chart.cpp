@@ -4,18 +4,10 @@
 
 #include <cmath>
 
-#include "perception/castle_row.h"
-#include "perception/sensitivity.h"
+#include "perception/vision_list.h"
+#include "perception/vision_model.h"
 
 namespace aleph {
-
-double model_elevation(Vision vision, double rho, double retinal, double tracked, double luminance, double persistence,
-                       const FrameRate& frame_rate) {
-    if (vision == Vision::castle) {
-        return castle_elevation(rho, retinal, tracked, luminance, persistence, frame_rate);
-    }
-    return elevation(rho, retinal, vision == Vision::laird ? laird_2006 : daly_1998);
-}
 
 std::string elevation_chart_program() {
     constexpr double slowest = 0.1, fastest = 100.0;  // deg/s
@@ -30,9 +22,11 @@ std::string elevation_chart_program() {
         for (int i = 0; i <= steps; ++i) {
             const double v = slowest * std::pow(fastest / slowest, static_cast<double>(i) / steps);
             text += fmt::format("{}", v);
-            for (const Vision vision : {Vision::thesis, Vision::laird, Vision::castle}) {
-                text += fmt::format(" {}", model_elevation(vision, rho, retinal_velocity(v, tracking_efficiency),
-                                                           tracked_velocity(v, tracking_efficiency), 100.0, 1.0, {}));
+            const Stimulus seen{.frequency = rho,
+                                .retinal = retinal_velocity(v, tracking_efficiency),
+                                .tracked = tracked_velocity(v, tracking_efficiency)};
+            for (const VisionModel* const vision : {&thesis_vision(), &laird_vision(), &castle_vision()}) {
+                text += fmt::format(" {}", vision->elevation(seen, {}));
             }
             text += "\n";
         }

@@ -80,7 +80,7 @@ class FrameStudy {
           reference_(load_or_gather_reference(frame_, settings_, which.file, options.reference, options.study.quiet)) {
         const Guide guide = with_choice(settings_, "guide", options.guide).perception.guide;
         for (const std::string& name : options.visions) {
-            const Vision vision = with_choice(settings_, "vision", name).perception.vision;
+            const VisionModel* const vision = with_choice(settings_, "vision", name).perception.vision;
             Sequence viewer = make_vision_sequence(scene, settings_, guide, vision);
             judges_.push_back({name, compute_vision(viewer, number_)});
             print_noise(judges_.back());

@@ -46,7 +46,7 @@ Image<float> find_threshold(Image<Rgb> picture, const FrameOutput& out, const Sc
                             const PerceptionSettings& settings) {
     sanitize_estimate(picture);
     const PerceptionMaps maps = compute_perception(picture, out.velocity, scene.viewing, scene.frame_rate, settings);
-    return compute_threshold(maps.aleph, compute_adaptation_luminance(picture, scene.viewing), settings.vision);
+    return compute_threshold(maps.aleph, compute_adaptation_luminance(picture, scene.viewing), *settings.vision);
 }
 
 /// Largest factor between two thresholds at the pixels, sorted.

@@ -10,6 +10,8 @@
 
 #include "engine/base/errors.h"
 #include "perception/castle.h"
+#include "perception/kelly.h"
+#include "perception/vision_model.h"
 #include "render/cli/options.h"
 #include "render/study/study_plot.h"
 #include "scenes/studies/elevation_chart.h"
@@ -51,7 +53,7 @@ GratingErrors run_all(GratingRun run, double highest, double lowest, int step) {
 }
 
 /// The largest errors of both guides, in bright and in dim light.
-GratingErrors run_lights(Vision vision, Bands bands, double highest, double lowest, int step) {
+GratingErrors run_lights(const VisionModel* vision, Bands bands, double highest, double lowest, int step) {
     GratingErrors errors;
     for (const Guide guide : {Guide::spatial, Guide::full}) {
         for (const auto& [mean, contrast] : {std::pair{0.5, 0.8}, std::pair{0.02, 0.5}}) {
@@ -78,7 +80,7 @@ void print_gratings(const GratingsOptions& options) {
                 table.add({vision_names[v], bands == Bands::printed ? "printed" : "measured",
                            fmt::format("{:g} to {:g}", highest, lowest), fmt::format("{:.1e}", e.response),
                            fmt::format("{:.1e}", e.aleph_written), fmt::format("{:.1e}", e.aleph_scalar),
-                           all_visions[v] == Vision::castle ? fmt::format("{:.1e}", e.adaptation) : "-",
+                           all_visions[v] == &castle_vision() ? fmt::format("{:.1e}", e.adaptation) : "-",
                            fmt::format("{:.2f}", e.aleph_lowest), fmt::format("{:.1f}", e.aleph_highest),
                            fmt::format("{}", e.compared)});
             }
@@ -145,14 +147,12 @@ void print_ratios(const char* title, bool follows, bool markdown) {
     for (const double rho : band_rho) {
         std::vector<std::string> cells = {fmt::format("{:g}", rho)};
         for (const double v : velocities) {
-            const double retinal = follows ? retinal_velocity(v, tracking_efficiency) : v;
-            const double tracked = follows ? tracked_velocity(v, tracking_efficiency) : 0.0;
-            const auto f = [&](Vision vision) {
-                return model_elevation(vision, rho, retinal, tracked, 100.0, 1.0, {});
-            };
-            const double thesis = f(Vision::thesis);
-            cells.push_back(
-                fmt::format("{:.3g}; {:.2f} / {:.2f}", thesis, f(Vision::laird) / thesis, f(Vision::castle) / thesis));
+            const Stimulus seen{.frequency = rho,
+                                .retinal = follows ? retinal_velocity(v, tracking_efficiency) : v,
+                                .tracked = follows ? tracked_velocity(v, tracking_efficiency) : 0.0};
+            const double thesis = thesis_vision().elevation(seen, {}), laird = laird_vision().elevation(seen, {}),
+                         castle = castle_vision().elevation(seen, {});
+            cells.push_back(fmt::format("{:.3g}; {:.2f} / {:.2f}", thesis, laird / thesis, castle / thesis));
         }
         table.add(cells);
     }

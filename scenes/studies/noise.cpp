@@ -40,8 +40,8 @@ Judged judge_frame(const Scene& scene, const RenderSettings& settings, std::int6
     maps.frame = false;
     maps.maps = true;
     RenderSettings thesis = settings, castle = settings;
-    thesis.perception.vision = Vision::thesis;
-    castle.perception.vision = Vision::castle;
+    thesis.perception.vision = &thesis_vision();
+    castle.perception.vision = &castle_vision();
     Sequence sequence(scene, thesis);
     FrameOutput of_thesis = sequence.render(frame, maps);
     FrameOutput of_castle = Sequence(held, castle).render(frame, maps);

@@ -61,7 +61,7 @@ std::vector<std::vector<double>> measure_shots(const Scene& scene, const RenderS
                                                const std::vector<int>& frames, const std::vector<Shot>& shots,
                                                int block) {
     const Sequence sequence(scene, settings);
-    Sequence viewer = make_vision_sequence(scene, settings, Guide::spatial, Vision::thesis);
+    Sequence viewer = make_vision_sequence(scene, settings, Guide::spatial, &thesis_vision());
     StudyFrame one(sequence, settings, frames[0]), other(sequence, settings, frames[0]);
     StudyFrame *now = &one, *next = &other;
     std::vector<std::vector<double>> flicker(shots.size());

@@ -32,7 +32,7 @@ Rgb reflect_unit_irradiance(const PixelSurface& surface) {
     return diffuse_radiance(surface.material, lit.cos_view, Rgb(1.0f)) * lit.below_sheen;
 }
 
-Sequence make_vision_sequence(const Scene& scene, RenderSettings settings, Guide guide, Vision vision) {
+Sequence make_vision_sequence(const Scene& scene, RenderSettings settings, Guide guide, const VisionModel* vision) {
     settings.perception.guide = guide;
     settings.perception.vision = vision;
     return Sequence(scene, settings);

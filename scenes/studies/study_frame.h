@@ -46,7 +46,7 @@ struct FrameVision {
 };
 
 /// Computes the maps of a guide and a model of vision.
-Sequence make_vision_sequence(const Scene& scene, RenderSettings settings, Guide guide, Vision vision);
+Sequence make_vision_sequence(const Scene& scene, RenderSettings settings, Guide guide, const VisionModel* vision);
 
 /// @param sequence  make_vision_sequence
 FrameVision compute_vision(Sequence& sequence, std::int64_t frame);

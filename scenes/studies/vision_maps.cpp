@@ -42,7 +42,7 @@ VisionMaps compute_vision_maps(const Scene& scene, const RenderSettings& setting
         perception.vision = all_visions[i];
         maps.aleph[i] =
             compute_perception(out.estimate, out.velocity, scene.viewing, scene.frame_rate, perception).aleph;
-        maps.threshold[i] = compute_threshold(maps.aleph[i], adaptation, all_visions[i]);
+        maps.threshold[i] = compute_threshold(maps.aleph[i], adaptation, *all_visions[i]);
     }
     maps.velocity = std::move(out.velocity);
     maps.retinal = std::move(out.perception.retinal_velocity);

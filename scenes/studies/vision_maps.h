@@ -11,7 +11,7 @@
 
 namespace aleph {
 
-inline constexpr std::array all_visions = {Vision::thesis, Vision::laird, Vision::castle};
+inline const std::array all_visions = {&thesis_vision(), &laird_vision(), &castle_vision()};
 
 /// Of one frame, from its quick estimate; nothing is rendered.
 struct VisionMaps {

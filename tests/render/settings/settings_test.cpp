@@ -8,6 +8,7 @@
 #include <set>
 
 #include "engine/base/errors.h"
+#include "tests/support/ones_vision.h"
 
 namespace aleph {
 namespace {
@@ -123,6 +124,7 @@ TEST(Settings, FieldsReceiveWhatKeysSay) {
     EXPECT_EQ(s.height, 200);
     EXPECT_EQ(s.seed, 4294967295u);
     EXPECT_EQ(s.perception.guide, Guide::full);
+    EXPECT_EQ(s.perception.vision, &castle_vision());
     EXPECT_EQ(s.perception.bands, Bands::measured);
     EXPECT_EQ(s.perception.grid, SaliencyGrid::center);
     EXPECT_TRUE(s.perception.neutral_opponent);
@@ -231,6 +233,14 @@ TEST(Settings, ValidateChecksStructsFilledByHand) {
     settings = {};
     settings.adapter = static_cast<Adapter>(9);
     EXPECT_THROW(validate(settings), InputError);
+    settings = {};
+    settings.perception.vision = nullptr;
+    EXPECT_THROW(validate(settings), InputError);
+    const OnesVision own;
+    settings.perception.vision = &own;
+    EXPECT_NO_THROW(validate(settings));
+    EXPECT_EQ(setting_map(settings).at("vision"), SettingValue("ones"));
+    EXPECT_EQ(refusal("vision", "ones"), "expected one of thesis, laird, castle");
 }
 
 TEST(Settings, ParseTellsTextNumbersAndTruth) {
