@@ -101,6 +101,11 @@ Setting without_scene(Setting setting) {
     return setting;
 }
 
+Setting rarely_set(Setting setting) {
+    setting.rare = true;
+    return setting;
+}
+
 /// Settings of the model of vision, and of how its map becomes accuracy.
 void add_perception(std::vector<Setting>& table) {
     using S = RenderSettings;
@@ -129,9 +134,9 @@ void add_perception(std::vector<Setting>& table) {
         "grid", "resolution at which saliency compares its maps: the picture's (full), or the centre level's, faster",
         [](S& s) -> SaliencyGrid& { return s.perception.grid; },
         {{"full", SaliencyGrid::full}, {"center", SaliencyGrid::center}})));
-    table.push_back(without_scene(boolean_setting("neutral_opponent",
-                                                  "true makes grey neutral in the opponent colour channels of saliency",
-                                                  &PerceptionSettings::neutral_opponent)));
+    table.push_back(rarely_set(without_scene(
+        boolean_setting("neutral_opponent", "true makes grey neutral in the opponent colour channels of saliency",
+                        &PerceptionSettings::neutral_opponent))));
     table.push_back(without_scene(choice_setting<Adapter>(
         "adapter",
         "how accuracy follows the Aleph map: thesis (6.7) (compress), (6.8) (scale-add), or the visible threshold "
@@ -139,8 +144,8 @@ void add_perception(std::vector<Setting>& table) {
         "(threshold)",
         [](S& s) -> Adapter& { return s.adapter; },
         {{"compress", Adapter::compress}, {"scale-add", Adapter::scale_add}, {"threshold", Adapter::threshold}})));
-    table.push_back(
-        without_scene(number_setting("adapter_k", "K of the adapter scale-add", &S::adapter_k, 1e-6, 1e12)));
+    table.push_back(rarely_set(
+        without_scene(number_setting("adapter_k", "K of the adapter scale-add", &S::adapter_k, 1e-6, 1e12))));
 }
 
 /// A set of effects, by their names.
@@ -177,8 +182,8 @@ void add_light(std::vector<Setting>& table) {
         "visible thresholds"));
     table.push_back(without_scene(number_setting(
         "accuracy",
-        "ambient accuracy: error that irradiance caching may make where the viewer is strictest; 0 gathers at every "
-        "sample",
+        "ambient accuracy, as RADIANCE names it: the error that irradiance caching may make where the viewer is "
+        "strictest, so that smaller is more accurate; 0 gathers at every sample",
         &S::accuracy, 0.0, 1.0)));
     table.push_back(with_unit(
         number_setting("gather", "rays over the hemisphere for one irradiance value; 0: what the accuracy needs",
@@ -206,13 +211,13 @@ void add_light(std::vector<Setting>& table) {
          {"variance", Sampling::variance},
          {"protocol", Sampling::protocol},
          {"threshold", Sampling::threshold}}));
-    table.push_back(choice_setting<VarianceTest>(
+    table.push_back(rarely_set(choice_setting<VarianceTest>(
         "variance_test",
         "what the sampling variance compares with the threshold: the error of the mean (standard-error), or the "
         "deviation "
         "of the samples, as the thesis prints it, which more samples do not lower (deviation)",
         [](S& s) -> VarianceTest& { return s.variance_test; },
-        {{"standard-error", VarianceTest::standard_error}, {"deviation", VarianceTest::deviation}}));
+        {{"standard-error", VarianceTest::standard_error}, {"deviation", VarianceTest::deviation}})));
     table.push_back(
         choice_setting<PixelFilter>("filter",
                                     "how the light around a pixel's centre makes up the pixel: its square (box), or a "
@@ -228,13 +233,10 @@ void add_light(std::vector<Setting>& table) {
         number_setting("light_samples", "samples of direct light per pixel and light, shared out among the pixel's spp",
                        &S::light_samples, 1, 65536),
         "samples"));
-    table.push_back(number_setting(
-        "shade_reach", "how far shading uses a cache record, as a multiple of how far filling the cache uses it",
-        &S::shade_reach, 1.0, 2.0));
-    table.push_back(with_unit(
+    table.push_back(rarely_set(with_unit(
         number_setting("min_radius_pixels", "least radius of a cache record, which reaches accuracy times as far",
                        &S::min_radius_pixels, 0.1, 1000.0),
-        "pixels"));
+        "pixels")));
     table.push_back(with_unit(
         number_setting("light_step",
                        "frames between the key moments at which indirect light is computed for the frames around them; "

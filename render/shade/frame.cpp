@@ -136,7 +136,7 @@ class FrameShading {
         std::optional<ShutterLight> light;
         if (cached_) {
             shading.shutter = &light.emplace(context_.lighting.shading, moment.lighting.shading, context_.carried,
-                                             &cache_, context_.settings.shade_reach);
+                                             &cache_, shade_reach);
             context_.seen = &moment.lighting.shading;
         }
         take_at(moment, shading, ranges);

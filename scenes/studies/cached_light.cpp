@@ -18,15 +18,14 @@ struct LitPixel {
 };
 
 /// The pixels that reflect diffusely, row by row.
-std::vector<LitPixel> find_lit_pixels(const StudyFrame& frame, const RenderSettings& settings,
-                                      const Image<float>& alpha) {
+std::vector<LitPixel> find_lit_pixels(const StudyFrame& frame, const Image<float>& alpha) {
     std::vector<std::vector<LitPixel>> rows(static_cast<std::size_t>(alpha.height));
     parallel_rows(alpha.height, 1, [&](int y, int) {
         for (int x = 0; x < alpha.width; ++x) {
             if (frame.centers.hits(x, y).instance == no_index) continue;
             const PixelSurface surface = surface_at(frame, x, y);
             if (!surface.material.has_diffuse()) continue;
-            const float accuracy = alpha(x, y) * static_cast<float>(settings.shade_reach);
+            const float accuracy = alpha(x, y) * static_cast<float>(shade_reach);
             rows[static_cast<std::size_t>(y)].push_back(
                 {{surface.point.position, surface.point.normal, accuracy, nullptr},
                  reflect_unit_irradiance(surface),
@@ -117,7 +116,7 @@ CachedLight compute_cached_light(const StudyFrame& frame, const RenderSettings& 
     out.gather_rays = tally.counts.rays.gather;
     out.shadow_rays = tally.counts.rays.shadow;
 
-    const std::vector<LitPixel> pixels = find_lit_pixels(frame, settings, alpha);
+    const std::vector<LitPixel> pixels = find_lit_pixels(frame, alpha);
     out.lookups = pixels.size();
     start = processor_seconds();
     const std::vector<std::uint8_t> found = look_up(cache, frame, pixels, out);

@@ -34,7 +34,6 @@ const std::map<std::string, SettingValue>& other_values() {
                                                             {"integrator", "path"},
                                                             {"path_depth", 5.0},
                                                             {"light_samples", 7.0},
-                                                            {"shade_reach", 1.1},
                                                             {"min_radius_pixels", 2.5},
                                                             {"error", 0.5},
                                                             {"filter", "box"},
@@ -138,7 +137,6 @@ TEST(Settings, FieldsReceiveWhatKeysSay) {
     EXPECT_EQ(s.integrator, Integrator::path);
     EXPECT_EQ(s.spp, 4);
     EXPECT_EQ(s.light_samples, 7);
-    EXPECT_EQ(s.shade_reach, 1.1);
     EXPECT_EQ(s.min_radius_pixels, 2.5);
     EXPECT_EQ(s.light_step, 5);
     EXPECT_EQ(s.subdivision_level, 3);
@@ -182,7 +180,6 @@ TEST(Settings, MC20_NumbersOutOfRangeOfAnyKind) {
                                                          {"spp", {0.0, 1.5, 65537.0, nan_value, infinite}},
                                                          {"light_samples", {0.0, nan_value, 1e9}},
                                                          {"seed", {-1.0, 4294967296.0, 0.5, nan_value}},
-                                                         {"shade_reach", {0.99, 2.01, nan_value}},
                                                          {"min_radius_pixels", {0.0, -1.0, 1001.0, nan_value}},
                                                          {"light_step", {-1.0, 1001.0, 2.5, nan_value}},
                                                          {"subdivision_level", {-2.0, 11.0, 0.5, nan_value}}};
