@@ -28,7 +28,7 @@ struct CensusLevel {
 /// From the finest level, 0. Made once for a frame, which is first N+1 and then N.
 using CensusPyramid = std::vector<CensusLevel>;
 
-/// Of the achromatic channel A. NaN and components below 0 count as 0 (opponent_color.h).
+/// Compares the achromatic channel A. NaN and components below 0 count as 0 (opponent_color.h).
 /// Three levels; those whose shorter side is under 8 pixels are left out, but never level 0.
 CensusPyramid make_census_pyramid(const Image<Rgb>& frame);
 

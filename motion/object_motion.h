@@ -1,5 +1,6 @@
 #pragma once
-// What the pixels of one object share: where it is at both frames, and at steps between them where it turns fast.
+// The motion that the pixels of one object share: where it is at both frames, and at steps between them where it turns
+// fast.
 
 #include <vector>
 

@@ -114,7 +114,7 @@ double turn_of_node(const Node& node, double begin, double end) {
     return turn_along(node.rotation, begin, end);
 }
 
-/// Whether the parent's transform does not apply.
+/// Returns whether the parent's transform does not apply.
 bool is_detached(const Node& node, double begin, double end) {
     return evaluate(node.inherits, begin) == 0.0 && evaluate(node.inherits, end) == 0.0;
 }

@@ -82,22 +82,24 @@ CastleTable::CastleTable(const std::array<double, band_count>& rho, const Viewin
     }
 }
 
-CastleRow::CastleRow(const CastleTable& table, int width)
-    : table_(table),
+CastleRow::CastleRow(std::shared_ptr<const CastleTable> table, int width)
+    : table_(std::move(table)),
       log_luminance_(width),
       sustained_velocity_(width),
       transient_velocity_(width),
       transient_peak_(width) {
-    for (std::vector<float>& row : elevations_) row.resize(width);
+    for (std::vector<float>& f : elevations_) f.resize(width);
 }
 
-void CastleRow::load(const float* retinal, const float* tracked, const float* luminance) {
+void CastleRow::load(const StimulusRow& row) {
     constexpr auto sustained_power = static_cast<float>(castle_sustained_power);
     constexpr auto transient_power = static_cast<float>(castle_transient_power);
     constexpr auto slope = static_cast<float>(castle_transient_slope);
     constexpr auto offset = static_cast<float>(castle_transient_offset);
     constexpr float least_peak = 1e-30f;  // Hz; its power is next to 0
     const std::size_t width = log_luminance_.size();
+    const float* const retinal = row.retinal;
+    const float* const luminance = row.luminance;
     float* const log_luminances = log_luminance_.data();
     float* const sustained_velocities = sustained_velocity_.data();
     float* const transient_velocities = transient_velocity_.data();
@@ -116,10 +118,15 @@ void CastleRow::load(const float* retinal, const float* tracked, const float* lu
     for (std::size_t x = 0; x < width; ++x) {
         float f[CastleTable::lanes];
         elevate_pixel(
-            table_,
-            {log_luminances[x], tracked[x], sustained_velocities[x], transient_velocities[x], transient_peaks[x]}, f);
+            *table_,
+            {log_luminances[x], row.tracked[x], sustained_velocities[x], transient_velocities[x], transient_peaks[x]},
+            f);
         for (int i = 0; i < band_count; ++i) elevations_[i][x] = f[i];
     }
+}
+
+void CastleRow::elevations(int band, float* out) const {
+    std::ranges::copy(elevations_[band], out);
 }
 
 }  // namespace aleph

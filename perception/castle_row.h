@@ -2,11 +2,10 @@
 // The elevations that castleCSF gives (castle.h), one value at a time in double and for rows of pixels in float.
 
 #include <array>
+#include <memory>
 #include <vector>
 
-#include "engine/base/frame_rate.h"
-#include "engine/base/viewing.h"
-#include "perception/sensitivity.h"
+#include "perception/vision_model.h"
 
 namespace aleph {
 
@@ -19,7 +18,7 @@ namespace aleph {
 double castle_elevation(double rho, double retinal, double tracked, double luminance, double persistence,
                         const FrameRate& frame_rate);
 
-/// What castle_elevation needs of the bands: factors by band, and both channels' sensitivities over log luminance. The
+/// The bands as castle_elevation sees them: factors by band, and both channels' sensitivities over log luminance. The
 /// last of the eight lanes is not used.
 struct CastleTable {
     static constexpr int lanes = 8;
@@ -43,21 +42,16 @@ struct CastleTable {
 
 /// castle_elevation of a row, in float: within 2e-3 of it, but for luminances within 1e-4 of .0113 cd/m2, where the fit
 /// begins to have a transient channel.
-class CastleRow {
+class CastleRow final : public ElevationRow {
   public:
-    /// @param table  must outlive the row
-    CastleRow(const CastleTable& table, int width);
+    CastleRow(std::shared_ptr<const CastleTable> table, int width);
 
-    /// @param retinal    v_R, deg/s, `width` values, each finite and at least the drift
-    /// @param tracked    deg/s, each in [0, pursuit_limit]
-    /// @param luminance  cd/m2; clamped to the model's range, NaN counts as its lowest
-    void load(const float* retinal, const float* tracked, const float* luminance);
-
-    /// f_band of the row, valid until the next load().
-    const float* elevations(int band) const { return elevations_[band].data(); }
+    /// Luminances are clamped to the model's range; NaN counts as its lowest.
+    void load(const StimulusRow& row) override;
+    void elevations(int band, float* out) const override;
 
   private:
-    const CastleTable& table_;
+    std::shared_ptr<const CastleTable> table_;
     std::vector<float> log_luminance_;       ///< log2 of cd/m2, in the model's range
     std::vector<float> sustained_velocity_;  ///< v_R^1.3314
     std::vector<float> transient_velocity_;  ///< v_R^.1898

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 
 #include "engine/base/errors.h"
 #include "engine/base/opponent_color.h"
@@ -20,13 +19,14 @@ namespace {
 constexpr double min_displacement = 1e-3;  // pixels per frame; less is rounding
 
 void check_input(const Image<Rgb>& estimate, const Image<float>& velocity, const ViewingConditions& viewing,
-                 const FrameRate& frame_rate) {
+                 const FrameRate& frame_rate, const PerceptionSettings& settings) {
     if (estimate.empty()) throw InputError("", "estimate", "the image is empty");
     if (!same_size(estimate, velocity)) throw InputError("", "velocity", "not of the estimate's size");
     check_viewing(viewing);
     if (!(std::isfinite(frame_rate.per_second()) && frame_rate.per_second() > 0.0)) {
         throw InputError("", "frames per second", "must be positive and finite");
     }
+    if (settings.vision == nullptr) throw InputError("", "vision", "there is no model of vision");
 }
 
 /// Velocity for the motion channel, deg/s: rounding counts as rest; at most the image diagonal per frame.
@@ -52,19 +52,39 @@ RowSource make_opponent_rows(const Image<Rgb>& estimate, OpponentChannel channel
     };
 }
 
+/// Pyramids of the channels, and their saliency.
+/// @param a  Gaussian levels of A
+Saliency find_saliency(const Image<Rgb>& estimate, const RowSource& motion, std::vector<Image<float>> a,
+                       float a_maximum, const PerceptionSettings& settings) {
+    const LevelSize size{estimate.width, estimate.height};
+    const auto opponent_pyramid = [&](OpponentChannel channel) {
+        return make_gaussian_pyramid(size, make_opponent_rows(estimate, channel, settings.neutral_opponent, 0.0f),
+                                     saliency_levels);
+    };
+    const ChannelPyramids pyramids{.size = size,
+                                   .a = std::move(a),
+                                   .c1 = opponent_pyramid(OpponentChannel::c1),
+                                   .c2 = opponent_pyramid(OpponentChannel::c2),
+                                   .velocity = make_gaussian_pyramid(size, motion, saliency_levels)};
+    return compute_saliency(pyramids, a_maximum, settings.grid);
+}
+
+/// The maps of guide `none`.
+PerceptionMaps make_flat_maps(int width, int height, bool with_retinal_velocity) {
+    PerceptionMaps maps;
+    maps.aleph = Image<float>(width, height, 1.0f);
+    if (with_retinal_velocity) maps.retinal_velocity = Image<float>(width, height, static_cast<float>(drift_velocity));
+    return maps;
+}
+
 }  // namespace
 
 PerceptionMaps compute_perception(const Image<Rgb>& estimate, const Image<float>& velocity,
                                   const ViewingConditions& viewing, const FrameRate& frame_rate,
                                   const PerceptionSettings& settings, const PerceptionOutputs& outputs) {
-    check_input(estimate, velocity, viewing, frame_rate);
-    PerceptionMaps maps;
+    check_input(estimate, velocity, viewing, frame_rate, settings);
     if (settings.guide == Guide::none) {
-        maps.aleph = Image<float>(estimate.width, estimate.height, 1.0f);
-        if (outputs.retinal_velocity) {
-            maps.retinal_velocity = Image<float>(estimate.width, estimate.height, static_cast<float>(drift_velocity));
-        }
-        return maps;
+        return make_flat_maps(estimate.width, estimate.height, outputs.retinal_velocity);
     }
 
     const FlushDenormals flush;
@@ -75,31 +95,22 @@ PerceptionMaps compute_perception(const Image<Rgb>& estimate, const Image<float>
     std::vector<Image<float>> a = make_gaussian_pyramid(size, a_rows, salient ? saliency_levels : band_count + 1);
     const BandLevels bands = make_band_levels(size, a_rows, a, a_summary.mean);
 
+    PerceptionMaps maps;
     Saliency saliency;
     if (salient) {
-        const auto feature_pyramid = [&](const RowSource& rows) {
-            return make_gaussian_pyramid(size, rows, saliency_levels);
-        };
-        const auto opponent_rows = [&](OpponentChannel channel) {
-            return make_opponent_rows(estimate, channel, settings.neutral_opponent, 0.0f);
-        };
-        const ChannelPyramids pyramids{.size = size,
-                                       .a = std::move(a),
-                                       .c1 = feature_pyramid(opponent_rows(OpponentChannel::c1)),
-                                       .c2 = feature_pyramid(opponent_rows(OpponentChannel::c2)),
-                                       .velocity = feature_pyramid(make_motion_rows(velocity, viewing, frame_rate))};
-        saliency = compute_saliency(pyramids, a_summary.maximum, settings.grid);
+        saliency = find_saliency(estimate, make_motion_rows(velocity, viewing, frame_rate), std::move(a),
+                                 a_summary.maximum, settings);
     }
+    const VisionModel& vision = *settings.vision;
     AlephPass pass{.bands = bands,
                    .velocity = settings.guide == Guide::spatial ? nullptr : &velocity,
                    .saliency = salient ? &saliency.map : nullptr,
-                   .rho = band_frequencies(settings.bands, viewing.pixels_per_degree)};
-    std::optional<CastlePass> castle;
-    if (settings.vision == Vision::castle) {
+                   .rho = band_frequencies(settings.bands, viewing.pixels_per_degree),
+                   .vision = vision,
+                   .shown = {viewing, frame_rate}};
+    if (vision.uses_luminance()) {
         maps.adaptation = compute_adaptation_luminance(estimate, viewing);
-        pass.castle = &castle.emplace(CastleTable(pass.rho, viewing, frame_rate), maps.adaptation);
-    } else if (settings.vision == Vision::laird) {
-        pass.model = laird_2006;
+        pass.luminance = &maps.adaptation;
     }
     AlephImages images = compute_aleph(pass, outputs.retinal_velocity, outputs.bands);
     maps.aleph = std::move(images.aleph);

@@ -14,8 +14,9 @@
 namespace aleph {
 
 struct PerceptionMaps {
-    Image<float> aleph;       ///< (5.11) contrast elevation, no unit, 1 (strictest) to 250.6
-    Image<float> adaptation;  ///< compute_adaptation_luminance of the estimate, cd/m2; empty unless castle used it
+    Image<float> aleph;  ///< (5.11) contrast elevation, no unit, 1 (strictest) to 250.6
+    Image<float>
+        adaptation;  ///< compute_adaptation_luminance of the estimate, cd/m2; empty unless the model of vision uses it
     Image<float> retinal_velocity;  ///< (5.5) deg/s, at least .15; empty if not requested
     Image<float> saliency;          ///< S, [0,1]; empty unless the guide is `saliency`
     /// Sums of N(feature map) per channel; empty if not requested or if the guide is not `saliency`
@@ -36,7 +37,8 @@ struct PerceptionOutputs {
 /// Depends on its arguments only; the same bits for any number of threads. With guide `none` aleph is 1 everywhere.
 /// @param estimate  sanitized (sanitize_estimate): linear RGB, Rec.709, white = 1 after exposure
 /// @param velocity  deg/s, same size as `estimate`; negative and NaN count as 0
-/// @throws InputError if the sizes differ, are empty, or viewing or frame rate is not positive and finite
+/// @throws InputError if the sizes differ, are empty, viewing or frame rate is not positive and finite, or there is no
+/// model of vision
 PerceptionMaps compute_perception(const Image<Rgb>& estimate, const Image<float>& velocity,
                                   const ViewingConditions& viewing, const FrameRate& frame_rate,
                                   const PerceptionSettings& settings, const PerceptionOutputs& outputs = {});

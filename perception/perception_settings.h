@@ -1,6 +1,8 @@
 #pragma once
 // Settings of the vision model.
 
+#include "perception/vision_list.h"
+
 namespace aleph {
 
 enum class Guide {
@@ -15,13 +17,6 @@ enum class Bands {
     measured,  ///< 15.5 3.27 1.57 .79 .36 .18 .12: where these filters really peak
 };
 
-/// Contrast sensitivity that the Aleph map is made from.
-enum class Vision {
-    thesis,  ///< Kelly 1979 with Daly's constants of 1998 (Yee 2000, 5.7)
-    laird,   ///< the same form with the constants of Laird et al. 2006
-    castle,  ///< castleCSF (Ashraf et al. 2024), and the blur of a display that holds its frames
-};
-
 enum class SaliencyGrid {
     full,    ///< every level expanded to full size before N(.)
     center,  ///< differences and N(.) on the centre level's own grid: much cheaper, S correlates .99
@@ -29,7 +24,7 @@ enum class SaliencyGrid {
 
 struct PerceptionSettings {
     Guide guide = Guide::saliency;
-    Vision vision = Vision::thesis;
+    const VisionModel* vision = &thesis_vision();  ///< of vision_list.h, or a program's own; never null
     Bands bands = Bands::printed;
     SaliencyGrid grid = SaliencyGrid::full;
     bool neutral_opponent = false;  ///< subtract what grey gives from C1 and C2

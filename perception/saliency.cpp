@@ -7,7 +7,7 @@
 #include "engine/base/index.h"
 #include "engine/base/parallel.h"
 #include "perception/normalize.h"
-#include "perception/sensitivity.h"
+#include "perception/retinal_velocity.h"
 
 namespace aleph {
 

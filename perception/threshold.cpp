@@ -6,7 +6,6 @@
 #include "engine/base/errors.h"
 #include "engine/base/parallel.h"
 #include "perception/check_viewing.h"
-#include "perception/fast_math.h"
 #include "perception/luminance_curve.h"
 
 namespace aleph {
@@ -14,45 +13,7 @@ namespace aleph {
 namespace {
 
 constexpr int rows_per_band = 32;
-constexpr double min_luminance = 1e-6, max_luminance = 1e12;  // cd/m2
-
-// Ward-Larson, Rushmeier and Piatko 1997: where one piece ends and the next begins, log10 of cd/m2.
-constexpr double rods_end = -3.94, scotopic_end = -1.44, mesopic_end = -0.0184, photopic_start = 1.9;
-
-// The pieces of t(l), log10 of cd/m2 to log10 of cd/m2, for tvi() and fast_tvi().
-constexpr double rods_level = -2.86;
-constexpr double scotopic_slope = 0.405, scotopic_offset = 1.6, scotopic_power = 2.18;
-constexpr double mesopic_shift = 0.395;
-constexpr double rising_slope = 0.249, rising_offset = 0.65, rising_power = 2.7, rising_shift = 0.72;
-constexpr double photopic_shift = 1.255;
-
-/// base^power, base > 0.
-float fast_power(float base, float power) {
-    return fast_exp2(power * fast_log2(base));
-}
-
-/// tvi() in float, without branches; within 1e-5 of it.
-float fast_tvi(float luminance) {
-    constexpr float log10_2 = 0.30102999566398120f, log2_10 = 3.3219280948873623f;
-    constexpr auto lowest = static_cast<float>(min_luminance), highest = static_cast<float>(max_luminance);
-    constexpr float min_base = 1e-3f;  // the base of a piece that is not in use may be negative
-    const float clamped = luminance > lowest ? (luminance < highest ? luminance : highest) : lowest;
-    const float l = log10_2 * fast_log2(clamped);
-    const float scotopic = static_cast<float>(scotopic_slope) * l + static_cast<float>(scotopic_offset);
-    const float rising = static_cast<float>(rising_slope) * l + static_cast<float>(rising_offset);
-    float t = static_cast<float>(rods_level);
-    t = l < static_cast<float>(rods_end)
-            ? t
-            : fast_power(scotopic > min_base ? scotopic : min_base, static_cast<float>(scotopic_power)) +
-                  static_cast<float>(rods_level);
-    t = l < static_cast<float>(scotopic_end) ? t : l - static_cast<float>(mesopic_shift);
-    t = l < static_cast<float>(mesopic_end)
-            ? t
-            : fast_power(rising > min_base ? rising : min_base, static_cast<float>(rising_power)) -
-                  static_cast<float>(rising_shift);
-    t = l < static_cast<float>(photopic_start) ? t : l - static_cast<float>(photopic_shift);
-    return fast_exp2(log2_10 * t);
-}
+constexpr std::size_t pixels_per_part = std::size_t{1} << 14;
 
 /// Prefix sums of luminance along every row: `reach` zeros on the left, `reach` times the total on the right, so that
 /// windows may reach past the image.
@@ -91,41 +52,7 @@ std::vector<int> disc_half_widths(double radius, const Image<Rgb>& estimate) {
     return half;
 }
 
-/// f(a[i], b[i]) of all pixels.
-template <class Function>
-Image<float> map_pixels(const Image<float>& a, const Image<float>& b, const Function& f) {
-    Image<float> out(a.width, a.height);
-    parallel_for(out.size(), std::size_t{1} << 14, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t i = begin; i < end; ++i) out.pixels[i] = f(a.pixels[i], b.pixels[i]);
-    });
-    return out;
-}
-
-/// cd/m2, in the range of castle_threshold; NaN is the lowest.
-float clamp_for_castle(float luminance) {
-    constexpr auto lowest = static_cast<float>(castle_min_luminance), highest = static_cast<float>(max_luminance);
-    const float positive = luminance > lowest ? luminance : lowest;
-    return positive < highest ? positive : highest;
-}
-
 }  // namespace
-
-double tvi(double luminance) {
-    const double l = std::log10(std::fmin(std::fmax(luminance, min_luminance), max_luminance));
-    double t;
-    if (l < rods_end) {
-        t = rods_level;
-    } else if (l < scotopic_end) {
-        t = std::pow(scotopic_slope * l + scotopic_offset, scotopic_power) + rods_level;
-    } else if (l < mesopic_end) {
-        t = l - mesopic_shift;
-    } else if (l < photopic_start) {
-        t = std::pow(rising_slope * l + rising_offset, rising_power) - rising_shift;
-    } else {
-        t = l - photopic_shift;
-    }
-    return std::pow(10.0, t);
-}
 
 Image<float> compute_adaptation_luminance(const Image<Rgb>& estimate, const ViewingConditions& viewing) {
     if (estimate.empty()) throw InputError("", "estimate", "the image is empty");
@@ -164,13 +91,15 @@ Image<float> compute_adaptation_luminance(const Image<Rgb>& estimate, const View
     return out;
 }
 
-Image<float> compute_threshold(const Image<float>& aleph, const Image<float>& adaptation_luminance, Vision vision) {
+Image<float> compute_threshold(const Image<float>& aleph, const Image<float>& adaptation_luminance,
+                               const VisionModel& vision) {
     if (!same_size(aleph, adaptation_luminance)) throw InputError("", "aleph", "not of the luminance's size");
-    if (vision != Vision::castle)
-        return map_pixels(aleph, adaptation_luminance, [](float a, float l) { return a * fast_tvi(l); });
-    const LuminanceCurve& peak = castle_peak_curve();
-    return map_pixels(aleph, adaptation_luminance,
-                      [&](float a, float l) { return a * (clamp_for_castle(l) / peak(l)); });
+    Image<float> out(aleph.width, aleph.height);
+    parallel_for(out.size(), pixels_per_part, [&](std::size_t begin, std::size_t end) {
+        vision.thresholds(adaptation_luminance.pixels.data() + begin, end - begin, out.pixels.data() + begin);
+        for (std::size_t i = begin; i < end; ++i) out.pixels[i] *= aleph.pixels[i];
+    });
+    return out;
 }
 
 Image<float> compute_flicker_threshold(const Image<float>& threshold, const Image<float>& adaptation_luminance,
@@ -178,10 +107,15 @@ Image<float> compute_flicker_threshold(const Image<float>& threshold, const Imag
     if (!same_size(threshold, adaptation_luminance)) throw InputError("", "threshold", "not of the luminance's size");
     const LuminanceCurve sensitivity(
         [&](double luminance) { return castle_flicker_sensitivity(luminance, frame_rate); });
-    return map_pixels(threshold, adaptation_luminance, [&](float t, float l) {
-        const float flicker = clamp_for_castle(l) / sensitivity(l);
-        return flicker < t ? flicker : t;
+    Image<float> out(threshold.width, threshold.height);
+    parallel_for(out.size(), pixels_per_part, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) {
+            const float luminance = adaptation_luminance.pixels[i], lasting = threshold.pixels[i];
+            const float flicker = clamp_threshold_luminance(luminance) / sensitivity(luminance);
+            out.pixels[i] = flicker < lasting ? flicker : lasting;
+        }
     });
+    return out;
 }
 
 }  // namespace aleph

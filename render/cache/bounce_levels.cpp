@@ -24,7 +24,7 @@ float level_accuracy(const RenderSettings& settings, int turns) {
 }
 
 DeeperLight make_level_light(const RenderSettings& settings, int turns, const IrradianceCache* cache) {
-    const double reach = settings.shade_reach * level_accuracy(settings, turns + 1);
+    const double reach = shade_reach * level_accuracy(settings, turns + 1);
     return {std::max(0, count_bounces(settings) - 1 - turns), cache, static_cast<float>(reach)};
 }
 

@@ -26,6 +26,10 @@
 
 namespace aleph {
 
+/// How far shading uses a record, as a multiple of how far filling the cache does: records on both sides of a point
+/// then contribute to it.
+inline constexpr double shade_reach = 1.4;
+
 struct IrradianceRecord {
     glm::vec3 position{0.0f};  ///< m, relative to the frame's anchor
     float radius = 0.0f;       ///< R_i, m; positive and finite; neighbour clamping may shrink it later

@@ -78,6 +78,10 @@ std::string setting_help(const Setting& setting) {
     return setting.help;
 }
 
+constexpr const char* settings_group =
+    "Settings (a scene file's \"settings\" have the same names, with _ in place of -)";
+constexpr const char* hidden_group = "";  // of options that help leaves out
+
 /// --KEY for a setting of the table; read_settings reads it.
 void add_setting_option(CLI::App& app, const Setting& setting) {
     const std::string help = setting_help(setting);
@@ -85,7 +89,19 @@ void add_setting_option(CLI::App& app, const Setting& setting) {
     app.add_option(option_name(setting.key), help)
         ->type_name(value_name(setting))
         ->default_str(std::visit([](const auto& v) { return fmt::format("{}", v); }, value))
-        ->group("Settings (a scene file's \"settings\" have the same names, with _ in place of -)");
+        ->group(setting.rare ? hidden_group : settings_group);
+}
+
+/// --help-all
+void add_full_help(CLI::App& app) {
+    app.add_flag_callback(
+        "--help-all",
+        [&app] {
+            for (const Setting& setting : setting_table())
+                app.get_option(option_name(setting.key))->group(settings_group);
+            throw CLI::CallForHelp();
+        },
+        "print this help with the settings that are rarely changed, and exit");
 }
 
 /// "KEY=VALUE" of a list of names, with those that were given before.
@@ -134,6 +150,7 @@ void add_load_limits(CLI::App& app, LoadLimits& limits) {
 
 void add_setting_options(CLI::App& app, SettingMap& settings) {
     for (const Setting& setting : setting_table()) add_setting_option(app, setting);
+    add_full_help(app);
     app.add_option_function<std::vector<std::string>>(
            "--set", [](const std::vector<std::string>&) {},  // read_settings reads it
            "a setting by its key in scene files; also exposure, viewing.pixels_per_degree (pixels), "

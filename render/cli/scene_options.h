@@ -20,7 +20,7 @@ struct SceneOptions {
     bool importance = false;  ///< `maps` writes this picture in place of the maps
 };
 
-/// Adds --KEY for every setting of the table, and --set.
+/// Adds --KEY for every setting of the table, --set, and --help-all, which shows settings that are rarely changed too.
 /// @param settings  filled once the command line has been read
 void add_setting_options(CLI::App& app, SettingMap& settings);
 

@@ -7,6 +7,7 @@
 
 #include "engine/base/errors.h"
 #include "engine/base/parallel.h"
+#include "perception/vision_model.h"
 #include "render/cli/commands.h"
 #include "render/cli/frame_pattern.h"
 #include "render/cli/progress.h"
@@ -60,11 +61,17 @@ StudyJudge parse_judge(const std::string& text) {
     return judge;
 }
 
-/// A model of vision by its name; castle with the viewing conditions of a display that holds its frames.
+/// A model of vision by its name, on a display that holds its frames.
 StudyViewer make_viewer(const std::string& vision) {
     StudyViewer viewer{vision, {{"vision", vision}}};
-    if (vision == "castle") viewer.settings["viewing.persistence"] = 1.0;
+    if (find_vision(vision)->uses_persistence()) viewer.settings["viewing.persistence"] = 1.0;
     return viewer;
+}
+
+std::vector<std::string> vision_names() {
+    std::vector<std::string> names;
+    for (const VisionModel* const model : vision_list()) names.push_back(model->name());
+    return names;
 }
 
 /// The study of a file, or that of the sweeps of a scene.
@@ -180,9 +187,9 @@ void add_options(CLI::App& study, StudyCommandOptions& options) {
     add_value(study, "--seeds", options.seeds, "renderings with different ones; 0: the study's, or 1");
     study
         .add_option("--viewers", options.viewers,
-                    "models of vision that judge, such as thesis,castle (castle: a display that holds its frames)")
+                    "models of vision that judge, such as thesis,castle, on a display that holds its frames")
         ->delimiter(',')
-        ->check(CLI::IsMember(std::ranges::find(setting_table(), "vision", &Setting::key)->choices));
+        ->check(CLI::IsMember(vision_names()));
     study
         .add_option("--judge", options.judges,
                     "maps of visible differences by another program, 1 where a difference is just visible: for each "

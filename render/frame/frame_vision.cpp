@@ -26,7 +26,7 @@ void compute_frame_vision(FrameOutput& out, const Scene& shot, const RenderSetti
     out.statistics.saliency_fallback = out.perception.fallback;
     Image<float>& adaptation = out.perception.adaptation;
     if (adaptation.empty()) adaptation = compute_adaptation_luminance(out.estimate, shot.viewing);
-    out.threshold = compute_threshold(out.perception.aleph, adaptation, settings.perception.vision);
+    out.threshold = compute_threshold(out.perception.aleph, adaptation, *settings.perception.vision);
     out.threshold_flicker = compute_flicker_threshold(out.threshold, adaptation, shot.frame_rate);
     if (needs_indirect_luminance(settings, maps)) {
         if (out.indirect_luminance.empty()) out.indirect_luminance = luminance_image(out.estimate);

@@ -18,7 +18,7 @@ void note_estimate(FrameOutput& out, const SanitizeCounts& sanitized, const View
 void compute_frame_vision(FrameOutput& out, const Scene& shot, const RenderSettings& settings, bool maps,
                           StageClock& clock);
 
-/// Whether the tolerance of indirect light is computed, which needs its luminance in the estimate.
+/// Returns whether the tolerance of indirect light is computed, which needs its luminance in the estimate.
 bool needs_indirect_luminance(const RenderSettings& settings, bool maps);
 
 }  // namespace aleph

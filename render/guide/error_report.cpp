@@ -17,7 +17,7 @@ struct SquaredErrors {
     std::array<double, light_part_count> parts{};
 };
 
-/// Of a pixel's mean, from the pixel and those around it that are like it (estimate_mean).
+/// Returns the squared errors of a pixel's mean, from the pixel and those around it that are like it (estimate_mean).
 SquaredErrors estimate_sampling(const Image<PixelSamples>& pixels, const Image<Outline>& outlines, int x, int y) {
     SquaredErrors sum;
     int count = 0;

@@ -16,7 +16,7 @@ namespace aleph {
 /// "edges", "blur", ...
 const std::array<std::string, cause_count>& cause_names();
 
-/// What errors are told from.
+/// The input of estimate_errors.
 struct ErrorInput {
     const Image<PixelSamples>& pixels;
     const Image<float>& threshold;  ///< cd/m2

@@ -13,9 +13,9 @@ namespace aleph {
 /// than half a percent of the pixels is beyond (scenes/studies/README.md).
 inline constexpr double error_deviations = 2.0;
 
-/// What is known of a pixel's mean. A pixel's own samples never decide when it stops: a pixel whose first samples
-/// happen to agree would stop early, more often at a value that is too low than at one that is too high, and the
-/// picture would be biased. Neighbours tell both numbers, at this pixel's number of samples.
+/// The mean of a pixel's samples, as its neighbours tell it. A pixel's own samples never decide when it stops: a pixel
+/// whose first samples happen to agree would stop early, more often at a value that is too low than at one that is too
+/// high, and the picture would be biased. Neighbours tell both numbers, at this pixel's number of samples.
 struct MeanEstimate {
     int samples = 0;
     double error2 = 0.0;    ///< squared error of the mean luminance, from halves (PixelSamples)
@@ -28,7 +28,7 @@ struct MeanEstimate {
 /// @param outlines  of the same size, or empty: none
 MeanEstimate estimate_mean(const Image<PixelSamples>& pixels, const Image<Outline>& outlines, int x, int y);
 
-/// Whether a rule stops at this estimate.
+/// Returns whether a rule stops at this estimate.
 /// consecutive (6.10): the means of this stage and of the one before differ by less than the tolerance.
 /// variance (6.12): the standard error of independent samples is below the tolerance; or as printed their standard
 /// deviation, which does not fall with their number.

@@ -21,6 +21,7 @@ struct Setting {
     double min = 0.0, max = 0.0;       ///< of numbers, and of both sides of a size; inclusive
     std::vector<std::string> choices;  ///< of a choice, and the names
     bool needs_scene = true;           ///< false: `aleph maps --images` takes it as well
+    bool rare = false;                 ///< true: its default suits nearly every picture, and only --help-all shows it
 
     std::function<SettingValue(const RenderSettings&)> get;
     std::function<void(RenderSettings&, const SettingValue&)> set;  ///< of a value without a mismatch

@@ -72,7 +72,9 @@ void parse_setting(const std::string& text, SettingMap& into) {
 
 void validate(const RenderSettings& settings) {
     RenderSettings checked;
-    apply_settings(checked, setting_map(settings), "settings");
+    SettingMap map = setting_map(settings);
+    if (settings.perception.vision != nullptr) map.erase("vision");  // may be a program's own, which has no key
+    apply_settings(checked, map, "settings");
 }
 
 }  // namespace aleph

@@ -51,13 +51,13 @@ enum class Sampling {
     threshold,    ///< until 99.5 % of the pixels are about within the error that is asked for
 };
 
-/// What Sampling::variance compares with the threshold.
+/// The value that Sampling::variance compares with the threshold.
 enum class VarianceTest {
     standard_error,  ///< of the mean
     deviation,       ///< of the samples, as (6.12) is printed
 };
 
-/// Whether a frame's effects are planned (effects_plan.h).
+/// The choice of planning a frame's effects, or not (effects_plan.h).
 enum class EffectsPlanning { on, off };
 
 struct RenderSettings {
@@ -80,7 +80,6 @@ struct RenderSettings {
     PixelFilter filter = PixelFilter::blackman_harris;
     int spp = 16;                     ///< samples per pixel, or the most of them; 1 is the pixel's centre
     int light_samples = 16;           ///< direct-light samples per pixel and light, shared out among its spp
-    double shade_reach = 1.4;         ///< how far shading uses a record, as a multiple of how far filling does
     double min_radius_pixels = 12.0;  ///< least R of a record (irradiance_record.h), pixels
     int light_step = 10;              ///< frames between key moments of indirect light; 0: every frame computes its own
     int subdivision_level = -1;       ///< of every subdivision cage; -1: as fine as the pixels need (cage_level.h)

@@ -49,7 +49,7 @@ class CacheIntegrator final : public LightIntegrator {
         shutter_.reset();
         if (blurred && cached_) {
             shutter_.emplace(context_.lighting.shading, moment.lighting.shading, context_.carried, &cache_,
-                             settings.shade_reach);
+                             shade_reach);
             context_.seen = &moment.lighting.shading;
         }
         shading_.emplace(

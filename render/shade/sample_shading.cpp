@@ -28,7 +28,7 @@ std::optional<Rgb> read_irradiance(const SampleShading& shading, ShadingTask& ta
         found = context.carried->find(surface, accuracy, task, used);
     }
     if (!found && shading.cache != nullptr && accuracy > 0.0f) {
-        const float reach = accuracy * static_cast<float>(context.settings.shade_reach);
+        const float reach = accuracy * static_cast<float>(shade_reach);
         CacheQuery query{surface.point.position, surface.point.normal, reach, &task};
         query.used = used;
         ++task.lookups;

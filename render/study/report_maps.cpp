@@ -3,7 +3,7 @@
 #include <array>
 #include <nlohmann/json.hpp>
 
-#include "perception/sensitivity.h"
+#include "perception/band_frequencies.h"
 #include "render/study/report_page.h"
 
 namespace aleph {

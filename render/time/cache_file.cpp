@@ -23,7 +23,7 @@ constexpr std::string_view magic = "alephL1\n";
 static_assert(std::is_trivially_copyable_v<IrradianceRecord>);
 
 /// They change how records are read, not the records.
-const std::set<std::string> reading_settings{"light_samples", "shade_reach", "plan", "force"};
+const std::set<std::string> reading_settings{"light_samples", "plan", "force"};
 
 std::string format_fingerprint(const CacheFingerprint& fingerprint) {
     Json json{{"build", fingerprint.build}, {"scene", fingerprint.scene}, {"settings", Json::object()}};

@@ -61,7 +61,7 @@ class BlendedLight : public CarriedLight {
     /// @param after   null at a moment itself
     /// @param weight  of `after`
     /// @param still   nothing but the camera changes: light that only one of the moments has holds at the other
-    /// @param reach   RenderSettings::shade_reach
+    /// @param reach   shade_reach
     BlendedLight(std::shared_ptr<const MomentLight> before, std::shared_ptr<const MomentLight> after, double weight,
                  bool still, double reach);
 

@@ -73,7 +73,7 @@ void ShotLight::prepare(std::int64_t moment, const std::vector<std::int64_t>& vi
 
 std::unique_ptr<BlendedLight> ShotLight::blend(const MomentPair& pair) const {
     const auto after = pair.after == pair.before ? nullptr : lights_.at(pair.after);
-    return std::make_unique<BlendedLight>(lights_.at(pair.before), after, pair.weight, still_, settings_.shade_reach);
+    return std::make_unique<BlendedLight>(lights_.at(pair.before), after, pair.weight, still_, shade_reach);
 }
 
 std::unique_ptr<CarriedLight> ShotLight::at(std::int64_t frame, std::vector<MomentStatistics>& filled) {

@@ -45,7 +45,7 @@ class ShutterLight {
     /// @param sample   at the sample's time
     /// @param carried  light of key moments at the frame's time; may be null
     /// @param cache    the frame's own; may be null
-    /// @param reach    RenderSettings::shade_reach, of look-ups in `cache`
+    /// @param reach    shade_reach, of look-ups in `cache`
     ShutterLight(const ShadingScene& frame, const ShadingScene& sample, const CarriedLight* carried,
                  const IrradianceCache* cache, double reach)
         : frame_(frame),

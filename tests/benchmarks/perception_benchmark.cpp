@@ -96,9 +96,9 @@ BENCHMARK_CAPTURE(run_stage, saliency_center, PerceptionSettings{.grid = Salienc
     ->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(run_stage, full, PerceptionSettings{.guide = Guide::full})->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(run_stage, spatial, PerceptionSettings{.guide = Guide::spatial})->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(run_stage, saliency_full_castle, PerceptionSettings{.vision = Vision::castle})
+BENCHMARK_CAPTURE(run_stage, saliency_full_castle, PerceptionSettings{.vision = &castle_vision()})
     ->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(run_stage, full_castle, PerceptionSettings{.guide = Guide::full, .vision = Vision::castle})
+BENCHMARK_CAPTURE(run_stage, full_castle, PerceptionSettings{.guide = Guide::full, .vision = &castle_vision()})
     ->Unit(benchmark::kMillisecond);
 BENCHMARK(flat_4k)->Unit(benchmark::kMillisecond);
 BENCHMARK(normalize_flat_4k)->Unit(benchmark::kMillisecond);

@@ -39,7 +39,7 @@ struct SlowSearch {
         }
         return bits;
     }
-    /// Of a window that may reach over the border: the census of the nearest pixel inside.
+    /// The census at a place of a window that may reach over the border: of the nearest pixel inside.
     static std::bitset<8> clamped_census(const Image<float>& image, int x, int y) {
         return census(image, std::clamp(x, 0, image.width - 1), std::clamp(y, 0, image.height - 1));
     }

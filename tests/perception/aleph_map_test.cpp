@@ -10,17 +10,12 @@
 #include "engine/base/errors.h"
 #include "engine/base/parallel.h"
 #include "perception/fast_math.h"
+#include "perception/kelly_vision.h"
 #include "perception/perception.h"
 #include "tests/support/perception_scene.h"
 
 namespace aleph {
 namespace {
-
-double mean(const Image<float>& image) {
-    double sum = 0.0;
-    for (const float v : image.pixels) sum += v;
-    return sum / static_cast<double>(image.size());
-}
 
 TEST(FastMath, ExpAndLogAreGoodToAMillionth) {
     for (double x = -125.9; x < 125.9; x += 0.0137) {
@@ -36,7 +31,7 @@ TEST(FastMath, ExpAndLogAreGoodToAMillionth) {
     EXPECT_EQ(fast_exp2(-1e9f), 0x1p-126f);
 }
 
-TEST(ElevationRow, AgreesWithTheDoubleFormula) {
+TEST(KellyRow, AgreesWithTheDoubleFormula) {
     std::vector<float> velocity;
     for (double v = 0.15; v < 1e8; v *= 1.003) velocity.push_back(static_cast<float>(v));
     velocity.front() = 0.15f;
@@ -44,8 +39,8 @@ TEST(ElevationRow, AgreesWithTheDoubleFormula) {
     for (const Bands bands : {Bands::printed, Bands::measured}) {
         for (const double ppd : {15.0, 31.0, 60.0, 300.0}) {
             const auto rho = band_frequencies(bands, ppd);
-            ElevationRow row(rho, static_cast<int>(velocity.size()));
-            row.load(velocity.data());
+            KellyRow row(rho, static_cast<int>(velocity.size()));
+            row.load({.retinal = velocity.data()});
             for (int band = 0; band < band_count; ++band) {
                 row.elevations(band, f.data());
                 for (std::size_t i = 0; i < f.size(); ++i) {
@@ -57,11 +52,11 @@ TEST(ElevationRow, AgreesWithTheDoubleFormula) {
     }
 }
 
-TEST(ElevationRow, KnowsWhenABandIsOneInTheWholeRow) {
+TEST(KellyRow, KnowsWhenABandIsOneInTheWholeRow) {
     const auto rho = band_frequencies(Bands::printed, 31.0);
     const std::vector<float> velocity = {0.15f, 2.0f, 0.15f};
-    ElevationRow row(rho, 3);
-    row.load(velocity.data());
+    KellyRow row(rho, 3);
+    row.load({.retinal = velocity.data()});
     for (int band = 0; band < band_count; ++band) {
         std::vector<float> f(3);
         row.elevations(band, f.data());
@@ -89,7 +84,7 @@ TEST(RetinalVelocityRow, AgreesWithTheDoubleFormula) {
 TEST(Perception, SaliencyIsMoreLenientThanFullTrackingAndThatThanNoMotion) {
     const SyntheticFrame frame = make_synthetic_frame(320, 240);
     const auto aleph_with = [&](Guide guide) {
-        return mean(compute_perception(frame.estimate, frame.velocity, {}, {}, {.guide = guide}).aleph);
+        return mean_of(compute_perception(frame.estimate, frame.velocity, {}, {}, {.guide = guide}).aleph);
     };
     EXPECT_GT(aleph_with(Guide::saliency), 1.1 * aleph_with(Guide::full));
     EXPECT_GT(aleph_with(Guide::full), 1.1 * aleph_with(Guide::spatial));
@@ -100,7 +95,7 @@ TEST(Perception, SaliencyIsMoreLenientThanFullTrackingAndThatThanNoMotion) {
 TEST(Perception, MeasuredBandsAreStricter) {
     const SyntheticFrame frame = make_synthetic_frame(320, 240);
     const auto aleph_with = [&](Bands bands) {
-        return mean(compute_perception(frame.estimate, frame.velocity, {}, {}, {.bands = bands}).aleph);
+        return mean_of(compute_perception(frame.estimate, frame.velocity, {}, {}, {.bands = bands}).aleph);
     };
     EXPECT_LT(aleph_with(Bands::measured), aleph_with(Bands::printed));
 }
@@ -135,7 +130,7 @@ TEST(Perception, OutputsAreThoseAskedFor) {
         for (const Image<float>* map : {&all.retinal_velocity, &all.conspicuity_intensity, &all.conspicuity_color,
                                         &all.conspicuity_orientation, &all.conspicuity_motion}) {
             ASSERT_TRUE(same_size(*map, frame.velocity));
-            EXPECT_GT(mean(*map), 0.0);
+            EXPECT_GT(mean_of(*map), 0.0);
         }
         for (std::size_t i = 0; i < all.aleph.size(); ++i) {
             const double v = retinal_velocity(frame.velocity.pixels[i], all.saliency.pixels[i]);

@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "perception/castle.h"
-#include "perception/sensitivity.h"
+#include "perception/kelly.h"
 
 namespace aleph {
 namespace {
@@ -81,13 +81,13 @@ TEST(Castle, GivesThePublishedSensitivityToMotion) {
 }
 
 /// (5.9) by the thesis's constants, those of Laird et al. 2006, and castleCSF at 100 cd/m2.
-struct ElevationRow {
+struct PublishedElevations {
     double velocity;                                    // deg/s on the retina
     double daly_peak, daly_at, castle_peak, castle_at;  // sensitivity, cycles per degree
     std::array<std::array<double, 3>, 6> by_frequency;  // at .5 to 16 cycles per degree
 };
 
-constexpr ElevationRow elevation_rows[] = {
+constexpr PublishedElevations published_elevations[] = {
     {0.15,
      245.4,
      4.84,
@@ -226,7 +226,7 @@ Peak find_castle_peak(double velocity) {
 }
 
 TEST(Castle, ElevationsOfTheThreeModels) {
-    for (const ElevationRow& row : elevation_rows) {
+    for (const PublishedElevations& row : published_elevations) {
         const Peak peak = find_castle_peak(row.velocity);
         EXPECT_NEAR(csf_max(row.velocity), row.daly_peak, 0.0501) << row.velocity;
         EXPECT_NEAR(csf_peak_frequency(row.velocity), row.daly_at, 0.00501) << row.velocity;

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "perception/castle_row.h"
 #include "perception/perception.h"
 #include "tests/perception/vision_formulas.h"
+#include "perception/vision_model.h"
 
 namespace aleph {
 
@@ -13,14 +13,6 @@ namespace {
 
 double relative(double found, double known) {
     return std::abs(found / known - 1.0);
-}
-
-/// The library's own elevation, in double.
-double scalar_elevation(Vision vision, double rho, const EyeMotion& motion, const FrameRate& frame_rate) {
-    if (vision == Vision::castle) {
-        return castle_elevation(rho, motion.retinal, motion.tracked, motion.luminance, motion.persistence, frame_rate);
-    }
-    return elevation(rho, motion.retinal, vision == Vision::laird ? laird_2006 : daly_1998);
 }
 
 }  // namespace
@@ -44,7 +36,7 @@ GratingErrors run_grating(const GratingRun& run, int step) {
     const PerceptionMaps maps =
         compute_perception(picture, velocity, run.viewing, run.frame_rate, run.perception, outputs);
 
-    const Vision vision = run.perception.vision;
+    const VisionModel* const vision = run.perception.vision;
     const double moving = run.perception.guide == Guide::spatial ? 0.0 : static_cast<float>(run.velocity);
     EyeMotion motion{.retinal = written_retinal_velocity(moving, tracking_efficiency),
                      .tracked = written_tracked_velocity(moving, tracking_efficiency),
@@ -61,7 +53,7 @@ GratingErrors run_grating(const GratingRun& run, int step) {
             continue;
         }
         ++errors.compared;
-        if (vision == Vision::castle) {
+        if (vision->uses_luminance()) {
             const double share = exact_adaptation(run.grating, x, run.viewing.pixels_per_degree);
             motion.luminance = run.viewing.display_white * share;
             errors.adaptation =
@@ -71,7 +63,8 @@ GratingErrors run_grating(const GratingRun& run, int step) {
         for (int i = 0; i < band_count; ++i) {
             const double response = bands[i] / sum;
             written += response * written_elevation(vision, rho[i], motion);
-            scalar += response * scalar_elevation(vision, rho[i], motion, run.frame_rate);
+            scalar += response * vision->elevation({rho[i], motion.retinal, motion.tracked, motion.luminance},
+                                                   {run.viewing, run.frame_rate});
             errors.response = std::max(
                 errors.response, std::abs(maps.responses[static_cast<std::size_t>(i)](x, Grating::middle) - response));
         }

@@ -5,11 +5,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "perception/band_frequencies.h"
 #include "perception/castle.h"
 #include "perception/castle_row.h"
-#include "perception/sensitivity.h"
 #include "tests/perception/grating_run.h"
 #include "tests/perception/vision_formulas.h"
+#include "perception/kelly.h"
+#include "perception/retinal_velocity.h"
 #include "tests/support/numbers.h"
 #include "tests/support/perception_reference.h"
 
@@ -34,7 +36,8 @@ struct Frequencies {
 constexpr Frequencies frequencies[] = {{16.0, 1.0, 1e-4}, {0.5, 0.25, 3e-4}};
 
 /// Every frequency of a range, and every velocity.
-GratingErrors run_gratings(const Light& light, const Frequencies& range, Vision vision, Guide guide, Bands bands) {
+GratingErrors run_gratings(const Light& light, const Frequencies& range, const VisionModel* vision, Guide guide,
+                           Bands bands) {
     GratingErrors errors;
     for (double rho = range.highest; rho >= range.lowest; rho *= 0.5) {
         for (const double velocity : velocities) {
@@ -66,7 +69,7 @@ TEST(Gratings, ClosedFormOfTheBandsAgreesWithASlowPyramid) {
 
 /// Calls check(errors, range) for every light, range of frequencies, guide and set of bands.
 template <class Check>
-void for_each_map(Vision vision, const Check& check) {
+void for_each_map(const VisionModel* vision, const Check& check) {
     for (const Light& light : lights) {
         for (const Frequencies& range : frequencies) {
             for (const Guide guide : {Guide::spatial, Guide::full}) {
@@ -85,7 +88,7 @@ void for_each_map(Vision vision, const Check& check) {
 }
 
 TEST(Gratings, MapsOfThesisAndLairdAreTheKnownAnswer) {
-    for (const Vision vision : {Vision::thesis, Vision::laird}) {
+    for (const VisionModel* const vision : {&thesis_vision(), &laird_vision()}) {
         for_each_map(vision, [](const GratingErrors& errors, const Frequencies& range) {
             EXPECT_LT(errors.aleph_written, range.tolerance);
             EXPECT_LT(errors.aleph_scalar, range.tolerance);
@@ -95,7 +98,7 @@ TEST(Gratings, MapsOfThesisAndLairdAreTheKnownAnswer) {
 
 // Rows of castle interpolate a table over luminance: castle_row.h promises 2e-3, gratings find 2.7e-4.
 TEST(Gratings, MapsOfCastleAreTheKnownAnswer) {
-    for_each_map(Vision::castle, [](const GratingErrors& errors, const Frequencies&) {
+    for_each_map(&castle_vision(), [](const GratingErrors& errors, const Frequencies&) {
         EXPECT_LT(errors.aleph_written, 5e-4);
         EXPECT_LT(errors.aleph_scalar, 5e-4);
         EXPECT_LT(errors.adaptation, 1e-6);
@@ -107,15 +110,15 @@ TEST(Gratings, ScalarModelsAreTheWrittenFormulas) {
     for (double rho = 16.0; rho >= 0.25; rho *= 0.5) {
         for (double v = 0.1; v < 200.0; v *= 1.3) {
             const EyeMotion motion{.retinal = retinal_velocity(v, 0.82), .tracked = tracked_velocity(v, 0.82)};
-            const double thesis = written_elevation(Vision::thesis, rho, motion);
-            const double laird = written_elevation(Vision::laird, rho, motion);
+            const double thesis = written_elevation(&thesis_vision(), rho, motion);
+            const double laird = written_elevation(&laird_vision(), rho, motion);
             EXPECT_NEAR(elevation(rho, motion.retinal) / thesis, 1.0, 1e-12) << rho << " " << v;
             EXPECT_NEAR(elevation(rho, motion.retinal, laird_2006) / laird, 1.0, 1e-12) << rho << " " << v;
             for (const double luminance : {0.05, 1.0, 100.0, 2000.0}) {
                 EyeMotion lit = motion;
                 lit.luminance = luminance;
                 const double castle = castle_elevation(rho, lit.retinal, lit.tracked, luminance, 1.0, frame_rate);
-                EXPECT_NEAR(castle / written_elevation(Vision::castle, rho, lit), 1.0, 1e-9) << rho << " " << v;
+                EXPECT_NEAR(castle / written_elevation(&castle_vision(), rho, lit), 1.0, 1e-9) << rho << " " << v;
             }
         }
     }

@@ -10,10 +10,12 @@
 #include "engine/base/flush_denormals.h"
 #include "engine/base/sampling.h"
 #include "perception/aleph_map.h"
+#include "perception/band_frequencies.h"
 #include "perception/band_response.h"
+#include "perception/kelly_vision.h"
 #include "perception/perception.h"
+#include "perception/retinal_velocity.h"
 #include "perception/sanitize.h"
-#include "perception/sensitivity.h"
 #include "tests/support/numbers.h"
 #include "tests/support/perception_bands.h"
 
@@ -66,17 +68,17 @@ TEST(SensitivityHard, CS04_SameBitsWithAndWithoutFlushToZero) {
     const auto rho = band_frequencies(Bands::printed, 31.0);
     std::vector<float> velocity;
     for (double v = 0.15; v < 1e6; v *= 1.05) velocity.push_back(static_cast<float>(v));
-    ElevationRow row(rho, static_cast<int>(velocity.size()));
+    KellyRow row(rho, static_cast<int>(velocity.size()));
     std::vector<float> plain(velocity.size()), flushed(velocity.size());
     for (int band = 0; band < band_count; ++band) {
         const double r = rho[band];
         std::vector<double> exact;
         for (const float v : velocity) exact.push_back(elevation(r, v));
-        row.load(velocity.data());
+        row.load({.retinal = velocity.data()});
         row.elevations(band, plain.data());
         {
             const FlushDenormals flush;
-            row.load(velocity.data());
+            row.load({.retinal = velocity.data()});
             row.elevations(band, flushed.data());
             for (std::size_t i = 0; i < velocity.size(); ++i) ASSERT_EQ(elevation(r, velocity[i]), exact[i]);
         }

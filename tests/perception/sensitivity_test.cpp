@@ -1,6 +1,8 @@
 // The formulas of Yee 2000, section 5.4, against known values.
 
-#include "perception/sensitivity.h"
+#include "perception/band_frequencies.h"
+#include "perception/kelly.h"
+#include "perception/retinal_velocity.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,7 @@
 // TVI, adaptation luminance and luminance thresholds (Yee 2000, section 6.2).
 
 #include "perception/threshold.h"
+#include "perception/tvi.h"
 
 #include <gtest/gtest.h>
 

@@ -123,11 +123,11 @@ double written_castle_peak(double luminance) {
     return sustained(std::exp(low), luminance);
 }
 
-double written_elevation(Vision vision, double rho, const EyeMotion& motion) {
-    if (vision == Vision::thesis) {
+double written_elevation(const VisionModel* vision, double rho, const EyeMotion& motion) {
+    if (vision == &thesis_vision()) {
         return kelly_elevation(rho, std::max(motion.retinal, 0.15), 0.67, 1.7, written_thesis_sensitivity);
     }
-    if (vision == Vision::laird) {
+    if (vision == &laird_vision()) {
         return kelly_elevation(rho, std::max(motion.retinal, 0.3), 0.8404, 0.7986, written_laird_sensitivity);
     }
     const double seen = written_castle_sensitivity(rho, rho * motion.retinal, motion.luminance) * hold(rho, motion);

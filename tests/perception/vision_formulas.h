@@ -32,7 +32,7 @@ double written_castle_sensitivity(double rho, double omega, double luminance);
 double written_castle_peak(double luminance);
 
 /// f of a frequency, (5.9), or for castle its peak at rest over the sensitivity and the display's blur.
-double written_elevation(Vision vision, double rho, const EyeMotion& motion);
+double written_elevation(const VisionModel* vision, double rho, const EyeMotion& motion);
 
 /// A row of the authors' own program, version 0.2.4, at 100 cd/m2, to four decimals.
 struct PublishedCastle {

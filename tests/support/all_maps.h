@@ -11,7 +11,7 @@ namespace aleph {
 inline std::vector<float> all_maps() {
     const SyntheticFrame frame = make_synthetic_frame(97, 71);
     std::vector<float> values;
-    for (const Vision vision : {Vision::thesis, Vision::laird, Vision::castle}) {
+    for (const VisionModel* const vision : {&thesis_vision(), &laird_vision(), &castle_vision()}) {
         for (const SaliencyGrid grid : {SaliencyGrid::full, SaliencyGrid::center}) {
             const PerceptionMaps maps = compute_perception(frame.estimate, frame.velocity, {}, {},
                                                            {.vision = vision, .grid = grid}, {true, true});

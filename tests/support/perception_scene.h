@@ -12,6 +12,12 @@
 
 namespace aleph {
 
+inline double mean_of(const Image<float>& image) {
+    double sum = 0.0;
+    for (const float v : image.pixels) sum += v;
+    return sum / static_cast<double>(image.size());
+}
+
 struct SyntheticFrame {
     Image<Rgb> estimate;
     Image<float> velocity;  ///< deg/s

@@ -4,7 +4,7 @@
 
 #include <functional>
 
-#include "perception/threshold.h"
+#include "perception/tvi.h"
 #include "tests/support/indirect_pictures.h"
 
 namespace aleph {

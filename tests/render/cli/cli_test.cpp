@@ -139,12 +139,16 @@ TEST(Options, HelpShowsTheDefaultAndTheRangeOfEverySetting) {
         CLI::App app{"test"};
         Command command;
         add(app, command);
-        const std::string help = app.get_subcommands([](CLI::App*) { return true; }).front()->help();
+        CLI::App& chosen = *app.get_subcommands([](CLI::App*) { return true; }).front();
+        const std::string usual = chosen.help();
+        EXPECT_THROW(app.parse(chosen.get_name() + " --help-all"), CLI::CallForHelp);
+        const std::string help = chosen.help();
         for (const Setting& setting : setting_table()) {
             std::string option = "  --" + setting.key + " ";
             std::replace(option.begin(), option.end(), '_', '-');
             const std::size_t at = help.find(option);
             ASSERT_NE(at, std::string::npos) << option;
+            EXPECT_EQ(usual.find(option) == std::string::npos, setting.rare) << option;
             const std::string text = help.substr(at, help.find("\n  --", at) - at);
             const SettingValue value = setting.get(RenderSettings());
             for (const std::string& choice : setting.choices) EXPECT_NE(text.find(choice), std::string::npos) << text;

@@ -8,6 +8,7 @@
 #include <memory>
 
 #include "engine/base/errors.h"
+#include "tests/support/ones_vision.h"
 #include "tests/support/quick_settings.h"
 #include "tests/support/render_scenes.h"
 
@@ -45,6 +46,15 @@ std::vector<Image<Rgb>> render_two(Sequence& sequence) {
     std::vector<Image<Rgb>> pictures;
     for (const int frame : {0, 15}) pictures.push_back(sequence.render(frame).shaded.color);
     return pictures;
+}
+
+TEST(Sequence, SeesWithAProgramsOwnModelOfVision) {
+    const OnesVision own;
+    RenderSettings settings = quick_settings(40, 30);
+    settings.perception.vision = &own;
+    const FrameOutput frame = Sequence(make_moving_scene(), settings).render(15);
+    EXPECT_EQ(frame.perception.aleph, Image<float>(40, 30, 1.0f));
+    EXPECT_EQ(frame.alpha, Image<float>(40, 30, static_cast<float>(settings.accuracy)));
 }
 
 TEST(Sequence, OwnsItsScene) {

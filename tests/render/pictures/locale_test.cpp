@@ -37,7 +37,7 @@ Everything do_everything(const std::filesystem::path& folder) {
     apply_settings(all.settings, all.scene.settings, "scene.json");
     SettingMap more;
     parse_setting("adapter_k=87.5", more);
-    parse_setting("shade_reach=1.25", more);
+    parse_setting("min_radius_pixels=11.25", more);
     apply_settings(all.settings, more, "--set");
     save_scene(all.scene, folder / "saved.json");
     all.saved = read_bytes(folder / "saved.json");
@@ -56,7 +56,7 @@ std::string run_program(const std::filesystem::path& folder) {
     const std::string out = (folder / "run.exr").string(), log = (folder / "log").string();
     const std::string command =
         std::string("'") + program_path("aleph") + "' render '" + (folder / "scene.json").string() +
-        "' -q --aovs --frames 1 --accuracy 0.25 --set shade_reach=1.5 -o '" + out + "' >'" + log + "' 2>&1";
+        "' -q --aovs --frames 1 --accuracy 0.25 --set min_radius_pixels=10.5 -o '" + out + "' >'" + log + "' 2>&1";
     EXPECT_EQ(::system(command.c_str()), 0) << read_bytes(log);
     return std::filesystem::exists(out) ? read_bytes(out) : "";
 }

@@ -9,6 +9,7 @@
 
 #include "engine/base/errors.h"
 #include "tests/support/refusal.h"
+#include "tests/support/ones_vision.h"
 
 namespace aleph {
 namespace {
@@ -34,7 +35,6 @@ const std::map<std::string, SettingValue>& other_values() {
                                                             {"integrator", "path"},
                                                             {"path_depth", 5.0},
                                                             {"light_samples", 7.0},
-                                                            {"shade_reach", 1.1},
                                                             {"min_radius_pixels", 2.5},
                                                             {"error", 0.5},
                                                             {"filter", "box"},
@@ -118,6 +118,7 @@ TEST(Settings, FieldsReceiveWhatKeysSay) {
     EXPECT_EQ(s.height, 200);
     EXPECT_EQ(s.seed, 4294967295u);
     EXPECT_EQ(s.perception.guide, Guide::full);
+    EXPECT_EQ(s.perception.vision, &castle_vision());
     EXPECT_EQ(s.perception.bands, Bands::measured);
     EXPECT_EQ(s.perception.grid, SaliencyGrid::center);
     EXPECT_TRUE(s.perception.neutral_opponent);
@@ -131,7 +132,6 @@ TEST(Settings, FieldsReceiveWhatKeysSay) {
     EXPECT_EQ(s.integrator, Integrator::path);
     EXPECT_EQ(s.spp, 4);
     EXPECT_EQ(s.light_samples, 7);
-    EXPECT_EQ(s.shade_reach, 1.1);
     EXPECT_EQ(s.min_radius_pixels, 2.5);
     EXPECT_EQ(s.light_step, 5);
     EXPECT_EQ(s.subdivision_level, 3);
@@ -175,7 +175,6 @@ TEST(Settings, MC20_NumbersOutOfRangeOfAnyKind) {
                                                          {"spp", {0.0, 1.5, 65537.0, nan_value, infinite}},
                                                          {"light_samples", {0.0, nan_value, 1e9}},
                                                          {"seed", {-1.0, 4294967296.0, 0.5, nan_value}},
-                                                         {"shade_reach", {0.99, 2.01, nan_value}},
                                                          {"min_radius_pixels", {0.0, -1.0, 1001.0, nan_value}},
                                                          {"light_step", {-1.0, 1001.0, 2.5, nan_value}},
                                                          {"subdivision_level", {-2.0, 11.0, 0.5, nan_value}}};
@@ -222,6 +221,14 @@ TEST(Settings, ValidateChecksStructsFilledByHand) {
     settings = {};
     settings.adapter = static_cast<Adapter>(9);
     EXPECT_THROW(validate(settings), InputError);
+    settings = {};
+    settings.perception.vision = nullptr;
+    EXPECT_THROW(validate(settings), InputError);
+    const OnesVision own;
+    settings.perception.vision = &own;
+    EXPECT_NO_THROW(validate(settings));
+    EXPECT_EQ(setting_map(settings).at("vision"), SettingValue("ones"));
+    EXPECT_EQ(refusal("vision", "ones"), "expected one of thesis, laird, castle");
 }
 
 TEST(Settings, ParseTellsTextNumbersAndTruth) {

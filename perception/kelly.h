@@ -1,12 +1,14 @@
 #pragma once
-// Constants of the contrast sensitivity functions of Kelly's form (5.6-5.8). Each set is tuned to displays of 100
-// cd/m2.
+// Sensitivity of the eye to contrast that moves over the retina: Kelly 1979 with the constants of Daly 1998 (Yee 2000,
+// section 5.4) or of Laird et al. 2006. One value at a time, in double. Every input gives a finite result: a velocity
+// that is NaN or below the model's least counts as the least, above 1e30 as 1e30; a frequency that is NaN or negative
+// as 0, above 1e30 as 1e30.
 
 #include <numbers>
 
 namespace aleph {
 
-/// One fit of (5.6-5.8).
+/// One fit of (5.6-5.8), for displays of 100 cd/m2.
 struct KellyModel {
     double c0 = 0.0;            ///< (5.6) sensitivity
     double c1 = 0.0;            ///< (5.6) frequency
@@ -29,5 +31,18 @@ inline constexpr double csf_k_slope = 7.3;         ///< (5.7)
 inline constexpr double csf_k_velocity = 3.0;      ///< (5.7), deg/s
 inline constexpr double csf_rho_numerator = 45.9;  ///< (5.8)
 inline constexpr double csf_rho_offset = 2.0;      ///< (5.8), deg/s
+
+/// (5.6-5.8): sensitivity, 1 / threshold contrast, to `rho` cycles per degree moving at `v` deg/s.
+double csf(double rho, double v, const KellyModel& model = daly_1998);
+
+/// The frequency at which csf(., v) peaks, cycles per degree: rho_max / (2 pi c1), printed as (5.10).
+double csf_peak_frequency(double v, const KellyModel& model = daly_1998);
+
+/// The peak's value, csf(csf_peak_frequency(v), v). Daly: 245.4 at .15 deg/s, at most 250.75; Laird: at most 117.0.
+double csf_max(double v, const KellyModel& model = daly_1998);
+
+/// (5.9): how many times the least visible contrast goes unnoticed at `rho`, [1, 250.75]. Sensitivity below 1 counts
+/// as 1, because no contrast exceeds 1. Not monotone in v.
+double elevation(double rho, double v, const KellyModel& model = daly_1998);
 
 }  // namespace aleph
