@@ -22,18 +22,18 @@ constexpr double part_growth = 2.0;   // seconds, from one error to the next
 
 /// The settings for a picture of this scale, and the scene, in which angles stay the same, and so velocities.
 Scene scale_picture(Scene scene, RenderSettings& settings, double scale) {
-    const PictureSize size = scale_size({settings.width, settings.height}, scale);
-    settings.width = size.width;
-    settings.height = size.height;
+    const PictureSize size = scale_size({settings.picture.width, settings.picture.height}, scale);
+    settings.picture.width = size.width;
+    settings.picture.height = size.height;
     scene.viewing.pixels_per_degree *= scale;
     return scene;
 }
 
 LightSeconds time_light(const PilotRequest& request, double scale) {
     RenderSettings settings = request.settings.front();
-    const double pixels = static_cast<double>(settings.width) * settings.height;
+    const double pixels = static_cast<double>(settings.picture.width) * settings.picture.height;
     Sequence sequence(scale_picture(request.scene, settings, scale), settings, request.camera);
-    LightSeconds seconds{.pixels = pixels / (static_cast<double>(settings.width) * settings.height)};
+    LightSeconds seconds{.pixels = pixels / (static_cast<double>(settings.picture.width) * settings.picture.height)};
     for (const std::int64_t frame : request.frames) {
         const LightTime time = sequence.time_light(frame);
         seconds.fill += time.fill;
@@ -44,7 +44,7 @@ LightSeconds time_light(const PilotRequest& request, double scale) {
 
 /// One block of so many: all of a small picture, an eighth from 320x240 on.
 int choose_every(const RenderSettings& settings) {
-    const int blocks = settings.width * settings.height / (part_block * part_block);
+    const int blocks = settings.picture.width * settings.picture.height / (part_block * part_block);
     int every = 1;
     while (every < most_every && blocks >= blocks_of_all * 4 * every * every) every *= 2;
     return every;
@@ -56,7 +56,7 @@ class PartPilot {
         : request_(request),
           pilot_(pilot),
           sequence_(request.scene, request.settings.front(), request.camera),
-          part_(choose_part(request.settings.front().width, request.settings.front().height,
+          part_(choose_part(request.settings.front().picture.width, request.settings.front().picture.height,
                             choose_every(request.settings.front()), part_block)) {
         pilot_.seconds.share = find_share(part_);
     }
@@ -132,7 +132,7 @@ Pilot run_pilot(const PilotRequest& request) {
     for (const double scale : light_scales) {
         double last = 0.0;
         pilot.seconds.light.push_back(
-            time_light(request, std::clamp(least_width / (1.0 * settings.width), scale, 1.0)));
+            time_light(request, std::clamp(least_width / (1.0 * settings.picture.width), scale, 1.0)));
         clock.add_to(last);
         if (scale == light_scales[0] && !request.go_on(pilot.seconds, light_growth * last)) break;
     }
@@ -143,9 +143,10 @@ Pilot run_pilot(const PilotRequest& request) {
 }
 
 std::size_t count_moments(const Scene& scene, const RenderSettings& settings, const std::vector<std::int64_t>& frames) {
-    const bool has_indirect = settings.bounces > 0 && settings.path_depth > 1 && settings.accuracy > 0.0;
-    if (settings.light_step == 0 || settings.integrator != Integrator::cache || !has_indirect) return 0;
-    const KeyMoments moments{frame_range(scene), scene.cuts, settings.light_step, {}};
+    const bool has_indirect =
+        settings.light.bounces > 0 && settings.light.path_depth > 1 && settings.cache.accuracy > 0.0;
+    if (settings.cache.light_step == 0 || settings.light.integrator != Integrator::cache || !has_indirect) return 0;
+    const KeyMoments moments{frame_range(scene), scene.cuts, settings.cache.light_step, {}};
     std::set<std::int64_t> read;
     for (const std::int64_t frame : frames) {
         const MomentPair pair = find_moments(moments, frame);

@@ -16,7 +16,7 @@ constexpr double looser_by_level = 2.0, most_level_accuracy = 0.5;
 
 /// alpha of a level, `turns` below the picture's.
 float level_accuracy(const RenderSettings& settings, int turns) {
-    double accuracy = settings.accuracy;
+    double accuracy = settings.cache.accuracy;
     for (int i = 0; i < turns && accuracy < most_level_accuracy; ++i) {
         accuracy = std::min(accuracy * looser_by_level, most_level_accuracy);
     }
@@ -52,7 +52,7 @@ IrradianceCache fill_level(const IndirectContext& context, const BouncePlaces& p
 }  // namespace
 
 int count_bounces(const RenderSettings& settings) {
-    return std::min(settings.bounces, settings.path_depth - 1);
+    return std::min(settings.light.bounces, settings.light.path_depth - 1);
 }
 
 DeeperLight make_deeper_light(const RenderSettings& settings, const IrradianceCache* cache) {

@@ -163,7 +163,8 @@ SceneBounds bounds_or_unit(const ShadingScene& shading) {
 
 RadiusBounds radius_bounds(const IndirectContext& context, float footprint, float accuracy) {
     const float alpha = std::clamp(accuracy, 1e-3f, 1.0f);
-    const float pixels = std::max(static_cast<float>(context.settings.min_radius_pixels), least_reach_pixels / alpha);
+    const float pixels =
+        std::max(static_cast<float>(context.settings.cache.min_radius_pixels), least_reach_pixels / alpha);
     const float min = std::min(pixels * footprint, context.max_radius);
     return {min, context.max_radius, footprint / std::sqrt(alpha)};
 }

@@ -24,7 +24,7 @@ constexpr std::uint32_t turn_seed_step = 0x9e3779b9u;
 RandomKey choose_key(const IndirectContext& context, const PixelSurface& surface) {
     const std::uint32_t turns = static_cast<std::uint32_t>(context.turns_before);
     const std::uint32_t seed = (context.settings.seed ^ gather_seed_mask) + turns * turn_seed_step;
-    if (!(context.settings.accuracy > 0.0)) {
+    if (!(context.settings.cache.accuracy > 0.0)) {
         return {seed, context.frame, surface.pixel, static_cast<std::uint32_t>(surface.sample)};
     }
     return make_place_key(seed, surface.hit);
@@ -39,20 +39,20 @@ RandomKey make_place_key(std::uint32_t seed, const Hit& hit) {
 }
 
 int choose_rays(const RenderSettings& settings, float accuracy, const std::optional<float>& ray_variance) {
-    const double most = settings.gather > 0 ? settings.gather : most_rays;
-    const double base = settings.gather > 0 ? settings.gather : first_rays;
-    if (!(settings.accuracy > 0.0 && accuracy > 0.0f)) return static_cast<int>(base);
-    double rays = base * std::pow(settings.accuracy / accuracy, 2.0);
-    if (settings.gather == 0 && ray_variance) rays = *ray_variance / std::pow(noise_per_accuracy * accuracy, 2.0);
+    const double most = settings.cache.gather > 0 ? settings.cache.gather : most_rays;
+    const double base = settings.cache.gather > 0 ? settings.cache.gather : first_rays;
+    if (!(settings.cache.accuracy > 0.0 && accuracy > 0.0f)) return static_cast<int>(base);
+    double rays = base * std::pow(settings.cache.accuracy / accuracy, 2.0);
+    if (settings.cache.gather == 0 && ray_variance) rays = *ray_variance / std::pow(noise_per_accuracy * accuracy, 2.0);
     return static_cast<int>(std::lround(std::clamp(rays, std::min<double>(least_rays, most), most)));
 }
 
 IrradianceSample gather_at(const IndirectContext& context, RayTask& task, const PixelSurface& surface,
                            GatherScratch& scratch, int rays, std::vector<DirectSample>* found) {
     const RandomKey key = choose_key(context, surface);
-    return gather_irradiance(
-        context.lighting, task, surface.point, choose_strata(rays), key, scratch,
-        {std::max(0, context.settings.path_depth - 2 - context.turns_before), context.direct, found, context.deeper});
+    return gather_irradiance(context.lighting, task, surface.point, choose_strata(rays), key, scratch,
+                             {std::max(0, context.settings.light.path_depth - 2 - context.turns_before), context.direct,
+                              found, context.deeper});
 }
 
 }  // namespace aleph

@@ -8,7 +8,7 @@
 
 namespace aleph {
 
-/// Rays for a gather at a pixel's accuracy. With RenderSettings::gather 0, as many as bring its standard error to a
+/// Rays for a gather at a pixel's accuracy. With CacheSettings::gather 0, as many as bring its standard error to a
 /// fifth of the accuracy, from 64 to 8192; otherwise that number at the frame's accuracy. Where the accuracy is looser,
 /// fewer by its square.
 /// @param ray_variance  relative, of one ray; nothing where it is not known

@@ -58,7 +58,7 @@ struct Arrival {
 /// Follows mirrors from a pixel's surface.
 std::optional<Arrival> follow_mirrors(const IndirectContext& context, const PixelSurface& first, RayTask& task) {
     const ShadingScene& shading = context.lighting.shading;
-    const int turns = std::min(most_turns, context.settings.path_depth - 1 - count_bounces(context.settings));
+    const int turns = std::min(most_turns, context.settings.light.path_depth - 1 - count_bounces(context.settings));
     Arrival end{first.hit, -first.view, 1.0f, first};
     float distance = first.distance;
     Media media;

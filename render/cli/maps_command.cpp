@@ -115,10 +115,10 @@ PreparedImages prepare_images(const MapsOptions& options) {
         throw InputError("", "--exposure", "expected a number above 0");
     }
     apply_settings(prepared.settings, given, "");
-    prepared.settings.motion = MotionSource::image;
+    prepared.settings.guide.motion = MotionSource::image;
     if (!first.channels.empty()) {
-        prepared.settings.width = first.channels.front().values.width;
-        prepared.settings.height = first.channels.front().values.height;
+        prepared.settings.picture.width = first.channels.front().values.width;
+        prepared.settings.picture.height = first.channels.front().values.height;
     }
     if (!options.cuts.empty()) {
         try {

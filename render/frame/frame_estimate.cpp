@@ -7,8 +7,8 @@ namespace aleph {
 
 Image<Rgb> estimate_scene(const Shot& shot, const FrameScene& scene, const SampleHits& centers,
                           const EstimateNodes* nodes, RayCounts& counts, Image<float>* indirect_luminance) {
-    return compute_estimate(scene.lighting(), scene.posed().view, centers, shot.settings.estimate, nodes, shot.exposure,
-                            counts, indirect_luminance);
+    return compute_estimate(scene.lighting(), scene.posed().view, centers, shot.settings.guide.estimate, nodes,
+                            shot.exposure, counts, indirect_luminance);
 }
 
 void EstimateLight::gather_around(std::int64_t frame, std::int64_t but, RayCounts& counts) {
@@ -69,9 +69,9 @@ SampleMoment open_scene(const Shot& shot, std::int64_t frame, double at, const F
     EffectSet skipped = scene.shading().skipped;
     // The plan knows the lights at the shutter's centre alone: at other times lamps are seen and cast shadows.
     for (const Effect effect : {Effect::direct_light, Effect::area_shadows})
-        if (!shot.settings.forbid.contains(effect)) skipped.remove(effect);
-    shutter.pose(at / shot.scene.frame_rate.per_second(), shot.camera(frame), shot.settings.width,
-                 shot.settings.height);
+        if (!shot.settings.effects.forbid.contains(effect)) skipped.remove(effect);
+    shutter.pose(at / shot.scene.frame_rate.per_second(), shot.camera(frame), shot.settings.picture.width,
+                 shot.settings.picture.height);
     shutter.prepare();
     shutter.leave_out(skipped);
     return shutter.moment();
@@ -82,8 +82,8 @@ void blur_frame_estimate(const Shot& shot, std::int64_t frame, const FrameScene&
                          Image<Rgb>& sharp, RayCounts& counts) {
     const OpenLens open = find_open_lens(shot, frame, scene, plan);
     if (!open.shutter && !(open.lens.radius > 0.0)) return;
-    const SharpEstimate estimate{scene.shading(), scene.posed().view,     centers,      sharp,
-                                 nodes,           shot.settings.estimate, shot.exposure};
+    const SharpEstimate estimate{scene.shading(), scene.posed().view,           centers,      sharp,
+                                 nodes,           shot.settings.guide.estimate, shot.exposure};
     const auto look = [&](double place) -> SampleMoment {
         if (!open.shutter) return scene.moment();
         const double at = open.shutter->open + (open.shutter->close - open.shutter->open) * place;

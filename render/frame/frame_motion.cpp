@@ -64,7 +64,7 @@ void FrameMotion::compute(const FrameWork& work, const FramePlan& plan, const Fr
         return;
     }
     FrameScene& other = posed_other();
-    if (shot_.settings.motion == MotionSource::model) {
+    if (shot_.settings.guide.motion == MotionSource::model) {
         if (!model_) model_.emplace(shot_.scene, shot_.pose_plan);
         out.motion = model_->compute(here.posed(), has_other ? other.posed() : here.posed(), centers.hits, work.other);
         if (!has_other || !work.maps) return;
@@ -77,7 +77,7 @@ void FrameMotion::compute(const FrameWork& work, const FramePlan& plan, const Fr
         other.prepare();
         const SampleHits other_centers = cast_centers(other.rays(), other.posed().view, &counts.primary);
         std::optional<EstimateNodes> nodes;
-        if (shot_.estimates_indirect_light(plan.settings.bounces)) {
+        if (shot_.estimates_indirect_light(plan.settings.light.bounces)) {
             nodes = light.gather_nodes(other_frame_number(work.frame, work.other), other, other_centers, counts);
         }
         other_estimate = estimate_scene(shot_, other, other_centers, nodes ? &*nodes : nullptr, counts);

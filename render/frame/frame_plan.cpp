@@ -69,8 +69,8 @@ ShutterFacts FramePlanner::find_shutter_facts(const FrameWork& work, const Frame
     const double open_at = interval->open / rate, close_at = interval->close / rate;
     shutter.changes = !shot_.steady.is_steady(camera, open_at, close_at);
     if (shutter.changes && !facts.sees_all && shot_.steady.is_world_steady(open_at, close_at)) {
-        shutter.blur = find_camera_blur(camera_span_.look(camera, open_at, close_at), shot_.settings.width,
-                                        shot_.settings.height, nearest, shutter.largest);
+        shutter.blur = find_camera_blur(camera_span_.look(camera, open_at, close_at), shot_.settings.picture.width,
+                                        shot_.settings.picture.height, nearest, shutter.largest);
     }
     return shutter;
 }
@@ -99,7 +99,7 @@ FramePlan FramePlanner::begin(const FrameWork& work, const PosedView& posed) {
     }
     plan.settings = shot_.settings;
     plan.effects = make_plan(plan, std::nullopt);
-    if (plan.skips(Effect::indirect_diffuse)) plan.settings.bounces = 0;
+    if (plan.skips(Effect::indirect_diffuse)) plan.settings.light.bounces = 0;
     clock.add_to(plan.seconds);
     return plan;
 }
@@ -127,9 +127,9 @@ void FramePlanner::finish(const Image<Hit>& hits, const FrameOutput& out, FrameP
         visible.brightest = std::max(visible.brightest, double{luminance(pixel)});
     visible.brightest *= shot_.scene.viewing.display_white;
     plan.effects = make_plan(plan, visible);
-    plan.settings.bounces = shot_.settings.bounces;
-    if (plan.skips(Effect::indirect_diffuse)) plan.settings.bounces = 0;
-    if (plan.skips(Effect::more_bounces)) plan.settings.bounces = std::min(plan.settings.bounces, 1);
+    plan.settings.light.bounces = shot_.settings.light.bounces;
+    if (plan.skips(Effect::indirect_diffuse)) plan.settings.light.bounces = 0;
+    if (plan.skips(Effect::more_bounces)) plan.settings.light.bounces = std::min(plan.settings.light.bounces, 1);
     clock.add_to(plan.seconds);
 }
 

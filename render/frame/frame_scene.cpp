@@ -12,7 +12,7 @@ void FrameScene::pose(double seconds, int camera, int width, int height) {
 }
 
 void FrameScene::pose(std::int64_t frame) {
-    pose(shot_.seconds(frame), shot_.camera(frame), shot_.settings.width, shot_.settings.height);
+    pose(shot_.seconds(frame), shot_.camera(frame), shot_.settings.picture.width, shot_.settings.picture.height);
 }
 
 void FrameScene::pose(const PosedView& given) {
@@ -33,7 +33,7 @@ std::size_t FrameScene::prepare() {
         shading_ = make_shading_scene(shot_.scene, posed_->pose, *rays_, shot_.textures);
     }
     lights_ = make_light_set(*shading_);
-    leave_out(shot_.settings.forbid);
+    leave_out(shot_.settings.effects.forbid);
     shading_->points_unshadowed = false;
     return touched;
 }
@@ -51,7 +51,7 @@ void FrameScene::leave_out(const EffectSet& effects) {
 void FrameScene::leave_out(const EffectsPlan& effects) {
     shading_->skipped = effects.left_out();
     shading_->points_unshadowed = effects.points_unshadowed;
-    if (shot_.settings.forbid.contains(Effect::direct_light) || effects.lights_left_out.empty()) return;
+    if (shot_.settings.effects.forbid.contains(Effect::direct_light) || effects.lights_left_out.empty()) return;
     std::vector<int> instances, punctual;
     for (const LightFacts& light : effects.lights_left_out) {
         (light.kind == LightFacts::Kind::surface ? instances : punctual).push_back(light.number);

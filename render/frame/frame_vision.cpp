@@ -13,7 +13,7 @@ void note_estimate(FrameOutput& out, const SanitizeCounts& sanitized, const View
 }
 
 bool needs_indirect_luminance(const RenderSettings& settings, bool maps) {
-    return maps || settings.adapter == Adapter::threshold || settings.sampling == Sampling::threshold;
+    return maps || settings.guide.adapter == Adapter::threshold || settings.sampling.rule == Sampling::threshold;
 }
 
 void compute_frame_vision(FrameOutput& out, const Scene& shot, const RenderSettings& settings, bool maps,

@@ -16,7 +16,7 @@ void perceive(Preparation& kept, const FrameScene& here, const FrameWork& work, 
     FrameOutput& out = frame.out;
     RayCounts& counts = out.statistics.counts.rays;
     std::optional<EstimateNodes> nodes;
-    if (shot.estimates_indirect_light(plan.settings.bounces))
+    if (shot.estimates_indirect_light(plan.settings.light.bounces))
         nodes = kept.estimate_light.find_nodes(work.frame, here, frame.centers, counts);
     const EstimateNodes* indirect = nodes ? &*nodes : nullptr;
     const bool tolerance = needs_indirect_luminance(shot.settings, work.maps);
@@ -49,9 +49,9 @@ PreparedFrame prepare_frame(Preparation& kept, FrameScene& here, FrameWork work)
     out.view = here.posed().view;
     frame.plan = kept.planner.begin(work, here.posed());
     clock.add_to(stats.seconds.pose);
-    if (work.perceive && shot.estimates_indirect_light(frame.plan.settings.bounces)) {
+    if (work.perceive && shot.estimates_indirect_light(frame.plan.settings.light.bounces)) {
         kept.estimate_light.gather_around(work.frame, work.frame, counts);
-        if (work.other != OtherFrame::none && shot.settings.motion == MotionSource::image)
+        if (work.other != OtherFrame::none && shot.settings.guide.motion == MotionSource::image)
             kept.estimate_light.gather_around(other_frame_number(work.frame, work.other), work.frame, counts);
     }
     clock.add_to(stats.seconds.estimate);
@@ -68,8 +68,9 @@ PreparedFrame prepare_frame(Preparation& kept, FrameScene& here, FrameWork work)
     if (work.perceive) {
         perceive(kept, here, work, clock, frame);
     } else {
-        out.perception.aleph = Image<float>(shot.settings.width, shot.settings.height, 1.0f);
-        out.alpha = Image<float>(shot.settings.width, shot.settings.height, static_cast<float>(shot.settings.accuracy));
+        out.perception.aleph = Image<float>(shot.settings.picture.width, shot.settings.picture.height, 1.0f);
+        out.alpha = Image<float>(shot.settings.picture.width, shot.settings.picture.height,
+                                 static_cast<float>(shot.settings.cache.accuracy));
     }
     kept.planner.finish(frame.centers.hits, out, frame.plan);
     return frame;

@@ -16,13 +16,13 @@ constexpr int exposure_columns = 160;
 
 /// The exposure that the scene has with all of its effects, so that pictures without some of them can be compared.
 double find_full_exposure(const Scene& scene, RenderSettings settings, const std::string& camera) {
-    settings.forbid = {};
+    settings.effects.forbid = {};
     return Sequence(scene, settings, camera).exposure();
 }
 
 /// From a small quick estimate of the first frame.
 double find_exposure(const Shot& shot, FrameScene& scene) {
-    const int height = std::max(1, exposure_columns * shot.settings.height / shot.settings.width);
+    const int height = std::max(1, exposure_columns * shot.settings.picture.height / shot.settings.picture.width);
     const std::int64_t first = shot.range.first;
     scene.pose(shot.scene.frame_rate.seconds_of(first), shot.camera(first), exposure_columns, height);
     scene.prepare();
@@ -38,9 +38,9 @@ Sequence::Sequence(Scene scene, const RenderSettings& settings, const std::strin
     validate(settings);
     validate(scene);
     const std::vector<CameraShot> shots = list_camera_shots(scene, camera);
-    if (!settings.forbid.empty()) {
+    if (!settings.effects.forbid.empty()) {
         if (!scene.exposure) scene.exposure = find_full_exposure(scene, settings, camera);
-        remove_forbidden(settings.forbid, scene);
+        remove_forbidden(settings.effects.forbid, scene);
     }
     state_ = std::make_unique<SequenceState>(std::move(scene), without_forbidden(settings), shots);
     Shot& shot = state_->shot;
@@ -127,10 +127,10 @@ PartTimes Sequence::time_part(std::int64_t frame, const PicturePart& part, std::
     clock.add_to(times.before);
     s.here.leave_out(prepared.plan.effects);
     FrameOutput& out = prepared.out;
-    const int bounces = prepared.plan.settings.bounces;
+    const int bounces = prepared.plan.settings.light.bounces;
     for (const RenderSettings& chosen : settings) {
         prepared.plan.settings = chosen;
-        prepared.plan.settings.bounces = bounces;
+        prepared.plan.settings.light.bounces = bounces;
         if (s.shot.needs_perception()) out.alpha = compute_accuracy_map(out.perception.aleph, out.tolerance, chosen);
         out.statistics.counts = {};
         SampleOptions options = find_sample_options(s, times.frame, prepared.plan);

@@ -53,8 +53,8 @@ SequenceState::SequenceState(Scene given, const RenderSettings& settings, const 
       preparation(shot, shot_light, here, moment) {
     if (!shot.reads_moments()) return;
     const auto find_breaks = [this](std::int64_t first, std::int64_t last) { return light_breaks.find(first, last); };
-    shot_light.emplace(KeyMoments{shot.range, shot.scene.cuts, shot.settings.light_step, find_breaks}, shot.settings,
-                       !is_world_animated(shot.scene), !shot.can_change(), make_moment_source(*this));
+    shot_light.emplace(KeyMoments{shot.range, shot.scene.cuts, shot.settings.cache.light_step, find_breaks},
+                       shot.settings, !is_world_animated(shot.scene), !shot.can_change(), make_moment_source(*this));
 }
 
 PreparedFrame SequenceState::prepare(std::int64_t frame, bool perceive, bool maps) {

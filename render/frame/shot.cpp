@@ -21,10 +21,11 @@ Scene add_camera_cuts(Scene scene, const std::vector<CameraShot>& shots) {
 /// The scene with its subdivision cages at the levels that the picture needs.
 Scene refine_cages(Scene scene, const std::vector<CameraShot>& shots, const RenderSettings& settings) {
     if (scene.cages.empty()) return scene;
-    std::vector<int> levels(scene.cages.size(), settings.subdivision_level);
+    std::vector<int> levels(scene.cages.size(), settings.picture.subdivision_level);
     for (const CameraShot& shot : shots) {
-        if (settings.subdivision_level >= 0) break;
-        const std::vector<int> needed = choose_cage_levels(scene, shot.camera, settings.width, settings.height);
+        if (settings.picture.subdivision_level >= 0) break;
+        const std::vector<int> needed =
+            choose_cage_levels(scene, shot.camera, settings.picture.width, settings.picture.height);
         std::ranges::transform(levels, needed, levels.begin(), [](int a, int b) { return std::max(a, b); });
     }
     const std::unique_ptr<Scene> refined = make_scene_at_levels(scene, levels);

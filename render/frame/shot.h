@@ -46,18 +46,18 @@ struct Shot {
     bool is_still(int camera) const { return std::ranges::find(pose_plan.cameras, camera) == pose_plan.cameras.end(); }
     /// Paths do not follow the map.
     bool is_guided() const {
-        return settings.perception.guide != Guide::none && settings.integrator == Integrator::cache;
+        return settings.perception.guide != Guide::none && settings.light.integrator == Integrator::cache;
     }
     /// Whether something obeys the visible threshold.
-    bool needs_perception() const { return is_guided() || settings.sampling != Sampling::uniform; }
+    bool needs_perception() const { return is_guided() || settings.sampling.rule != Sampling::uniform; }
     /// @param bounces  of the frame's settings
     bool estimates_indirect_light(int bounces) const {
-        return bounces > 0 && settings.estimate == EstimateKind::direct;
+        return bounces > 0 && settings.guide.estimate == EstimateKind::direct;
     }
     /// Whether frames with a closed shutter read their indirect light from key moments.
     bool reads_moments() const {
-        return settings.integrator == Integrator::cache && settings.light_step > 0 && settings.bounces > 0 &&
-               settings.path_depth > 1 && settings.accuracy > 0.0;
+        return settings.light.integrator == Integrator::cache && settings.cache.light_step > 0 &&
+               settings.light.bounces > 0 && settings.light.path_depth > 1 && settings.cache.accuracy > 0.0;
     }
 
     const Scene scene;  ///< cages at the levels that are rendered, changes of cameras among the cuts

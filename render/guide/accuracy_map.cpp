@@ -39,22 +39,22 @@ Image<float> compute_tolerance(const Image<float>& threshold, const Image<float>
 namespace {
 
 double adapt(double aleph, double tolerance, const RenderSettings& settings) {
-    switch (settings.adapter) {
+    switch (settings.guide.adapter) {
         case Adapter::compress:
-            return compress_accuracy(settings.accuracy, aleph);
+            return compress_accuracy(settings.cache.accuracy, aleph);
         case Adapter::scale_add:
-            return scale_add_accuracy(settings.accuracy, aleph, settings.adapter_k);
+            return scale_add_accuracy(settings.cache.accuracy, aleph, settings.guide.adapter_k);
         case Adapter::threshold:
             break;
     }
-    return threshold_accuracy(settings.accuracy, tolerance);
+    return threshold_accuracy(settings.cache.accuracy, tolerance);
 }
 
 }  // namespace
 
 Image<float> compute_accuracy_map(const Image<float>& aleph, const Image<float>& tolerance,
                                   const RenderSettings& settings) {
-    Image<float> alpha(aleph.width, aleph.height, static_cast<float>(settings.accuracy));
+    Image<float> alpha(aleph.width, aleph.height, static_cast<float>(settings.cache.accuracy));
     if (settings.perception.guide == Guide::none) return alpha;
     for (std::size_t i = 0; i < alpha.size(); ++i) {
         const double tolerated = tolerance.empty() ? 0.0 : tolerance.pixels[i];

@@ -30,7 +30,7 @@ double threshold_accuracy(double accuracy, double tolerance);
 Image<float> compute_tolerance(const Image<float>& threshold, const Image<float>& indirect,
                                const ViewingConditions& viewing);
 
-/// alpha per pixel. With Guide::none it is settings.accuracy everywhere, for all adapters.
+/// alpha per pixel. With Guide::none it is settings.cache.accuracy everywhere, for all adapters.
 /// @param tolerance  compute_tolerance, of the same size; only read by Adapter::threshold
 Image<float> compute_accuracy_map(const Image<float>& aleph, const Image<float>& tolerance,
                                   const RenderSettings& settings);

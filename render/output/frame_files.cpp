@@ -180,7 +180,7 @@ ChannelImage make_frame_image(const FrameOutput& output, bool maps, const Scene&
         file.metadata["worldToCamera"] = to_attribute(world_to_camera(output.view));
         file.metadata["worldToNDC"] = to_attribute(world_to_ndc(output.view));
     }
-    file.metadata["motion:definition"] = define_motion(output, settings.motion);
+    file.metadata["motion:definition"] = define_motion(output, settings.guide.motion);
     for (const auto& [key, value] : setting_map(settings)) {
         const std::string text = std::visit([](const auto& v) { return fmt::format("{}", v); }, value);
         file.metadata["aleph:" + key] = text;

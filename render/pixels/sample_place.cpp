@@ -10,9 +10,9 @@ namespace aleph {
 
 float find_spacing(const RenderSettings& settings, int index) {
     const auto first_of_stage = static_cast<unsigned>(std::max(index + 1, own_samples));
-    const int count = settings.sampling == Sampling::uniform
-                          ? settings.spp
-                          : std::min(settings.spp, static_cast<int>(std::bit_ceil(first_of_stage)));
+    const int count = settings.sampling.rule == Sampling::uniform
+                          ? settings.sampling.spp
+                          : std::min(settings.sampling.spp, static_cast<int>(std::bit_ceil(first_of_stage)));
     return 1.0f / std::sqrt(static_cast<float>(count));
 }
 
@@ -20,10 +20,10 @@ SamplePlace make_sample_place(const RenderSettings& settings, const Lens& lens, 
                               int index) {
     SamplePlace place;
     place.index = index;
-    place.centered = settings.spp == 1;
+    place.centered = settings.sampling.spp == 1;
     place.spacing = find_spacing(settings, index);
     place.lens = lens;
-    place.filter = settings.filter;
+    place.filter = settings.picture.filter;
     place.seed = settings.seed;
     place.moment = moment;
     place.blend = blended ? Blend::random : Blend::cutout;

@@ -19,11 +19,11 @@ PlannedEffect decide(const EffectRow& row, Planning& frame) {
 
 /// --plan off simulates what the plan would leave out; --force and --forbid have the last word.
 void override_by_user(const RenderSettings& settings, Effect effect, PlannedEffect& planned) {
-    const bool off = settings.plan == EffectsPlanning::off;
-    if (settings.forbid.contains(effect)) {
+    const bool off = settings.effects.plan == EffectsPlanning::off;
+    if (settings.effects.forbid.contains(effect)) {
         planned = {
             .decision = Decision::skip, .reason = "forbidden", .bound = {}, .by_user = true, .name = planned.name};
-    } else if (planned.decision != Decision::simulate && (off || settings.force.contains(effect))) {
+    } else if (planned.decision != Decision::simulate && (off || settings.effects.force.contains(effect))) {
         planned = {.reason = off ? "the plan is off" : "forced", .name = planned.name};
     }
 }
@@ -67,7 +67,7 @@ void remove_forbidden(const EffectSet& forbidden, Scene& scene, const EffectTabl
 
 RenderSettings without_forbidden(RenderSettings settings, const EffectTable& table) {
     for (const EffectRow& row : table) {
-        if (row.turn_off != nullptr && settings.forbid.contains(row.effect.id)) row.turn_off(settings);
+        if (row.turn_off != nullptr && settings.effects.forbid.contains(row.effect.id)) row.turn_off(settings);
     }
     return settings;
 }

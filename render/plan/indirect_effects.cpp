@@ -62,7 +62,7 @@ double bound_further_bounces(const FrameFacts& facts, int bounces, int most) {
 }
 
 int count_bounces(const Planning& frame) {
-    return std::min(frame.in.settings.bounces, frame.in.settings.path_depth - 1);
+    return std::min(frame.in.settings.light.bounces, frame.in.settings.light.path_depth - 1);
 }
 
 Finding find_indirect_diffuse(Planning& frame) {
@@ -111,13 +111,13 @@ constexpr Rgb green{0.0f, 0.6f, 0.1f}, light_green{0.5f, 0.9f, 0.4f};
 EffectTable indirect_effects() {
     return {
         {describe(Effect::indirect_diffuse), find_indirect_diffuse, green, passes_light_on, nullptr,
-         limit<&RenderSettings::bounces, 0>},
+         limit<&LightSettings::bounces, 0>},
         {describe(Effect::more_bounces), find_more_bounces, light_green, passes_light_on, nullptr,
-         limit<&RenderSettings::bounces, 1>},
+         limit<&LightSettings::bounces, 1>},
         {describe(Effect::caustics), find_caustics, violet, passes_light_on},
         {.effect = describe(Effect::cache_carry_over),
          .find = find_carry_over,
-         .turn_off = limit<&RenderSettings::light_step, 0>},
+         .turn_off = limit<&CacheSettings::light_step, 0>},
     };
 }
 

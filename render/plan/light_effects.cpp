@@ -98,7 +98,7 @@ double choose_faint_lights(const Planning& frame, std::vector<LightFacts>& chose
     std::vector<std::pair<double, std::size_t>> brought;
     for (std::size_t i = 0; i < facts.lights.size(); ++i) {
         if (facts.lights[i].kind == LightFacts::Kind::surroundings) continue;
-        brought.emplace_back(bound_light(facts, facts.lights[i], frame.in.settings.bounces), i);
+        brought.emplace_back(bound_light(facts, facts.lights[i], frame.in.settings.light.bounces), i);
     }
     std::ranges::sort(brought);
     double sum = 0.0;

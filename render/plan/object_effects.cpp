@@ -23,7 +23,7 @@ double bound_glossy_light(const FrameFacts& facts, int bounces) {
 Finding find_gloss(Planning& frame) {
     if (!frame.in.facts.any(&MaterialFacts::glossy)) return skip("no material in use is glossy");
     if (!frame.any_seen(&MaterialFacts::glossy)) return skip("no glossy surface can be seen");
-    return simulate_if_visible(frame, bound_glossy_light(frame.in.facts, frame.in.settings.bounces),
+    return simulate_if_visible(frame, bound_glossy_light(frame.in.facts, frame.in.settings.light.bounces),
                                "glossy surfaces reflect light", "there is no light that glossy surfaces reflect");
 }
 
@@ -94,7 +94,7 @@ Finding find_subdivision(Planning& frame) {
 }
 
 void stop_subdivision(RenderSettings& settings) {
-    settings.subdivision_level = 0;
+    settings.picture.subdivision_level = 0;
 }
 
 Finding find_deformation(Planning& frame) {

@@ -38,7 +38,7 @@ Finding find_blur(const Planning& frame, double size, const BlurMoments& blur, c
     if (size == 0.0) return skip("nothing is blurred");
     Finding finding = simulate(fmt::format("{} up to {:.3g} pixels", what, size));
     if (!frame.visible || !(size < half_pixel)) return finding;
-    const double radiance = bound_blur(blur, frame.in.settings.filter) * largest_contrast(frame);
+    const double radiance = bound_blur(blur, frame.in.settings.picture.filter) * largest_contrast(frame);
     finding.cheaper = {.decision = Decision::skip,
                        .reason = fmt::format("{} by {:.2g} pixels", what, size),
                        .bound = frame.bound_of(radiance, frame.in.scene.environment_image != no_index)};
@@ -67,7 +67,7 @@ Finding find_motion(Planning& frame) {
     if (!in.perceives) return skip(not_perceived);
     if (!in.has_other) return skip("there is no other frame in this shot");
     if (in.moves) return simulate("objects or the camera move");
-    return simulate_if(in.settings.motion == MotionSource::image, "it is found from pictures",
+    return simulate_if(in.settings.guide.motion == MotionSource::image, "it is found from pictures",
                        "nothing moves into the next frame");
 }
 

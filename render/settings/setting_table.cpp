@@ -16,11 +16,11 @@ Setting size_setting() {
     Setting setting = with_unit(new_setting("size", SettingType::size, "picture size"), "pixels");
     setting.min = 1;
     setting.max = 65536;
-    setting.get = [](const S& s) { return SettingValue(fmt::format("{}x{}", s.width, s.height)); };
+    setting.get = [](const S& s) { return SettingValue(fmt::format("{}x{}", s.picture.width, s.picture.height)); };
     setting.set = [](S& s, const SettingValue& value) {
         const PictureSize size = parse_picture_size(std::get<std::string>(value)).value_or(PictureSize{});
-        s.width = size.width;
-        s.height = size.height;
+        s.picture.width = size.width;
+        s.picture.height = size.height;
     };
     return setting;
 }
@@ -48,6 +48,7 @@ std::vector<Setting> picture_settings() {
 /// Settings of the model of vision, and of how its map becomes accuracy.
 std::vector<Setting> vision_settings() {
     using Perception = PerceptionSettings;
+    using G = GuideSettings;
     return {
         without_scene(choice_setting(
             "guide",
@@ -61,10 +62,10 @@ std::vector<Setting> vision_settings() {
         choice_setting("estimate",
                        "quick estimate for the model of vision: base colour and emission (flat), or direct light with "
                        "shadows (direct)",
-                       at(&S::estimate), {{"flat", EstimateKind::flat}, {"direct", EstimateKind::direct}}),
+                       at(&S::guide, &G::estimate), {{"flat", EstimateKind::flat}, {"direct", EstimateKind::direct}}),
         without_scene(choice_setting(
             "motion", "source of motion: the scene, exact (model), or a comparison of two quick estimates (image)",
-            at(&S::motion), {{"model", MotionSource::model}, {"image", MotionSource::image}})),
+            at(&S::guide, &G::motion), {{"model", MotionSource::model}, {"image", MotionSource::image}})),
         without_scene(vision_setting()),
         without_scene(choice_setting(
             "bands",
@@ -81,15 +82,17 @@ std::vector<Setting> vision_settings() {
             "adapter",
             "how accuracy follows the Aleph map: thesis (6.7) (compress), (6.8) (scale-add), or the visible threshold "
             "itself (threshold)",
-            at(&S::adapter),
+            at(&S::guide, &G::adapter),
             {{"compress", Adapter::compress}, {"scale-add", Adapter::scale_add}, {"threshold", Adapter::threshold}})),
-        rarely_set(
-            without_scene(number_setting("adapter_k", "K of the adapter scale-add", at(&S::adapter_k), 1e-6, 1e12))),
+        rarely_set(without_scene(
+            number_setting("adapter_k", "K of the adapter scale-add", at(&S::guide, &G::adapter_k), 1e-6, 1e12))),
     };
 }
 
 /// The error that is asked for, the cache's accuracy, and how far light goes.
 std::vector<Setting> light_settings() {
+    using C = CacheSettings;
+    using L = LightSettings;
     return {
         with_unit(number_setting("error",
                                  "largest error that is asked for; sets sampling, adapter, accuracy, gather and spp, "
@@ -100,31 +103,32 @@ std::vector<Setting> light_settings() {
             "accuracy",
             "ambient accuracy, as RADIANCE names it: the error that irradiance caching may make where the viewer is "
             "strictest, so that smaller is more accurate; 0 gathers at every sample",
-            at(&S::accuracy), 0.0, 1.0)),
+            at(&S::cache, &C::accuracy), 0.0, 1.0)),
         with_unit(
             number_setting("gather", "rays over the hemisphere for one irradiance value; 0: what the accuracy needs",
-                           at(&S::gather), 0, 1 << 20),
+                           at(&S::cache, &C::gather), 0, 1 << 20),
             "rays"),
         number_setting("bounces", "bounces of indirect diffuse light; the quick estimate has at most 1",
-                       at(&S::bounces), 0, 1000),
+                       at(&S::light, &L::bounces), 0, 1000),
         with_unit(number_setting("path_depth", "longest path of light that mirrors and glass may make",
-                                 at(&S::path_depth), 1, 10000),
+                                 at(&S::light, &L::path_depth), 1, 10000),
                   "surfaces"),
     };
 }
 
 std::vector<Setting> sampling_settings() {
+    using Samples = SamplingSettings;
     return {
         with_unit(number_setting(
                       "spp", "samples per pixel, or the most of them where `sampling` chooses; 1 is the pixel's centre",
-                      at(&S::spp), 1, 65536),
+                      at(&S::sampling, &Samples::spp), 1, 65536),
                   "samples"),
         choice_setting(
             "sampling",
             "how many samples each pixel takes: spp (uniform), or at most spp: until two stages differ by less than "
             "the visible threshold (consecutive), until the variance is below it (variance), spp divided by the Aleph "
             "map but at least 16 (protocol), or until the error that is asked for is met (threshold)",
-            at(&S::sampling),
+            at(&S::sampling, &Samples::rule),
             {{"uniform", Sampling::uniform},
              {"consecutive", Sampling::consecutive},
              {"variance", Sampling::variance},
@@ -134,49 +138,53 @@ std::vector<Setting> sampling_settings() {
             "variance_test",
             "what the sampling variance compares with the threshold: the error of the mean (standard-error), or the "
             "deviation of the samples, as the thesis prints it, which more samples do not lower (deviation)",
-            at(&S::variance_test),
+            at(&S::sampling, &Samples::variance_test),
             {{"standard-error", VarianceTest::standard_error}, {"deviation", VarianceTest::deviation}})),
         choice_setting("filter",
                        "how the light around a pixel's centre makes up the pixel: its square (box), or a smooth window "
                        "3 pixels wide (blackman-harris)",
-                       at(&S::filter), {{"box", PixelFilter::box}, {"blackman-harris", PixelFilter::blackman_harris}}),
+                       at(&S::picture, &PictureSettings::filter),
+                       {{"box", PixelFilter::box}, {"blackman-harris", PixelFilter::blackman_harris}}),
     };
 }
 
 /// The method, and what it costs.
 std::vector<Setting> method_settings() {
+    using C = CacheSettings;
+    using L = LightSettings;
     return {
         choice_setting("integrator",
                        "method for the picture's light: an irradiance cache for indirect diffuse light (cache), or "
                        "path tracing, unbiased, with the variance of each pixel (path)",
-                       at(&S::integrator), {{"cache", Integrator::cache}, {"path", Integrator::path}}),
+                       at(&S::light, &L::integrator), {{"cache", Integrator::cache}, {"path", Integrator::path}}),
         with_unit(number_setting("light_samples",
                                  "samples of direct light per pixel and light, shared out among the pixel's spp",
-                                 at(&S::light_samples), 1, 65536),
+                                 at(&S::light, &L::light_samples), 1, 65536),
                   "samples"),
         rarely_set(with_unit(
             number_setting("min_radius_pixels", "least radius of a cache record, which reaches accuracy times as far",
-                           at(&S::min_radius_pixels), 0.1, 1000.0),
+                           at(&S::cache, &C::min_radius_pixels), 0.1, 1000.0),
             "pixels")),
         with_unit(number_setting("light_step",
                                  "frames between the key moments at which indirect light is computed for the frames "
                                  "around them; 0: every frame computes its own",
-                                 at(&S::light_step), 0, 1000),
+                                 at(&S::cache, &C::light_step), 0, 1000),
                   "frames"),
         number_setting("subdivision_level",
                        "level of every subdivision cage, at most its own max_level; -1: as fine as the pixels need",
-                       at(&S::subdivision_level), -1, 10),
+                       at(&S::picture, &PictureSettings::subdivision_level), -1, 10),
     };
 }
 
 /// Which effects are simulated.
 std::vector<Setting> effect_settings() {
+    using E = EffectSettings;
     return {
         choice_setting(
             "plan", "whether effects that the scene does not call for, by more than a viewer could see, are left out",
-            at(&S::plan), {{"on", EffectsPlanning::on}, {"off", EffectsPlanning::off}}),
-        effects_setting("force", "effects that are simulated whatever the plan says", at(&S::force)),
-        effects_setting("forbid", "effects that are left out whatever that changes", at(&S::forbid)),
+            at(&S::effects, &E::plan), {{"on", EffectsPlanning::on}, {"off", EffectsPlanning::off}}),
+        effects_setting("force", "effects that are simulated whatever the plan says", at(&S::effects, &E::force)),
+        effects_setting("forbid", "effects that are left out whatever that changes", at(&S::effects, &E::forbid)),
     };
 }
 

@@ -15,11 +15,11 @@ void follow_error(RenderSettings& settings, double error) {
     constexpr double accuracy_per_threshold = 0.1;  // interpolated light then errs by a tenth of what is asked for
     constexpr int most_samples = 4096;
     settings.error = error;
-    settings.sampling = Sampling::threshold;
-    settings.adapter = Adapter::threshold;
-    settings.accuracy = std::min(1.0, accuracy_per_threshold * error);
-    settings.gather = 0;
-    settings.spp = most_samples;
+    settings.sampling.rule = Sampling::threshold;
+    settings.guide.adapter = Adapter::threshold;
+    settings.cache.accuracy = std::min(1.0, accuracy_per_threshold * error);
+    settings.cache.gather = 0;
+    settings.sampling.spp = most_samples;
 }
 
 void apply_settings(RenderSettings& settings, const SettingMap& map, const std::string& source) {

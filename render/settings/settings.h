@@ -1,6 +1,6 @@
 #pragma once
-// Settings of a render. The scene file's "settings", the command line and C++ programs fill this one struct.
-// setting_table.h has the key, range and description of each.
+// Settings of a render, in groups. The scene file's "settings", the command line and C++ programs fill this one struct.
+// setting_table.h has the key, range and description of each: keys have the names of the fields, without the groups.
 
 #include <cstdint>
 #include <string>
@@ -60,32 +60,74 @@ enum class VarianceTest {
 /// The choice of planning a frame's effects, or not (effects_plan.h).
 enum class EffectsPlanning { on, off };
 
-struct RenderSettings {
+/// The picture, and how finely surfaces are divided for it.
+struct PictureSettings {
     int width = 640, height = 480;  ///< key "size": "640x480"
-    std::uint32_t seed = 0;
+    PixelFilter filter = PixelFilter::blackman_harris;
+    int subdivision_level = -1;  ///< of every subdivision cage; -1: as fine as the pixels need (cage_level.h)
+
+    bool operator==(const PictureSettings&) const = default;
+};
+
+/// The input of the model of vision, and the way from its map to ambient accuracy.
+struct GuideSettings {
     EstimateKind estimate = EstimateKind::direct;
     MotionSource motion = MotionSource::model;
-    PerceptionSettings perception;  ///< keys guide, bands, grid, neutral_opponent
     Adapter adapter = Adapter::compress;
     double adapter_k = 100.0;  ///< K of (6.8)
-    double accuracy = 0.15;    ///< ambient accuracy alpha_Acc; 0 gathers at every sample
-    int gather = 0;            ///< hemisphere samples per irradiance value; 0: what the accuracy needs (choose_rays)
-    Integrator integrator = Integrator::cache;
-    int bounces = 1;      ///< of indirect diffuse light
-    int path_depth = 32;  ///< longest path: surfaces that scatter, of all kinds
-    /// Error that is asked for, in visible thresholds; 0: none is, and the other settings stand for themselves.
-    double error = 0.0;
-    Sampling sampling = Sampling::uniform;
-    VarianceTest variance_test = VarianceTest::standard_error;
-    PixelFilter filter = PixelFilter::blackman_harris;
-    int spp = 16;                     ///< samples per pixel, or the most of them; 1 is the pixel's centre
-    int light_samples = 16;           ///< direct-light samples per pixel and light, shared out among its spp
+
+    bool operator==(const GuideSettings&) const = default;
+};
+
+/// The irradiance cache.
+struct CacheSettings {
+    double accuracy = 0.15;  ///< ambient accuracy alpha_Acc: smaller is more accurate; 0 gathers at every sample
+    int gather = 0;          ///< hemisphere samples per irradiance value; 0: what the accuracy needs (choose_rays)
     double min_radius_pixels = 12.0;  ///< least R of a record (irradiance_record.h), pixels
     int light_step = 10;              ///< frames between key moments of indirect light; 0: every frame computes its own
-    int subdivision_level = -1;       ///< of every subdivision cage; -1: as fine as the pixels need (cage_level.h)
+
+    bool operator==(const CacheSettings&) const = default;
+};
+
+/// The transport of light.
+struct LightSettings {
+    Integrator integrator = Integrator::cache;
+    int bounces = 1;         ///< of indirect diffuse light
+    int path_depth = 32;     ///< longest path: surfaces that scatter, of all kinds
+    int light_samples = 16;  ///< direct-light samples per pixel and light, shared out among its spp
+
+    bool operator==(const LightSettings&) const = default;
+};
+
+/// The samples of a pixel.
+struct SamplingSettings {
+    Sampling rule = Sampling::uniform;  ///< key "sampling"
+    int spp = 16;                       ///< samples per pixel, or the most of them; 1 is the pixel's centre
+    VarianceTest variance_test = VarianceTest::standard_error;
+
+    bool operator==(const SamplingSettings&) const = default;
+};
+
+/// The effects that are simulated.
+struct EffectSettings {
     EffectsPlanning plan = EffectsPlanning::on;
     EffectSet force;   ///< simulated whatever the plan says
     EffectSet forbid;  ///< left out whatever that changes
+
+    bool operator==(const EffectSettings&) const = default;
+};
+
+struct RenderSettings {
+    std::uint32_t seed = 0;
+    /// Error that is asked for, in visible thresholds; 0: none is, and the other settings stand for themselves.
+    double error = 0.0;
+    PictureSettings picture;
+    PerceptionSettings perception;
+    GuideSettings guide;
+    CacheSettings cache;
+    LightSettings light;
+    SamplingSettings sampling;
+    EffectSettings effects;
 
     bool operator==(const RenderSettings&) const = default;
 };

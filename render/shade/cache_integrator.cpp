@@ -19,8 +19,8 @@ class CacheIntegrator final : public LightIntegrator {
     explicit CacheIntegrator(const IntegratorInput& input)
         : input_(input),
           context_(input.context),
-          indirect_(context_.settings.bounces > 0 && context_.settings.path_depth > 1),
-          cached_(indirect_ && context_.settings.accuracy > 0.0 && input.options.light_lasts),
+          indirect_(context_.settings.light.bounces > 0 && context_.settings.light.path_depth > 1),
+          cached_(indirect_ && context_.settings.cache.accuracy > 0.0 && input.options.light_lasts),
           cache_(make_cache(context_.lighting.shading)),
           known_(context_, cached_ ? &cache_ : nullptr),
           direct_(context_.max_radius) {
@@ -44,7 +44,7 @@ class CacheIntegrator final : public LightIntegrator {
         moment_ = &moment;
         const RenderSettings& settings = context_.settings;
         const bool blurred = static_cast<bool>(input_.options.at_sample);
-        const bool uniform = settings.sampling == Sampling::uniform;
+        const bool uniform = settings.sampling.rule == Sampling::uniform;
         context_.seen = nullptr;
         shutter_.reset();
         if (blurred && cached_) {
@@ -60,7 +60,8 @@ class CacheIntegrator final : public LightIntegrator {
                           .known = blurred ? nullptr : &known_,
                           .blurred = blurred,
                           .shutter = shutter_ ? &*shutter_ : nullptr,
-                          .points = {(settings.light_samples + settings.spp - 1) / settings.spp, 0, settings.spp},
+                          .points = {(settings.light.light_samples + settings.sampling.spp - 1) / settings.sampling.spp,
+                                     0, settings.sampling.spp},
                           .light_samples = uniform ? 0 : progressive_light_samples,
                           .tolerance = input_.tolerance ? &*input_.tolerance : nullptr,
                           .records = &input_.out.records,

@@ -37,7 +37,7 @@ std::optional<SystematicTolerance> compute_systematic_tolerance(const VisibleLim
 }
 
 Image<float> compute_sampling_tolerance(const VisibleLimits& limits, const RenderSettings& settings, double exposure) {
-    if (settings.sampling == Sampling::uniform || settings.sampling == Sampling::protocol) return {};
+    if (settings.sampling.rule == Sampling::uniform || settings.sampling.rule == Sampling::protocol) return {};
     const double error = settings.error > 0.0 ? settings.error : 1.0;
     const double white = limits.viewing.display_white;
     Image<float> tolerance(limits.threshold.width, limits.threshold.height);
@@ -46,7 +46,7 @@ Image<float> compute_sampling_tolerance(const VisibleLimits& limits, const Rende
             const bool moves = limits.outlines(x, y) == Outline::moving;
             const float threshold = moves ? strictest_around(limits.threshold, x, y) : limits.threshold(x, y);
             double left = error * threshold / white;
-            if (settings.sampling == Sampling::threshold && !limits.indirect_luminance.empty()) {
+            if (settings.sampling.rule == Sampling::threshold && !limits.indirect_luminance.empty()) {
                 const double cached = error_deviations * error_per_accuracy * limits.accuracy(x, y) *
                                       static_cast<double>(limits.indirect_luminance(x, y));
                 const double shares = settings.error > 0.0 ? left_out_share + error_deviations * gloss_share : 0.0;
@@ -61,9 +61,9 @@ Image<float> compute_sampling_tolerance(const VisibleLimits& limits, const Rende
 
 SamplingPlan make_sampling_plan(const VisibleLimits* limits, const RenderSettings& settings, double exposure) {
     SamplingPlan plan;
-    plan.rule = settings.sampling;
-    plan.test = settings.variance_test;
-    plan.most = settings.spp;
+    plan.rule = settings.sampling.rule;
+    plan.test = settings.sampling.variance_test;
+    plan.most = settings.sampling.spp;
     if (limits == nullptr) return plan;
     plan.tolerance = compute_sampling_tolerance(*limits, settings, exposure);
     plan.aleph = limits->aleph;

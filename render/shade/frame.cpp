@@ -59,7 +59,7 @@ class FrameShading {
     void resolve(double exposure) {
         if (options_.part != nullptr) return count_samples(pixels_, out_);
         integrator_->resolve(pixels_, exposure);
-        if (options_.limits != nullptr && context_.settings.spp > 1) report_errors(exposure);
+        if (options_.limits != nullptr && context_.settings.sampling.spp > 1) report_errors(exposure);
     }
 
   private:
@@ -197,7 +197,7 @@ class FrameShading {
     void report_progress(double stage) {
         if (!context_.progress) return;
         const double begin = integrator_->shares_light() ? fill_share : 0.0;
-        const Sampling rule = context_.settings.sampling;
+        const Sampling rule = context_.settings.sampling.rule;
         const bool only_one = rule == Sampling::uniform || rule == Sampling::protocol;
         const double left = std::pow(0.5, stage_), done = only_one ? stage : 1.0 - left + 0.5 * left * stage;
         context_.progress(begin + (1.0 - begin) * done, "shade");

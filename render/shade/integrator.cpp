@@ -13,7 +13,7 @@ void LightIntegrator::fill_waiting(const std::vector<PendingSample>& waiting) {
 void LightIntegrator::add_waiting(ShadingTask&, PendingSample&) {}
 
 std::unique_ptr<LightIntegrator> make_integrator(const IntegratorInput& input) {
-    switch (input.context.settings.integrator) {
+    switch (input.context.settings.light.integrator) {
         case Integrator::path:
             return make_path_integrator(input);
         case Integrator::cache:

@@ -23,7 +23,7 @@ class PathIntegrator final : public LightIntegrator {
     }
 
     void resolve(const Image<PixelSamples>& pixels, double exposure) override {
-        resolve_pixels(pixels, exposure, false, input_.context.settings.spp > 1, input_.out);
+        resolve_pixels(pixels, exposure, false, input_.context.settings.sampling.spp > 1, input_.out);
     }
 
   private:

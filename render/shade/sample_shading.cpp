@@ -71,8 +71,8 @@ Rgb sample_path(const SampleShading& shading, const SampleMoment& moment, Shadin
                 const PixelSurface& surface) {
     const RenderSettings& settings = shading.context.settings;
     RandomStream random = path_stream(shading, surface, irradiance_seed_mask);
-    return find_deeper_irradiance(moment.lighting, task, surface.point, {settings.bounces}, settings.path_depth - 1,
-                                  random);
+    return find_deeper_irradiance(moment.lighting, task, surface.point, {settings.light.bounces},
+                                  settings.light.path_depth - 1, random);
 }
 
 /// Adds what the surface reflects of its irradiance.
@@ -159,7 +159,7 @@ RandomStream path_stream(std::uint32_t seed, std::uint32_t moment, const PixelSu
 
 PathState start_path(const RenderSettings& settings) {
     PathState state;
-    state.left = {settings.bounces, settings.path_depth};
+    state.left = {settings.light.bounces, settings.light.path_depth};
     return state;
 }
 

@@ -30,30 +30,31 @@ double number_in(const ChannelImage& image, const char* key) {
 RenderSettings reference_settings(const RenderSettings& settings, const ReferencePictureOptions& options) {
     if (options.kind == "settings") return settings;
     RenderSettings out;
-    out.width = settings.width;
-    out.height = settings.height;
-    out.bounces = settings.bounces;
-    out.path_depth = settings.path_depth;
-    out.subdivision_level = settings.subdivision_level;
-    out.estimate = settings.estimate;  // the automatic exposure is that of the estimate
+    out.picture.width = settings.picture.width;
+    out.picture.height = settings.picture.height;
+    out.light.bounces = settings.light.bounces;
+    out.light.path_depth = settings.light.path_depth;
+    out.picture.subdivision_level = settings.picture.subdivision_level;
+    out.guide.estimate = settings.guide.estimate;  // the automatic exposure is that of the estimate
     out.perception.guide = Guide::none;
-    out.filter = settings.filter;
-    out.spp = options.pass_spp;
+    out.picture.filter = settings.picture.filter;
+    out.sampling.spp = options.pass_spp;
     if (options.kind == "path") {
-        out.integrator = Integrator::path;
+        out.light.integrator = Integrator::path;
     } else {
-        out.accuracy = 0.0;
-        out.light_step = 0;
-        out.gather = 16;
-        out.light_samples = 2 * options.pass_spp;
+        out.cache.accuracy = 0.0;
+        out.cache.light_step = 0;
+        out.cache.gather = 16;
+        out.light.light_samples = 2 * options.pass_spp;
     }
     return out;
 }
 
 /// What the picture depends on, but for its scene.
 std::string describe_settings(const RenderSettings& settings, const ReferencePictureOptions& options) {
-    std::string text = fmt::format("{} {} {} {} {}", settings.spp, settings.bounces, settings.path_depth,
-                                   settings.subdivision_level, static_cast<int>(settings.filter));
+    std::string text =
+        fmt::format("{} {} {} {} {}", settings.sampling.spp, settings.light.bounces, settings.light.path_depth,
+                    settings.picture.subdivision_level, static_cast<int>(settings.picture.filter));
     if (options.kind != "settings") return text;
     for (const auto& [key, value] : setting_map(settings)) text += fmt::format(" {}={}", key, setting_text(value));
     return text;
@@ -63,7 +64,7 @@ ChannelImage read_reference(const std::filesystem::path& path, const RenderSetti
     ChannelImage image = read_image(path);
     for (const char* name : {"R", "G", "B", variance_name}) {
         const Image<float>* channel = image.find(name);
-        if (!channel || channel->width != settings.width || channel->height != settings.height ||
+        if (!channel || channel->width != settings.picture.width || channel->height != settings.picture.height ||
             !(reference_passes(image) >= 1.0)) {
             throw InputError(path.string(), "", "is no reference picture of this size");
         }
@@ -77,9 +78,9 @@ ChannelImage read_reference(const std::filesystem::path& path, const RenderSetti
 ChannelImage render_pass(const Scene& scene, RenderSettings settings, std::int64_t frame, double pass,
                          const FrameProgress& progress) {
     settings.seed = reference_seed + static_cast<std::uint32_t>(pass);
-    const int light_samples_each = std::max(1, settings.light_samples / settings.spp);
-    settings.spp += static_cast<int>(pass);
-    settings.light_samples = light_samples_each * settings.spp;
+    const int light_samples_each = std::max(1, settings.light.light_samples / settings.sampling.spp);
+    settings.sampling.spp += static_cast<int>(pass);
+    settings.light.light_samples = light_samples_each * settings.sampling.spp;
     Sequence sequence(scene, settings);
     FrameRequest request;
     request.progress = progress;
@@ -107,7 +108,8 @@ std::filesystem::path reference_picture_path(const RenderSettings& given, std::i
     const std::string what =
         hash_bytes(program_build() + " " + options.identity + " " + describe_settings(settings, options)).substr(0, 16);
     return std::filesystem::path(options.folder) / fmt::format("{}-{}-{}x{}-{}-{}.exr", options.name, frame,
-                                                               settings.width, settings.height, options.kind, what);
+                                                               settings.picture.width, settings.picture.height,
+                                                               options.kind, what);
 }
 
 double reference_passes(const ChannelImage& reference) {

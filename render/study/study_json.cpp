@@ -147,8 +147,8 @@ Json study_json(const PreparedStudy& prepared, const StudyResults& results, cons
               {"settings", settings_json(study.settings)}};
     for (const PreparedStudyScene& scene : prepared.scenes) json["scenes"].push_back(scene.scene.file);
     const RenderSettings base = with_settings_of(prepared.scenes.front(), study, {}).settings;
-    json["width"] = base.width;
-    json["height"] = base.height;
+    json["width"] = base.picture.width;
+    json["height"] = base.picture.height;
     json["frames"] = frames_json(results, context.folder);
     json["reference"] = {{"kind", study.reference.kind},
                          {"passes", study.reference.passes},

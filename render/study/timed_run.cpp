@@ -50,7 +50,7 @@ std::vector<FrameRun> render_run(const Scene& scene, const RenderSettings& setti
                                  const SaveFrame& save, const std::function<void(double)>& progress) {
     std::vector<FrameRun> runs;
     Sequence sequence(scene, settings);
-    const double pixels = static_cast<double>(settings.width) * settings.height;
+    const double pixels = static_cast<double>(settings.picture.width) * settings.picture.height;
     for (const int frame : frames) {
         FrameRequest request;
         request.progress = [&](double fraction, const char*) {

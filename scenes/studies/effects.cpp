@@ -165,7 +165,7 @@ Finding compare_with_bound(const Scene& scene, const RenderSettings& settings, s
     for (int i = 0; i < (bound.luminance > 0.0 ? seeds : 1); ++i) {
         RenderSettings plain = settings, forced = settings;
         plain.seed = forced.seed = settings.seed + static_cast<std::uint32_t>(i);
-        forced.force = force;
+        forced.effects.force = force;
         const Picture with = render_picture(scene, forced, frame);
         if (i == 0) {
             finding.seconds = with.seconds;
@@ -196,7 +196,7 @@ void try_frame(const FrameOfScene& which, const EffectsOptions& options, const S
     const std::string name = fmt::format("{} {}", name_scene(which.file), frame);
     const Picture planned = render_picture(scene, settings, frame);
     RenderSettings off = settings;
-    off.plan = EffectsPlanning::off;
+    off.effects.plan = EffectsPlanning::off;
     const Picture everything = render_picture(scene, off, frame);
     totals.planned += planned.seconds;
     totals.off += everything.seconds;

@@ -119,7 +119,8 @@ void time_model(const Sequence& sequence, const RenderSettings& settings, int fr
     const Scene& scene = sequence.scene();
     const int camera = find_camera(scene, "");
     const auto pose_frame = [&](int number) {
-        return make_posed_view(scene, scene.frame_rate.seconds_of(number), camera, settings.width, settings.height);
+        return make_posed_view(scene, scene.frame_rate.seconds_of(number), camera, settings.picture.width,
+                               settings.picture.height);
     };
     const PosedView now = pose_frame(frame), other = pose_frame(frame + 1);
     const PosePlan plan = make_pose_plan(scene);

@@ -151,11 +151,11 @@ int run(int argc, char** argv) {
     apply_settings(settings,
                    {{"size", argc > 3 ? argv[3] : "640x480"}, {"gather", argc > 4 ? std::atof(argv[4]) : 1024.0}},
                    "command line");
-    Frame frame(scene, argc > 2 ? std::atoll(argv[2]) : 0, settings.width, settings.height);
-    frame.depth = std::max(0, settings.path_depth - 2);
+    Frame frame(scene, argc > 2 ? std::atoll(argv[2]) : 0, settings.picture.width, settings.picture.height);
+    frame.depth = std::max(0, settings.light.path_depth - 2);
     const RawEmbree raw(scene, frame.posed.pose, frame.posed.view, true,
                         origin_of_recorded(frame.rays, frame.posed.pose));
-    const HemisphereStrata strata = choose_strata(settings.gather);
+    const HemisphereStrata strata = choose_strata(settings.cache.gather);
 
     fmt::print("{}: {} points, {} gather rays each\n", argv[1], frame.points.size(), strata.count());
     for (const bool with_grid : {false, true}) measure(frame, raw, strata, with_grid);

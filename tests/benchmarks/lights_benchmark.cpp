@@ -82,14 +82,14 @@ void print_frames(bool lamps) {
         add_mesh(scene, make_quad(side, side, add_lambert(scene, glm::dvec3(0.6))), glm::dvec3(0.0), z_to_up);
         add_camera(scene, {0.4 * side, 0.8 * height, 0.4 * side}, glm::dvec3(0.0));
         RenderSettings settings;
-        settings.width = 160;
-        settings.height = 120;
+        settings.picture.width = 160;
+        settings.picture.height = 120;
         follow_error(settings, 1.0);
-        settings.light_step = 0;
+        settings.cache.light_step = 0;
         Sequence sequence(std::move(scene), settings);
         const double start = seconds_now();
         const auto taken = static_cast<double>(sequence.render(0).statistics.counts.samples);
-        const double seconds = seconds_now() - start, pixels = settings.width * settings.height;
+        const double seconds = seconds_now() - start, pixels = settings.picture.width * settings.picture.height;
         fmt::print("  {:>6} {:11.1f} {:14.1f} {:12.2f}\n", lights, 1e6 * seconds / pixels, taken / pixels,
                    1e6 * seconds / taken);
     }

@@ -31,7 +31,7 @@ int run(int argc, char** argv) {
     const Scene scene = load_scene(argv[1]);
     RenderSettings settings;
     settings.perception.guide = Guide::none;
-    settings.integrator = Integrator::path;
+    settings.light.integrator = Integrator::path;
     SettingMap options{{"size", argc > 3 ? argv[3] : "320x240"}, {"spp", argc > 4 ? std::atof(argv[4]) : 4.0}};
     apply_settings(settings, options, "command line");
     const std::int64_t frame = argc > 2 ? std::atoll(argv[2]) : 0;
@@ -47,12 +47,12 @@ int run(int argc, char** argv) {
     }
     const FrameStatistics paths = shade(1);
     const PosedView posed =
-        make_posed_view(scene, scene.frame_rate.seconds_of(frame), 0, settings.width, settings.height);
+        make_posed_view(scene, scene.frame_rate.seconds_of(frame), 0, settings.picture.width, settings.picture.height);
     RayScene rays_of_frame(scene);
     rays_of_frame.update(posed.pose, compute_anchor(posed.view));
     RawEmbree raw(scene, posed.pose, posed.view, true, origin_of_recorded(rays_of_frame, posed.pose));
-    fmt::print("{}, frame {}, {}x{}, {} samples, {} threads: {} rays\n", argv[1], frame, settings.width,
-               settings.height, settings.spp, thread_count(), paths.traced_rays);
+    fmt::print("{}, frame {}, {}x{}, {} samples, {} threads: {} rays\n", argv[1], frame, settings.picture.width,
+               settings.picture.height, settings.sampling.spp, thread_count(), paths.traced_rays);
     const double rays = static_cast<double>(paths.traced_rays), path_seconds = paths.seconds.shade;
     double best = 0.0;
     for (const auto& [name, packets] : {std::pair("single rays", RawEmbree::Packets::none),

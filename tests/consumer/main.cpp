@@ -75,10 +75,10 @@ void expect_near(const char* what, double found, double expected, double toleran
 int main() {
     const aleph::Scene scene = make_scene();
     aleph::RenderSettings settings;
-    settings.width = width;
-    settings.height = height;
-    settings.spp = 1;
-    settings.gather = 16;
+    settings.picture.width = width;
+    settings.picture.height = height;
+    settings.sampling.spp = 1;
+    settings.cache.gather = 16;
     settings.perception.guide = aleph::Guide::full;  // the model of motion and contrast, without attention
     aleph::Sequence sequence(scene, settings);
     const aleph::FrameOutput output = sequence.render(3, {.frame = true, .maps = true});

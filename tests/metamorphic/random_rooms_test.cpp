@@ -90,8 +90,8 @@ TEST_P(RandomRooms, ErrorSinksWithTheAccuracy) {
             double coarser = 0.0;
             for (std::size_t i = 0; i < accuracies.size(); ++i) {
                 RenderSettings settings = plain_settings(accuracies[i].value, 0);
-                settings.bounces = bounces;
-                settings.light_samples = 1;
+                settings.light.bounces = bounces;
+                settings.light.light_samples = 1;
                 settings.seed = 100'000 + room;
                 const Image<Rgb> cached = shade(stage, settings).color;
                 const double square = relative_square(cached, one, two);

@@ -46,9 +46,9 @@ const std::vector<Authored>& authored_scenes() {
 FrameOutput render(const Scene& scene, std::int64_t frame, std::uint32_t seed = 0, int spp = 1) {
     RenderSettings settings = quick_settings(24, 18);
     settings.seed = seed;
-    settings.spp = spp;
-    settings.gather = 32;
-    settings.accuracy = 0.3;
+    settings.sampling.spp = spp;
+    settings.cache.gather = 32;
+    settings.cache.accuracy = 0.3;
     settings.perception.guide = Guide::none;
     return Sequence(scene, settings).render(frame, {.frame = true, .maps = true, .progress = {}});
 }

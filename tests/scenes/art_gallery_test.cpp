@@ -9,9 +9,9 @@
 
 #include "render/frame/sequence.h"
 #include "scenes/art-gallery/gallery.h"
+#include "tests/scenes/authored_scenes.h"
 #include "tests/support/numbers.h"
 #include "tests/support/paths.h"
-#include "tests/scenes/authored_scenes.h"
 
 namespace aleph {
 namespace {
@@ -233,14 +233,14 @@ TEST(ArtGallery, KineticWorkBleedsColour) {
     const Scene& scene = loaded("art-gallery");
     const std::int64_t frame = 395;
     RenderSettings settings;
-    settings.width = 96;
-    settings.height = 72;
-    settings.spp = 1;
-    settings.gather = 128;
-    settings.estimate = EstimateKind::flat;
+    settings.picture.width = 96;
+    settings.picture.height = 72;
+    settings.sampling.spp = 1;
+    settings.cache.gather = 128;
+    settings.guide.estimate = EstimateKind::flat;
     settings.perception.guide = Guide::none;
     const FrameOutput with = Sequence(scene, settings).render(frame);
-    settings.bounces = 0;
+    settings.light.bounces = 0;
     const FrameOutput without = Sequence(scene, settings).render(frame);
     const ScenePose now = pose(scene, scene.frame_rate.seconds_of(frame));
     double reddest = 0.0, least_red = 9.0;

@@ -133,11 +133,11 @@ TEST(Authoring, EveryExampleLoadsWithoutWarnings) {
 RenderSettings small_settings(const Scene& scene) {
     RenderSettings settings;
     apply_settings(settings, scene.settings, "example.json");
-    settings.width = 16;
-    settings.height = 12;
-    settings.gather = 4;
-    settings.spp = 1;
-    settings.light_samples = 1;
+    settings.picture.width = 16;
+    settings.picture.height = 12;
+    settings.cache.gather = 4;
+    settings.sampling.spp = 1;
+    settings.light.light_samples = 1;
     return settings;
 }
 

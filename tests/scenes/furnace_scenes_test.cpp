@@ -22,10 +22,10 @@ Deviation render_frame(const std::string& file, std::int64_t frame, double expec
     const Scene scene = load_scene(source_folder() / "scenes" / "furnace" / file);
     RenderSettings settings;
     apply_settings(settings, scene.settings, file);
-    settings.width = 64;
-    settings.height = 48;
-    settings.gather = 1024;
-    settings.light_samples = 64;
+    settings.picture.width = 64;
+    settings.picture.height = 48;
+    settings.cache.gather = 1024;
+    settings.light.light_samples = 64;
     const FrameOutput output = Sequence(scene, settings).render(frame);
     Deviation deviation;
     for (const Rgb& pixel : output.shaded.color.pixels) {

@@ -50,8 +50,8 @@ TEST(HardScenes, KF17_MirroredScaleKeepsItsLight) {
     thing.scale = glm::dvec3(1.0);  // unmirrored and turned the other way: this gives the mirror image of the picture
     thing.axis_rotation->angle = Track<double>(-20.0 * std::numbers::pi / 180.0);
     RenderSettings settings = small_settings();
-    settings.light_samples = 256;
-    settings.gather = 1024;
+    settings.light.light_samples = 256;
+    settings.cache.gather = 1024;
     Sequence mirrored(hard.scene, settings), sequence(straight, settings);
     const Image<Rgb> picture = mirrored.render(0).shaded.color, other = sequence.render(0).shaded.color;
     double sum = 0.0, difference = 0.0;

@@ -18,10 +18,10 @@ Scene load_material_scene(const std::string& name) {
 Image<Rgb> render_small(const Scene& scene, int spp, std::int64_t frame = 20) {
     RenderSettings settings;
     apply_settings(settings, scene.settings, scene.file);
-    settings.width = 48;
-    settings.height = 32;
-    settings.spp = spp;
-    settings.filter = PixelFilter::box;
+    settings.picture.width = 48;
+    settings.picture.height = 32;
+    settings.sampling.spp = spp;
+    settings.picture.filter = PixelFilter::box;
     settings.perception.guide = Guide::none;
     const FrameOutput out = Sequence(scene, settings).render(frame);
     EXPECT_EQ(out.shaded.counts.invalid_samples, 0u);

@@ -23,10 +23,10 @@ inline const Scene& pool_scene() {
 /// Two samples per pixel, so that a later pass of filling happens as well.
 inline RenderSettings small_settings() {
     RenderSettings settings = quick_settings(160, 120);
-    settings.spp = 2;
-    settings.light_samples = 2;
-    settings.gather = 32;
-    settings.accuracy = 0.4;
+    settings.sampling.spp = 2;
+    settings.light.light_samples = 2;
+    settings.cache.gather = 32;
+    settings.cache.accuracy = 0.4;
     return settings;
 }
 

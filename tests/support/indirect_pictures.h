@@ -13,9 +13,9 @@ struct IndirectPicture {
 };
 
 inline IndirectPicture shade_indirect(const Stage& stage, RenderSettings settings) {
-    settings.light_samples = 1;
+    settings.light.light_samples = 1;
     const ShadedFrame all = shade(stage, settings);
-    settings.bounces = 0;
+    settings.light.bounces = 0;
     IndirectPicture out{all.color, shade(stage, settings).color, all.counts};
     for (std::size_t i = 0; i < out.all.size(); ++i)
         out.indirect.pixels[i] = out.all.pixels[i] - out.indirect.pixels[i];

@@ -183,16 +183,16 @@ inline SurfaceMaterial make_metal(float alpha) {
 inline RenderSettings plain_settings(double accuracy, int gather) {
     RenderSettings settings;
     settings.perception.guide = Guide::none;
-    settings.spp = 1;
-    settings.filter = PixelFilter::box;
-    settings.accuracy = accuracy;
-    settings.gather = gather;
-    settings.light_step = 0;
+    settings.sampling.spp = 1;
+    settings.picture.filter = PixelFilter::box;
+    settings.cache.accuracy = accuracy;
+    settings.cache.gather = gather;
+    settings.cache.light_step = 0;
     return settings;
 }
 
 inline ShadedFrame shade(const Stage& stage, const RenderSettings& settings, const SampleOptions& options = {}) {
-    const Image<float> accuracy(stage.view.width, stage.view.height, static_cast<float>(settings.accuracy));
+    const Image<float> accuracy(stage.view.width, stage.view.height, static_cast<float>(settings.cache.accuracy));
     const LightingContext lighting = stage.lighting();
     const IndirectContext context{lighting, stage.view, settings, accuracy, 0, scene_radius(stage.shading), {}};
     return shade_frame(context, cast_centers(stage.rays, stage.view, nullptr), 1.0, options);
@@ -201,9 +201,9 @@ inline ShadedFrame shade(const Stage& stage, const RenderSettings& settings, con
 /// Path tracing with so many turns at Lambert layers.
 inline RenderSettings path_settings(int bounces, int spp, std::uint32_t seed = 0) {
     RenderSettings settings = plain_settings(0.0, 64);
-    settings.integrator = Integrator::path;
-    settings.bounces = bounces;
-    settings.spp = settings.light_samples = spp;
+    settings.light.integrator = Integrator::path;
+    settings.light.bounces = bounces;
+    settings.sampling.spp = settings.light.light_samples = spp;
     settings.seed = seed;
     return settings;
 }

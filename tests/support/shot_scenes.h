@@ -48,8 +48,8 @@ inline Scene make_shot_with_moving_camera() {
 inline RenderSettings shot_settings(int light_step) {
     RenderSettings settings = quick_settings(48, 36);
     settings.perception.guide = Guide::none;
-    settings.accuracy = 0.2;
-    settings.light_step = light_step;
+    settings.cache.accuracy = 0.2;
+    settings.cache.light_step = light_step;
     return settings;
 }
 

@@ -195,10 +195,10 @@ TEST(CageLevel, SequencesTakeItAndTheSettingFixesIt) {
     scene.environment = glm::dvec3(1.0);
     scene.exposure = 1.0;
     RenderSettings settings;
-    settings.width = 32;
-    settings.height = 20;
+    settings.picture.width = 32;
+    settings.picture.height = 20;
     const auto hits_at = [&](const Scene& from, int level) {
-        settings.subdivision_level = level;
+        settings.picture.subdivision_level = level;
         Sequence sequence(from, settings, "");
         int highest = 0;
         const FrameOutput out = sequence.render(0, {.frame = false, .maps = true, .progress = {}});

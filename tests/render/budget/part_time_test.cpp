@@ -41,7 +41,7 @@ class PartTiming : public testing::Test {
     RenderSettings settings_for(double error) const {
         RenderSettings settings = quick_settings(96, 72);
         follow_error(settings, error);
-        settings.light_step = 0;
+        settings.cache.light_step = 0;
         return settings;
     }
 
@@ -88,11 +88,11 @@ TEST_F(PartTiming, EndsWhenItsCallerSaysSo) {
 
 TEST_F(PartTiming, LightIsTimedOnceForEachMoment) {
     RenderSettings settings = settings_for(8.0);
-    settings.light_step = 10;
+    settings.cache.light_step = 10;
     Sequence sequence(scene, settings);
     EXPECT_GT(sequence.time_light(4).moments, 0.0);
     EXPECT_EQ(sequence.time_light(5).moments, 0.0);
-    settings.light_step = 0;
+    settings.cache.light_step = 0;
     EXPECT_EQ(Sequence(scene, settings).time_light(4).moments, 0.0);
     EXPECT_GT(Sequence(scene, settings).time_light(4).fill, 0.0);
 }

@@ -50,7 +50,7 @@ TEST(IrradianceCache, IC12_TowardsAccuracyZeroItIsMonteCarlo) {
         for (const double accuracy : {0.0, 1e-30, 1e-3}) {
             RenderSettings settings = plain_settings(accuracy, 128);
             settings.seed = 10'000 + trial.seed;
-            settings.light_samples = 1;
+            settings.light.light_samples = 1;
             const PixelMeans cached = render_runs(stage, settings, trial.times(12u));
             trial.near(traced.back(), cached.back());
             double squares = 0.0;

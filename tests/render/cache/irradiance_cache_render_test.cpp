@@ -115,7 +115,7 @@ Scene make_room() {
 TEST(IrradianceCache, IC13_TheSameRecordsFromAnyNumberOfThreads) {
     const Stage stage(make_room(), 96, 72);
     RenderSettings settings = plain_settings(0.15, 64);
-    settings.light_samples = 4;
+    settings.light.light_samples = 4;
     Image<float> accuracy(96, 72);
     for (int y = 0; y < 72; ++y) {
         for (int x = 0; x < 96; ++x) accuracy(x, y) = x < 48 ? 0.15f : 0.6f;  // as a guide would give

@@ -34,7 +34,7 @@ struct DarkRoom {
 DarkRoom render_two_rooms(double thickness, double accuracy, double min_radius_pixels) {
     const Stage stage(make_two_rooms(thickness), 64, 48);
     RenderSettings settings = plain_settings(accuracy, accuracy > 0.0 ? 1024 : 64);  // the default gather
-    settings.min_radius_pixels = min_radius_pixels;
+    settings.cache.min_radius_pixels = min_radius_pixels;
     const ShadedFrame out = shade(stage, settings);
     const SampleHits hits = cast_centers(stage.rays, stage.view, nullptr);
     DarkRoom found;

@@ -69,16 +69,16 @@ TEST(RecordCorrection, AveragesLowerNoiseAndKeepEdges) {
 
 TEST(RecordCorrection, RaysFollowVarianceAndAccuracy) {
     RenderSettings settings;
-    settings.accuracy = 0.1;
+    settings.cache.accuracy = 0.1;
     EXPECT_EQ(choose_rays(settings, 0.1f, 1.0f), 2500);  // a standard error of a fifth of the accuracy: 1 / .02^2
     EXPECT_EQ(choose_rays(settings, 0.2f, 1.0f), 625);
     EXPECT_EQ(choose_rays(settings, 1.0f, 1.0f), 64);
     EXPECT_EQ(choose_rays(settings, 0.01f, 1.0f), 8192);
     EXPECT_EQ(choose_rays(settings, 0.1f, std::nullopt), 512);
-    settings.gather = 1000;
+    settings.cache.gather = 1000;
     EXPECT_EQ(choose_rays(settings, 0.1f, 9.0f), 1000);
     EXPECT_EQ(choose_rays(settings, 0.2f, 9.0f), 250);
-    settings.accuracy = 0.0;
+    settings.cache.accuracy = 0.0;
     EXPECT_EQ(choose_rays(settings, 0.0f, std::nullopt), 1000);
 }
 

@@ -71,8 +71,8 @@ Scene make_scene() {
 
 ordered_json explain(const Scene& scene) {
     RenderSettings settings;
-    settings.width = 16;
-    settings.height = 12;
+    settings.picture.width = 16;
+    settings.picture.height = 12;
     return explain_scene(scene, settings, "", choose_planned_frames(scene));
 }
 

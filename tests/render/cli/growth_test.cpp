@@ -89,7 +89,7 @@ Cost cost_of(const std::filesystem::path& file, const std::string& text) {
     cost.load = bytes_of([&] { scene = load_scene(file); });
     cost.explain = bytes_of([&] {
         RenderSettings settings;
-        settings.width = settings.height = 4;
+        settings.picture.width = settings.picture.height = 4;
         explain_text(explain_scene(scene, settings, "", {}), 0);
     });
     cost.moment = bytes_of([&] { explain_moment(scene, 0.0); });

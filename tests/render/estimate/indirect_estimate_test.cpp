@@ -102,9 +102,9 @@ TEST(IndirectEstimate, IsTheSameForAnyNumberOfThreads) {
 TEST(IndirectEstimate, NoBouncesMeansNone) {
     const auto maps = [](int bounces) {
         RenderSettings settings;
-        settings.width = 40;
-        settings.height = 30;
-        settings.bounces = bounces;
+        settings.picture.width = 40;
+        settings.picture.height = 30;
+        settings.light.bounces = bounces;
         Sequence sequence(make_room(), settings);
         FrameRequest request;
         request.frame = false;
@@ -132,13 +132,13 @@ double share_beyond(const Image<float>& a, const Image<float>& b) {
 TEST(IndirectEstimate, GivesTheThresholdsOfTheFinishedFrameInCornell) {
     const Scene scene = load_scene(source_folder() / "scenes/cornell/scene.json");
     RenderSettings settings;
-    settings.width = 128;
-    settings.height = 96;
-    settings.spp = 1;
-    settings.gather = 256;
-    settings.accuracy = 0.1;
+    settings.picture.width = 128;
+    settings.picture.height = 96;
+    settings.sampling.spp = 1;
+    settings.cache.gather = 256;
+    settings.cache.accuracy = 0.1;
     const auto render = [&](int bounces) {
-        settings.bounces = bounces;
+        settings.light.bounces = bounces;
         return Sequence(scene, settings).render(10);
     };
     const FrameOutput direct = render(0), all = render(1);

@@ -197,8 +197,8 @@ class HeldFrames : public testing::TestWithParam<int> {};
 
 TEST_P(HeldFrames, HaveTheSameBytesInAnyOrder) {
     RenderSettings settings = quick_settings(24, 16);
-    settings.light_step = GetParam();
-    settings.spp = 2;
+    settings.cache.light_step = GetParam();
+    settings.sampling.spp = 2;
     const Scene scene = make_seen_scene();
     Sequence forward(scene, settings), backward(scene, settings);
     std::map<std::int64_t, FrameOutput> outputs;

@@ -13,9 +13,9 @@ namespace {
 TEST(SceneMotionFromImages, IsTheSearchBetweenTheQuickEstimates) {
     const Scene scene = load_scene(source_folder() / "scenes/pool/scene.json");
     RenderSettings settings;
-    settings.width = 80;
-    settings.height = 60;
-    settings.motion = MotionSource::image;
+    settings.picture.width = 80;
+    settings.picture.height = 60;
+    settings.guide.motion = MotionSource::image;
     const FrameRequest request{.frame = false, .maps = true, .progress = {}};
     Sequence sequence(scene, settings);
     const FrameOutput now = sequence.render(20, request), next = sequence.render(21, request);
@@ -30,7 +30,7 @@ TEST(SceneMotionFromImages, IsTheSearchBetweenTheQuickEstimates) {
               compute_image_motion(last.estimate, before.estimate, OtherFrame::previous).displacement);
     // Geometry's maps are there; nothing is marked hidden.
     EXPECT_FALSE(now.depth.empty());
-    settings.motion = MotionSource::model;
+    settings.guide.motion = MotionSource::model;
     EXPECT_NE(Sequence(scene, settings).render(20, request).motion.displacement, truth.displacement);
 }
 
@@ -38,9 +38,9 @@ TEST(SceneMotionFromImages, NoneAcrossACut) {
     Scene scene = load_scene(source_folder() / "scenes/cornell/scene.json");
     scene.cuts = {5};
     RenderSettings settings;
-    settings.width = 40;
-    settings.height = 30;
-    settings.motion = MotionSource::image;
+    settings.picture.width = 40;
+    settings.picture.height = 30;
+    settings.guide.motion = MotionSource::image;
     const FrameOutput output = Sequence(scene, settings).render(4, {.frame = false, .maps = true, .progress = {}});
     for (const glm::dvec2& d : output.motion.displacement.pixels) EXPECT_EQ(d, glm::dvec2(0.0));
     EXPECT_EQ(output.motion.validity.pixels.front(), MotionValidity::no_counterpart);

@@ -54,7 +54,7 @@ TEST(Sequence, SeesWithAProgramsOwnModelOfVision) {
     settings.perception.vision = &own;
     const FrameOutput frame = Sequence(make_moving_scene(), settings).render(15);
     EXPECT_EQ(frame.perception.aleph, Image<float>(40, 30, 1.0f));
-    EXPECT_EQ(frame.alpha, Image<float>(40, 30, static_cast<float>(settings.accuracy)));
+    EXPECT_EQ(frame.alpha, Image<float>(40, 30, static_cast<float>(settings.cache.accuracy)));
 }
 
 TEST(Sequence, OwnsItsScene) {

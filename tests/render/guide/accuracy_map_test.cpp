@@ -78,15 +78,15 @@ TEST(AccuracyMap, MapPixelByPixel) {
     Image<float> aleph(2, 2);
     aleph.pixels = {1.0f, 10.0f, std::numeric_limits<float>::infinity(), std::nanf("")};
     RenderSettings settings;
-    settings.accuracy = 0.1;
+    settings.cache.accuracy = 0.1;
     settings.perception.guide = Guide::saliency;
     EXPECT_EQ(compute_accuracy_map(aleph, {}, settings).pixels,
               (std::vector<float>{0.1f, static_cast<float>(1.0 / 1.9), 1.0f, 0.1f}));
-    settings.adapter = Adapter::scale_add;
-    settings.adapter_k = 50.0;
+    settings.guide.adapter = Adapter::scale_add;
+    settings.guide.adapter_k = 50.0;
     EXPECT_EQ(compute_accuracy_map(aleph, {}, settings).pixels,
               (std::vector<float>{0.12f, static_cast<float>(0.3), 1.0f, 0.12f}));
-    settings.adapter = Adapter::threshold;
+    settings.guide.adapter = Adapter::threshold;
     Image<float> tolerance(2, 2);
     tolerance.pixels = {0.05f, 0.3f, std::numeric_limits<float>::infinity(), std::nanf("")};
     EXPECT_EQ(compute_accuracy_map(aleph, tolerance, settings).pixels,
@@ -95,10 +95,10 @@ TEST(AccuracyMap, MapPixelByPixel) {
 
 TEST(AccuracyMap, WithoutAGuideNoAdapterCounts) {
     RenderSettings settings;
-    settings.accuracy = 0.1;
+    settings.cache.accuracy = 0.1;
     settings.perception.guide = Guide::none;
     for (const Adapter adapter : {Adapter::compress, Adapter::scale_add, Adapter::threshold}) {
-        settings.adapter = adapter;
+        settings.guide.adapter = adapter;
         for (const float alpha :
              compute_accuracy_map(Image<float>(3, 2, 100.0f), Image<float>(3, 2, 0.5f), settings).pixels)
             EXPECT_EQ(alpha, 0.1f);

@@ -250,7 +250,7 @@ TEST(ErrorBudget, MovingOutlinesKeepToTheStrictestThresholdAround) {
     outlines(2, 1) = Outline::still;
     const VisibleLimits limits{threshold, aleph, accuracy, none, outlines, ViewingConditions{}};
     RenderSettings settings;
-    settings.sampling = Sampling::variance;
+    settings.sampling.rule = Sampling::variance;
     settings.error = 0.5;
     const double white = limits.viewing.display_white;
     const Image<float> tolerance = compute_sampling_tolerance(limits, settings, 4.0);
@@ -259,7 +259,7 @@ TEST(ErrorBudget, MovingOutlinesKeepToTheStrictestThresholdAround) {
     EXPECT_NEAR(tolerance(0, 0), 0.5 * 8.0 / white / 4.0, 1e-8);
     EXPECT_NEAR(tolerance(2, 1), 0.5 * 8.0 / white / 4.0, 1e-8);
     EXPECT_NEAR(tolerance(1, 2), 0.5 * 8.0 / white / 4.0, 1e-8);
-    settings.sampling = Sampling::uniform;
+    settings.sampling.rule = Sampling::uniform;
     EXPECT_TRUE(compute_sampling_tolerance(limits, settings, 4.0).empty());
 }
 

@@ -23,12 +23,12 @@ struct Rendered {
     double exposure = 0.0;
 
     explicit Rendered(std::int64_t frame) {
-        settings.width = 48;
-        settings.height = 36;
-        settings.spp = 1;
-        settings.gather = 16;
-        settings.light_samples = 2;
-        settings.light_step = 0;  // the quick estimate is gathered in the frame
+        settings.picture.width = 48;
+        settings.picture.height = 36;
+        settings.sampling.spp = 1;
+        settings.cache.gather = 16;
+        settings.light.light_samples = 2;
+        settings.cache.light_step = 0;  // the quick estimate is gathered in the frame
         Sequence sequence(scene, settings);
         output = sequence.render(frame, {.frame = true, .maps = true, .progress = {}});
         exposure = sequence.exposure();
@@ -169,7 +169,7 @@ TEST(FrameFiles, NothingIsPerceivedWithoutAGuideOrMaps) {
     EXPECT_TRUE(out.estimate.empty());
     EXPECT_TRUE(out.velocity.empty());
     EXPECT_EQ(out.statistics.seconds.perception, 0.0);
-    for (const float alpha : out.alpha.pixels) EXPECT_EQ(alpha, static_cast<float>(rendered.settings.accuracy));
+    for (const float alpha : out.alpha.pixels) EXPECT_EQ(alpha, static_cast<float>(rendered.settings.cache.accuracy));
 }
 
 /// Row vector times matrix, divided by w.

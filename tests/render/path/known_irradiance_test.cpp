@@ -170,7 +170,7 @@ Scene make_mirror_room() {
 TEST(KnownIrradianceTest, AMirrorShowsWhatTheCacheHolds) {
     const Stage stage(make_mirror_room(), 48, 36);
     RenderSettings settings = plain_settings(0.2, 0);
-    settings.min_radius_pixels = 2.0;  // the picture is small
+    settings.cache.min_radius_pixels = 2.0;  // the picture is small
     const Image<float> accuracy(48, 36, 0.2f);
     const LightingContext lighting = stage.lighting();
     const float radius = scene_radius(stage.shading);

@@ -67,9 +67,9 @@ TEST_P(PathGather, OneBounceIsThePictureOfTheGather) {
                 all.add(sum / static_cast<double>(pixels.size()));
             };
             add(paths, all_paths);
-            settings.integrator = Integrator::cache;
-            settings.accuracy = 0.0;
-            settings.gather = 8;
+            settings.light.integrator = Integrator::cache;
+            settings.cache.accuracy = 0.0;
+            settings.cache.gather = 8;
             settings.seed = seed + 1000;
             add(gathers, all_gathers);
         }
@@ -102,12 +102,12 @@ TEST_P(PathGather, IC23_ThreeBouncesWithTheCacheToo) {
     EXPECT_TRUE(holds([&](Trial& trial) {
         RenderSettings settings = path_settings(3, 16, trial.seed);
         const Mean paths = mean(settings, trial.times(32u));
-        settings.integrator = Integrator::cache;
-        settings.light_samples = 64;
+        settings.light.integrator = Integrator::cache;
+        settings.light.light_samples = 64;
         settings.seed += 1000;
         for (const double accuracy : {0.0, 0.3}) {
-            settings.accuracy = accuracy;
-            settings.gather = accuracy > 0.0 ? 64 : 4;
+            settings.cache.accuracy = accuracy;
+            settings.cache.gather = accuracy > 0.0 ? 64 : 4;
             const Mean gathers = mean(settings, trial.times(6u));
             trial.near(gathers, paths, 0.005 * paths.mean());
             EXPECT_LT(std::hypot(paths.error(), gathers.error()),

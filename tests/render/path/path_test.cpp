@@ -28,7 +28,7 @@ Mean mean_of(const Stage& stage, const RenderSettings& settings) {
 void expect_value(const Stage& stage, RenderSettings settings, double expected) {
     EXPECT_TRUE(holds([&](Trial& trial) {
         settings.seed = trial.seed;
-        settings.spp = settings.light_samples = trial.times(64);
+        settings.sampling.spp = settings.light.light_samples = trial.times(64);
         const Mean mean = mean_of(stage, settings);
         trial.near(mean, expected, 1e-4 * expected);
         EXPECT_NEAR(mean.mean(), expected, 0.01 * expected);
@@ -38,7 +38,7 @@ void expect_value(const Stage& stage, RenderSettings settings, double expected) 
 TEST(Path, MC14_AClosedSphereAddsUpAllItsBounces) {
     const Stage stage(make_furnace(0.8), 16, 12);
     RenderSettings settings = path_settings(100, 64);
-    settings.path_depth = 100;
+    settings.light.path_depth = 100;
     expect_value(stage, settings, 5.0);
 }
 
@@ -61,7 +61,7 @@ TEST(Path, MC14_WithoutLossTheDepthIsTheLight) {
     for (const int depth : {1, 2, 7}) {
         SCOPED_TRACE(depth);
         RenderSettings settings = path_settings(100, 64);
-        settings.path_depth = depth;
+        settings.light.path_depth = depth;
         expect_value(stage, settings, depth + 1.0);
     }
 }
@@ -93,7 +93,7 @@ TEST(Path, MC14_AWallOfAllLobesGainsNoLight) {
         const SampleHits hits = cast_centers(stage.rays, stage.view, nullptr);
         EXPECT_TRUE(holds([&](Trial& trial) {
             RenderSettings settings = path_settings(100, trial.times(32), trial.seed);
-            settings.path_depth = 3;
+            settings.light.path_depth = 3;
             const Mean mean = mean_of(stage, settings);
             trial.at_most(mean, 4.0);
             // The same without sampling lights, at the pixels' centres: the sphere looks the same all over.
@@ -120,7 +120,7 @@ TEST(Path, MC19_ABoxOfMirrorsEndsByDepth) {
     const Stage stage(std::move(scene), 16, 12);
     for (const int depth : {0, 1, 32, 500}) {
         RenderSettings settings = path_settings(1, 1);
-        settings.path_depth = depth;
+        settings.light.path_depth = depth;
         const ShadedFrame out = shade(stage, settings);
         for (const Rgb& pixel : out.color.pixels) EXPECT_NEAR(pixel.x, 0.1 * (depth + 1), 1e-4 * (depth + 1));
         EXPECT_EQ(out.counts.rays.specular, out.color.size() * static_cast<unsigned>(depth));

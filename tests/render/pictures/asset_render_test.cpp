@@ -17,7 +17,7 @@ namespace {
 
 RenderSettings small_settings() {
     RenderSettings settings = quick_settings(96, 72);
-    settings.accuracy = 0.3;
+    settings.cache.accuracy = 0.3;
     return settings;
 }
 
@@ -89,10 +89,10 @@ TEST_P(TruckRender, RollsItsWheelsAndNothingElse) {
 TEST_P(BoxRender, BleedsColour) {
     const Scene scene = load_scene(file_);
     RenderSettings settings = small_settings();
-    settings.gather = 256;
+    settings.cache.gather = 256;
     const auto render = [&](int bounces) {
         RenderSettings s = settings;
-        s.bounces = bounces;
+        s.light.bounces = bounces;
         return Sequence(scene, s).render(0);
     };
     const FrameOutput direct = render(0), full = render(1);

@@ -152,8 +152,8 @@ TEST(DepthOfField, MC28_ATinyLensInATinyDistanceHasItsCircleOfConfusion) {
 
 TEST(DepthOfField, MC28_FocusAtTheCameraIsRefused) {
     RenderSettings settings = path_settings(0, 4);
-    settings.width = 8;
-    settings.height = 6;
+    settings.picture.width = 8;
+    settings.picture.height = 6;
     for (const double focus : {0.0, -1.0}) {
         Scene scene = make_disc_scene(3.0, 0.7f);
         scene.cameras[0].aperture = 0.1;

@@ -69,10 +69,10 @@ TEST(Determinism, DT01_UnguidedAndDenseFilesToo) {
     for (const double accuracy : {0.0, 0.3}) {
         RenderSettings settings = small_settings();
         settings.perception.guide = Guide::none;
-        settings.accuracy = accuracy;
-        settings.width = 80;
-        settings.height = 60;
-        settings.gather = 16;
+        settings.cache.accuracy = accuracy;
+        settings.picture.width = 80;
+        settings.picture.height = 60;
+        settings.cache.gather = 16;
         const auto render = [&](int threads) {
             return with_threads(threads, [&] {
                 Sequence sequence(scene, settings);
@@ -88,10 +88,10 @@ TEST(Determinism, DT01_DT04_EveryRuleOfStopping) {
     for (const Sampling rule : {Sampling::consecutive, Sampling::variance, Sampling::protocol, Sampling::threshold}) {
         RenderSettings settings = small_settings();
         follow_error(settings, 1.0);
-        settings.sampling = rule;
-        settings.spp = 32;
-        settings.width = 40;
-        settings.height = 30;
+        settings.sampling.rule = rule;
+        settings.sampling.spp = 32;
+        settings.picture.width = 40;
+        settings.picture.height = 30;
         const auto render = [&](int threads, int before) {
             return with_threads(threads, [&] {
                 Sequence sequence(scene, settings);

@@ -88,8 +88,8 @@ Mesh make_box_body(int material) {
 
 RenderSettings furnace_settings(int bounces, int light_samples) {
     RenderSettings settings = plain_settings(0.2, 256);
-    settings.bounces = bounces;
-    settings.light_samples = light_samples;
+    settings.light.bounces = bounces;
+    settings.light.light_samples = light_samples;
     return settings;
 }
 
@@ -103,8 +103,8 @@ TEST(Furnace, SphereOneBounce) {
 
 TEST(Furnace, SphereOneBounceGatheredEverywhere) {
     RenderSettings settings = furnace_settings(1, 16);
-    settings.accuracy = 0.0;
-    settings.gather = 64;
+    settings.cache.accuracy = 0.0;
+    settings.cache.gather = 64;
     expect_everywhere(make_furnace(make_sphere_body, 0.9, 1.0, true), settings, 1.0 + 0.9 + 0.81);
 }
 

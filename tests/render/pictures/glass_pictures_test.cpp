@@ -203,7 +203,7 @@ TEST(GlassPictures, MC25_FrameOfASlab) {
     const double r = 0.04, a = std::pow(0.5, 0.5 / 0.8), expected = (1.0 - r) * (1.0 - r) * a / (1.0 - r * r * a * a);
     for (const Integrator integrator : {Integrator::path, Integrator::cache}) {
         RenderSettings settings = plain_settings(0.3, 64);
-        settings.integrator = integrator;
+        settings.light.integrator = integrator;
         EXPECT_TRUE(holds([&](Trial& trial) {
             Mean mean;
             for (std::uint32_t run = 0; run < trial.times(16u); ++run) {

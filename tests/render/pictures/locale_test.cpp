@@ -66,8 +66,8 @@ TEST(Locale, DT09_ACommaLocaleChangesNothing) {
     std::ofstream(folder / "scene.json") << scene_text;
     const Everything plain = do_everything(folder.path());
     const std::string plain_run = run_program(folder.path());
-    EXPECT_EQ(plain.settings.accuracy, 0.375);
-    EXPECT_EQ(plain.settings.adapter_k, 87.5);
+    EXPECT_EQ(plain.settings.cache.accuracy, 0.375);
+    EXPECT_EQ(plain.settings.guide.adapter_k, 87.5);
     EXPECT_NE(plain.statistics.find("\"fill\": 0.125"), std::string::npos) << plain.statistics;
 
     const GermanLocale german;

@@ -18,9 +18,9 @@ constexpr double pixels_per_metre = 4.0;  // the picture is 6 m by 4 m, parallel
 
 RenderSettings blur_settings(std::uint32_t seed) {
     RenderSettings settings = path_settings(0, spp, seed);
-    settings.width = width;
-    settings.height = height;
-    settings.filter = PixelFilter::box;
+    settings.picture.width = width;
+    settings.picture.height = height;
+    settings.picture.filter = PixelFilter::box;
     return settings;
 }
 
@@ -114,7 +114,7 @@ TEST(MotionBlur, MC27_FewSamplesShowNoCopies) {
     int blocks = 0;
     for (std::uint32_t seed = 0; seed < 16; ++seed) {
         RenderSettings settings = blur_settings(seed);
-        settings.spp = 4;
+        settings.sampling.spp = 4;
         const Image<float> coverage = Sequence(scene, settings).render(0).shaded.coverage;
         for (int x = 8; x < 16; x += 2) {  // where the bar passes wholly: 2 of 12 pixels wide
             for (int y = 0; y < height; y += 2) {

@@ -35,11 +35,11 @@ Scene make_wall(bool plate) {
 
 RenderSettings outline_settings(PixelFilter filter) {
     RenderSettings settings;
-    settings.width = outline_width;
-    settings.height = outline_height;
-    settings.filter = filter;
-    settings.light_step = 0;
-    settings.bounces = 0;
+    settings.picture.width = outline_width;
+    settings.picture.height = outline_height;
+    settings.picture.filter = filter;
+    settings.cache.light_step = 0;
+    settings.light.bounces = 0;
     return settings;
 }
 
@@ -49,7 +49,7 @@ INSTANTIATE_TEST_SUITE_P(Filters, MovingOutline, testing::Values(PixelFilter::bo
 TEST_P(MovingOutline, MC27_IsWithinTheThresholdOfTheWall) {
     constexpr std::int64_t frame = 1;
     RenderSettings settings = outline_settings(GetParam());
-    settings.spp = 256;
+    settings.sampling.spp = 256;
     settings.perception.guide = Guide::none;
     const Image<Rgb> reference = Sequence(make_wall(true), settings).render(frame).shaded.color;
     int beyond = 0, outline = 0;

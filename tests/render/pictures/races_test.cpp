@@ -12,9 +12,9 @@ namespace {
 
 RenderSettings tiny_settings() {
     RenderSettings settings = small_settings();
-    settings.width = 64;
-    settings.height = 48;
-    settings.gather = 16;
+    settings.picture.width = 64;
+    settings.picture.height = 48;
+    settings.cache.gather = 16;
     return settings;
 }
 
@@ -36,12 +36,12 @@ TEST(Races, DT08_KeyMomentsAndAnOpenShutter) {
     Scene scene = make_shot_with_mover();
     scene.cameras[0].shutter = {-0.5, 0.5};
     RenderSettings settings = tiny_settings();
-    settings.width = 32;
-    settings.height = 24;
-    settings.light_step = 5;
-    settings.bounces = 2;
+    settings.picture.width = 32;
+    settings.picture.height = 24;
+    settings.cache.light_step = 5;
+    settings.light.bounces = 2;
     for (const Integrator integrator : {Integrator::cache, Integrator::path}) {
-        settings.integrator = integrator;
+        settings.light.integrator = integrator;
         const auto render = [&](int threads) {
             return with_threads(threads, [&] {
                 Sequence sequence(scene, settings);

@@ -38,7 +38,7 @@ Scene make_lit_sphere() {
 
 RenderSettings cache_settings(int bounces, double accuracy, int gather) {
     RenderSettings settings = plain_settings(accuracy, gather);
-    settings.bounces = bounces;
+    settings.light.bounces = bounces;
     return settings;
 }
 
@@ -70,7 +70,7 @@ TEST(SeveralBounces, IC23_MoreThanHaveCaches) {
 TEST(SeveralBounces, IC23_NoSurfaceBeyondThePathsDepthScatters) {
     const Stage stage(make_lit_sphere(), 24, 18);
     RenderSettings settings = cache_settings(100, 0.3, 64);
-    settings.path_depth = 3;
+    settings.light.path_depth = 3;
     EXPECT_EQ(count_bounces(settings), 2);
     const double expected = direct_of(stage) * sum_of_powers(2);
     EXPECT_NEAR(mean_of_pixels(shade(stage, settings)).mean(), expected, 0.004 * expected);
@@ -83,11 +83,11 @@ TEST(SeveralBounces, IC23_NorDoesOneThatReflects) {
     scene.materials[0].roughness = 0.7;
     const Stage stage(std::move(scene), 12, 9);
     RenderSettings settings = path_settings(2, 64);
-    settings.path_depth = 3;
+    settings.light.path_depth = 3;
     const Mean paths = mean_of_pixels(shade(stage, settings));
-    settings.integrator = Integrator::cache;
-    settings.accuracy = 0.3;
-    settings.gather = 256;
+    settings.light.integrator = Integrator::cache;
+    settings.cache.accuracy = 0.3;
+    settings.cache.gather = 256;
     EXPECT_NEAR(mean_of_pixels(shade(stage, settings)).mean(), paths.mean(), 0.015 * paths.mean());
 }
 
@@ -150,12 +150,12 @@ TEST(SeveralBounces, IC23_FilesAreEqualForAnyThreadsAloneAndInASequence) {
     const Scene scene = make_shot_with_mover();
     for (const int light_step : {0, 4}) {
         RenderSettings settings = shot_settings(light_step);
-        settings.bounces = 3;
-        settings.spp = 2;
-        settings.gather = 16;
-        settings.accuracy = 0.5;
-        settings.width = 32;
-        settings.height = 24;
+        settings.light.bounces = 3;
+        settings.sampling.spp = 2;
+        settings.cache.gather = 16;
+        settings.cache.accuracy = 0.5;
+        settings.picture.width = 32;
+        settings.picture.height = 24;
         Sequence sequence(scene, settings);
         for (const int frame : {1, 2}) frame_bytes(sequence, scene, settings, frame);
         const std::string expected = frame_bytes(sequence, scene, settings, 3);
@@ -165,7 +165,7 @@ TEST(SeveralBounces, IC23_FilesAreEqualForAnyThreadsAloneAndInASequence) {
                 EXPECT_TRUE(frame_bytes(alone, scene, settings, 3) == expected) << light_step << " " << threads;
             });
         }
-        settings.bounces = 1;
+        settings.light.bounces = 1;
         Sequence one(scene, settings);
         EXPECT_FALSE(frame_bytes(one, scene, settings, 3) == expected);
     }
@@ -176,8 +176,8 @@ TEST(SeveralBounces, IC23_KeyMomentsHaveThemToo) {
     const Scene scene = make_shot_with_mover();
     const auto mean = [&](int bounces, int light_step) {
         RenderSettings settings = shot_settings(light_step);
-        settings.bounces = bounces;
-        settings.gather = 64;
+        settings.light.bounces = bounces;
+        settings.cache.gather = 64;
         Mean sum;
         for (const Rgb& pixel : Sequence(scene, settings).render(5).shaded.indirect.pixels) sum.add(luminance(pixel));
         return sum.mean();

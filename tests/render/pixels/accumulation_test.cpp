@@ -14,7 +14,7 @@ TEST(Accumulation, MC13_TheMeanOfTheMostSamplesIsExact) {
     scene.environment = Track<glm::dvec3>(glm::dvec3(0.7, 0.1, 1e-3));
     const Stage stage(std::move(scene), 2, 1);
     RenderSettings settings = plain_settings(0.2, 16);
-    settings.spp = 65536;
+    settings.sampling.spp = 65536;
     const ShadedFrame out = shade(stage, settings);
     for (const Rgb& pixel : out.color.pixels) {
         EXPECT_NEAR(pixel.x / 0.7, 1.0, 1e-6);

@@ -62,7 +62,7 @@ Scene make_flat_view(double left, double right, double bottom, double top) {
 Image<Rgb> render_flat(Scene scene, PixelFilter filter) {
     const Stage stage(std::move(scene), 16, 12);
     RenderSettings settings = path_settings(0, 4096);
-    settings.filter = filter;
+    settings.picture.filter = filter;
     return shade(stage, settings).color;
 }
 

@@ -44,7 +44,7 @@ EffectRow make_example() {
                 [](Scene& scene) {
                     for (Light& light : scene.lights) light.range = Track<double>(0.0);
                 },
-            .turn_off = [](RenderSettings& settings) { settings.spp = 7; }};
+            .turn_off = [](RenderSettings& settings) { settings.sampling.spp = 7; }};
 }
 
 /// A lamp with a range, and two objects: one is diffuse, one black.
@@ -77,11 +77,11 @@ TEST(EffectTable, ARowGoesThroughThePlanAndTheUserOverridesIt) {
     EXPECT_EQ(faint.bound->luminance, cut_radiance);
     EXPECT_TRUE(frame.plan(1.0).left_out().contains(lamp_reach));
     EXPECT_EQ(frame.plan(1.0).left_out_thresholds(), cut_radiance);
-    frame.settings.force = EffectSet(lamp_reach);
+    frame.settings.effects.force = EffectSet(lamp_reach);
     EXPECT_EQ(frame.plan(1.0).of(lamp_reach).decision, Decision::simulate);
-    frame.settings.forbid = EffectSet(lamp_reach);
+    frame.settings.effects.forbid = EffectSet(lamp_reach);
     EXPECT_EQ(frame.plan(1.0).of(lamp_reach).reason, "forbidden");
-    remove_forbidden(frame.settings.forbid, frame.scene, frame.table);
+    remove_forbidden(frame.settings.effects.forbid, frame.scene, frame.table);
     EXPECT_EQ(frame.scene.lights[0].range, Track<double>(0.0));
     EXPECT_EQ(without_forbidden(frame.settings, frame.table).spp, 7);
     frame.facts.lights[0].range = 0.0;

@@ -19,12 +19,12 @@ RenderSettings seen_settings() {
 }
 
 RenderSettings force(RenderSettings settings, Effect effect) {
-    settings.force = EffectSet(effect);
+    settings.effects.force = EffectSet(effect);
     return settings;
 }
 
 RenderSettings forbid(RenderSettings settings, Effect effect) {
-    settings.forbid = EffectSet(effect);
+    settings.effects.forbid = EffectSet(effect);
     return settings;
 }
 
@@ -116,12 +116,12 @@ Scene make_corridor(double albedo) {
 
 TEST(EffectsBounds, FX16_ASecondBounceBetweenDarkWalls) {
     RenderSettings settings = seen_settings();
-    settings.bounces = 2;
+    settings.light.bounces = 2;
     expect_within_bound(compare_forced(make_corridor(0.05), settings, Effect::more_bounces), Decision::skip);
     EXPECT_EQ(decide(make_corridor(0.9), settings, Effect::more_bounces), Decision::simulate);
     // The bound holds where it is not small enough either.
     RenderSettings one = settings;
-    one.bounces = 1;
+    one.light.bounces = 1;
     for (const double albedo : {0.05, 0.5, 0.9}) {
         const Scene scene = make_corridor(albedo);
         const FrameOutput with = Sequence(scene, force(settings, Effect::more_bounces)).render(0);
@@ -141,7 +141,7 @@ TEST(EffectsBounds, FX13_AFarSmallBodySendsHardlyAnyLight) {
     scene.range = FrameRange{0, 0};
     add_mesh(scene, make_faceted_sphere(0.01, 8, 0), {3.0, 0.0, 30.0});
     RenderSettings settings = seen_settings();
-    settings.gather = 4096;
+    settings.cache.gather = 4096;
     expect_skipped_within_bound(compare_forced(scene, settings, Effect::indirect_diffuse));
 }
 
@@ -157,7 +157,7 @@ TEST(EffectsBounds, FX13_AMirrorOutOfViewThatLightsWhatIsInView) {
     add_mesh(scene, make_quad(2.0, 2.0, lamp), {-2.0, 0.0, 4.5},
              glm::angleAxis(0.5 * std::numbers::pi, glm::dvec3(0.0, 1.0, 0.0)));
     RenderSettings settings = seen_settings();
-    settings.gather = 1024;
+    settings.cache.gather = 1024;
     const EffectsPlan plan = Sequence(scene, settings).plan(0);
     EXPECT_EQ(plan.of(Effect::caustics).decision, Decision::simulate);
     EXPECT_EQ(plan.of(Effect::mirror_reflection).decision, Decision::skip);
@@ -190,8 +190,8 @@ Scene make_turning_view(double degrees) {
 
 TEST(EffectsBounds, FX15_AShutterInWhichThePictureHardlyMoves) {
     RenderSettings settings = seen_settings();
-    settings.filter = PixelFilter::blackman_harris;
-    settings.spp = 1024;
+    settings.picture.filter = PixelFilter::blackman_harris;
+    settings.sampling.spp = 1024;
     constexpr double noise = 0.05;  // of samples at edges
     expect_skipped_within_bound(compare_forced(make_turning_view(0.05), settings, Effect::motion_blur), noise);
     EXPECT_EQ(decide(make_turning_view(3.0), settings, Effect::motion_blur), Decision::simulate);
@@ -227,8 +227,8 @@ TEST(EffectsBounds, FX12_AnApertureThatHardlyBlurs) {
     Scene scene = make_lit_square();
     scene.cameras[0].aperture = 1e-9;
     RenderSettings settings = seen_settings();
-    settings.filter = PixelFilter::blackman_harris;
-    settings.spp = 256;
+    settings.picture.filter = PixelFilter::blackman_harris;
+    settings.sampling.spp = 256;
     expect_skipped_within_bound(compare_forced(scene, settings, Effect::depth_of_field), 1e-3);
     scene.cameras[0].aperture = 0.1;
     EXPECT_EQ(decide(scene, settings, Effect::depth_of_field), Decision::simulate);

@@ -51,8 +51,8 @@ std::vector<Case> make_cases() {
     scene = make_lit_square();
     add_mesh(scene, make_quad(1.0, 1.0, 0), {0.5, 0.0, 0.5}, glm::angleAxis(-1.5, glm::dvec3(0.0, 1.0, 0.0)));
     add("two squares that see each other", scene, {"direct_light", "indirect_diffuse"});
-    add("the same, bounces", scene, {"direct_light", "indirect_diffuse", "more_bounces"}).bounces = 3;
-    add("the same, key moments", scene, {"direct_light", "indirect_diffuse", "cache_carry_over"}).light_step = 10;
+    add("the same, bounces", scene, {"direct_light", "indirect_diffuse", "more_bounces"}).light.bounces = 3;
+    add("the same, key moments", scene, {"direct_light", "indirect_diffuse", "cache_carry_over"}).cache.light_step = 10;
     scene.meshes[1].material = add_material(scene, 1.0, 0.0);
     scene.nodes.back().translation = glm::dvec3(20.0, 0.0, 0.5);
     add("a mirror out of view", scene, {"direct_light", "indirect_diffuse", "caustics"});
@@ -118,13 +118,13 @@ TEST(EffectsPlan, EachTinySceneCallsForItsEffectsAlone) {
 TEST(EffectsPlan, FX13_ForcingWhatWasSkippedChangesNothing) {
     for (const Case& c : make_cases()) {
         RenderSettings forced = c.settings;
-        forced.force = all_effects(c.effects);
+        forced.effects.force = all_effects(c.effects);
         Sequence sequence(c.scene, forced);
         const FrameOutput with = sequence.render(0), planned = Sequence(c.scene, c.settings).render(0);
         EXPECT_EQ(simulated(with.statistics.plan).size(), effect_count) << c.name;
         EXPECT_EQ(with.shaded.color.pixels, planned.shaded.color.pixels) << c.name;
         RenderSettings off = c.settings;
-        off.plan = EffectsPlanning::off;
+        off.effects.plan = EffectsPlanning::off;
         EXPECT_EQ(Sequence(c.scene, off).render(0).shaded.color.pixels, planned.shaded.color.pixels) << c.name;
     }
 }
@@ -134,7 +134,7 @@ TEST(EffectsPlan, ForbiddenEffectsAreLeftOut) {
         for (const std::string& name : c.effects) {
             RenderSettings settings = c.settings;
             std::string unknown;
-            settings.forbid = parse_effects(name, unknown);
+            settings.effects.forbid = parse_effects(name, unknown);
             const FrameOutput without = Sequence(c.scene, settings).render(0);
             const FrameOutput with = Sequence(c.scene, c.settings).render(0);
             EXPECT_FALSE(simulated(without.statistics.plan).contains(name)) << c.name;

@@ -28,7 +28,7 @@ TEST(EffectsPlan, FX01_FX09_MotionIsComputedWhereSomethingMoves) {
     EXPECT_EQ(effects_of(scene, settings), Names{"direct_light"}) << "keys that are all equal";
     // The maps are those of the stages that were skipped.
     RenderSettings forced = settings;
-    forced.force = all_effects();
+    forced.effects.force = all_effects();
     const FrameOutput skipped = Sequence(scene, settings).render(0), computed = Sequence(scene, forced).render(0);
     EXPECT_EQ(skipped.threshold.pixels, computed.threshold.pixels);
     EXPECT_EQ(skipped.shaded.color.pixels, computed.shaded.color.pixels);
@@ -134,7 +134,7 @@ TEST(EffectsPlan, FX07_FX08_ShapesThatChange) {
     scene.nodes[1].meshes = {1};
     EXPECT_TRUE(effects_of(scene).contains("subdivision"));
     RenderSettings flat = planned_settings();
-    flat.subdivision_level = 0;
+    flat.picture.subdivision_level = 0;
     EXPECT_FALSE(effects_of(scene, flat).contains("subdivision"));
 
     Scene skinned = make_skin_scene();

@@ -180,8 +180,8 @@ TEST(SceneSettings, KeysThatNothingReadsAreRefused) {
 
 TEST(SceneSettings, WhatTheRendererWritesComesBackThroughAFile) {
     RenderSettings settings;
-    settings.width = 123;
-    settings.accuracy = 0.07;
+    settings.picture.width = 123;
+    settings.cache.accuracy = 0.07;
     settings.perception.guide = Guide::full;
     Scene scene;
     scene.settings = setting_map(settings);

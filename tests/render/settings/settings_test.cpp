@@ -8,8 +8,8 @@
 #include <set>
 
 #include "engine/base/errors.h"
-#include "tests/support/refusal.h"
 #include "tests/support/ones_vision.h"
+#include "tests/support/refusal.h"
 
 namespace aleph {
 namespace {
@@ -83,15 +83,15 @@ TEST(Settings, EveryKeyRoundTrips) {
 
 TEST(Settings, AnErrorChoosesWhatCostsAndTheRestOverridesIt) {
     RenderSettings settings;
-    settings.spp = 7;
+    settings.sampling.spp = 7;
     apply_settings(settings, {{"error", 2.0}, {"gather", 100.0}}, "test");
-    EXPECT_EQ(settings.sampling, Sampling::threshold);
-    EXPECT_EQ(settings.adapter, Adapter::threshold);
-    EXPECT_DOUBLE_EQ(settings.accuracy, 0.2);
-    EXPECT_EQ(settings.spp, 4096);
-    EXPECT_EQ(settings.gather, 100);
+    EXPECT_EQ(settings.sampling.rule, Sampling::threshold);
+    EXPECT_EQ(settings.guide.adapter, Adapter::threshold);
+    EXPECT_DOUBLE_EQ(settings.cache.accuracy, 0.2);
+    EXPECT_EQ(settings.sampling.spp, 4096);
+    EXPECT_EQ(settings.cache.gather, 100);
     apply_settings(settings, {{"spp", 64.0}}, "test");  // as the command line after the scene's file
-    EXPECT_EQ(settings.spp, 64);
+    EXPECT_EQ(settings.sampling.spp, 64);
     EXPECT_EQ(settings.error, 2.0);
     // 0 changes nothing else.
     RenderSettings plain;
@@ -114,27 +114,27 @@ TEST(Settings, DefaultsAreDocumentedOnes) {
 TEST(Settings, FieldsReceiveWhatKeysSay) {
     RenderSettings s;
     apply_settings(s, SettingMap(other_values().begin(), other_values().end()), "test");
-    EXPECT_EQ(s.width, 320);
-    EXPECT_EQ(s.height, 200);
+    EXPECT_EQ(s.picture.width, 320);
+    EXPECT_EQ(s.picture.height, 200);
     EXPECT_EQ(s.seed, 4294967295u);
     EXPECT_EQ(s.perception.guide, Guide::full);
     EXPECT_EQ(s.perception.vision, &castle_vision());
     EXPECT_EQ(s.perception.bands, Bands::measured);
     EXPECT_EQ(s.perception.grid, SaliencyGrid::center);
     EXPECT_TRUE(s.perception.neutral_opponent);
-    EXPECT_EQ(s.estimate, EstimateKind::flat);
-    EXPECT_EQ(s.adapter, Adapter::scale_add);
-    EXPECT_EQ(s.adapter_k, 50.0);
-    EXPECT_EQ(s.accuracy, 0.3);
-    EXPECT_EQ(s.gather, 64);
-    EXPECT_EQ(s.bounces, 0);
-    EXPECT_EQ(s.path_depth, 5);
-    EXPECT_EQ(s.integrator, Integrator::path);
-    EXPECT_EQ(s.spp, 4);
-    EXPECT_EQ(s.light_samples, 7);
-    EXPECT_EQ(s.min_radius_pixels, 2.5);
-    EXPECT_EQ(s.light_step, 5);
-    EXPECT_EQ(s.subdivision_level, 3);
+    EXPECT_EQ(s.guide.estimate, EstimateKind::flat);
+    EXPECT_EQ(s.guide.adapter, Adapter::scale_add);
+    EXPECT_EQ(s.guide.adapter_k, 50.0);
+    EXPECT_EQ(s.cache.accuracy, 0.3);
+    EXPECT_EQ(s.cache.gather, 64);
+    EXPECT_EQ(s.light.bounces, 0);
+    EXPECT_EQ(s.light.path_depth, 5);
+    EXPECT_EQ(s.light.integrator, Integrator::path);
+    EXPECT_EQ(s.sampling.spp, 4);
+    EXPECT_EQ(s.light.light_samples, 7);
+    EXPECT_EQ(s.cache.min_radius_pixels, 2.5);
+    EXPECT_EQ(s.cache.light_step, 5);
+    EXPECT_EQ(s.picture.subdivision_level, 3);
 }
 
 TEST(Settings, ChoicesNameWhatIsAllowed) {
@@ -158,9 +158,9 @@ TEST(Settings, UnknownMethodsAreRefusedByName) {
 
 TEST(Settings, SeveralBouncesForEveryIntegrator) {
     RenderSettings settings;
-    settings.bounces = 1000;
+    settings.light.bounces = 1000;
     for (const Integrator integrator : {Integrator::cache, Integrator::path}) {
-        settings.integrator = integrator;
+        settings.light.integrator = integrator;
         EXPECT_NO_THROW(validate(settings));
     }
 }
@@ -195,7 +195,7 @@ TEST(Settings, Sizes) {
     EXPECT_NE(refusal("size", "65536x65536").find("2^28"), std::string::npos);
     RenderSettings settings;
     apply_settings(settings, {{"size", "1x65536"}}, "test");
-    EXPECT_EQ(settings.height, 65536);
+    EXPECT_EQ(settings.picture.height, 65536);
 }
 
 TEST(Settings, UnknownKeysListTheKnown) {
@@ -210,16 +210,16 @@ TEST(Settings, UnknownKeysListTheKnown) {
 TEST(Settings, ValidateChecksStructsFilledByHand) {
     RenderSettings settings;
     EXPECT_NO_THROW(validate(settings));
-    settings.accuracy = std::nan("");
+    settings.cache.accuracy = std::nan("");
     EXPECT_THROW(validate(settings), InputError);
     settings = {};
-    settings.width = 0;
+    settings.picture.width = 0;
     EXPECT_THROW(validate(settings), InputError);
     settings = {};
-    settings.gather = -1;
+    settings.cache.gather = -1;
     EXPECT_THROW(validate(settings), InputError);
     settings = {};
-    settings.adapter = static_cast<Adapter>(9);
+    settings.guide.adapter = static_cast<Adapter>(9);
     EXPECT_THROW(validate(settings), InputError);
     settings = {};
     settings.perception.vision = nullptr;

@@ -46,11 +46,11 @@ TEST(Frame, RaysByPurposeSumToWhatTheWrapperTraced) {
         for (const double accuracy : {0.0, 0.3}) {
             for (const Guide guide : {Guide::none, Guide::saliency}) {
                 RenderSettings settings = plain_settings(accuracy, 16);
-                settings.width = 40;
-                settings.height = 30;
-                settings.spp = spp;
-                settings.light_samples = 4;
-                settings.light_step = 0;
+                settings.picture.width = 40;
+                settings.picture.height = 30;
+                settings.sampling.spp = spp;
+                settings.light.light_samples = 4;
+                settings.cache.light_step = 0;
                 settings.perception.guide = guide;
                 Sequence sequence(scene, settings);
                 FrameRequest request;
@@ -79,7 +79,7 @@ TEST(Frame, RaysByPurposeSumToWhatTheWrapperTraced) {
 TEST(Frame, WithoutBouncesThereIsNoGathering) {
     const Stage stage(make_everything(), 40, 30);
     RenderSettings settings = plain_settings(0.15, 16);
-    settings.bounces = 0;
+    settings.light.bounces = 0;
     const ShadedFrame out = shade(stage, settings);
     EXPECT_EQ(out.counts.rays.gather, 0u);
     EXPECT_EQ(out.counts.records, 0u);
@@ -106,8 +106,8 @@ TEST(Frame, EmissionCoverageAndBackground) {
     const Stage stage(std::move(scene), 16, 12);
     RenderSettings settings = plain_settings(0.15, 16);
     for (const int spp : {1, 16}) {
-        settings.spp = spp;
-        settings.bounces = 0;
+        settings.sampling.spp = spp;
+        settings.light.bounces = 0;
         const Image<float> accuracy(16, 12, 0.15f);
         const LightingContext lighting = stage.lighting();
         const IndirectContext context{lighting, stage.view, settings, accuracy, 0, 1.0f, {}};
@@ -130,8 +130,8 @@ TEST(Frame, SamplesOfAPixelFollowItsArea) {
     add_camera(scene, glm::dvec3(0.0), {0.0, 0.0, -1.0}, 0.9);
     const Stage stage(std::move(scene), 16, 12);
     RenderSettings settings = plain_settings(0.15, 16);
-    settings.spp = 64;
-    settings.bounces = 0;
+    settings.sampling.spp = 64;
+    settings.light.bounces = 0;
     const ShadedFrame out = shade(stage, settings);
     EXPECT_NEAR(out.coverage(8, 6), 0.7f, 0.03f);
     EXPECT_NEAR(out.color(8, 6).x, 0.7f, 0.03f);
@@ -161,8 +161,8 @@ TEST(Frame, ManySamplesOfOneValueKeepThatValue) {
     scene.environment = Track<glm::dvec3>(glm::dvec3(0.1, 0.7, 1.0 / 3.0));
     const Stage stage(std::move(scene), 2, 2);
     RenderSettings settings = plain_settings(0.15, 16);
-    settings.spp = 65'536;
-    settings.bounces = 0;
+    settings.sampling.spp = 65'536;
+    settings.light.bounces = 0;
     for (const Rgb& pixel : shade(stage, settings).color.pixels) EXPECT_EQ(pixel, Rgb(0.1f, 0.7f, 1.0f / 3.0f));
 }
 
@@ -194,8 +194,8 @@ TEST(Frame, KF17_MirroredSceneIsTheMirroredPicture) {
     constexpr int width = 64, height = 48;
     const Stage plain(make_plain_scene(false), width, height), mirrored(make_plain_scene(true), width, height);
     RenderSettings settings = plain_settings(0.15, 16);
-    settings.bounces = 0;
-    settings.path_depth = 1;
+    settings.light.bounces = 0;
+    settings.light.path_depth = 1;
     const Image<Rgb> one = shade(plain, settings).color, other = shade(mirrored, settings).color;
     const SampleHits hits = cast_centers(mirrored.rays, mirrored.view, nullptr);
     int differing = 0, lit = 0;
@@ -260,8 +260,8 @@ TEST(Frame, KF20_ScaleThroughZero) {
     scale.values = {glm::dvec3(1.0), glm::dvec3(1.0, -1.0, 1.0)};
     scene.nodes[3].scale = scale;
     RenderSettings settings = plain_settings(0.3, 16);
-    settings.width = 40;
-    settings.height = 30;
+    settings.picture.width = 40;
+    settings.picture.height = 30;
     settings.perception.guide = Guide::saliency;
     Sequence sequence(scene, settings);
     for (const int frame : {0, 1, 2}) {

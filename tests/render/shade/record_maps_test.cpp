@@ -41,7 +41,7 @@ double mean(const Image<float>& image) {
 
 TEST(RecordMaps, RecordsOfKeyMomentsCountToo) {
     RenderSettings settings = shot_settings(10);
-    settings.spp = 2;
+    settings.sampling.spp = 2;
     Sequence sequence(make_shot_with_mover(), settings);
     const ShadedFrame moment = sequence.render(0, everything).shaded, between = sequence.render(3, everything).shaded;
     EXPECT_GT(mean(moment.cache_count), 1.0);
@@ -56,10 +56,10 @@ TEST(RecordMaps, RecordsOfKeyMomentsCountToo) {
 
 TEST(RecordMaps, OnlyOnRequestAndOnlyOfTheCache) {
     RenderSettings settings = shot_settings(0);
-    settings.gather = 16;
+    settings.cache.gather = 16;
     EXPECT_TRUE(Sequence(make_shot(), settings).render(0).shaded.cache_count.empty());
     EXPECT_FALSE(Sequence(make_shot(), settings).render(0, everything).shaded.cache_radius.empty());
-    settings.integrator = Integrator::path;
+    settings.light.integrator = Integrator::path;
     EXPECT_TRUE(Sequence(make_shot(), settings).render(0, everything).shaded.cache_count.empty());
 }
 

@@ -15,18 +15,18 @@ constexpr double frame_rate = 30.0;
 /// Of a picture of direct light and emission.
 RenderSettings make_settings(int width, int height) {
     RenderSettings settings;
-    settings.width = width;
-    settings.height = height;
-    settings.filter = PixelFilter::box;
-    settings.light_step = 0;
-    settings.bounces = 0;
+    settings.picture.width = width;
+    settings.picture.height = height;
+    settings.picture.filter = PixelFilter::box;
+    settings.cache.light_step = 0;
+    settings.light.bounces = 0;
     return settings;
 }
 
 RenderSettings settings_of(Sampling rule, int width, int height) {
     RenderSettings settings = make_settings(width, height);
-    settings.sampling = rule;
-    settings.spp = settings.light_samples = rule == Sampling::uniform ? 16 : 32;
+    settings.sampling.rule = rule;
+    settings.sampling.spp = settings.light.light_samples = rule == Sampling::uniform ? 16 : 32;
     if (rule == Sampling::threshold) settings.error = 1.0;
     return settings;
 }
@@ -48,7 +48,8 @@ using Truth = std::function<double(int x, int y)>;
 void expect_mean(const Scene& scene, RenderSettings settings, const Truth& truth, double darkest_error = 1e-5,
                  std::int64_t frame = 0) {
     constexpr std::uint32_t seeds = 12;
-    const std::size_t count = static_cast<std::size_t>(settings.width) * static_cast<std::size_t>(settings.height);
+    const std::size_t count =
+        static_cast<std::size_t>(settings.picture.width) * static_cast<std::size_t>(settings.picture.height);
     EXPECT_TRUE(holds([&](Trial& trial) {
         std::vector<Mean> pixels(count);
         Mean picture;
@@ -66,11 +67,11 @@ void expect_mean(const Scene& scene, RenderSettings settings, const Truth& truth
         }
         double truth_sum = 0.0;
         std::size_t beyond = 0;
-        for (int y = 0; y < settings.height; ++y) {
-            for (int x = 0; x < settings.width; ++x) {
+        for (int y = 0; y < settings.picture.height; ++y) {
+            for (int x = 0; x < settings.picture.width; ++x) {
                 const double expected = truth(x, y);
                 truth_sum += expected;
-                const Mean& found = pixels[static_cast<std::size_t>(y) * settings.width + x];
+                const Mean& found = pixels[static_cast<std::size_t>(y) * settings.picture.width + x];
                 // Where few samples met anything, their spread says little.
                 const double error = std::max(found.error(), darkest_error * std::sqrt(expected * (1.0 - expected)));
                 if (std::abs(found.mean() - expected) > 3.0 * error + 1e-5) ++beyond;
@@ -88,8 +89,8 @@ int count_beyond_threshold(const Scene& scene, RenderSettings settings, const Tr
     follow_error(settings, 1.0);
     const FrameOutput out = Sequence(scene, settings).render(0);
     int beyond = 0;
-    for (int y = 0; y < settings.height; ++y) {
-        for (int x = 0; x < settings.width; ++x) {
+    for (int y = 0; y < settings.picture.height; ++y) {
+        for (int x = 0; x < settings.picture.width; ++x) {
             const double error = std::abs(luminance(out.shaded.color(x, y)) - truth(x, y));
             if (error * scene.viewing.display_white > out.threshold(x, y)) ++beyond;
         }
@@ -203,8 +204,8 @@ TEST_P(SamplingRules, MC23_AThousandMovingLights) {
             keyed<glm::dvec3>({0.0, 10.0 / frame_rate}, {place_light(i), place_light(i, 0.8)});
     }
     RenderSettings settings = settings_of(GetParam(), lit_width, lit_height);
-    settings.light_samples = 4;
-    settings.plan = EffectsPlanning::off;
+    settings.light.light_samples = 4;
+    settings.effects.plan = EffectsPlanning::off;
     expect_mean(
         scene, settings, [](int x, int y) { return sum_of_moved_lights(x, y, 0.4); }, 1e-5, 5);
 }
@@ -214,8 +215,8 @@ TEST_P(SamplingRules, MC23_AThousandLights) {
     // With an asked error, lights may be left out within its budget: AskedError tests that.
     if (GetParam() == Sampling::threshold) return;
     RenderSettings settings = settings_of(GetParam(), lit_width, lit_height);
-    settings.light_samples = 4;
-    settings.plan = EffectsPlanning::off;  // it leaves lights out, within a share of the threshold (FX-14)
+    settings.light.light_samples = 4;
+    settings.effects.plan = EffectsPlanning::off;  // it leaves lights out, within a share of the threshold (FX-14)
     expect_mean(scene, settings, sum_of_lights);
 }
 

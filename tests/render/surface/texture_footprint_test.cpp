@@ -136,7 +136,7 @@ TEST(Footprint, FacingPlaneIsAPixelAcross) {
     const Stage stage(std::move(scene), 64, 48);
     for (int i = 0; i < 2; ++i) {
         RenderSettings settings;
-        settings.spp = i == 0 ? 1 : 9;
+        settings.sampling.spp = i == 0 ? 1 : 9;
         const SamplePlace place = make_sample_place(settings, {}, false, 0, i);
         const SampleHits sample = cast_sample(stage.rays, stage.view, place, nullptr);
         const glm::vec3 direction(make_sample_ray(stage.view, place, 20, 10).direction);

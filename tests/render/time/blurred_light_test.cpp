@@ -15,10 +15,10 @@ constexpr double half_second = 15.0;  // frames
 
 RenderSettings blurred_settings(Integrator integrator, std::uint32_t seed) {
     RenderSettings settings = shot_settings(0);
-    settings.width = columns;
-    settings.height = rows;
-    settings.spp = settings.light_samples = 16;
-    settings.integrator = integrator;
+    settings.picture.width = columns;
+    settings.picture.height = rows;
+    settings.sampling.spp = settings.light.light_samples = 16;
+    settings.light.integrator = integrator;
     settings.seed = seed;
     return settings;
 }
@@ -132,9 +132,9 @@ TEST(MotionBlur, DT01_BlurredFramesAreEqualForAnyNumberOfThreadsAndAlone) {
     Scene scene = make_sliding_box();
     scene.cameras[0].shutter = {-0.5, 0.5};
     RenderSettings settings = small_settings();
-    settings.width = 32;
-    settings.height = 24;
-    settings.light_step = 10;
+    settings.picture.width = 32;
+    settings.picture.height = 24;
+    settings.cache.light_step = 10;
     const auto render = [&](int threads, std::initializer_list<int> frames) {
         return with_threads(threads, [&] {
             Sequence sequence(scene, settings);

@@ -23,9 +23,9 @@ namespace {
 
 RenderSettings file_settings() {
     RenderSettings settings = shot_settings(10);
-    settings.width = 24;
-    settings.height = 18;
-    settings.gather = 16;
+    settings.picture.width = 24;
+    settings.picture.height = 18;
+    settings.cache.gather = 16;
     return settings;
 }
 
@@ -62,7 +62,7 @@ TEST(CacheFile, IC22_FramesAreEqualWithAndWithoutIt) {
     loaded.load_light(folder / "light");
     EXPECT_TRUE(loaded.render(3).statistics.moments.empty()) << "computed again";
     RenderSettings more_samples = settings;
-    more_samples.light_samples = 7;
+    more_samples.light.light_samples = 7;
     EXPECT_NO_THROW(Sequence(scene, more_samples).load_light(folder / "light"));
 }
 
@@ -136,7 +136,7 @@ TEST(CacheFile, IC22_OtherScenesSettingsAndBuildsAreRefused) {
     other.seed = 7;
     EXPECT_THAT(refusal(folder / "light", scene, other), testing::HasSubstr("setting seed is 0, here 7"));
     other = settings;
-    other.width = 32;
+    other.picture.width = 32;
     EXPECT_THAT(refusal(folder / "light", scene, other), testing::HasSubstr("setting size is 24x18, here 32x18"));
     Scene changed = scene;
     changed.meshes[0].positions[0].x += 1e-6f;
@@ -193,7 +193,7 @@ TEST(CacheFile, IC22_SizesAreCheckedBeforeMemoryIsTaken) {
 
 TEST(CacheFile, IC22_NeedsKeyMoments) {
     RenderSettings settings = file_settings();
-    settings.light_step = 0;
+    settings.cache.light_step = 0;
     EXPECT_THAT(refusal("light", make_shot(), settings), testing::HasSubstr("needs key moments"));
     EXPECT_THROW(Sequence(make_shot(), file_settings()).save_light("light"), std::logic_error);
 }

@@ -14,8 +14,8 @@ const FrameRequest only_maps{.frame = false, .maps = true, .progress = {}};
 
 RenderSettings estimate_settings(int light_step) {
     RenderSettings settings = shot_settings(light_step);
-    settings.width = 96;
-    settings.height = 72;
+    settings.picture.width = 96;
+    settings.picture.height = 72;
     return settings;
 }
 
@@ -96,10 +96,10 @@ TEST(EstimateMoments, MapsAreThoseOfThePicture) {
     const Scene scene = make_riding_shot();
     RenderSettings settings = shot_settings(4);
     settings.perception.guide = Guide::full;
-    settings.gather = 16;
-    settings.motion = MotionSource::image;
+    settings.cache.gather = 16;
+    settings.guide.motion = MotionSource::image;
     for (const int step : {1, 4}) {
-        settings.light_step = step;
+        settings.cache.light_step = step;
         Sequence pictures(scene, settings);
         for (const int frame : {5, 6, 8}) {
             const FrameOutput maps = Sequence(scene, settings).render(frame, only_maps);
@@ -127,9 +127,9 @@ TEST(EstimateMoments, ImageMotionFindsTheBaseMomentOfEveryFrame) {
     const Scene scene = make_shot_with_moving_camera();
     RenderSettings settings = shot_settings(1);
     settings.perception.guide = Guide::full;
-    settings.motion = MotionSource::image;
+    settings.guide.motion = MotionSource::image;
     for (const int step : {1, 4}) {
-        settings.light_step = step;
+        settings.cache.light_step = step;
         Sequence sequence(scene, settings);
         for (std::int64_t frame = sequence.range().first; frame <= sequence.range().last; ++frame) {
             const FrameOutput alone = Sequence(scene, settings).render(frame, only_maps);

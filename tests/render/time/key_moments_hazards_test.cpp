@@ -42,8 +42,8 @@ std::uint64_t count_shot_records(const Scene& scene, int light_step) {
 void expect_any_order(const Scene& scene) {
     RenderSettings settings = shot_settings(4);
     settings.perception.guide = Guide::full;
-    settings.spp = 2;
-    settings.gather = 16;
+    settings.sampling.spp = 2;
+    settings.cache.gather = 16;
     Sequence forward(scene, settings);
     std::vector<std::string> expected;
     for (int frame = 0; frame <= 9; ++frame) expected.push_back(frame_bytes(forward, scene, settings, frame));
@@ -71,8 +71,8 @@ TEST(KeyMoments, IC14_LightOfAnotherTimeIsNotUsed) {
     const int board = add_mesh(scene, make_box({1.5, 1.5, 0.05}, 1));
     scene.nodes[board].translation = move_between({-2.0, 0.8, -1.5}, {2.5, 0.8, 0.5});
     RenderSettings dense = shot_settings(0);
-    dense.accuracy = 0.0;
-    dense.gather = 1024;
+    dense.cache.accuracy = 0.0;
+    dense.cache.gather = 1024;
     const Image<Rgb> truth = render_alone(scene, dense, 5);
     const double own = relative_rms(render_alone(scene, shot_settings(0), 5), truth);
     const double moments = relative_rms(render_alone(scene, shot_settings(10), 5), truth);
@@ -90,7 +90,7 @@ TEST(KeyMoments, IC14_WhereNothingMovesOneMomentServesAllFrames) {
 TEST(KeyMoments, IC20_WhatIsAtRestDoesNotFlicker) {
     const Scene scene = make_shot_with_mover();
     RenderSettings settings = shot_settings(10);
-    settings.gather = 256;
+    settings.cache.gather = 256;
     Sequence sequence(scene, settings);
     double largest = 0.0;
     Image<Rgb> before;
@@ -152,9 +152,9 @@ TEST(KeyMoments, FX10_AnObjectThatMovesLaterLeavesNoTraceBefore) {
     place.values = {{0.0, 1.0, 8.0}, {0.0, 1.0, 8.0}, {0.0, 1.0, -2.0}};  // from behind the camera
     place.sampling.period = 9.0 / 30.0;
     RenderSettings settings = shot_settings(20);
-    settings.gather = 256;
+    settings.cache.gather = 256;
     RenderSettings own = settings;
-    own.light_step = 0;
+    own.cache.light_step = 0;
     EXPECT_LT(relative_rms(render_alone(scene, settings, 8), render_alone(scene, own, 8)), 0.06);
 }
 
@@ -172,8 +172,8 @@ void expect_as_own_fill(const Track<glm::dvec3>& place) {
     const int box = add_mesh(scene, make_box(glm::dvec3(0.9), add_lambert(scene, {0.2, 0.3, 0.7})));
     scene.nodes[box].translation = place;
     RenderSettings dense = shot_settings(0);
-    dense.accuracy = 0.0;
-    dense.gather = 1024;
+    dense.cache.accuracy = 0.0;
+    dense.cache.gather = 1024;
     const Image<Rgb> truth = render_alone(scene, dense, 5);
     const double own = relative_rms(render_alone(scene, shot_settings(0), 5), truth);
     const double moments = relative_rms(render_alone(scene, shot_settings(10), 5), truth);

@@ -19,12 +19,12 @@ double largest_error(double pixels) {
     scene.cameras[0].half_height = 0.5;
     add_mesh(scene, make_quad(pixels / 200.0, pixels / 200.0, add_lambert(scene, glm::dvec3(0.5))));
     RenderSettings settings;
-    settings.width = settings.height = 200;
+    settings.picture.width = settings.picture.height = 200;
     FrameRequest maps;
     maps.frame = false;
     maps.maps = true;
     const FrameOutput output = Sequence(scene, settings).render(0, maps);
-    const PosedView other = make_posed_view(scene, 1.0, 0, settings.width, settings.height);
+    const PosedView other = make_posed_view(scene, 1.0, 0, settings.picture.width, settings.picture.height);
     const MotionField raster = compute_raster_motion(scene, other, output.hits, output.motion);
     double largest = 0.0;
     for (std::size_t i = 0; i < raster.displacement.size(); ++i) {
