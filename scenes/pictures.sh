@@ -16,7 +16,7 @@ sheet() {
   oiiotool "$@" --mosaic "${columns}x$((($# + columns - 1) / columns))" --compression jpeg:80 -o "$out"
 }
 
-# shot NAME SIZE COLUMNS FRAMES: frames of a scene. Single frames need no light of key moments.
+# shot NAME SIZE COLUMNS FRAMES: frames of a scene. Single frames need no light of lighting keyframes.
 shot() {
   echo "$1"
   local out=build/pictures/$1

@@ -21,7 +21,7 @@ case $kind in
     filter='-HostileSceneFile.*:DamagedSceneFile.*:SceneJsonWrite.KF24*:SceneJsonWrite.ManyNames*:SceneJsonWrite.DT09*'
     filter+=':SceneJsonWrite.LoadOfSaveIsTheSameScene:Gltf.S13_5_KF24*:ImageMotion.EqualsTheSlowReadingOfTheModel'
     # Pyramids, cache, sampling and materials. Left out: what checks statistics, memory or a growth of work in millions.
-    rows=(test_perception test_render test_materials test_paths test_key_moments)
+    rows=(test_perception test_render test_materials test_paths test_lighting_keyframes)
     row_filter='*.PY*:*.IC*:*.MC*-FlatPicture.*:StoppingRule.*:*.IC11_TheIndexFinds*:*.IC15*:PathValues.MC13*'
     row_filter+=':Accumulation.*:FurnaceScenes.*:Path.MC14*:Path.MC19*:PathLights.MC23*'
     optimize=-O1

@@ -60,12 +60,12 @@ bool is_time(double seconds) {
 void check(const PilotSeconds& pilot, double error) {
     if (pilot.parts.empty()) throw std::invalid_argument("a cost needs a pilot");
     if (!(error > 0.0) || !std::isfinite(error)) throw std::invalid_argument("the error of a cost is not above 0");
-    bool valid = is_time(pilot.start) && is_time(pilot.before) && pilot.share > 0.0 && is_time(pilot.moments);
+    bool valid = is_time(pilot.start) && is_time(pilot.before) && pilot.share > 0.0 && is_time(pilot.keyframes);
     for (const PartSeconds& part : pilot.parts) {
         valid &= part.error > 0.0 && std::isfinite(part.error) && is_time(part.fill) && is_time(part.shade);
     }
     for (const LightSeconds& light : pilot.light) {
-        valid &= light.pixels > 0.0 && is_time(light.fill) && is_time(light.moments);
+        valid &= light.pixels > 0.0 && is_time(light.fill) && is_time(light.keyframes);
     }
     if (!valid) throw std::invalid_argument("a pilot's error or seconds are out of range");
 }
@@ -75,7 +75,8 @@ void check(const PilotSeconds& pilot, double error) {
 // Means of four fits: build/study_cost scenes/cornell/scene.json@15 scenes/pool/scene.json@20
 // scenes/boomerang/scene.json@45 --size 320x240 -t 1
 CostCoefficients fitted_coefficients() {
-    return {.shade = 0.94, .overlap = 1.7, .fill = 0.18, .moments = 0.64, .shade_exponent = 1.9, .light_exponent = 2.2};
+    return {
+        .shade = 0.94, .overlap = 1.7, .fill = 0.18, .keyframes = 0.64, .shade_exponent = 1.9, .light_exponent = 2.2};
 }
 
 CostParts predict_seconds(const PilotSeconds& pilot, const CostRatios& ratios, const CostCoefficients& coefficients,
@@ -88,12 +89,12 @@ CostParts predict_seconds(const PilotSeconds& pilot, const CostRatios& ratios, c
     CostParts seconds;
     seconds.start = pilot.start;
     seconds.before = ratios.frames * pilot.before;
-    const bool by_moments = pilot.moments > 0.0;
-    seconds.shade = ratios.frames * shade / pilot.share / (by_moments ? coefficients.shade : 1.0);
+    const bool by_keyframes = pilot.keyframes > 0.0;
+    seconds.shade = ratios.frames * shade / pilot.share / (by_keyframes ? coefficients.shade : 1.0);
     seconds.fill = ratios.frames * (extrapolate_light(pilot.light, &LightSeconds::fill) +
-                                    (by_moments ? coefficients.fill : 1.0 / coefficients.overlap) * light);
-    seconds.moments = ratios.moments * (extrapolate_light(pilot.light, &LightSeconds::moments) +
-                                        coefficients.moments * pilot.moments * light);
+                                    (by_keyframes ? coefficients.fill : 1.0 / coefficients.overlap) * light);
+    seconds.keyframes = ratios.keyframes * (extrapolate_light(pilot.light, &LightSeconds::keyframes) +
+                                            coefficients.keyframes * pilot.keyframes * light);
     return seconds;
 }
 

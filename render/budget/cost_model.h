@@ -4,7 +4,7 @@
 // Three things are measured:
 // - the stages before light and samples, for whole frames: they do not depend on the error;
 // - a part of the pixels, spread over the picture, at several errors: their samples, and their light without key
-//   moments. The picture has its own resolution, because a small picture asks for other samples: more of its pixels
+//   keyframes. The picture has its own resolution, because a small picture asks for other samples: more of its pixels
 //   show several things, and its contrasts have other sizes;
 // - light in two small pictures at the largest error. What this costs grows as a power of the number of pixels.
 // At smaller errors the seconds of light grow by what those of the part do.
@@ -22,33 +22,34 @@ struct PartSeconds {
 
 /// Light in a small picture, at the largest error; s.
 struct LightSeconds {
-    double pixels = 1.0;   ///< of the full picture, over those of this one
-    double fill = 0.0;     ///< irradiance values of frames
-    double moments = 0.0;  ///< of key moments
+    double pixels = 1.0;     ///< of the full picture, over those of this one
+    double fill = 0.0;       ///< irradiance values of frames
+    double keyframes = 0.0;  ///< of lighting keyframes
 };
 
 /// What was measured of some frames; sums over them.
 struct PilotSeconds {
-    double start = 0.0;               ///< s, to make the sequence, once
-    double before = 0.0;              ///< s, of the stages before light and samples
-    double share = 1.0;               ///< of the pixels: those of the parts
-    double moments = 0.0;             ///< key moments that were computed, by frame; 0: light is computed for each frame
+    double start = 0.0;      ///< s, to make the sequence, once
+    double before = 0.0;     ///< s, of the stages before light and samples
+    double share = 1.0;      ///< of the pixels: those of the parts
+    double keyframes = 0.0;  ///< lighting keyframes that were computed, by frame; 0: light is computed for each frame
     std::vector<PartSeconds> parts;   ///< at least one, of different errors
     std::vector<LightSeconds> light;  ///< none, one or two pictures
 };
 
 /// What the frames to be rendered are, relative to those of the pilot.
 struct CostRatios {
-    double frames = 1.0;   ///< number of frames that are rendered, not copied
-    double moments = 1.0;  ///< number of key moments
+    double frames = 1.0;     ///< number of frames that are rendered, not copied
+    double keyframes = 1.0;  ///< number of lighting keyframes
 };
 
 /// What `build/study_cost` fits.
 struct CostCoefficients {
-    double shade = 1.0;    ///< seconds of samples beside light of their own, over those that read key moments
+    double shade = 1.0;    ///< seconds of samples beside light of their own, over those that read lighting keyframes
     double overlap = 1.0;  ///< light for a part alone, over its share of the picture's: blocks do not share it
-    double fill = 0.0;     ///< growth of a frame's own light beside key moments, over what the part's says (by share)
-    double moments = 0.0;  ///< the same for each key moment
+    double fill =
+        0.0;  ///< growth of a frame's own light beside lighting keyframes, over what the part's says (by share)
+    double keyframes = 0.0;       ///< the same for each lighting keyframe
     double shade_exponent = 0.0;  ///< below the least error measured, seconds of samples grow as error^-exponent
     double light_exponent = 0.0;  ///< the same for light
 };
@@ -57,8 +58,8 @@ CostCoefficients fitted_coefficients();
 
 /// Predicted seconds by what takes them.
 struct CostParts {
-    double start = 0.0, before = 0.0, fill = 0.0, moments = 0.0, shade = 0.0;
-    double sum() const { return start + before + fill + moments + shade; }
+    double start = 0.0, before = 0.0, fill = 0.0, keyframes = 0.0, shade = 0.0;
+    double sum() const { return start + before + fill + keyframes + shade; }
 };
 
 /// Predicted seconds at an error. No part falls where the error does. Above the largest error of the pilot nothing

@@ -6,7 +6,7 @@
 
 #include "render/frame/sequence.h"
 #include "render/settings/measure.h"
-#include "render/time/key_moments.h"
+#include "render/time/lighting_keyframes.h"
 
 namespace aleph {
 
@@ -37,7 +37,7 @@ LightSeconds time_light(const PilotRequest& request, double scale) {
     for (const std::int64_t frame : request.frames) {
         const LightTime time = sequence.time_light(frame);
         seconds.fill += time.fill;
-        seconds.moments += time.moments;
+        seconds.keyframes += time.keyframes;
     }
     return seconds;
 }
@@ -127,7 +127,7 @@ Pilot run_pilot(const PilotRequest& request) {
     Pilot pilot;
     const RenderSettings& settings = request.settings.front();
     const auto frames = static_cast<double>(request.frames.size());
-    pilot.seconds.moments = static_cast<double>(count_moments(request.scene, settings, request.frames)) / frames;
+    pilot.seconds.keyframes = static_cast<double>(count_keyframes(request.scene, settings, request.frames)) / frames;
     StageClock clock;
     for (const double scale : light_scales) {
         double last = 0.0;
@@ -142,14 +142,15 @@ Pilot run_pilot(const PilotRequest& request) {
     return pilot;
 }
 
-std::size_t count_moments(const Scene& scene, const RenderSettings& settings, const std::vector<std::int64_t>& frames) {
+std::size_t count_keyframes(const Scene& scene, const RenderSettings& settings,
+                            const std::vector<std::int64_t>& frames) {
     const bool has_indirect =
         settings.light.bounces > 0 && settings.light.path_depth > 1 && settings.cache.accuracy > 0.0;
     if (settings.cache.light_step == 0 || settings.light.integrator != Integrator::cache || !has_indirect) return 0;
-    const KeyMoments moments{frame_range(scene), scene.cuts, settings.cache.light_step, {}};
+    const LightingKeyframes keyframes{frame_range(scene), scene.cuts, settings.cache.light_step, {}};
     std::set<std::int64_t> read;
     for (const std::int64_t frame : frames) {
-        const MomentPair pair = find_moments(moments, frame);
+        const KeyframePair pair = find_keyframes(keyframes, frame);
         read.insert({pair.before, pair.after});
     }
     return read.size();
@@ -161,9 +162,9 @@ CostRatios find_cost_ratios(const Scene& scene, const RenderSettings& settings, 
     if (pilot_frames.size() > 1 && rendered == 1) return ratios;  // all frames are copies of one
     ratios.frames = static_cast<double>(frames.size()) / static_cast<double>(pilot_frames.size());
     const std::vector<std::int64_t> all(frames.begin(), frames.end());
-    const std::size_t known = count_moments(scene, settings, pilot_frames);
+    const std::size_t known = count_keyframes(scene, settings, pilot_frames);
     if (known > 0)
-        ratios.moments = static_cast<double>(count_moments(scene, settings, all)) / static_cast<double>(known);
+        ratios.keyframes = static_cast<double>(count_keyframes(scene, settings, all)) / static_cast<double>(known);
     return ratios;
 }
 

@@ -41,9 +41,10 @@ struct Pilot {
 /// @throws InputError as Sequence
 Pilot run_pilot(const PilotRequest& request);
 
-/// How many key moments the frames read, jumps of the light not counted.
+/// How many lighting keyframes the frames read, jumps of the light not counted.
 /// @param scene  of the Sequence, whose cuts include changes of the camera
-std::size_t count_moments(const Scene& scene, const RenderSettings& settings, const std::vector<std::int64_t>& frames);
+std::size_t count_keyframes(const Scene& scene, const RenderSettings& settings,
+                            const std::vector<std::int64_t>& frames);
 
 /// What a list of frames is, relative to its pilot.
 /// @param pilot_frames  choose_pilot_frames

@@ -48,7 +48,7 @@ void add_render_command(CLI::App& app, Command& command) {
     render
         ->add_option(
             "--cache", *cache,
-            "keep the indirect light of key moments (--light-step) in this file: it is read if it exists, and "
+            "keep the indirect light of lighting keyframes (--light-step) in this file: it is read if it exists, and "
             "written after the last frame; a file of another scene, other settings or another build is refused")
         ->type_name("FILE");
     render->footer(
@@ -61,7 +61,8 @@ void add_render_command(CLI::App& app, Command& command) {
         "--accuracy is the error that irradiance caching may make where the viewer is strictest. Elsewhere the Aleph "
         "map "
         "allows more, which saves time; with --guide none the accuracy is the same everywhere.\n"
-        "Indirect light is computed at key moments, every --light-step frames, at both sides of a cut and at the last "
+        "Indirect light is computed at lighting keyframes, every --light-step frames, at both sides of a cut and at "
+        "the last "
         "frame; frames between two of them interpolate. A frame rendered alone takes two of them and their middle, a "
         "sequence two more for each step. --integrator path does not use them.\n"
         "The file has the channels R, G, B and A. `aleph maps --help` describes those that --aovs adds.\n\n"

@@ -40,7 +40,7 @@ void prepare_frames_output(const PreparedScene& prepared, const SceneOptions& op
 void write_frames(const FrameJob& job, const SceneOptions& options, const FrameRequest& request);
 
 /// Renders the frames of a scene, or their maps, and writes them. The files have the channels of what is requested.
-/// @param cache  file that keeps the light of key moments; empty: none
+/// @param cache  file that keeps the light of lighting keyframes; empty: none
 /// @param budget  what they are to take; printed afterwards beside what they took
 void render_frames(PreparedScene prepared, const SceneOptions& options, const FrameRequest& request,
                    const std::string& cache = "", const std::optional<Budget>& budget = std::nullopt);

@@ -75,12 +75,12 @@ struct Look {
     const SharpEstimate& sharp;
     const SharpReader& reader;
     const NodeIrradiance* irradiance;
-    const SampleMoment& moment;
+    const SampleScene& keyframe;
 
     /// Radiance without exposure of a surface that the sharp estimate does not show.
     Rgb shade(RayTask& task, const PixelSurface& surface, const std::optional<SurfacePoint>& still,
               const glm::dvec2& pixel) const {
-        Rgb radiance = estimate_radiance(moment.lighting, task, surface, sharp.kind);
+        Rgb radiance = estimate_radiance(keyframe.lighting, task, surface, sharp.kind);
         if (irradiance == nullptr) return radiance;
         DiffuseSurface diffuse = make_diffuse_surface(surface);
         if (!(diffuse.footprint > 0.0f)) return radiance;
@@ -95,9 +95,9 @@ struct Look {
         const auto exposure = static_cast<float>(sharp.exposure);
         if (hit.instance == no_index) {
             if (sharp.kind == EstimateKind::flat) return Rgb(exposure);
-            return environment_radiance(moment.lighting.shading, direction) * exposure;
+            return environment_radiance(keyframe.lighting.shading, direction) * exposure;
         }
-        const SurfacePoint point = make_surface_point(moment.lighting.shading, hit, direction);
+        const SurfacePoint point = make_surface_point(keyframe.lighting.shading, hit, direction);
         const std::optional<SurfacePoint> still = carry_point(sharp.shading, hit, point);
         const std::optional<glm::dvec2> at = still ? reader.project(*still) : std::nullopt;
         if (at) {
@@ -106,7 +106,7 @@ struct Look {
             if (const auto known = reader.read(*still, hit.instance, *at, footprint)) return *known;
         }
         const PixelSurface surface =
-            make_pixel_surface(moment.lighting.shading, moment.view, SamplePlace{}, hit, direction, x, y);
+            make_pixel_surface(keyframe.lighting.shading, keyframe.view, SamplePlace{}, hit, direction, x, y);
         return shade(task, surface, still, at.value_or(glm::dvec2(x, y))) * exposure;
     }
 };
@@ -114,7 +114,7 @@ struct Look {
 }  // namespace
 
 Image<Rgb> blur_estimate(const SharpEstimate& sharp, const Lens& lens,
-                         const std::function<SampleMoment(double place)>& look_at, RayCounts& counts) {
+                         const std::function<SampleScene(double place)>& look_at, RayCounts& counts) {
     const int width = sharp.view.width, height = sharp.view.height;
     const SharpReader reader(sharp);
     const std::optional<NodeIrradiance> irradiance =
@@ -124,18 +124,18 @@ Image<Rgb> blur_estimate(const SharpEstimate& sharp, const Lens& lens,
     std::mutex counts_mutex;
     for (int i = 0; i < blur_looks; ++i) {
         const double time = (i + 0.5) / blur_looks;
-        const SampleMoment moment = look_at(time);
+        const SampleScene keyframe = look_at(time);
         // Fibonacci's lattice of 8 points: even over times and lens.
         const glm::vec2 u(std::fmod(time * 3.0, 1.0), std::fmod(time * 5.0, 1.0));
         const auto make_ray = [&](int x, int y) {
-            if (!(lens.radius > 0.0)) return make_camera_ray(moment.view, x + 0.5, y + 0.5);
-            return make_lens_ray(moment.view, lens, {x + 0.5, y + 0.5}, u);
+            if (!(lens.radius > 0.0)) return make_camera_ray(keyframe.view, x + 0.5, y + 0.5);
+            return make_lens_ray(keyframe.view, lens, {x + 0.5, y + 0.5}, u);
         };
-        cast_rays(moment.lighting.rays, make_ray, Blend::cutout, hits);
+        cast_rays(keyframe.lighting.rays, make_ray, Blend::cutout, hits);
         counts.primary += hits.size();
-        const Look look{sharp, reader, irradiance ? &*irradiance : nullptr, moment};
+        const Look look{sharp, reader, irradiance ? &*irradiance : nullptr, keyframe};
         parallel_rows(height, 4, [&](int begin, int end) {
-            RayTask task(moment.lighting.rays, Blend::cutout);
+            RayTask task(keyframe.lighting.rays, Blend::cutout);
             for (int y = begin; y < end; ++y) {
                 for (int x = 0; x < width; ++x) {
                     const glm::vec3 direction(make_ray(x, y).direction);

@@ -29,6 +29,6 @@ inline constexpr int blur_looks = 8;
 /// @param look    the scene at a place of the shutter, in [0,1], valid until the next call
 /// @param counts  increased by the rays cast
 Image<Rgb> blur_estimate(const SharpEstimate& sharp, const Lens& lens,
-                         const std::function<SampleMoment(double place)>& look, RayCounts& counts);
+                         const std::function<SampleScene(double place)>& look, RayCounts& counts);
 
 }  // namespace aleph

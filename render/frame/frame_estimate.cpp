@@ -13,23 +13,24 @@ Image<Rgb> estimate_scene(const Shot& shot, const FrameScene& scene, const Sampl
 
 void EstimateLight::gather_around(std::int64_t frame, std::int64_t but, RayCounts& counts) {
     if (!shot_light_) return;
-    const MomentPair pair = shot_light_->moments_around(frame);
-    for (const std::int64_t moment : {pair.before, pair.after}) {
-        if (kept_.find(moment)) continue;
-        for (const std::int64_t needed : {shot_light_->find_base(moment), moment}) {
-            if (needed == moment && moment == but) continue;
+    const KeyframePair pair = shot_light_->keyframes_around(frame);
+    for (const std::int64_t keyframe : {pair.before, pair.after}) {
+        if (kept_.find(keyframe)) continue;
+        for (const std::int64_t needed : {shot_light_->find_base(keyframe), keyframe}) {
+            if (needed == keyframe && keyframe == but) continue;
             if (kept_.find(needed)) continue;
-            moment_.pose(needed);
-            moment_.prepare();
-            find_nodes(needed, moment_, cast_centers(moment_.rays(), moment_.posed().view, &counts.primary), counts);
+            keyframe_.pose(needed);
+            keyframe_.prepare();
+            find_nodes(needed, keyframe_, cast_centers(keyframe_.rays(), keyframe_.posed().view, &counts.primary),
+                       counts);
         }
     }
 }
 
-/// Null if there are no key moments.
+/// Null if there are no lighting keyframes.
 std::unique_ptr<CarriedEstimate> EstimateLight::carry(std::int64_t frame) const {
     if (!shot_light_) return nullptr;
-    const MomentPair pair = shot_light_->moments_around(frame);
+    const KeyframePair pair = shot_light_->keyframes_around(frame);
     const auto before = kept_.find(pair.before), after = kept_.find(pair.after);
     if (!before || !after) return nullptr;
     return std::make_unique<BlendedEstimate>(before, after, pair.weight);
@@ -42,19 +43,19 @@ EstimateNodes EstimateLight::gather_nodes(std::int64_t frame, const FrameScene& 
 
 EstimateNodes EstimateLight::find_nodes(std::int64_t frame, const FrameScene& scene, const SampleHits& centers,
                                         RayCounts& counts) {
-    const bool is_moment = shot_light_ && shot_light_->moments_around(frame).before == frame;
-    if (!is_moment) return gather_nodes(frame, scene, centers, counts);
+    const bool is_keyframe = shot_light_ && shot_light_->keyframes_around(frame).before == frame;
+    if (!is_keyframe) return gather_nodes(frame, scene, centers, counts);
     if (const auto kept = kept_.find(frame)) return kept->nodes;
     std::optional<BlendedEstimate> carried;
     if (const std::int64_t base = shot_light_->find_base(frame); base != frame) {
         const auto kept = kept_.find(base);
         carried.emplace(kept, kept, 0.0);
     }
-    const auto moment = std::make_shared<EstimateMoment>(
+    const auto keyframe = std::make_shared<EstimateKeyframe>(
         frame, gather_estimate(scene.lighting(), scene.posed().view, centers, carried ? &*carried : nullptr, counts));
-    scene.copy_to(*moment);
-    kept_.keep(moment);
-    return moment->nodes;
+    scene.copy_to(*keyframe);
+    kept_.keep(keyframe);
+    return keyframe->nodes;
 }
 
 OpenLens find_open_lens(const Shot& shot, std::int64_t frame, const FrameScene& scene, const FramePlan& plan) {
@@ -65,7 +66,7 @@ OpenLens find_open_lens(const Shot& shot, std::int64_t frame, const FrameScene& 
     return open;
 }
 
-SampleMoment open_scene(const Shot& shot, std::int64_t frame, double at, const FrameScene& scene, FrameScene& shutter) {
+SampleScene open_scene(const Shot& shot, std::int64_t frame, double at, const FrameScene& scene, FrameScene& shutter) {
     EffectSet skipped = scene.shading().skipped;
     // The plan knows the lights at the shutter's centre alone: at other times lamps are seen and cast shadows.
     for (const Effect effect : {Effect::direct_light, Effect::area_shadows})
@@ -74,7 +75,7 @@ SampleMoment open_scene(const Shot& shot, std::int64_t frame, double at, const F
                  shot.settings.picture.height);
     shutter.prepare();
     shutter.leave_out(skipped);
-    return shutter.moment();
+    return shutter.sample_scene();
 }
 
 void blur_frame_estimate(const Shot& shot, std::int64_t frame, const FrameScene& scene, FrameScene& shutter,
@@ -84,8 +85,8 @@ void blur_frame_estimate(const Shot& shot, std::int64_t frame, const FrameScene&
     if (!open.shutter && !(open.lens.radius > 0.0)) return;
     const SharpEstimate estimate{scene.shading(), scene.posed().view,           centers,      sharp,
                                  nodes,           shot.settings.guide.estimate, shot.exposure};
-    const auto look = [&](double place) -> SampleMoment {
-        if (!open.shutter) return scene.moment();
+    const auto look = [&](double place) -> SampleScene {
+        if (!open.shutter) return scene.sample_scene();
         const double at = open.shutter->open + (open.shutter->close - open.shutter->open) * place;
         return open_scene(shot, frame, at, scene, shutter);
     };

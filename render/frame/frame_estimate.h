@@ -1,5 +1,5 @@
 #pragma once
-// The quick estimate of a frame: direct light, indirect light of key moments, and the blur of shutter and lens.
+// The quick estimate of a frame: direct light, indirect light of lighting keyframes, and the blur of shutter and lens.
 
 #include <memory>
 #include <optional>
@@ -7,7 +7,7 @@
 #include "render/estimate/estimate.h"
 #include "render/frame/frame_plan.h"
 #include "render/frame/frame_scene.h"
-#include "render/time/estimate_moments.h"
+#include "render/time/estimate_keyframes.h"
 #include "render/time/shot_light.h"
 
 namespace aleph {
@@ -18,22 +18,22 @@ namespace aleph {
 Image<Rgb> estimate_scene(const Shot& shot, const FrameScene& scene, const SampleHits& centers,
                           const EstimateNodes* nodes, RayCounts& counts, Image<float>* indirect_luminance = nullptr);
 
-/// Indirect light of the quick estimates of frames. That of key moments is kept, and other frames begin with it.
+/// Indirect light of the quick estimates of frames. That of lighting keyframes is kept, and other frames begin with it.
 class EstimateLight {
   public:
-    /// Keeps references. @param shot_light  which key moments there are; nothing if frames read none
-    EstimateLight(const Shot& shot, const std::optional<ShotLight>& shot_light, FrameScene& moment)
-        : shot_(shot), shot_light_(shot_light), moment_(moment) {}
+    /// Keeps references. @param shot_light  which lighting keyframes there are; nothing if frames read none
+    EstimateLight(const Shot& shot, const std::optional<ShotLight>& shot_light, FrameScene& keyframe)
+        : shot_(shot), shot_light_(shot_light), keyframe_(keyframe) {}
 
-    /// Gathers the estimates of the key moments around a frame, unless they are kept. Moves `moment`.
-    /// @param but  a moment that is prepared next, so that it need not be gathered here
+    /// Gathers the estimates of the lighting keyframes around a frame, unless they are kept. Moves `keyframe`.
+    /// @param but  a keyframe that is prepared next, so that it need not be gathered here
     void gather_around(std::int64_t frame, std::int64_t but, RayCounts& counts);
 
     /// The nodes of a frame, after gather_around.
     /// @param scene    prepared for the frame
     /// @param centers  hits through its pixel centres
     EstimateNodes find_nodes(std::int64_t frame, const FrameScene& scene, const SampleHits& centers, RayCounts& counts);
-    /// The same for a frame whose own gathers are not kept, even at a key moment.
+    /// The same for a frame whose own gathers are not kept, even at a lighting keyframe.
     EstimateNodes gather_nodes(std::int64_t frame, const FrameScene& scene, const SampleHits& centers,
                                RayCounts& counts) const;
 
@@ -42,8 +42,8 @@ class EstimateLight {
 
     const Shot& shot_;
     const std::optional<ShotLight>& shot_light_;
-    FrameScene& moment_;
-    mutable EstimateMoments kept_;
+    FrameScene& keyframe_;
+    mutable EstimateKeyframes kept_;
 };
 
 /// Lens and shutter of a frame, as far as its plan simulates them.
@@ -56,7 +56,7 @@ OpenLens find_open_lens(const Shot& shot, std::int64_t frame, const FrameScene& 
 /// The scene while the shutter of a frame is open, valid until the next call. It leaves out what the frame does.
 /// @param at       frames
 /// @param shutter  moved there
-SampleMoment open_scene(const Shot& shot, std::int64_t frame, double at, const FrameScene& scene, FrameScene& shutter);
+SampleScene open_scene(const Shot& shot, std::int64_t frame, double at, const FrameScene& scene, FrameScene& shutter);
 
 /// Blurs the sharp estimate by shutter and lens, if they are open.
 /// @param sharp  the estimate; replaced

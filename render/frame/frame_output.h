@@ -41,8 +41,9 @@ struct FrameStatistics {
     EffectsPlan plan;
     double plan_seconds = 0.0;  ///< that planning took, part of other stages
     double peak_memory_mib = 0.0;
-    /// Key moments that were computed for this frame, not counted above: those it needs that no frame before it did.
-    std::vector<MomentStatistics> moments;
+    /// Lighting keyframes that were computed for this frame, not counted above: those it needs that no frame before it
+    /// did.
+    std::vector<KeyframeStatistics> keyframes;
 };
 
 /// What is computed beyond the statistics.

@@ -48,11 +48,11 @@ Image<Outline> find_visible_outlines(const Shot& shot, const PreparedFrame& fram
     return outlines;
 }
 
-/// Of the light of key moments; nothing if the frame is one itself, or if nothing but the camera changes.
-std::optional<MomentRisk> find_risk(const SequenceState& s, std::int64_t frame) {
-    const std::vector<const ShadingScene*> moments = s.shot_light->scenes_around(frame);
-    if (moments.empty()) return std::nullopt;
-    return find_moment_risk(s.here.shading(), s.shot.pose_plan, moments);
+/// Of the light of lighting keyframes; nothing if the frame is one itself, or if nothing but the camera changes.
+std::optional<KeyframeRisk> find_risk(const SequenceState& s, std::int64_t frame) {
+    const std::vector<const ShadingScene*> keyframes = s.shot_light->scenes_around(frame);
+    if (keyframes.empty()) return std::nullopt;
+    return find_keyframe_risk(s.here.shading(), s.shot.pose_plan, keyframes);
 }
 
 }  // namespace
@@ -84,7 +84,7 @@ void shade_prepared(SequenceState& s, std::int64_t frame, PreparedFrame& prepare
                                s.shot.scene.viewing,
                                prepared.plan.effects.left_out_thresholds()};
     if (!out.threshold.empty()) options.limits = &limits;
-    std::optional<MomentRisk> risk;
+    std::optional<KeyframeRisk> risk;
     if (carried != nullptr) risk = find_risk(s, frame);
     if (risk) options.risk = &*risk;
     const LightingContext lighting = s.here.lighting();
@@ -118,7 +118,7 @@ FrameOutput render_frame(SequenceState& s, std::int64_t frame, const FrameReques
         total.add_to(stats.seconds.total);
         const TracedRays by_frame = s.traced() - before;
         std::unique_ptr<CarriedLight> carried;
-        if (options.light_lasts) carried = find_carried_light(s, frame, plan, stats.moments);
+        if (options.light_lasts) carried = find_carried_light(s, frame, plan, stats.keyframes);
         before = s.traced() - by_frame;
         total = {};
         s.here.leave_out(plan.effects);

@@ -92,7 +92,7 @@ FramePlan FramePlanner::begin(const FrameWork& work, const PosedView& posed) {
     plan.perceives = work.perceive;
     plan.maps = work.maps;
     plan.has_other = work.other != OtherFrame::none;
-    plan.moments = shot_.reads_moments();
+    plan.keyframes = shot_.reads_keyframes();
     if (work.perceive && plan.has_other && !work.edited) {
         const double now = posed.pose.seconds, other = shot_.seconds(other_frame_number(work.frame, work.other));
         plan.moves = !shot_.steady.is_steady(shot_.camera(work.frame), std::min(now, other), std::max(now, other));
@@ -114,7 +114,7 @@ EffectsPlan FramePlanner::make_plan(const FramePlan& plan, const std::optional<V
                          .maps = plan.maps,
                          .has_other = plan.has_other,
                          .moves = plan.moves,
-                         .moments = plan.moments,
+                         .keyframes = plan.keyframes,
                          .luminance_scale = shot_.exposure * shot_.scene.viewing.display_white},
                         visible);
 }

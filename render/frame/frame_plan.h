@@ -16,7 +16,7 @@ struct FramePlan {
     FrameFacts facts;
     ShutterFacts shutter;
     LensFacts lens;
-    bool perceives = false, maps = false, has_other = false, moves = true, moments = false;
+    bool perceives = false, maps = false, has_other = false, moves = true, keyframes = false;
     EffectsPlan effects;
     RenderSettings settings;  ///< the sequence's, without the indirect light that is skipped
     double seconds = 0.0;     ///< that planning took

@@ -10,7 +10,7 @@
 #include "render/light/light_choice.h"
 #include "render/plan/effects_plan.h"
 #include "render/shade/sample_shading.h"
-#include "render/time/moment_light.h"
+#include "render/time/keyframe_light.h"
 
 namespace aleph {
 
@@ -59,7 +59,7 @@ class FrameScene {
     const ShadingScene& shading() const { return *shading_; }
     LightingContext lighting() const { return {*shading_, lights_, *rays_}; }
     /// The scene while a sample is taken, valid until it is posed again.
-    SampleMoment moment() const { return {lighting(), posed_->view}; }
+    SampleScene sample_scene() const { return {lighting(), posed_->view}; }
 
     /// Rays that were traced so far, and those of them that were invalid.
     TracedRays traced() const { return rays_ ? TracedRays{rays_->rays_traced(), rays_->invalid_rays()} : TracedRays{}; }

@@ -82,7 +82,7 @@ void HeldFrame::keep(std::int64_t first, const FrameRequest& request, const Fram
     statistics.counts = {};
     statistics.traced_rays = statistics.invalid_rays = 0;
     statistics.instances_touched = 0;
-    statistics.moments.clear();
+    statistics.keyframes.clear();
 }
 
 }  // namespace aleph

@@ -55,7 +55,7 @@ PreparedFrame prepare_frame(Preparation& kept, FrameScene& here, FrameWork work)
             kept.estimate_light.gather_around(other_frame_number(work.frame, work.other), work.frame, counts);
     }
     clock.add_to(stats.seconds.estimate);
-    here.pose(work.frame);  // which gathering moved if `here` is where key moments are prepared
+    here.pose(work.frame);  // which gathering moved if `here` is where lighting keyframes are prepared
     work.other = kept.motion.pose_other(work, here.posed());
     clock.add_to(stats.seconds.pose);
 

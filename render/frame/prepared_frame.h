@@ -15,10 +15,10 @@ struct PreparedFrame {
 /// What preparing frames keeps from one to the next. All of it is updated to the same values as made anew.
 struct Preparation {
     /// Keeps references. @param shot_light  see EstimateLight
-    Preparation(const Shot& given, const std::optional<ShotLight>& shot_light, FrameScene& here, FrameScene& moment)
+    Preparation(const Shot& given, const std::optional<ShotLight>& shot_light, FrameScene& here, FrameScene& keyframe)
         : shot(given),
           planner(given),
-          estimate_light(given, shot_light, moment),
+          estimate_light(given, shot_light, keyframe),
           motion(given, here),
           shutter(given, here) {}
 

@@ -105,8 +105,9 @@ void Sequence::edit(const std::function<void(Scene&)>& change) {
 void Sequence::load_light(const std::filesystem::path& path) {
     SequenceState& s = state();
     if (!s.shot_light) {
-        throw InputError(path.string(), "",
-                         "a cache file needs key moments: the integrator cache, a light_step and an accuracy above 0");
+        throw InputError(
+            path.string(), "",
+            "a cache file needs lighting keyframes: the integrator cache, a light_step and an accuracy above 0");
     }
     s.shot_light->keep_records(read_cache_file(path, s.fingerprint()));
 }
@@ -150,13 +151,13 @@ LightTime Sequence::time_light(std::int64_t frame) {
     PreparedFrame prepared = s.prepare(first, s.shot.needs_perception(), false);
     SampleOptions options = find_sample_options(s, first, prepared.plan);
     options.light_only = true;
-    std::vector<MomentStatistics> filled;
+    std::vector<KeyframeStatistics> filled;
     std::unique_ptr<CarriedLight> carried;
     if (options.light_lasts) carried = find_carried_light(s, first, prepared.plan, filled);
     s.here.leave_out(prepared.plan.effects);
     shade_prepared(s, first, prepared, carried.get(), options);
     LightTime time{.fill = prepared.out.shaded.fill_seconds};
-    for (const MomentStatistics& moment : filled) time.moments += moment.seconds;
+    for (const KeyframeStatistics& keyframe : filled) time.keyframes += keyframe.seconds;
     s.rendered = true;
     return time;
 }

@@ -31,8 +31,8 @@ struct PartTimes {
 
 /// What the light of a frame took, with nothing shaded; s.
 struct LightTime {
-    double fill = 0.0;     ///< for this frame
-    double moments = 0.0;  ///< of the key moments that no frame before it needed
+    double fill = 0.0;       ///< for this frame
+    double keyframes = 0.0;  ///< of the lighting keyframes that no frame before it needed
 };
 
 /// Renders frames of one scene. It keeps the ray structures between frames, so that only what moves is updated; a frame
@@ -51,7 +51,7 @@ class Sequence {
     FrameOutput render(std::int64_t frame, const FrameRequest& request = {});
 
     /// Times a part of a frame's picture with each of some settings, in their order. Its light is computed for the part
-    /// alone, and not read from key moments.
+    /// alone, and not read from lighting keyframes.
     /// @param settings  that differ from the sequence's in what RenderSettings::error sets
     /// @param go_on     whether the next settings are to be timed; asked after all but the last
     /// @throws InputError as `render`
@@ -76,13 +76,13 @@ class Sequence {
     /// @throws InputError as the constructor does, and what `change` throws; this is then as it was before
     void edit(const std::function<void(Scene&)>& change);
 
-    /// Takes the light of key moments from a file that save_light wrote, if there is one. Frames have the same bytes
-    /// with and without it. To be called before the first frame.
+    /// Takes the light of lighting keyframes from a file that save_light wrote, if there is one. Frames have the same
+    /// bytes with and without it. To be called before the first frame.
     /// @throws InputError naming the file, if it is not a complete cache file of this scene, these settings and this
-    /// program, or if these settings have no key moments
+    /// program, or if these settings have no lighting keyframes
     void load_light(const std::filesystem::path& path);
 
-    /// Writes the light of all key moments that were loaded, and of those that were computed since.
+    /// Writes the light of all lighting keyframes that were loaded, and of those that were computed since.
     /// @throws OutputError; std::logic_error before load_light
     void save_light(const std::filesystem::path& path);
 

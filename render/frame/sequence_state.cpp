@@ -6,26 +6,26 @@ namespace aleph {
 
 namespace {
 
-/// The scene at key moments and as their cameras see it. Poses `moment` and, for first samples, the other frame's
-/// scene.
-MomentSource make_moment_source(SequenceState& s) {
+/// The scene at lighting keyframes and as their cameras see it. Poses `keyframe` and, for first samples, the other
+/// frame's scene.
+KeyframeSource make_keyframe_source(SequenceState& s) {
     const auto light = [&s](std::int64_t frame) {
-        s.moment.pose(frame);
-        s.moment.prepare();
-        return s.moment.lighting();
+        s.keyframe.pose(frame);
+        s.keyframe.prepare();
+        return s.keyframe.lighting();
     };
     const auto pose = [&s, light](std::int64_t frame) {
         light(frame);
         const auto key = std::make_shared<KeyPose>();
-        s.moment.copy_to(*key);
+        s.keyframe.copy_to(*key);
         return key;
     };
     const auto look = [&s](std::int64_t frame) {
         PreparedFrame prepared =
-            prepare_frame(s.preparation, s.moment, {.frame = frame, .perceive = s.shot.is_guided()});
+            prepare_frame(s.preparation, s.keyframe, {.frame = frame, .perceive = s.shot.is_guided()});
         const auto view = std::make_shared<KeyView>();
         view->frame = frame;
-        s.moment.copy_to(*view);
+        s.keyframe.copy_to(*view);
         view->accuracy = std::move(prepared.out.alpha);
         view->rays = prepared.out.statistics.counts.rays;
         return view;
@@ -48,13 +48,13 @@ SequenceState::SequenceState(Scene given, const RenderSettings& settings, const 
     : shot(std::move(given), settings, shots),
       holds(shot.scene, shot.pose_plan, shot.shots, [this](std::int64_t frame) { return shot.shutter(frame); }),
       here(shot, shot.pose_plan),
-      moment(shot, here),
+      keyframe(shot, here),
       light_breaks(shot.scene, shot.pose_plan, shot.shutter(shot.range.first)),
-      preparation(shot, shot_light, here, moment) {
-    if (!shot.reads_moments()) return;
+      preparation(shot, shot_light, here, keyframe) {
+    if (!shot.reads_keyframes()) return;
     const auto find_breaks = [this](std::int64_t first, std::int64_t last) { return light_breaks.find(first, last); };
-    shot_light.emplace(KeyMoments{shot.range, shot.scene.cuts, shot.settings.cache.light_step, find_breaks},
-                       shot.settings, !is_world_animated(shot.scene), !shot.can_change(), make_moment_source(*this));
+    shot_light.emplace(LightingKeyframes{shot.range, shot.scene.cuts, shot.settings.cache.light_step, find_breaks},
+                       shot.settings, !is_world_animated(shot.scene), !shot.can_change(), make_keyframe_source(*this));
 }
 
 PreparedFrame SequenceState::prepare(std::int64_t frame, bool perceive, bool maps) {
@@ -69,7 +69,7 @@ const CacheFingerprint& SequenceState::fingerprint() {
 }
 
 std::unique_ptr<CarriedLight> find_carried_light(SequenceState& s, std::int64_t frame, const FramePlan& plan,
-                                                 std::vector<MomentStatistics>& filled) {
+                                                 std::vector<KeyframeStatistics>& filled) {
     if (!s.shot_light || plan.skips(Effect::indirect_diffuse)) return nullptr;
     return s.shot_light->at(frame, filled);
 }

@@ -20,7 +20,7 @@ struct SequenceState {
     /// Prepares a frame in `here`.
     PreparedFrame prepare(std::int64_t frame, bool perceive, bool maps);
     TracedRays traced() const {
-        return here.traced() + moment.traced() + preparation.motion.traced() + preparation.shutter.traced();
+        return here.traced() + keyframe.traced() + preparation.motion.traced() + preparation.shutter.traced();
     }
     /// Of the scene, its settings and this program; made when it is first asked for.
     const CacheFingerprint& fingerprint();
@@ -28,10 +28,10 @@ struct SequenceState {
     Shot shot;
     Holds holds;
     HeldFrame held;
-    FrameScene here;    ///< the scene at the frame that is rendered
-    FrameScene moment;  ///< the scene at a key moment
+    FrameScene here;      ///< the scene at the frame that is rendered
+    FrameScene keyframe;  ///< the scene at a lighting keyframe
     LightBreaks light_breaks;
-    std::optional<ShotLight> shot_light;  ///< if frames read key moments
+    std::optional<ShotLight> shot_light;  ///< if frames read lighting keyframes
     Preparation preparation;
     bool rendered = false;  ///< a frame, which `here` shows
     std::optional<CacheFingerprint> cache_fingerprint;
@@ -40,13 +40,13 @@ struct SequenceState {
 /// How the samples of a prepared frame are taken.
 SampleOptions find_sample_options(SequenceState& s, std::int64_t frame, const FramePlan& plan);
 
-/// The light of the key moments around a frame; null if it reads none.
-/// @param filled  the moments that were computed for it are added
+/// The light of the lighting keyframes around a frame; null if it reads none.
+/// @param filled  the keyframes that were computed for it are added
 std::unique_ptr<CarriedLight> find_carried_light(SequenceState& s, std::int64_t frame, const FramePlan& plan,
-                                                 std::vector<MomentStatistics>& filled);
+                                                 std::vector<KeyframeStatistics>& filled);
 
 /// Fills the cache, shades the picture and adds their times and counts to the frame's statistics.
-/// @param carried  light of key moments; may be null
+/// @param carried  light of lighting keyframes; may be null
 void shade_prepared(SequenceState& s, std::int64_t frame, PreparedFrame& prepared, const CarriedLight* carried,
                     SampleOptions options, const FrameProgress& progress = {});
 

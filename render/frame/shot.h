@@ -54,8 +54,8 @@ struct Shot {
     bool estimates_indirect_light(int bounces) const {
         return bounces > 0 && settings.guide.estimate == EstimateKind::direct;
     }
-    /// Whether frames with a closed shutter read their indirect light from key moments.
-    bool reads_moments() const {
+    /// Whether frames with a closed shutter read their indirect light from lighting keyframes.
+    bool reads_keyframes() const {
         return settings.light.integrator == Integrator::cache && settings.cache.light_step > 0 &&
                settings.light.bounces > 0 && settings.light.path_depth > 1 && settings.cache.accuracy > 0.0;
     }

@@ -30,7 +30,7 @@ std::vector<ChannelInfo> picture_channels() {
         {{"samples.Y"}, "samples taken (render)", "samples taken; render only", "count, 0 and up", "count"},
         {{"records.Y"},
          "irradiance values computed in this pixel (render)",
-         "irradiance values computed for this frame in this pixel, without those of key moments; render only",
+         "irradiance values computed for this frame in this pixel, without those of lighting keyframes; render only",
          "count, 0 and up",
          "0"},
         {{"invalid.Y"},
@@ -52,7 +52,8 @@ std::vector<ChannelInfo> picture_channels() {
          "0"},
         {{"cache.count"},
          "cache records that indirect light is from (render)",
-         "records that indirect light was interpolated from, per sample, those of key moments included; 0 where it was "
+         "records that indirect light was interpolated from, per sample, those of lighting keyframes included; 0 where "
+         "it was "
          "gathered; render only",
          "count, 0 and up",
          "0"},

@@ -17,9 +17,9 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json moments_json(const std::vector<MomentStatistics>& moments) {
+Json keyframes_json(const std::vector<KeyframeStatistics>& keyframes) {
     Json list = Json::array();
-    for (const MomentStatistics& m : moments) {
+    for (const KeyframeStatistics& m : keyframes) {
         list.push_back({{"frame", m.frame},
                         {"records", m.counts.records},
                         {"deeper_records", m.counts.deeper_records},
@@ -81,7 +81,7 @@ Json frame_json(const FrameStatistics& f) {
           {"lookups", f.counts.cache.lookups},
           {"hits", f.counts.cache.hits},
           {"rounds", f.counts.cache.rounds}}},
-        {"moments", moments_json(f.moments)},
+        {"keyframes", keyframes_json(f.keyframes)},
         {"samples", f.counts.samples},
         {"error", error_json(f.error)},
         {"nan", f.counts.invalid_samples},

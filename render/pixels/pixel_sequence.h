@@ -62,10 +62,10 @@ class PixelSequence {
     static constexpr int length = 1 << 16;  ///< samples; more of them begin another, independent sequence
 
     /// @param seed    sequences of different seeds are independent
-    /// @param moment  so are those of different moments. It stays the same while the camera is at rest, and so does the
+    /// @param noise_key  so are those of different keys. It stays the same while the camera is at rest, and so does the
     ///                noise of what is at rest
-    PixelSequence(std::uint32_t seed, std::uint32_t moment, int x, int y)
-        : key_(mix_bits((std::uint64_t{seed} << 32 | moment) + 0x9e3779b97f4a7c15ull)),
+    PixelSequence(std::uint32_t seed, std::uint32_t noise_key, int x, int y)
+        : key_(mix_bits((std::uint64_t{seed} << 32 | noise_key) + 0x9e3779b97f4a7c15ull)),
           x_(static_cast<std::uint32_t>(x)),
           y_(static_cast<std::uint32_t>(y)) {}
 

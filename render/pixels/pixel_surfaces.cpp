@@ -23,7 +23,7 @@ glm::dvec2 sample_disc(const glm::vec2& u) {
 
 glm::dvec2 place_sample(const SamplePlace& place, int x, int y) {
     if (place.centered) return {x + 0.5, y + 0.5};
-    const glm::vec2 u = PixelSequence(place.seed, place.moment, x, y).at_2d(SampleUse::pixel, place.index);
+    const glm::vec2 u = PixelSequence(place.seed, place.noise_key, x, y).at_2d(SampleUse::pixel, place.index);
     return {x + 0.5 + place_in_filter(place.filter, u.x), y + 0.5 + place_in_filter(place.filter, u.y)};
 }
 
@@ -41,7 +41,7 @@ CameraRay make_lens_ray(const CameraView& view, const Lens& lens, const glm::dve
 CameraRay make_sample_ray(const CameraView& view, const SamplePlace& place, int x, int y) {
     const glm::dvec2 pixel = place_sample(place, x, y);
     if (!(place.lens.radius > 0.0)) return make_camera_ray(view, pixel.x, pixel.y);
-    const PixelSequence sequence(place.seed, place.moment, x, y);
+    const PixelSequence sequence(place.seed, place.noise_key, x, y);
     return make_lens_ray(view, place.lens, pixel, sequence.at_2d(SampleUse::lens, place.index));
 }
 

@@ -21,7 +21,7 @@ struct SamplePlace {
     float spacing = 1.0f;  ///< pixels between a pixel's samples; textures are averaged over it
     Lens lens;
     PixelFilter filter = PixelFilter::box;  ///< that samples are distributed by
-    std::uint32_t seed = 0, moment = 0;     ///< for the pixels' sequences
+    std::uint32_t seed = 0, noise_key = 0;  ///< for the pixels' sequences
     Blend blend = Blend::cutout;            ///< what blended surfaces do to the rays
 };
 

@@ -16,7 +16,7 @@ float find_spacing(const RenderSettings& settings, int index) {
     return 1.0f / std::sqrt(static_cast<float>(count));
 }
 
-SamplePlace make_sample_place(const RenderSettings& settings, const Lens& lens, bool blended, std::uint32_t moment,
+SamplePlace make_sample_place(const RenderSettings& settings, const Lens& lens, bool blended, std::uint32_t noise_key,
                               int index) {
     SamplePlace place;
     place.index = index;
@@ -25,7 +25,7 @@ SamplePlace make_sample_place(const RenderSettings& settings, const Lens& lens, 
     place.lens = lens;
     place.filter = settings.picture.filter;
     place.seed = settings.seed;
-    place.moment = moment;
+    place.noise_key = noise_key;
     place.blend = blended ? Blend::random : Blend::cutout;
     return place;
 }

@@ -11,8 +11,8 @@ namespace aleph {
 float find_spacing(const RenderSettings& settings, int index);
 
 /// Placing of sample `index` of the pixels. A single sample is the pixel's centre.
-/// @param moment  key of random numbers: the same in all frames if the camera never moves
-SamplePlace make_sample_place(const RenderSettings& settings, const Lens& lens, bool blended, std::uint32_t moment,
+/// @param noise_key  key of random numbers: the same in all frames if the camera never moves
+SamplePlace make_sample_place(const RenderSettings& settings, const Lens& lens, bool blended, std::uint32_t noise_key,
                               int index);
 
 }  // namespace aleph

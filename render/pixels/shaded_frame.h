@@ -52,8 +52,8 @@ struct FrameCounts {
     std::uint64_t invalid_samples = 0;  ///< pixel samples and irradiance values dropped for a NaN or infinity
 };
 
-/// What computing the light of a key moment took.
-struct MomentStatistics {
+/// What computing the light of a lighting keyframe took.
+struct KeyframeStatistics {
     std::int64_t frame = 0;
     FrameCounts counts;  ///< the quick estimates of its views included
     double seconds = 0.0;

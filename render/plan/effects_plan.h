@@ -93,7 +93,7 @@ struct PlanInput {
     bool maps = false;             ///< they are
     bool has_other = true;         ///< there is another frame to which the picture moves
     bool moves = true;             ///< something is at another place then
-    bool moments = false;          ///< key moments can serve the frame
+    bool keyframes = false;        ///< lighting keyframes can serve the frame
     double luminance_scale = 1.0;  ///< cd/m2 per radiance: exposure and the display's white
 };
 

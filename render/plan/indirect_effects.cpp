@@ -90,18 +90,20 @@ Finding find_caustics(Planning& frame) {
 }
 
 Finding find_carry_over(Planning& frame) {
-    if (!frame.in.moments) return skip("key moments are not in use");
+    if (!frame.in.keyframes) return skip("lighting keyframes are not in use");
     if (frame.plan.skips(Effect::indirect_diffuse)) return skip(no_indirect_light);
-    return simulate("indirect light comes from key moments");
+    return simulate("indirect light comes from lighting keyframes");
 }
 
 bool passes_light_on(const MaterialFacts& material, const FrameFacts& facts) {
     return material.diffuse > 0.0f && !facts.lights.empty();
 }
 
-template <int RenderSettings::*setting, int most>
+/// Limits a setting of a group: `Group` is the member of RenderSettings, `Field` that of the group.
+template <auto Group, auto Field, int most>
 void limit(RenderSettings& settings) {
-    settings.*setting = std::min(settings.*setting, most);
+    int& value = settings.*Group.*Field;
+    value = std::min(value, most);
 }
 
 constexpr Rgb green{0.0f, 0.6f, 0.1f}, light_green{0.5f, 0.9f, 0.4f};
@@ -111,13 +113,13 @@ constexpr Rgb green{0.0f, 0.6f, 0.1f}, light_green{0.5f, 0.9f, 0.4f};
 EffectTable indirect_effects() {
     return {
         {describe(Effect::indirect_diffuse), find_indirect_diffuse, green, passes_light_on, nullptr,
-         limit<&LightSettings::bounces, 0>},
+         limit<&RenderSettings::light, &LightSettings::bounces, 0>},
         {describe(Effect::more_bounces), find_more_bounces, light_green, passes_light_on, nullptr,
-         limit<&LightSettings::bounces, 1>},
+         limit<&RenderSettings::light, &LightSettings::bounces, 1>},
         {describe(Effect::caustics), find_caustics, violet, passes_light_on},
         {.effect = describe(Effect::cache_carry_over),
          .find = find_carry_over,
-         .turn_off = limit<&CacheSettings::light_step, 0>},
+         .turn_off = limit<&RenderSettings::cache, &CacheSettings::light_step, 0>},
     };
 }
 

@@ -60,7 +60,7 @@ inline constexpr auto effect_list = std::to_array<EffectName>({
     {Effect::deformation, "deformation", "skins, morph targets, point caches"},
     {Effect::motion, "motion", "motion of each pixel into the next frame"},
     {Effect::saliency, "saliency", "where viewers look"},
-    {Effect::cache_carry_over, "cache_carry_over", "indirect light from key moments"},
+    {Effect::cache_carry_over, "cache_carry_over", "indirect light from lighting keyframes"},
 });
 
 inline constexpr std::size_t effect_count = effect_list.size();

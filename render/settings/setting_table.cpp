@@ -165,11 +165,12 @@ std::vector<Setting> method_settings() {
             number_setting("min_radius_pixels", "least radius of a cache record, which reaches accuracy times as far",
                            at(&S::cache, &C::min_radius_pixels), 0.1, 1000.0),
             "pixels")),
-        with_unit(number_setting("light_step",
-                                 "frames between the key moments at which indirect light is computed for the frames "
-                                 "around them; 0: every frame computes its own",
-                                 at(&S::cache, &C::light_step), 0, 1000),
-                  "frames"),
+        with_unit(
+            number_setting("light_step",
+                           "frames between the lighting keyframes at which indirect light is computed for the frames "
+                           "around them; 0: every frame computes its own",
+                           at(&S::cache, &C::light_step), 0, 1000),
+            "frames"),
         number_setting("subdivision_level",
                        "level of every subdivision cage, at most its own max_level; -1: as fine as the pixels need",
                        at(&S::picture, &PictureSettings::subdivision_level), -1, 10),

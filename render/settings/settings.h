@@ -84,7 +84,7 @@ struct CacheSettings {
     double accuracy = 0.15;  ///< ambient accuracy alpha_Acc: smaller is more accurate; 0 gathers at every sample
     int gather = 0;          ///< hemisphere samples per irradiance value; 0: what the accuracy needs (choose_rays)
     double min_radius_pixels = 12.0;  ///< least R of a record (irradiance_record.h), pixels
-    int light_step = 10;              ///< frames between key moments of indirect light; 0: every frame computes its own
+    int light_step = 10;  ///< frames between lighting keyframes of indirect light; 0: every frame computes its own
 
     bool operator==(const CacheSettings&) const = default;
 };

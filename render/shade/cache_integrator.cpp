@@ -40,21 +40,20 @@ class CacheIntegrator final : public LightIntegrator {
         cache_.finish();
     }
 
-    void begin(const SampleMoment& moment) override {
-        moment_ = &moment;
+    void begin(const SampleScene& scene) override {
+        scene_ = &scene;
         const RenderSettings& settings = context_.settings;
         const bool blurred = static_cast<bool>(input_.options.at_sample);
         const bool uniform = settings.sampling.rule == Sampling::uniform;
         context_.seen = nullptr;
         shutter_.reset();
         if (blurred && cached_) {
-            shutter_.emplace(context_.lighting.shading, moment.lighting.shading, context_.carried, &cache_,
-                             shade_reach);
-            context_.seen = &moment.lighting.shading;
+            shutter_.emplace(context_.lighting.shading, scene.lighting.shading, context_.carried, &cache_, shade_reach);
+            context_.seen = &scene.lighting.shading;
         }
         shading_.emplace(
             SampleShading{.context = context_,
-                          .moment = input_.moment,
+                          .noise_key = input_.noise_key,
                           .indirect = indirect_,
                           .cache = cached_ ? &cache_ : nullptr,
                           .known = blurred ? nullptr : &known_,
@@ -69,7 +68,7 @@ class CacheIntegrator final : public LightIntegrator {
     }
 
     bool shade(ShadingTask& task, const PixelSurface& surface, const PixelSamples& pixel, SampleLight& light) override {
-        return shade_sample(*shading_, *moment_, task, surface, pixel, light);
+        return shade_sample(*shading_, *scene_, task, surface, pixel, light);
     }
 
     void fill_waiting(const std::vector<PendingSample>& waiting) override {
@@ -77,7 +76,7 @@ class CacheIntegrator final : public LightIntegrator {
     }
 
     void add_waiting(ShadingTask& task, PendingSample& sample) override {
-        add_indirect(*shading_, *moment_, task, sample.surface, sample.light);
+        add_indirect(*shading_, *scene_, task, sample.surface, sample.light);
     }
 
     void resolve(const Image<PixelSamples>& pixels, double exposure) override {
@@ -105,7 +104,7 @@ class CacheIntegrator final : public LightIntegrator {
     Image<RecordUse> uses_;  ///< empty: not asked for
     std::optional<ShutterLight> shutter_;
     std::optional<SampleShading> shading_;  ///< since `begin`
-    const SampleMoment* moment_ = nullptr;
+    const SampleScene* scene_ = nullptr;
 };
 
 }  // namespace

@@ -30,7 +30,7 @@ class FrameShading {
           out_(out),
           pixels_(context.view.width, context.view.height),
           place_(make_sample_place(context.settings, options.lens, options.blended, context.frame, 0)),
-          integrator_(make_integrator({context, options, out, place_.moment, systematic_})) {
+          integrator_(make_integrator({context, options, out, place_.noise_key, systematic_})) {
         const bool as_centers = !options.at_sample && !options.blended && !(options.lens.radius > 0.0);
         if (place_.centered && as_centers) first_ = &centers;
     }
@@ -86,8 +86,8 @@ class FrameShading {
         ++stage_;
     }
 
-    void take_at(const SampleMoment& moment, std::span<const PixelRange> ranges) {
-        integrator_->begin(moment);
+    void take_at(const SampleScene& scene, std::span<const PixelRange> ranges) {
+        integrator_->begin(scene);
         std::size_t begin = 0, end = 0;
         while (begin < ranges.size()) {
             int samples = 0;
@@ -95,40 +95,40 @@ class FrameShading {
                 samples += ranges[end].last - ranges[end].first;
                 ++end;
             }
-            take_slice(moment, ranges.subspan(begin, end - begin));
+            take_slice(scene, ranges.subspan(begin, end - begin));
             report_progress(static_cast<double>(end) / static_cast<double>(ranges.size()));
             begin = end;
         }
     }
 
     /// Takes samples, and then finds the light of those that the cache did not cover.
-    void take_slice(const SampleMoment& moment, std::span<const PixelRange> ranges) {
+    void take_slice(const SampleScene& scene, std::span<const PixelRange> ranges) {
         std::vector<std::vector<PendingSample>> waiting((ranges.size() + task_ranges - 1) / task_ranges);
         parallel_for(ranges.size(), task_ranges, [&](std::size_t begin, std::size_t end) {
             thread_local GatherScratch scratch;
-            ShadingTask task(moment.lighting.rays, context_.lighting.rays, scratch);
-            take_ranges(moment, task, ranges.subspan(begin, end - begin), waiting[begin / task_ranges]);
+            ShadingTask task(scene.lighting.rays, context_.lighting.rays, scratch);
+            take_ranges(scene, task, ranges.subspan(begin, end - begin), waiting[begin / task_ranges]);
             finish(task);
         });
         std::vector<PendingSample> pending;
         for (const auto& chunk : waiting) pending.insert(pending.end(), chunk.begin(), chunk.end());
         waiting.clear();
         integrator_->fill_waiting(pending);
-        add_pending(moment, pending);
+        add_pending(scene, pending);
     }
 
-    void take_ranges(const SampleMoment& moment, ShadingTask& task, std::span<const PixelRange> ranges,
+    void take_ranges(const SampleScene& scene, ShadingTask& task, std::span<const PixelRange> ranges,
                      std::vector<PendingSample>& waiting) {
-        SamplePacket samples(moment, task);
+        SamplePacket samples(scene, task);
         const auto shade = [&](const SamplePlace& at, int x, int y, const glm::vec3& direction, const Hit& hit) {
             SampleLight light;
             if (hit.instance == no_index) {
-                light[LightPart::surface] = environment_radiance(moment.lighting.shading, direction);
+                light[LightPart::surface] = environment_radiance(scene.lighting.shading, direction);
                 add_sample(task, x, y, light);
                 return;
             }
             const PixelSurface surface =
-                make_pixel_surface(moment.lighting.shading, moment.view, at, hit, direction, x, y);
+                make_pixel_surface(scene.lighting.shading, scene.view, at, hit, direction, x, y);
             begin_light(surface, light);
             if (integrator_->shade(task, surface, pixels_(x, y), light)) {
                 add_sample(task, x, y, light);
@@ -146,15 +146,15 @@ class FrameShading {
         samples.finish(shade);
     }
 
-    void add_pending(const SampleMoment& moment, std::vector<PendingSample>& pending) {
+    void add_pending(const SampleScene& scene, std::vector<PendingSample>& pending) {
         if (pending.empty()) return;
         parallel_for(pending.size(), task_ranges, [&](std::size_t begin, std::size_t end) {
             thread_local GatherScratch scratch;
-            ShadingTask task(moment.lighting.rays, context_.lighting.rays, scratch);
+            ShadingTask task(scene.lighting.rays, context_.lighting.rays, scratch);
             for (std::size_t i = begin; i < end; ++i) integrator_->add_waiting(task, pending[i]);
             finish(task);
         });
-        ShadingTask task(moment.lighting.rays, context_.lighting.rays, pending_scratch_);
+        ShadingTask task(scene.lighting.rays, context_.lighting.rays, pending_scratch_);
         for (const PendingSample& sample : pending) {
             add_sample(task, sample.surface.x, sample.surface.y, sample.light);
         }

@@ -5,7 +5,7 @@
 #include "render/pixels/picture_part.h"
 #include "render/shade/error_budget.h"
 #include "render/shade/sample_shading.h"
-#include "render/time/moment_check.h"
+#include "render/time/keyframe_check.h"
 
 namespace aleph {
 
@@ -16,9 +16,9 @@ struct SampleOptions {
     bool record_maps = false;  ///< fill ShadedFrame::cache_count and cache_radius
     /// The scene at a sample's time, valid until the next call; empty: the shutter opens for no time.
     /// @param time_class  of the pixel (shutter.h)
-    std::function<SampleMoment(int sample, int time_class)> at_sample;
-    bool light_lasts = true;           ///< while the shutter is open; otherwise indirect light is found by paths then
-    const MomentRisk* risk = nullptr;  ///< of carried light; null: it need not be checked
+    std::function<SampleScene(int sample, int time_class)> at_sample;
+    bool light_lasts = true;             ///< while the shutter is open; otherwise indirect light is found by paths then
+    const KeyframeRisk* risk = nullptr;  ///< of carried light; null: it need not be checked
     /// What the samples may err by; null: not known, which Sampling::uniform alone allows.
     const VisibleLimits* limits = nullptr;
     const PicturePart* part = nullptr;  ///< pixels that are lit and shaded, without a picture; null: all

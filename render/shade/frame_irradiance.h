@@ -1,5 +1,6 @@
 #pragma once
-// The indirect irradiance that a frame knows before it is shaded: that of key moments, and that of its own cache.
+// The indirect irradiance that a frame knows before it is shaded: that of lighting keyframes, and that of its own
+// cache.
 
 #include "render/cache/indirect_context.h"
 #include "render/path/known_irradiance.h"

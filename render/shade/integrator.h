@@ -24,7 +24,7 @@ class LightIntegrator {
     virtual void fill(const SampleHits& first);
 
     /// Samples are taken at this time until the next call.
-    virtual void begin(const SampleMoment& moment) = 0;
+    virtual void begin(const SampleScene& scene) = 0;
 
     /// Finds the light that a pixel's surface sends to the camera. Called from any thread.
     /// @param pixel  its samples so far
@@ -46,7 +46,7 @@ struct IntegratorInput {
     const IndirectContext& context;
     const SampleOptions& options;
     ShadedFrame& out;
-    std::uint32_t moment = 0;  ///< SamplePlace::moment
+    std::uint32_t noise_key = 0;  ///< SamplePlace::noise_key
     /// Errors that do not fall with the number of samples; empty: nothing may be left out.
     const std::optional<SystematicTolerance>& tolerance;
 };

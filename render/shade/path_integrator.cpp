@@ -11,14 +11,14 @@ class PathIntegrator final : public LightIntegrator {
   public:
     explicit PathIntegrator(const IntegratorInput& input) : input_(input) {}
 
-    void begin(const SampleMoment& moment) override { moment_ = &moment; }
+    void begin(const SampleScene& scene) override { scene_ = &scene; }
 
     bool shade(ShadingTask& task, const PixelSurface& surface, const PixelSamples&, SampleLight& light) override {
         const RenderSettings& settings = input_.context.settings;
-        RandomStream random = path_stream(settings.seed, input_.moment, surface);
+        RandomStream random = path_stream(settings.seed, input_.noise_key, surface);
         const Rgb left = share_left(surface);
         light[LightPart::surface] = surface.material.emission * left;
-        light[LightPart::gloss] = scatter_light(moment_->lighting, task, surface, start_path(settings), random) * left;
+        light[LightPart::gloss] = scatter_light(scene_->lighting, task, surface, start_path(settings), random) * left;
         return true;
     }
 
@@ -28,7 +28,7 @@ class PathIntegrator final : public LightIntegrator {
 
   private:
     const IntegratorInput input_;
-    const SampleMoment* moment_ = nullptr;
+    const SampleScene* scene_ = nullptr;
 };
 
 }  // namespace

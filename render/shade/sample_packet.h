@@ -10,13 +10,13 @@ namespace aleph {
 
 class SamplePacket {
   public:
-    SamplePacket(const SampleMoment& moment, ShadingTask& task) : moment_(moment), task_(task) {}
+    SamplePacket(const SampleScene& scene, ShadingTask& task) : scene_(scene), task_(task) {}
 
     bool is_full() const { return size_ == capacity; }
     /// @param known  the hit of its ray; null: not cast yet
     void add(const SamplePlace& place, int x, int y, const Hit* known) {
-        const CameraRay ray = make_sample_ray(moment_.view, place, x, y);
-        const RayScene& rays = moment_.lighting.rays;
+        const CameraRay ray = make_sample_ray(scene_.view, place, x, y);
+        const RayScene& rays = scene_.lighting.rays;
         entries_[size_] = {place, x, y, glm::vec3(ray.direction), known == nullptr ? Hit{} : *known};
         if (known == nullptr) {
             uncast_[uncast_count_] = size_;
@@ -49,7 +49,7 @@ class SamplePacket {
         glm::vec3 direction{0.0f};
         Hit hit;
     };
-    const SampleMoment& moment_;
+    const SampleScene& scene_;
     ShadingTask& task_;
     std::size_t size_ = 0, uncast_count_ = 0;
     std::array<Entry, capacity> entries_;

@@ -14,10 +14,10 @@ constexpr int lights_in_mirrors = 4;  // PathState::light_samples
 
 RandomStream path_stream(const SampleShading& shading, const PixelSurface& surface,
                          std::uint32_t mask = path_seed_mask) {
-    return path_stream(shading.context.settings.seed, shading.moment, surface, mask);
+    return path_stream(shading.context.settings.seed, shading.noise_key, surface, mask);
 }
 
-/// Indirect irradiance from key moments or from the cache; nothing where neither has a record.
+/// Indirect irradiance from lighting keyframes or from the cache; nothing where neither has a record.
 std::optional<Rgb> read_irradiance(const SampleShading& shading, ShadingTask& task, const PixelSurface& surface) {
     const IndirectContext& context = shading.context;
     const float accuracy = context.accuracy(surface.x, surface.y);
@@ -67,11 +67,11 @@ std::optional<Rgb> read_blurred(const SampleShading& shading, ShadingTask& task,
 }
 
 /// Indirect irradiance at the sample's own time, from one random path.
-Rgb sample_path(const SampleShading& shading, const SampleMoment& moment, ShadingTask& task,
+Rgb sample_path(const SampleShading& shading, const SampleScene& scene, ShadingTask& task,
                 const PixelSurface& surface) {
     const RenderSettings& settings = shading.context.settings;
     RandomStream random = path_stream(shading, surface, irradiance_seed_mask);
-    return find_deeper_irradiance(moment.lighting, task, surface.point, {settings.light.bounces},
+    return find_deeper_irradiance(scene.lighting, task, surface.point, {settings.light.bounces},
                                   settings.light.path_depth - 1, random);
 }
 
@@ -115,15 +115,15 @@ Rgb sample_lobes(const SampleShading& shading, const LightingContext& lighting, 
 }
 
 /// @param irradiance  indirect; nothing where it is not known
-void add_with_cache(const SampleShading& shading, const SampleMoment& moment, ShadingTask& task,
+void add_with_cache(const SampleShading& shading, const SampleScene& scene, ShadingTask& task,
                     const PixelSurface& surface, const std::optional<Rgb>& irradiance, SampleLight& light) {
-    const LightingContext& lighting = moment.lighting;
+    const LightingContext& lighting = scene.lighting;
     const RenderSettings& settings = shading.context.settings;
     const LitSurface lit(surface);
     const SampledLobes lobes = choose_lobes(shading, surface, lit, irradiance);
     light[LightPart::surface] = surface.material.emission + lobes.radiance;
     if (shading.light_samples == 0) {
-        RandomStream random({settings.seed, shading.moment, surface.pixel, 0});  // one lattice for all samples
+        RandomStream random({settings.seed, shading.noise_key, surface.pixel, 0});  // one lattice for all samples
         RandomStream path_random = path_stream(shading, surface);
         LightPoints points = shading.points;
         points.part = surface.sample;
@@ -133,7 +133,7 @@ void add_with_cache(const SampleShading& shading, const SampleMoment& moment, Sh
         light[LightPart::gloss] = sampled.lobes;
         return;
     }
-    const PixelSequence sequence(settings.seed, shading.moment, surface.x, surface.y);
+    const PixelSequence sequence(settings.seed, shading.noise_key, surface.x, surface.y);
     DirectSamples samples{surface.sample * shading.light_samples, shading.light_samples};
     if (shading.tolerance != nullptr) samples.tolerance = shading.tolerance->lights(surface.x, surface.y);
     light[LightPart::direct] = sample_direct_light(lighting, task, lit, lobes.shares, sequence, samples);
@@ -153,8 +153,8 @@ std::optional<Rgb> look_up(const SampleShading& shading, ShadingTask& task, cons
 
 }  // namespace
 
-RandomStream path_stream(std::uint32_t seed, std::uint32_t moment, const PixelSurface& surface, std::uint32_t mask) {
-    return RandomStream({seed ^ mask, moment, surface.pixel, static_cast<std::uint32_t>(surface.sample)});
+RandomStream path_stream(std::uint32_t seed, std::uint32_t noise_key, const PixelSurface& surface, std::uint32_t mask) {
+    return RandomStream({seed ^ mask, noise_key, surface.pixel, static_cast<std::uint32_t>(surface.sample)});
 }
 
 PathState start_path(const RenderSettings& settings) {
@@ -176,7 +176,7 @@ void begin_light(const PixelSurface& surface, SampleLight& light) {
     light.normal = surface.point.normal;
 }
 
-bool shade_sample(const SampleShading& shading, const SampleMoment& moment, ShadingTask& task,
+bool shade_sample(const SampleShading& shading, const SampleScene& scene, ShadingTask& task,
                   const PixelSurface& surface, const PixelSamples& pixel, SampleLight& light) {
     const bool needs_irradiance = shading.indirect && surface.material.has_diffuse();
     std::optional<Rgb> irradiance;
@@ -185,23 +185,23 @@ bool shade_sample(const SampleShading& shading, const SampleMoment& moment, Shad
         irradiance = pixel.find_irradiance(light);
         if (!irradiance) irradiance = light.irradiance = look_up(shading, task, surface, waits);
     }
-    add_with_cache(shading, moment, task, surface, irradiance, light);
+    add_with_cache(shading, scene, task, surface, irradiance, light);
     const Rgb left = share_left(surface);
     for (Rgb& part : light.parts) part *= left;
     if (!needs_irradiance) return true;
     if (!irradiance && !waits) {
         irradiance =
-            shading.blurred ? sample_path(shading, moment, task, surface) : gather_irradiance(shading, task, surface);
+            shading.blurred ? sample_path(shading, scene, task, surface) : gather_irradiance(shading, task, surface);
     }
     if (irradiance) add_irradiance(surface, *irradiance, light);
     return irradiance.has_value();
 }
 
-void add_indirect(const SampleShading& shading, const SampleMoment& moment, ShadingTask& task,
+void add_indirect(const SampleShading& shading, const SampleScene& scene, ShadingTask& task,
                   const PixelSurface& surface, SampleLight& light) {
     if (shading.blurred) {
         const std::optional<Rgb> blurred = read_blurred(shading, task, surface, nullptr);
-        add_irradiance(surface, blurred ? *blurred : sample_path(shading, moment, task, surface), light);
+        add_irradiance(surface, blurred ? *blurred : sample_path(shading, scene, task, surface), light);
         return;
     }
     const std::optional<Rgb> irradiance = read_irradiance(shading, task, surface);

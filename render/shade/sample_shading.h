@@ -12,7 +12,7 @@
 namespace aleph {
 
 /// The scene while a sample is taken.
-struct SampleMoment {
+struct SampleScene {
     LightingContext lighting;
     const CameraView& view;
 };
@@ -38,9 +38,9 @@ struct SystematicTolerance {
 /// How a frame's samples are shaded.
 struct SampleShading {
     const IndirectContext& context;
-    std::uint32_t moment = 0;  ///< of SamplePlace
-    bool indirect = false;     ///< there is indirect light
-    /// Finished; null: irradiance that no key moment knows is gathered at every sample.
+    std::uint32_t noise_key = 0;  ///< of SamplePlace
+    bool indirect = false;        ///< there is indirect light
+    /// Finished; null: irradiance that no lighting keyframe knows is gathered at every sample.
     const IrradianceCache* cache = nullptr;
     const KnownIrradiance* known = nullptr;  ///< to paths from lobes; null: they find all light by themselves
     bool blurred = false;                    ///< the shutter is open: what `shutter` does not know is found by paths
@@ -57,8 +57,8 @@ struct SampleShading {
 inline constexpr std::uint32_t path_seed_mask = 0x70617468u;
 
 /// Random numbers of a pixel sample's path.
-/// @param moment  SamplePlace::moment
-RandomStream path_stream(std::uint32_t seed, std::uint32_t moment, const PixelSurface& surface,
+/// @param noise_key  SamplePlace::noise_key
+RandomStream path_stream(std::uint32_t seed, std::uint32_t noise_key, const PixelSurface& surface,
                          std::uint32_t mask = path_seed_mask);
 
 /// A path of the settings' length that begins at a pixel's surface.
@@ -75,12 +75,12 @@ void begin_light(const PixelSurface& surface, SampleLight& light);
 /// @param pixel  its samples so far
 /// @param light  after begin_light
 /// @return false: the cache has no record here, and `light` lacks indirect light (add_indirect)
-bool shade_sample(const SampleShading& shading, const SampleMoment& moment, ShadingTask& task,
+bool shade_sample(const SampleShading& shading, const SampleScene& scene, ShadingTask& task,
                   const PixelSurface& surface, const PixelSamples& pixel, SampleLight& light);
 
 /// Adds the indirect light that shade_sample did not find. Where there is still no record, it is gathered, or
 /// comes from a path while the shutter is open.
-void add_indirect(const SampleShading& shading, const SampleMoment& moment, ShadingTask& task,
+void add_indirect(const SampleShading& shading, const SampleScene& scene, ShadingTask& task,
                   const PixelSurface& surface, SampleLight& light);
 
 }  // namespace aleph

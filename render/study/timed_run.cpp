@@ -28,18 +28,18 @@ FrameRun describe_frame(const FrameStatistics& statistics) {
     run.plan = to_json(statistics.plan).dump();
     const bool copied = statistics.copy_of.has_value();
     RayCounts rays = copied ? RayCounts() : statistics.counts.rays;
-    double moments = 0.0;
+    double keyframes = 0.0;
     if (!copied) run.records = static_cast<double>(statistics.counts.records);
     for (const auto& [stage, seconds] : list_stages(statistics.seconds)) {
         if (stage != std::string_view("total") && stage != std::string_view("write"))
             run.stages.emplace_back(stage, copied ? 0.0 : seconds);
     }
-    for (const MomentStatistics& moment : statistics.moments) {
-        rays += moment.counts.rays;
-        run.records += static_cast<double>(moment.counts.records);
-        moments += moment.seconds;
+    for (const KeyframeStatistics& keyframe : statistics.keyframes) {
+        rays += keyframe.counts.rays;
+        run.records += static_cast<double>(keyframe.counts.records);
+        keyframes += keyframe.seconds;
     }
-    run.stages.emplace_back("moments", moments);
+    run.stages.emplace_back("keyframes", keyframes);
     run.rays = list_rays(rays);
     return run;
 }

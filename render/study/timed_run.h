@@ -13,12 +13,12 @@
 
 namespace aleph {
 
-/// What a frame took, the key moments that it was the first to need included.
+/// What a frame took, the lighting keyframes that it was the first to need included.
 struct FrameRun {
     std::int64_t frame = 0;
     double processor_seconds = 0.0;  ///< of all threads
     double wall_seconds = 0.0;
-    std::vector<std::pair<std::string, double>> stages;  ///< seconds of a clock; "moments" last
+    std::vector<std::pair<std::string, double>> stages;  ///< seconds of a clock; "keyframes" last
     std::vector<std::pair<std::string, double>> rays;    ///< by kind
     double samples = 0.0;                                ///< per pixel
     double records = 0.0;
@@ -29,7 +29,7 @@ struct FrameRun {
 using SaveFrame = std::function<void(std::int64_t frame, const ChannelImage& picture)>;
 
 /// Renders the frames in order with one Sequence, as `aleph render` does, so that later frames find the light of key
-/// moments that earlier ones needed. The pictures hold R, G, B, A, indirect.R/G/B and every map that rendering makes
+/// keyframes that earlier ones needed. The pictures hold R, G, B, A, indirect.R/G/B and every map that rendering makes
 /// anyway. Writing files is not timed.
 /// @param progress  called with the share that is done, 0 to 1; may be empty
 /// @throws InputError as Sequence

@@ -112,15 +112,15 @@ CacheFingerprint make_cache_fingerprint(const Scene& scene, const RenderSettings
 }
 
 void write_cache_file(const std::filesystem::path& path, const CacheFingerprint& fingerprint,
-                      const MomentRecords& moments) {
+                      const KeyframeRecords& keyframes) {
     Writer out;
     const std::string text = format_fingerprint(fingerprint);
     out.bytes(magic.data(), magic.size());
     out.value(std::uint64_t{text.size()});
     out.bytes(text.data(), text.size());
     out.value(std::uint64_t{sizeof(IrradianceRecord)});
-    out.value(std::uint64_t{moments.size()});
-    for (const auto& [frame, records] : moments) {
+    out.value(std::uint64_t{keyframes.size()});
+    for (const auto& [frame, records] : keyframes) {
         out.value(frame);
         out.value(std::uint64_t{records.size()});
         out.bytes(records.data(), records.size() * sizeof(IrradianceRecord));
@@ -128,7 +128,7 @@ void write_cache_file(const std::filesystem::path& path, const CacheFingerprint&
     write_file(path, out.finish());
 }
 
-MomentRecords read_cache_file(const std::filesystem::path& path, const CacheFingerprint& fingerprint) {
+KeyframeRecords read_cache_file(const std::filesystem::path& path, const CacheFingerprint& fingerprint) {
     if (!std::filesystem::exists(path)) return {};
     const std::string file = path.string();
     const Bytes bytes = read_regular_file(path, file, "");
@@ -146,14 +146,14 @@ MomentRecords read_cache_file(const std::filesystem::path& path, const CacheFing
     const std::string difference = find_difference(found, fingerprint);
     if (!difference.empty()) throw InputError(file, "", "the cache file cannot be used: " + difference);
     if (in.value<std::uint64_t>() != sizeof(IrradianceRecord)) in.damaged();
-    MomentRecords moments;
+    KeyframeRecords keyframes;
     const auto count = in.value<std::uint64_t>();
     for (std::uint64_t i = 0; i < count; ++i) {
         const auto frame = in.value<std::int64_t>();
-        moments[frame] = in.records();
+        keyframes[frame] = in.records();
     }
     if (!in.at_end()) in.damaged();
-    return moments;
+    return keyframes;
 }
 
 }  // namespace aleph

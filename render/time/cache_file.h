@@ -1,10 +1,10 @@
 #pragma once
-// The records of key moments in a file, so that a later run of the same scene, settings and program need not compute
-// them again.
+// The records of lighting keyframes in a file, so that a later run of the same scene, settings and program need not
+// compute them again.
 //
 // Layout, in the byte order of the machine: 8 bytes of magic; the size of the fingerprint (uint64) and its text; the
-// size of a record (uint64); the number of moments (uint64); per moment its frame (int64), the number of its records
-// (uint64) and the records; SHA-1 of all bytes before, 40 hexadecimal digits.
+// size of a record (uint64); the number of keyframes (uint64); per keyframe its frame (int64), the number of its
+// records (uint64) and the records; SHA-1 of all bytes before, 40 hexadecimal digits.
 
 #include <filesystem>
 #include <map>
@@ -17,8 +17,8 @@
 
 namespace aleph {
 
-/// The records of each key moment, by its frame.
-using MomentRecords = std::map<std::int64_t, std::vector<IrradianceRecord>>;
+/// The records of each lighting keyframe, by its frame.
+using KeyframeRecords = std::map<std::int64_t, std::vector<IrradianceRecord>>;
 
 /// What records depend on.
 struct CacheFingerprint {
@@ -35,11 +35,11 @@ CacheFingerprint make_cache_fingerprint(const Scene& scene, const RenderSettings
 /// Replaces the file, whole or not at all.
 /// @throws OutputError
 void write_cache_file(const std::filesystem::path& path, const CacheFingerprint& fingerprint,
-                      const MomentRecords& moments);
+                      const KeyframeRecords& keyframes);
 
 /// @return nothing if there is no such file
 /// @throws InputError naming the file: it cannot be read, is no cache file, is damaged or not complete, or is of
 /// another build, scene or setting
-MomentRecords read_cache_file(const std::filesystem::path& path, const CacheFingerprint& fingerprint);
+KeyframeRecords read_cache_file(const std::filesystem::path& path, const CacheFingerprint& fingerprint);
 
 }  // namespace aleph

@@ -9,7 +9,7 @@ namespace aleph {
 namespace {
 
 /// The half of a pair that holds a frame; the middle itself at the middle.
-MomentPair find_half(const MomentPair& pair, std::int64_t middle, std::int64_t frame) {
+KeyframePair find_half(const KeyframePair& pair, std::int64_t middle, std::int64_t frame) {
     if (frame == middle) return {middle, middle, 0.0};
     const std::int64_t before = frame < middle ? pair.before : middle, after = frame < middle ? middle : pair.after;
     return {before, after, static_cast<double>(frame - before) / static_cast<double>(after - before)};
@@ -17,28 +17,29 @@ MomentPair find_half(const MomentPair& pair, std::int64_t middle, std::int64_t f
 
 }  // namespace
 
-ShotLight::ShotLight(KeyMoments moments, const RenderSettings& settings, bool still, bool unmoving, MomentSource source)
-    : moments_(std::move(moments)),
+ShotLight::ShotLight(LightingKeyframes keyframes, const RenderSettings& settings, bool still, bool unmoving,
+                     KeyframeSource source)
+    : keyframes_(std::move(keyframes)),
       settings_(settings),
       still_(still),
       unmoving_(unmoving),
       source_(std::move(source)) {}
 
-/// Where only the camera moves, a moment's light holds at all moments, so each needs its own view only.
-std::vector<std::int64_t> ShotLight::list_views(std::int64_t moment) const {
-    if (still_) return {moment};
-    return find_moment_views(moments_, moment);
+/// Where only the camera moves, a keyframe's light holds at all keyframes, so each needs its own view only.
+std::vector<std::int64_t> ShotLight::list_views(std::int64_t keyframe) const {
+    if (still_) return {keyframe};
+    return find_keyframe_views(keyframes_, keyframe);
 }
 
-std::int64_t ShotLight::find_base(std::int64_t moment) const {
-    return still_ && !unmoving_ ? find_base_moment(moments_, moment) : moment;
+std::int64_t ShotLight::find_base(std::int64_t keyframe) const {
+    return still_ && !unmoving_ ? find_base_keyframe(keyframes_, keyframe) : keyframe;
 }
 
-std::vector<IrradianceRecord> ShotLight::compute(std::int64_t moment, const std::vector<std::int64_t>& frames,
-                                                 const CarriedLight* carried, const MomentLight* base,
-                                                 std::vector<MomentStatistics>& filled) {
-    MomentStatistics statistics;
-    statistics.frame = moment;
+std::vector<IrradianceRecord> ShotLight::compute(std::int64_t keyframe, const std::vector<std::int64_t>& frames,
+                                                 const CarriedLight* carried, const KeyframeLight* base,
+                                                 std::vector<KeyframeStatistics>& filled) {
+    KeyframeStatistics statistics;
+    statistics.frame = keyframe;
     StageClock clock;
     std::vector<std::shared_ptr<const KeyView>> views;
     for (const std::int64_t frame : frames) {
@@ -49,48 +50,48 @@ std::vector<IrradianceRecord> ShotLight::compute(std::int64_t moment, const std:
         }
         views.push_back(view);
     }
-    const LightingContext lighting = source_.light(moment);
-    const MomentInput input{moment, lighting, views, settings_, source_.cast, carried, base};
+    const LightingContext lighting = source_.light(keyframe);
+    const KeyframeInput input{keyframe, lighting, views, settings_, source_.cast, carried, base};
     std::vector<IrradianceRecord> records = compute_records(input, statistics.counts);
     clock.add_to(statistics.seconds);
     filled.push_back(statistics);
     return records;
 }
 
-void ShotLight::prepare(std::int64_t moment, const std::vector<std::int64_t>& views, const CarriedLight* carried,
-                        std::vector<MomentStatistics>& filled) {
-    std::shared_ptr<const MomentLight>& light = lights_[moment];
+void ShotLight::prepare(std::int64_t keyframe, const std::vector<std::int64_t>& views, const CarriedLight* carried,
+                        std::vector<KeyframeStatistics>& filled) {
+    std::shared_ptr<const KeyframeLight>& light = lights_[keyframe];
     if (light) return;
-    const bool known = records_ && records_->contains(moment);
-    const std::int64_t base = find_base(moment);
-    if (!known && base != moment) prepare(base, list_views(base), nullptr, filled);
+    const bool known = records_ && records_->contains(keyframe);
+    const std::int64_t base = find_base(keyframe);
+    if (!known && base != keyframe) prepare(base, list_views(base), nullptr, filled);
     const std::vector<IrradianceRecord> records =
-        known ? records_->at(moment)
-              : compute(moment, views, carried, base == moment ? nullptr : lights_.at(base).get(), filled);
-    light = std::make_shared<MomentLight>(make_moment_light(source_.pose(moment), records));
-    if (records_ && !known) records_->emplace(moment, records);
+        known ? records_->at(keyframe)
+              : compute(keyframe, views, carried, base == keyframe ? nullptr : lights_.at(base).get(), filled);
+    light = std::make_shared<KeyframeLight>(make_keyframe_light(source_.pose(keyframe), records));
+    if (records_ && !known) records_->emplace(keyframe, records);
 }
 
-std::unique_ptr<BlendedLight> ShotLight::blend(const MomentPair& pair) const {
+std::unique_ptr<BlendedLight> ShotLight::blend(const KeyframePair& pair) const {
     const auto after = pair.after == pair.before ? nullptr : lights_.at(pair.after);
     return std::make_unique<BlendedLight>(lights_.at(pair.before), after, pair.weight, still_, shade_reach);
 }
 
-std::unique_ptr<CarriedLight> ShotLight::at(std::int64_t frame, std::vector<MomentStatistics>& filled) {
-    const MomentPair pair = moments_around(frame);
+std::unique_ptr<CarriedLight> ShotLight::at(std::int64_t frame, std::vector<KeyframeStatistics>& filled) {
+    const KeyframePair pair = keyframes_around(frame);
     const std::vector<std::int64_t> ends{pair.before, pair.after};
     std::vector<std::int64_t> views, lights = ends;
-    for (const std::int64_t moment : ends) {
-        const std::vector<std::int64_t> own = list_views(moment);
-        prepare(moment, own, nullptr, filled);
+    for (const std::int64_t keyframe : ends) {
+        const std::vector<std::int64_t> own = list_views(keyframe);
+        prepare(keyframe, own, nullptr, filled);
         views.insert(views.end(), own.begin(), own.end());
-        lights.push_back(find_base(moment));
+        lights.push_back(find_base(keyframe));
     }
     std::unique_ptr<BlendedLight> light = blend(pair);
     const std::int64_t middle = pair.before + (pair.after - pair.before) / 2;
     if (!still_ && middle != pair.before) {
         const std::unique_ptr<BlendedLight> at_middle =
-            blend({pair.before, pair.after, find_moments(moments_, middle).weight});
+            blend({pair.before, pair.after, find_keyframes(keyframes_, middle).weight});
         prepare(middle, ends, at_middle.get(), filled);
         lights.push_back(middle);
         light->set_finer(blend(find_half(pair, middle, frame)));
@@ -104,11 +105,11 @@ std::unique_ptr<CarriedLight> ShotLight::at(std::int64_t frame, std::vector<Mome
 }
 
 std::vector<const ShadingScene*> ShotLight::scenes_around(std::int64_t frame) const {
-    const MomentPair pair = moments_around(frame);
+    const KeyframePair pair = keyframes_around(frame);
     std::vector<const ShadingScene*> scenes;
     if (still_ || pair.before == frame || pair.after == frame) return scenes;
-    for (const auto& [moment, light] : lights_) {
-        if (moment >= pair.before && moment <= pair.after) scenes.push_back(&light->at->shading);
+    for (const auto& [keyframe, light] : lights_) {
+        if (keyframe >= pair.before && keyframe <= pair.after) scenes.push_back(&light->at->shading);
     }
     return scenes;
 }

@@ -23,7 +23,7 @@ std::optional<ShutterInterval> find_shutter(const Scene& scene, const glm::dvec2
             shutter.close = std::max(shutter.close, at);
         } else if (shutter.close > at || shutter.open >= at) {
             shutter.close = at;
-            // All of it lies in the next shot: the last moment of this one.
+            // All of it lies in the next shot: the last keyframe of this one.
             if (shutter.open >= at) shutter.open = shutter.close = at - before_cut;
         }
     }

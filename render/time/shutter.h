@@ -18,7 +18,7 @@ struct ShutterInterval {
 /// @return nothing if the shutter opens for no time at the frame itself
 std::optional<ShutterInterval> find_shutter(const Scene& scene, const glm::dvec2& shutter, std::int64_t frame);
 
-/// The moment that stands for a whole frame, s: the shutter's centre, or the centre of what a cut leaves of it where
+/// The keyframe that stands for a whole frame, s: the shutter's centre, or the centre of what a cut leaves of it where
 /// its own lies in another shot; the frame's own time if the shutter opens for no time.
 double find_shutter_center(const Scene& scene, const glm::dvec2& shutter, std::int64_t frame);
 

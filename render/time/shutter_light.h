@@ -2,8 +2,8 @@
 // Indirect light of samples that are taken while the shutter is open, each at a time of its own.
 //
 // Indirect light changes slowly, so it is taken to stay on its surface: a point is carried to where it lies at the
-// shutter's centre, and the light of the key moments or of the frame's cache is read there. That holds where the light
-// changes by less than alpha, the accuracy of the pixel, and only there it is used:
+// shutter's centre, and the light of the lighting keyframes or of the frame's cache is read there. That holds where the
+// light changes by less than alpha, the accuracy of the pixel, and only there it is used:
 // - What stands still. The point moves by less than the reach of the records that it reads, and its normal turns by no
 //   more than a record's may (irradiance_record.h).
 // - What moves. A sphere of radius r at distance d hides at most F = min(1, r^2 / d^2) of the light that arrives. If it
@@ -43,7 +43,7 @@ class ShutterLight {
     /// Keeps references to the poses and what is known.
     /// @param frame    the scene at the shutter's centre
     /// @param sample   at the sample's time
-    /// @param carried  light of key moments at the frame's time; may be null
+    /// @param carried  light of lighting keyframes at the frame's time; may be null
     /// @param cache    the frame's own; may be null
     /// @param reach    shade_reach, of look-ups in `cache`
     ShutterLight(const ShadingScene& frame, const ShadingScene& sample, const CarriedLight* carried,
@@ -57,7 +57,7 @@ class ShutterLight {
 
     struct Found {
         std::optional<Rgb> irradiance;
-        bool missing = false;  ///< the light lasts, but neither key moments nor the cache have a record
+        bool missing = false;  ///< the light lasts, but neither lighting keyframes nor the cache have a record
     };
 
     /// Irradiance at a surface of the sample's time, where it is known to this accuracy. Any thread may call it.

@@ -38,8 +38,8 @@ CostParts measure_whole(const Scene& scene, const RenderSettings& settings, std:
     clock.add_to(seconds);
     parts.fill = stats.seconds.fill;
     parts.shade = stats.seconds.shade;
-    for (const MomentStatistics& moment : stats.moments) parts.moments += moment.seconds;
-    parts.before = seconds - parts.fill - parts.shade - parts.moments;
+    for (const KeyframeStatistics& moment : stats.keyframes) parts.keyframes += moment.seconds;
+    parts.before = seconds - parts.fill - parts.shade - parts.keyframes;
     return parts;
 }
 
@@ -98,7 +98,7 @@ void print_check(const std::vector<MeasuredFrame>& frames, const CostCoefficient
 
 /// By what takes the seconds: measured, and predicted.
 void print_parts(const std::vector<MeasuredFrame>& frames, const CostCoefficients& fitted, bool markdown) {
-    const StudyTable table({"frame", "error", "start", "before light", "fill", "moments", "shade", "pilot"}, 1,
+    const StudyTable table({"frame", "error", "start", "before light", "fill", "keyframes", "shade", "pilot"}, 1,
                            markdown);
     for (const MeasuredFrame& frame : frames) {
         for (std::size_t i = 0; i < frame.whole.size(); ++i) {
@@ -106,7 +106,7 @@ void print_parts(const std::vector<MeasuredFrame>& frames, const CostCoefficient
             const CostParts predicted = predict_seconds(end_pilot(frame.pilot, i), {}, fitted, error);
             std::vector<std::string> cells = {frame.name, fmt::format("{:g}", error)};
             for (double CostParts::*part :
-                 {&CostParts::start, &CostParts::before, &CostParts::fill, &CostParts::moments, &CostParts::shade}) {
+                 {&CostParts::start, &CostParts::before, &CostParts::fill, &CostParts::keyframes, &CostParts::shade}) {
                 cells.push_back(fmt::format("{:.3f} / {:.3f}", frame.whole[i].*part, predicted.*part));
             }
             cells.push_back(i == 0 ? fmt::format("{:.2f}", frame.pilot_took) : "");
@@ -123,9 +123,9 @@ int run_cost(const CostOptions& options) {
     for (const std::string& text : options.check) check_frames.push_back(measure_frame(text, options));
     const CostCoefficients fitted = fit_frames.empty() ? fitted_coefficients() : fit_coefficients(fit_frames);
     fmt::print(
-        "Coefficients: shade {:.2f}, overlap {:.2f}, fill {:.2f}, moments {:.2f}, exponents of samples {:.2f} and of "
+        "Coefficients: shade {:.2f}, overlap {:.2f}, fill {:.2f}, keyframes {:.2f}, exponents of samples {:.2f} and of "
         "light {:.2f}\n\n",
-        fitted.shade, fitted.overlap, fitted.fill, fitted.moments, fitted.shade_exponent, fitted.light_exponent);
+        fitted.shade, fitted.overlap, fitted.fill, fitted.keyframes, fitted.shade_exponent, fitted.light_exponent);
     for (const auto& [frames, title] :
          {std::pair{&fit_frames, "frames that were fitted"}, std::pair{&check_frames, "others"}}) {
         if (frames->empty()) continue;

@@ -20,20 +20,20 @@ struct WeightedMean {
 };
 
 struct Fit {
-    WeightedMean shade, overlap, fill, moments, shade_exponent, light_exponent;
+    WeightedMean shade, overlap, fill, keyframes, shade_exponent, light_exponent;
 
     void add(const MeasuredFrame& frame, std::size_t i) {
         const PilotSeconds& pilot = frame.pilot;
         const CostParts &whole = frame.whole[i], &loosest = frame.whole.front();
         const double all = whole.sum();
-        if (pilot.moments > 0.0) {
+        if (pilot.keyframes > 0.0) {
             shade.add(pilot.parts[i].shade / pilot.share / whole.shade, whole.shade / all);
         }
         const double light = (pilot.parts[i].fill - pilot.parts.front().fill) / pilot.share;
         if (light < least_growth * all) return;
-        if (pilot.moments > 0.0) {
+        if (pilot.keyframes > 0.0) {
             fill.add((whole.fill - loosest.fill) / light, light / all);
-            moments.add((whole.moments - loosest.moments) / (pilot.moments * light), light / all);
+            keyframes.add((whole.keyframes - loosest.keyframes) / (pilot.keyframes * light), light / all);
         } else {
             overlap.add(light / std::max(whole.fill - loosest.fill, least_growth * light), light / all);
         }
@@ -68,7 +68,7 @@ CostCoefficients fit_coefficients(const std::vector<MeasuredFrame>& frames) {
     return {.shade = fit.shade.value_or(usual.shade),
             .overlap = fit.overlap.value_or(usual.overlap),
             .fill = fit.fill.value_or(usual.fill),
-            .moments = fit.moments.value_or(usual.moments),
+            .keyframes = fit.keyframes.value_or(usual.keyframes),
             .shade_exponent = fit.shade_exponent.value_or(usual.shade_exponent),
             .light_exponent = fit.light_exponent.value_or(usual.light_exponent)};
 }

@@ -28,7 +28,7 @@ struct EffectsOptions {
     bool quick = false, quiet = false;
 };
 
-/// A picture and what it took, key moments included.
+/// A picture and what it took, lighting keyframes included.
 struct Picture {
     Image<Rgb> color;
     double seconds = 0.0, rays = 0.0;
@@ -41,7 +41,7 @@ Picture render_picture(const Scene& scene, const RenderSettings& settings, std::
     FrameOutput out = sequence.render(frame);
     Picture picture{std::move(out.shaded.color), processor_seconds() - start, 0.0, out.statistics.plan};
     picture.rays = static_cast<double>(out.statistics.counts.rays.total());
-    for (const MomentStatistics& moment : out.statistics.moments) {
+    for (const KeyframeStatistics& moment : out.statistics.keyframes) {
         picture.rays += static_cast<double>(moment.counts.rays.total());
     }
     return picture;

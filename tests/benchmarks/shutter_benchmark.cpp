@@ -73,20 +73,20 @@ void measure(const std::string& name, Scene scene, std::int64_t frame) {
         const double at = place_in_shutter(interval, i, 0, 0.3) / shot.scene.frame_rate.per_second();
         shutter.pose(at, 0, width, height);
         shutter.prepare();
-        return shutter.moment();
+        return shutter.sample_scene();
     };
     move_to(0);
     double moving = 0.0, finding = 0.0, casting = 0.0;
     std::size_t movers = 0;
     for (int i = 1; i <= poses; ++i) {
         const Stopwatch move;
-        const SampleMoment moment = move_to(i);
+        const SampleScene at = move_to(i);
         moving += move.milliseconds() / poses;
         const Stopwatch find;
-        movers = find_movers(here.shading(), moment.lighting.shading).size();
+        movers = find_movers(here.shading(), at.lighting.shading).size();
         finding += find.milliseconds() / poses;
         const Stopwatch cast;
-        cast_first_hits(moment.lighting.rays, moment.view);
+        cast_first_hits(at.lighting.rays, at.view);
         casting += cast.milliseconds() / poses;
     }
     fmt::print("{:<24}{:>8}{:>12.3f}{:>12.3f}{:>12.1f}{:>12.3f}\n", name, movers, moving, finding, casting,

@@ -62,6 +62,8 @@ const std::vector<Layer>& layers() {
             {"motion", engine},
             {"perception", {"engine/base"}},
         };
+        // Subcommands, which cli/ names but does not include.
+        for (const char* part : {"explain", "compare"}) rooms.push_back({std::string("render/cli/") + part, stages});
         found.insert(found.end(), rooms.begin(), rooms.end());
         return found;
     }();

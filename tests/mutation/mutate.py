@@ -23,7 +23,7 @@ PROGRAMS = {
     "engine": ["test_base", "test_pose", "test_motion", "test_subdivide", "test_render"],
     "motion": ["test_motion", "test_pose", "test_render"],
     "perception": ["test_perception"],
-    "cache": ["test_render", "test_cache", "test_key_moments", "test_sequence"],
+    "cache": ["test_render", "test_cache", "test_lighting_keyframes", "test_sequence"],
 }
 OPERATOR = re.compile(r"(?<=[\w)\]}]) (<=|>=|==|!=|<|>|\+|-|\*|/)(?= |$)")
 # Where an operator is no expression of values: preprocessor, templates, declarations of operators, static assertions.

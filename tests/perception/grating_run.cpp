@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "perception/perception.h"
-#include "tests/perception/vision_formulas.h"
 #include "perception/vision_model.h"
+#include "tests/perception/vision_formulas.h"
 
 namespace aleph {
 

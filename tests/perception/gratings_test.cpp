@@ -8,10 +8,10 @@
 #include "perception/band_frequencies.h"
 #include "perception/castle.h"
 #include "perception/castle_row.h"
-#include "tests/perception/grating_run.h"
-#include "tests/perception/vision_formulas.h"
 #include "perception/kelly.h"
 #include "perception/retinal_velocity.h"
+#include "tests/perception/grating_run.h"
+#include "tests/perception/vision_formulas.h"
 #include "tests/support/numbers.h"
 #include "tests/support/perception_reference.h"
 

@@ -5,8 +5,8 @@
 #include <glm/geometric.hpp>
 
 #include "scenes/antique-room/antique_room.h"
-#include "tests/support/paths.h"
 #include "tests/scenes/authored_scenes.h"
+#include "tests/support/paths.h"
 
 namespace aleph {
 namespace {

@@ -7,8 +7,8 @@
 #include <map>
 
 #include "scenes/boomerang/boomerang_scene.h"
-#include "tests/support/paths.h"
 #include "tests/scenes/authored_scenes.h"
+#include "tests/support/paths.h"
 
 namespace aleph {
 namespace {

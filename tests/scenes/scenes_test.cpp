@@ -11,8 +11,8 @@
 
 #include "scenes/pool/break.h"
 #include "scenes/pool/pool_scene.h"
-#include "tests/support/paths.h"
 #include "tests/scenes/authored_scenes.h"
+#include "tests/support/paths.h"
 
 namespace aleph {
 namespace {

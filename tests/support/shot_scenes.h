@@ -1,5 +1,5 @@
 #pragma once
-// Small animated scenes for the tests of light at key moments. A lamp without area has no noise of its own.
+// Small animated scenes for the tests of light at lighting keyframes. A lamp without area has no noise of its own.
 
 #include "render/frame/sequence.h"
 #include "tests/support/quick_settings.h"

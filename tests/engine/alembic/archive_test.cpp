@@ -7,7 +7,7 @@
 
 #include "engine/alembic/archive.h"
 #include "engine/base/errors.h"
-#include "tests/support/alembic_truth.h"
+#include "tests/support/files/alembic_truth.h"
 
 namespace aleph {
 namespace {

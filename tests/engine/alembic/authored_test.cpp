@@ -9,7 +9,7 @@
 #include "engine/rays/ray_scene.h"
 #include "engine/scene/transforms.h"
 #include "motion/model_motion.h"
-#include "tests/support/alembic_truth.h"
+#include "tests/support/files/alembic_truth.h"
 #include "tests/support/paths.h"
 
 namespace aleph {

@@ -6,7 +6,7 @@
 #include <functional>
 
 #include "tests/engine/alembic/verdict.h"
-#include "tests/support/alembic_truth.h"
+#include "tests/support/files/alembic_truth.h"
 #include "tests/support/paths.h"
 
 namespace aleph {

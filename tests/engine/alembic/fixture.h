@@ -6,8 +6,8 @@
 #include <stdexcept>
 
 #include "engine/load/load_scene.h"
-#include "tests/support/alembic_draft.h"
-#include "tests/support/alembic_truth.h"
+#include "tests/support/files/alembic_draft.h"
+#include "tests/support/files/alembic_truth.h"
 #include "tests/support/scratch_folder.h"
 
 namespace aleph {

@@ -10,7 +10,7 @@
 #include "engine/pose/pose.h"
 #include "engine/scene/operations.h"
 #include "engine/scene/points.h"
-#include "tests/support/alembic_truth.h"
+#include "tests/support/files/alembic_truth.h"
 
 namespace aleph {
 namespace {

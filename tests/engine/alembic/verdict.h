@@ -9,8 +9,8 @@
 
 #include "engine/load/load_scene.h"
 #include "engine/pose/pose.h"
-#include "tests/support/alembic_draft.h"
-#include "tests/support/load_cost.h"
+#include "tests/support/files/alembic_draft.h"
+#include "tests/support/files/load_cost.h"
 #include "tests/support/scratch_folder.h"
 
 namespace aleph {

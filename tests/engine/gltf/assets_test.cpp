@@ -8,9 +8,9 @@
 
 #include "engine/base/errors.h"
 #include "engine/pose/pose.h"
-#include "tests/support/gltf_draft.h"
-#include "tests/support/scratch_folder.h"
 #include "tests/engine/gltf/model_files.h"
+#include "tests/support/files/gltf_draft.h"
+#include "tests/support/scratch_folder.h"
 
 namespace aleph {
 namespace {

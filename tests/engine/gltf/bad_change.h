@@ -6,7 +6,7 @@
 #include <functional>
 #include <string>
 
-#include "tests/support/gltf_draft.h"
+#include "tests/support/files/gltf_draft.h"
 
 namespace aleph {
 

@@ -1,7 +1,7 @@
 #pragma once
 // The glTF file that the tests of broken deformations change.
 
-#include "tests/support/gltf_deform_draft.h"
+#include "tests/support/files/gltf_deform_draft.h"
 
 namespace aleph {
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "tests/engine/gltf/bad_deform_draft.h"
-#include "tests/support/gltf_bad_input.h"
+#include "tests/support/files/gltf_bad_input.h"
 #include "tests/support/refusal.h"
 
 namespace aleph {

@@ -9,7 +9,7 @@
 
 #include "tests/engine/gltf/bad_change.h"
 #include "tests/engine/gltf/bad_deform_draft.h"
-#include "tests/support/gltf_bad_input.h"
+#include "tests/support/files/gltf_bad_input.h"
 
 namespace aleph {
 namespace {

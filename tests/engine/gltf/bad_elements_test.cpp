@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "tests/engine/gltf/bad_change.h"
-#include "tests/support/gltf_draft.h"
+#include "tests/support/files/gltf_draft.h"
 
 namespace aleph {
 namespace {

@@ -6,7 +6,7 @@
 #include <functional>
 #include <limits>
 
-#include "tests/support/gltf_bad_input.h"
+#include "tests/support/files/gltf_bad_input.h"
 
 namespace aleph {
 namespace {

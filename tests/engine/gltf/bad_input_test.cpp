@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "tests/engine/gltf/bad_change.h"
-#include "tests/support/gltf_bad_input.h"
+#include "tests/support/files/gltf_bad_input.h"
 
 namespace aleph {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <random>
 
-#include "tests/support/gltf_bad_input.h"
+#include "tests/support/files/gltf_bad_input.h"
 #include "tests/support/refusal.h"
 
 namespace aleph {

@@ -3,8 +3,8 @@
 
 #include <cmath>
 
-#include "tests/support/gltf_deform_draft.h"
 #include "tests/engine/gltf/fixture.h"
+#include "tests/support/files/gltf_deform_draft.h"
 
 namespace aleph {
 namespace {

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "engine/gltf/gltf.h"
-#include "tests/support/gltf_draft.h"
+#include "tests/support/files/gltf_draft.h"
 #include "tests/support/scratch_folder.h"
 
 namespace aleph {

@@ -12,8 +12,8 @@
 #include "engine/rays/ray_scene.h"
 #include "engine/scene_file/fields.h"
 #include "motion/model_motion.h"
-#include "tests/support/paths.h"
 #include "tests/engine/gltf/glb_writer.h"
+#include "tests/support/paths.h"
 
 namespace aleph {
 namespace {

@@ -13,9 +13,9 @@
 #include "engine/load/load_scene.h"
 #include "engine/pose/pose.h"
 #include "engine/rays/ray_scene.h"
-#include "tests/support/gltf_bad_input.h"
-#include "tests/support/gltf_deform_draft.h"
-#include "tests/support/load_cost.h"
+#include "tests/support/files/gltf_bad_input.h"
+#include "tests/support/files/gltf_deform_draft.h"
+#include "tests/support/files/load_cost.h"
 #include "tests/support/refusal.h"
 
 namespace aleph {

@@ -6,7 +6,7 @@
 #include <functional>
 
 #include "engine/load/load_scene.h"
-#include "tests/support/gltf_bad_input.h"
+#include "tests/support/files/gltf_bad_input.h"
 #include "tests/support/refusal.h"
 
 namespace aleph {

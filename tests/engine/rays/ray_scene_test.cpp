@@ -9,9 +9,9 @@
 #include "engine/base/errors.h"
 #include "engine/pose/pose.h"
 #include "engine/surface/shapes.h"
+#include "tests/engine/rays/many_instances.h"
 #include "tests/support/keyed_track.h"
 #include "tests/support/render_scenes.h"
-#include "tests/engine/rays/many_instances.h"
 
 namespace aleph {
 namespace {

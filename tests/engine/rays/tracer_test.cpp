@@ -10,8 +10,8 @@
 #include "engine/pose/camera_view.h"
 #include "engine/rays/first_hits.h"
 #include "engine/rays/ray_scene.h"
-#include "tests/support/render_scenes.h"
 #include "tests/engine/rays/many_instances.h"
+#include "tests/support/render_scenes.h"
 
 namespace aleph {
 namespace {

@@ -11,7 +11,7 @@
 #include "engine/base/errors.h"
 #include "engine/json/memory.h"
 #include "engine/scene_file/scene_text.h"
-#include "tests/support/load_cost.h"
+#include "tests/support/files/load_cost.h"
 #include "tests/support/refusal.h"
 
 namespace aleph {

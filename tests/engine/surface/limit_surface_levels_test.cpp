@@ -6,9 +6,9 @@
 #include <limits>
 
 #include "engine/surface/limit_surface.h"
+#include "tests/engine/surface/limit_checks.h"
 #include "tests/support/subdivision_cages.h"
 #include "tests/support/subdivision_reference.h"
-#include "tests/engine/surface/limit_checks.h"
 
 namespace aleph {
 namespace {

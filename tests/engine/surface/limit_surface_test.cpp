@@ -9,9 +9,9 @@
 #include <numbers>
 #include <set>
 
+#include "tests/engine/surface/limit_checks.h"
 #include "tests/support/subdivision_cages.h"
 #include "tests/support/subdivision_reference.h"
-#include "tests/engine/surface/limit_checks.h"
 
 namespace aleph {
 namespace {

@@ -4,7 +4,7 @@
 #include <limits>
 
 #include "tests/engine/surface/cage_checks.h"
-#include "tests/support/load_cost.h"
+#include "tests/support/files/load_cost.h"
 
 namespace aleph {
 namespace {

@@ -16,14 +16,14 @@ namespace {
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
 constexpr CostCoefficients coefficients = {
-    .shade = 0.8, .overlap = 2.0, .fill = 0.1, .moments = 0.5, .shade_exponent = 2.0, .light_exponent = 1.0};
+    .shade = 0.8, .overlap = 2.0, .fill = 0.1, .keyframes = 0.5, .shade_exponent = 2.0, .light_exponent = 1.0};
 
 /// A tenth of the pixels at the errors 4 and 1.
 PilotSeconds two_errors() {
     return {.start = 0.05,
             .before = 0.02,
             .share = 0.1,
-            .moments = 2.0,
+            .keyframes = 2.0,
             .parts = {{4.0, 0.01, 0.03}, {1.0, 0.02, 0.07}},
             .light = {{16.0, 0.01, 0.1}, {4.0, 0.02, 0.3}}};
 }
@@ -37,24 +37,24 @@ TEST(CostModel, APartIsScaledByItsShare) {
 
 TEST(CostModel, LightGrowsFromSmallPicturesAsAPowerOfTheirPixels) {
     const CostParts seconds = predict_seconds(two_errors(), {}, coefficients, 4.0);
-    EXPECT_NEAR(seconds.fill, 0.02 * 2.0, 1e-12);    // twice as much in four times as many pixels
-    EXPECT_NEAR(seconds.moments, 0.3 * 3.0, 1e-12);  // three times
+    EXPECT_NEAR(seconds.fill, 0.02 * 2.0, 1e-12);      // twice as much in four times as many pixels
+    EXPECT_NEAR(seconds.keyframes, 0.3 * 3.0, 1e-12);  // three times
     PilotSeconds steep = two_errors();
-    steep.light[0].moments = 1e-9;
-    EXPECT_NEAR(predict_seconds(steep, {}, coefficients, 4.0).moments, 0.3 * std::pow(4.0, 1.3), 1e-12);
+    steep.light[0].keyframes = 1e-9;
+    EXPECT_NEAR(predict_seconds(steep, {}, coefficients, 4.0).keyframes, 0.3 * std::pow(4.0, 1.3), 1e-12);
     PilotSeconds single = two_errors();
     single.light.resize(1);
-    EXPECT_NEAR(predict_seconds(single, {}, coefficients, 4.0).moments, 0.1 * std::pow(16.0, 0.8), 1e-12);
+    EXPECT_NEAR(predict_seconds(single, {}, coefficients, 4.0).keyframes, 0.1 * std::pow(16.0, 0.8), 1e-12);
     single.light.clear();
-    EXPECT_EQ(predict_seconds(single, {}, coefficients, 4.0).moments, 0.0);
+    EXPECT_EQ(predict_seconds(single, {}, coefficients, 4.0).keyframes, 0.0);
 }
 
 TEST(CostModel, LightOfThePartTellsHowItGrowsWithSmallerErrors) {
     const CostParts seconds = predict_seconds(two_errors(), {}, coefficients, 1.0);
     EXPECT_NEAR(seconds.fill, 0.04 + 0.1 * 0.1, 1e-12);
-    EXPECT_NEAR(seconds.moments, 0.9 + 0.5 * 2.0 * 0.1, 1e-12);
+    EXPECT_NEAR(seconds.keyframes, 0.9 + 0.5 * 2.0 * 0.1, 1e-12);
     PilotSeconds by_frame = two_errors();
-    by_frame.moments = 0.0;
+    by_frame.keyframes = 0.0;
     EXPECT_NEAR(predict_seconds(by_frame, {}, coefficients, 1.0).fill, 0.04 + 0.1 / 2.0, 1e-12);
     EXPECT_NEAR(predict_seconds(by_frame, {}, coefficients, 1.0).shade, 0.7, 1e-12);
 }
@@ -71,7 +71,7 @@ TEST(CostModel, GrowthIsAPowerLawBetweenAndBelowTheErrors) {
 TEST(CostModel, SumsGrowByTheirCounts) {
     const CostParts one = predict_seconds(two_errors(), {}, coefficients, 0.7);
     const CostParts many = predict_seconds(two_errors(), {10.0, 3.0}, coefficients, 0.7);
-    EXPECT_NEAR(many.sum(), one.start + 10.0 * (one.before + one.fill + one.shade) + 3.0 * one.moments, 1e-9);
+    EXPECT_NEAR(many.sum(), one.start + 10.0 * (one.before + one.fill + one.shade) + 3.0 * one.keyframes, 1e-9);
 }
 
 TEST(CostModel, NeverFallsWhereTheErrorDoes) {
@@ -98,7 +98,7 @@ TEST(CostModel, RefusesWhatIsNoCost) {
     for (const double seconds : {-1.0, nan, infinity}) {
         PilotSeconds part = two_errors(), light = two_errors(), before = two_errors(), start = two_errors();
         part.parts[1].shade = seconds;
-        light.light[0].moments = seconds;
+        light.light[0].keyframes = seconds;
         before.before = start.start = seconds;
         for (const PilotSeconds& pilot : {part, light, before, start}) {
             EXPECT_THROW(predict_seconds(pilot, {}, coefficients, 1.0), std::invalid_argument) << seconds;

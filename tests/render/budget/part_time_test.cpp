@@ -37,7 +37,7 @@ class PartTiming : public testing::Test {
   protected:
     PartTiming() : scene(load_scene((source_folder() / "scenes/cornell/scene.json").string())) {}
 
-    /// Without key moments, so that frames and parts read the same light.
+    /// Without lighting keyframes, so that frames and parts read the same light.
     RenderSettings settings_for(double error) const {
         RenderSettings settings = quick_settings(96, 72);
         follow_error(settings, error);
@@ -90,10 +90,10 @@ TEST_F(PartTiming, LightIsTimedOnceForEachMoment) {
     RenderSettings settings = settings_for(8.0);
     settings.cache.light_step = 10;
     Sequence sequence(scene, settings);
-    EXPECT_GT(sequence.time_light(4).moments, 0.0);
-    EXPECT_EQ(sequence.time_light(5).moments, 0.0);
+    EXPECT_GT(sequence.time_light(4).keyframes, 0.0);
+    EXPECT_EQ(sequence.time_light(5).keyframes, 0.0);
     settings.cache.light_step = 0;
-    EXPECT_EQ(Sequence(scene, settings).time_light(4).moments, 0.0);
+    EXPECT_EQ(Sequence(scene, settings).time_light(4).keyframes, 0.0);
     EXPECT_GT(Sequence(scene, settings).time_light(4).fill, 0.0);
 }
 

@@ -6,7 +6,7 @@
 
 #include "engine/base/errors.h"
 #include "engine/load/load_scene.h"
-#include "render/cli/explain.h"
+#include "render/cli/explain/explain.h"
 #include "tests/support/scratch_folder.h"
 
 namespace aleph {

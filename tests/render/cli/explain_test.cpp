@@ -1,6 +1,6 @@
 // `aleph explain` on scenes whose description is known.
 
-#include "render/cli/explain.h"
+#include "render/cli/explain/explain.h"
 #include "render/surface/node_paths.h"
 
 #include <gtest/gtest.h>

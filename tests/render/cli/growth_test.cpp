@@ -11,7 +11,7 @@
 #include <string>
 
 #include "engine/load/load_scene.h"
-#include "render/cli/explain.h"
+#include "render/cli/explain/explain.h"
 #include "render/output/frame_files.h"
 #include "render/surface/node_paths.h"
 #include "tests/support/scratch_folder.h"

@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "engine/image/image_file.h"
-#include "tests/support/image_patterns.h"
 #include "tests/render/cli/maps_images.h"
+#include "tests/support/image_patterns.h"
 
 namespace aleph {
 namespace {

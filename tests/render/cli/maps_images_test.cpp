@@ -15,8 +15,8 @@
 #include "engine/image/image_file.h"
 #include "motion/image_motion.h"
 #include "render/images/image_sequence.h"
-#include "tests/support/scratch_folder.h"
 #include "tests/render/cli/maps_images.h"
+#include "tests/support/scratch_folder.h"
 
 namespace aleph {
 namespace {

@@ -4,9 +4,9 @@
 #include <gtest/gtest.h>
 
 #include "engine/load/load_scene.h"
-#include "render/cli/explain.h"
-#include "tests/support/gltf_draft.h"
-#include "tests/support/load_cost.h"
+#include "render/cli/explain/explain.h"
+#include "tests/support/files/gltf_draft.h"
+#include "tests/support/files/load_cost.h"
 #include "tests/support/scratch_folder.h"
 
 namespace aleph {

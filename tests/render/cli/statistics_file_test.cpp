@@ -26,7 +26,7 @@ class StatisticsFileTest : public testing::Test {
     static FrameStatistics frame(int number) {
         FrameStatistics frame;
         frame.frame = number;
-        frame.moments.resize(2);
+        frame.keyframes.resize(2);
         return frame;
     }
     std::string text() const {

@@ -122,7 +122,7 @@ TEST(BlurredEstimate, ALensBlursByTheCircleOfConfusion) {
         }
     }
     EXPECT_NEAR(sum, 0.7 * 0.25 * pixels_per_metre * pixels_per_metre, 0.5);
-    // A disc of radius r has the second moment r^2 / 2, a square of side s s^2 / 6.
+    // A disc of radius r has the second keyframe r^2 / 2, a square of side s s^2 / 6.
     EXPECT_NEAR(squares / sum, 0.5 + 0.25 / 6.0, 0.05);
 }
 

@@ -7,7 +7,7 @@
 
 #include "engine/load/load_scene.h"
 #include "render/frame/sequence.h"
-#include "tests/support/gltf_bad_input.h"
+#include "tests/support/files/gltf_bad_input.h"
 #include "tests/support/quick_settings.h"
 
 namespace aleph {

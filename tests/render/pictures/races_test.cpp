@@ -31,7 +31,7 @@ TEST(Races, DT08_EveryStageOfAFrameWithItsCache) {
     EXPECT_TRUE(render(4) == render(1));
 }
 
-/// Light of key moments, of two bounces, read while the shutter is open: by the cache, and by paths.
+/// Light of lighting keyframes, of two bounces, read while the shutter is open: by the cache, and by paths.
 TEST(Races, DT08_KeyMomentsAndAnOpenShutter) {
     Scene scene = make_shot_with_mover();
     scene.cameras[0].shutter = {-0.5, 0.5};

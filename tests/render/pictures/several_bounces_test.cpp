@@ -171,7 +171,7 @@ TEST(SeveralBounces, IC23_FilesAreEqualForAnyThreadsAloneAndInASequence) {
     }
 }
 
-/// What key moments know and what a frame computes itself have the same bounces.
+/// What lighting keyframes know and what a frame computes itself have the same bounces.
 TEST(SeveralBounces, IC23_KeyMomentsHaveThemToo) {
     const Scene scene = make_shot_with_mover();
     const auto mean = [&](int bounces, int light_step) {
@@ -182,9 +182,9 @@ TEST(SeveralBounces, IC23_KeyMomentsHaveThemToo) {
         for (const Rgb& pixel : Sequence(scene, settings).render(5).shaded.indirect.pixels) sum.add(luminance(pixel));
         return sum.mean();
     };
-    const double one = mean(1, 0), three = mean(3, 0), from_moments = mean(3, 10);
+    const double one = mean(1, 0), three = mean(3, 0), from_keyframes = mean(3, 10);
     EXPECT_GT(three, 1.1 * one);
-    EXPECT_NEAR(from_moments, three, 0.02 * three);
+    EXPECT_NEAR(from_keyframes, three, 0.02 * three);
 }
 
 }  // namespace

@@ -6,7 +6,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "render/cli/explain.h"
+#include "render/cli/explain/explain.h"
 #include "render/plan/effect_picture.h"
 #include "render/plan/effects_json.h"
 #include "tests/support/paths.h"
@@ -83,7 +83,7 @@ TEST(EffectTable, ARowGoesThroughThePlanAndTheUserOverridesIt) {
     EXPECT_EQ(frame.plan(1.0).of(lamp_reach).reason, "forbidden");
     remove_forbidden(frame.settings.effects.forbid, frame.scene, frame.table);
     EXPECT_EQ(frame.scene.lights[0].range, Track<double>(0.0));
-    EXPECT_EQ(without_forbidden(frame.settings, frame.table).spp, 7);
+    EXPECT_EQ(without_forbidden(frame.settings, frame.table).sampling.spp, 7);
     frame.facts.lights[0].range = 0.0;
     frame.settings = {};
     EXPECT_EQ(frame.plan(1.0).of(lamp_reach).reason, "no lamp ends");

@@ -52,7 +52,8 @@ std::vector<Case> make_cases() {
     add_mesh(scene, make_quad(1.0, 1.0, 0), {0.5, 0.0, 0.5}, glm::angleAxis(-1.5, glm::dvec3(0.0, 1.0, 0.0)));
     add("two squares that see each other", scene, {"direct_light", "indirect_diffuse"});
     add("the same, bounces", scene, {"direct_light", "indirect_diffuse", "more_bounces"}).light.bounces = 3;
-    add("the same, key moments", scene, {"direct_light", "indirect_diffuse", "cache_carry_over"}).cache.light_step = 10;
+    add("the same, lighting keyframes", scene, {"direct_light", "indirect_diffuse", "cache_carry_over"})
+        .cache.light_step = 10;
     scene.meshes[1].material = add_material(scene, 1.0, 0.0);
     scene.nodes.back().translation = glm::dvec3(20.0, 0.0, 0.5);
     add("a mirror out of view", scene, {"direct_light", "indirect_diffuse", "caustics"});
@@ -102,7 +103,7 @@ TEST(EffectsPlan, EachTinySceneCallsForItsEffectsAlone) {
         EXPECT_EQ(simulated(statistics.plan), c.effects) << c.name;
         EXPECT_EQ(simulated(sequence.plan(0)), c.effects) << c.name;
         const RayCounts& rays = statistics.counts.rays;
-        // Key moments are counted by themselves.
+        // Lighting keyframes are counted by themselves.
         const bool gathers = c.effects.contains("indirect_diffuse") && !c.effects.contains("cache_carry_over");
         EXPECT_EQ(rays.gather > 0, gathers) << c.name;
         const bool lobes = c.effects.contains("glossy_reflection") || c.effects.contains("caustics");

@@ -154,9 +154,10 @@ std::vector<NamedMaterial> list_rough_materials() {
 }
 
 /// What is compared: all light, what passes, where it goes, and how much of it sampling the lobes finds.
-constexpr int moment_count = 5;
-using Moments = std::array<double, moment_count>;
-constexpr std::array<const char*, moment_count> moment_names{"all", "passed", "along x", "height", "found by lobes"};
+constexpr int keyframe_count = 5;
+using Moments = std::array<double, keyframe_count>;
+constexpr std::array<const char*, keyframe_count> keyframe_names{"all", "passed", "along x", "height",
+                                                                 "found by lobes"};
 
 /// A uniform light, which can be sampled as well.
 constexpr auto pdf_light = static_cast<float>(0.25 / pi);
@@ -175,14 +176,14 @@ Moments integrate_scattered(const LitSurface& lit) {
             const double f = scatter_towards(lit, d, 0.0f, {}).x * cell;
             const double by_light = scatter_towards(lit, d, pdf_light, shares).x * cell;
             const Moments here{f, d.z < 0.0f ? f : 0.0, f * d.x, f * d.z * d.z, f - by_light};
-            for (int m = 0; m < moment_count; ++m) sums[m] += here[m];
+            for (int m = 0; m < keyframe_count; ++m) sums[m] += here[m];
         }
     }
     return sums;
 }
 
-std::array<Mean, moment_count> sample_moments(const LitSurface& lit, int count, std::uint32_t seed) {
-    std::array<Mean, moment_count> means;
+std::array<Mean, keyframe_count> sample_keyframes(const LitSurface& lit, int count, std::uint32_t seed) {
+    std::array<Mean, keyframe_count> means;
     const LobeShares shares = share_lobes(lit, LobeSet::all);
     RandomStream random({5 + seed, 0, 0, 0});
     for (int i = 0; i < count; ++i) {
@@ -193,7 +194,7 @@ std::array<Mean, moment_count> sample_moments(const LitSurface& lit, int count, 
         const glm::vec3& d = sample.direction;
         const double found = w > 0.0 ? w * power_heuristic(sample.pdf, pdf_light) : 0.0;
         const Moments here{w, sample.passes ? w : 0.0, w * d.x, w * d.z * d.z, found};
-        for (int m = 0; m < moment_count; ++m) means[m].add(here[m]);
+        for (int m = 0; m < keyframe_count; ++m) means[m].add(here[m]);
     }
     return means;
 }
@@ -204,11 +205,11 @@ TEST(Scatter, SamplesAndIntegralAgree) {
             const ViewedSurface surface = make_viewed(entry.material, direction_of(cosine));
             const LitSurface lit(surface);
             const Moments integrals = integrate_scattered(lit);
-            for (int m = 0; m < moment_count; ++m) {
+            for (int m = 0; m < keyframe_count; ++m) {
                 EXPECT_TRUE(holds([&](Trial& trial) {
-                    trial.near(sample_moments(lit, trial.times(30'000), trial.seed)[m], integrals[m], 1e-3);
+                    trial.near(sample_keyframes(lit, trial.times(30'000), trial.seed)[m], integrals[m], 1e-3);
                 })) << entry.name
-                    << ", cosine " << cosine << ": " << moment_names[m];
+                    << ", cosine " << cosine << ": " << keyframe_names[m];
             }
         }
     }

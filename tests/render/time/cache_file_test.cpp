@@ -1,4 +1,4 @@
-// The file that keeps the light of key moments: damaged, of something else, written twice.
+// The file that keeps the light of lighting keyframes: damaged, of something else, written twice.
 
 #include "render/time/cache_file.h"
 
@@ -60,7 +60,7 @@ TEST(CacheFile, IC22_FramesAreEqualWithAndWithoutIt) {
 
     Sequence loaded(scene, settings);
     loaded.load_light(folder / "light");
-    EXPECT_TRUE(loaded.render(3).statistics.moments.empty()) << "computed again";
+    EXPECT_TRUE(loaded.render(3).statistics.keyframes.empty()) << "computed again";
     RenderSettings more_samples = settings;
     more_samples.light.light_samples = 7;
     EXPECT_NO_THROW(Sequence(scene, more_samples).load_light(folder / "light"));
@@ -99,7 +99,7 @@ pid_t start_rendering(const std::string& job, int pipe_end) {
     return child;
 }
 
-/// Both add their own moments to one file. No process ever finds it damaged, and no frame changes.
+/// Both add their own keyframes to one file. No process ever finds it damaged, and no frame changes.
 TEST(CacheFile, IC22_TwoProcessesWriteOneFile) {
     const ScratchFolder folder;
     const std::filesystem::path file = folder / "light";
@@ -194,7 +194,7 @@ TEST(CacheFile, IC22_SizesAreCheckedBeforeMemoryIsTaken) {
 TEST(CacheFile, IC22_NeedsKeyMoments) {
     RenderSettings settings = file_settings();
     settings.cache.light_step = 0;
-    EXPECT_THAT(refusal("light", make_shot(), settings), testing::HasSubstr("needs key moments"));
+    EXPECT_THAT(refusal("light", make_shot(), settings), testing::HasSubstr("needs lighting keyframes"));
     EXPECT_THROW(Sequence(make_shot(), file_settings()).save_light("light"), std::logic_error);
 }
 

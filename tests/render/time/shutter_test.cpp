@@ -21,9 +21,9 @@ TEST(Shutter, IsRelativeToTheFrame) {
     const ShutterInterval whole = open_at(7, {-0.25, 0.5});
     EXPECT_EQ(whole.open, 6.75);
     EXPECT_EQ(whole.close, 7.5);
-    const ShutterInterval moment = open_at(7, {0.5, 0.5});
-    EXPECT_EQ(moment.open, 7.5);
-    EXPECT_EQ(moment.close, 7.5);
+    const ShutterInterval keyframe = open_at(7, {0.5, 0.5});
+    EXPECT_EQ(keyframe.open, 7.5);
+    EXPECT_EQ(keyframe.close, 7.5);
 }
 
 TEST(Shutter, MC27_CutsEndItOnBothSides) {
@@ -37,7 +37,7 @@ TEST(Shutter, MC27_CutsEndItOnBothSides) {
     expect(9, {-0.5, 2.0}, 8.5, 10.0);  // the next shot begins at 10
     expect(9, {0.0, 30.0}, 9.0, 10.0);  // and another at 20
     expect(10, {-0.5, 0.5}, 10.0, 10.5);
-    expect(10, {-9.0, 0.0}, 10.0, 10.0);  // all of it before the cut: the shot's first moment
+    expect(10, {-9.0, 0.0}, 10.0, 10.0);  // all of it before the cut: the shot's first keyframe
     expect(11, {-9.0, 30.0}, 10.0, 20.0);
     expect(4, {0.0, 1.0}, 4.0, 5.0);
 }

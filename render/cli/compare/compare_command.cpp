@@ -7,8 +7,8 @@
 
 #include "engine/base/errors.h"
 #include "render/cli/commands.h"
-#include "render/cli/compare_frames.h"
-#include "render/cli/compare_print.h"
+#include "render/cli/compare/compare_frames.h"
+#include "render/cli/compare/compare_print.h"
 
 namespace aleph {
 

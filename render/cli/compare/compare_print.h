@@ -4,7 +4,7 @@
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 
-#include "render/cli/compare_options.h"
+#include "render/cli/compare/compare_options.h"
 #include "render/compare/compare_sequence.h"
 
 namespace aleph {

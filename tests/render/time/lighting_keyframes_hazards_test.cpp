@@ -1,4 +1,4 @@
-// Light at key moments: frames do not depend on their order, no light is stale, and nothing flickers.
+// Light at lighting keyframes: frames do not depend on their order, no light is stale, and nothing flickers.
 
 #include <gtest/gtest.h>
 
@@ -27,7 +27,7 @@ Image<Rgb> render_alone(const Scene& scene, const RenderSettings& settings, int 
 
 std::uint64_t count_records(const FrameStatistics& statistics) {
     std::uint64_t count = statistics.counts.records;
-    for (const MomentStatistics& moment : statistics.moments) count += moment.counts.records;
+    for (const KeyframeStatistics& keyframe : statistics.keyframes) count += keyframe.counts.records;
     return count;
 }
 
@@ -60,13 +60,13 @@ void expect_any_order(const Scene& scene) {
     }
 }
 
-TEST(KeyMoments, IC14_AFrameAloneInASequenceInAnyOrderOnAnyThreads) {
+TEST(LightingKeyframes, IC14_AFrameAloneInASequenceInAnyOrderOnAnyThreads) {
     expect_any_order(make_shot_with_mover());
     expect_any_order(make_shot_with_moving_camera());
 }
 
-/// What moves fast or near is computed in the frame: key moments err hardly more than a fill of the frame's own.
-TEST(KeyMoments, IC14_LightOfAnotherTimeIsNotUsed) {
+/// What moves fast or near is computed in the frame: lighting keyframes err hardly more than a fill of the frame's own.
+TEST(LightingKeyframes, IC14_LightOfAnotherTimeIsNotUsed) {
     Scene scene = make_shot();
     const int board = add_mesh(scene, make_box({1.5, 1.5, 0.05}, 1));
     scene.nodes[board].translation = move_between({-2.0, 0.8, -1.5}, {2.5, 0.8, 0.5});
@@ -75,19 +75,19 @@ TEST(KeyMoments, IC14_LightOfAnotherTimeIsNotUsed) {
     dense.cache.gather = 1024;
     const Image<Rgb> truth = render_alone(scene, dense, 5);
     const double own = relative_rms(render_alone(scene, shot_settings(0), 5), truth);
-    const double moments = relative_rms(render_alone(scene, shot_settings(10), 5), truth);
-    std::printf("relative error: own fill %.4f, key moments %.4f\n", own, moments);
-    EXPECT_LT(moments, own + 0.01);
-    EXPECT_LT(moments, 0.03);
+    const double keyframes = relative_rms(render_alone(scene, shot_settings(10), 5), truth);
+    std::printf("relative error: own fill %.4f, lighting keyframes %.4f\n", own, keyframes);
+    EXPECT_LT(keyframes, own + 0.01);
+    EXPECT_LT(keyframes, 0.03);
 }
 
-TEST(KeyMoments, IC14_WhereNothingMovesOneMomentServesAllFrames) {
+TEST(LightingKeyframes, IC14_WhereNothingMovesOneMomentServesAllFrames) {
     const Scene scene = make_shot();
     EXPECT_EQ(count_shot_records(scene, 10), count_records(Sequence(scene, shot_settings(0)).render(0).statistics));
     EXPECT_TRUE(render_alone(scene, shot_settings(10), 13).pixels == render_alone(scene, shot_settings(10), 0).pixels);
 }
 
-TEST(KeyMoments, IC20_WhatIsAtRestDoesNotFlicker) {
+TEST(LightingKeyframes, IC20_WhatIsAtRestDoesNotFlicker) {
     const Scene scene = make_shot_with_mover();
     RenderSettings settings = shot_settings(10);
     settings.cache.gather = 256;
@@ -111,17 +111,17 @@ TEST(KeyMoments, IC20_WhatIsAtRestDoesNotFlicker) {
     EXPECT_LT(largest, 0.1);
 }
 
-TEST(KeyMoments, FX10_WhereOnlyTheCameraMovesLightIsCarriedOver) {
+TEST(LightingKeyframes, FX10_WhereOnlyTheCameraMovesLightIsCarriedOver) {
     const Scene scene = make_shot_with_moving_camera();
-    const std::uint64_t own = count_shot_records(scene, 0), moments = count_shot_records(scene, 10);
-    std::printf("records of %d frames: %llu on their own, %llu with key moments\n", shot_frames,
-                static_cast<unsigned long long>(own), static_cast<unsigned long long>(moments));
-    EXPECT_LT(10 * moments, own);
+    const std::uint64_t own = count_shot_records(scene, 0), keyframes = count_shot_records(scene, 10);
+    std::printf("records of %d frames: %llu on their own, %llu with lighting keyframes\n", shot_frames,
+                static_cast<unsigned long long>(own), static_cast<unsigned long long>(keyframes));
+    EXPECT_LT(10 * keyframes, own);
     EXPECT_LT(relative_rms(render_alone(scene, shot_settings(10), 5), render_alone(scene, shot_settings(0), 5)), 0.05);
 }
 
 /// The camera crosses x = 8 m, where the origin of single-precision coordinates jumps by 16 m.
-TEST(KeyMoments, FX10_LightIsCarriedOverWhereTheAnchorChanges) {
+TEST(LightingKeyframes, FX10_LightIsCarriedOverWhereTheAnchorChanges) {
     Scene scene = make_shot_with_moving_camera();
     for (Node& node : scene.nodes) {
         for (glm::dvec3& place : node.translation.values) place.x += 7.0;
@@ -131,7 +131,7 @@ TEST(KeyMoments, FX10_LightIsCarriedOverWhereTheAnchorChanges) {
               0.05);
 }
 
-TEST(KeyMoments, FX10_ALampThatBlinksLightsNoFrameBeforeOrAfter) {
+TEST(LightingKeyframes, FX10_ALampThatBlinksLightsNoFrameBeforeOrAfter) {
     Scene scene = make_shot();
     Track<glm::dvec3>& color = scene.lights[0].color;
     color.values = {glm::dvec3(8.0), glm::dvec3(2.0), glm::dvec3(8.0)};
@@ -145,7 +145,7 @@ TEST(KeyMoments, FX10_ALampThatBlinksLightsNoFrameBeforeOrAfter) {
     }
 }
 
-TEST(KeyMoments, FX10_AnObjectThatMovesLaterLeavesNoTraceBefore) {
+TEST(LightingKeyframes, FX10_AnObjectThatMovesLaterLeavesNoTraceBefore) {
     Scene scene = make_shot();
     const int board = add_mesh(scene, make_box({2.0, 2.0, 0.05}, 1));
     Track<glm::dvec3>& place = scene.nodes[board].translation;
@@ -158,7 +158,7 @@ TEST(KeyMoments, FX10_AnObjectThatMovesLaterLeavesNoTraceBefore) {
     EXPECT_LT(relative_rms(render_alone(scene, settings, 8), render_alone(scene, own, 8)), 0.06);
 }
 
-/// A mover at one place at frames 0 and 10, and at another half way; alone key moments cannot tell.
+/// A mover at one place at frames 0 and 10, and at another half way; alone lighting keyframes cannot tell.
 Track<glm::dvec3> go_and_return(const glm::dvec3& ends, const glm::dvec3& middle) {
     Track<glm::dvec3> track;
     track.values = {ends, middle, ends};
@@ -176,27 +176,27 @@ void expect_as_own_fill(const Track<glm::dvec3>& place) {
     dense.cache.gather = 1024;
     const Image<Rgb> truth = render_alone(scene, dense, 5);
     const double own = relative_rms(render_alone(scene, shot_settings(0), 5), truth);
-    const double moments = relative_rms(render_alone(scene, shot_settings(10), 5), truth);
-    std::printf("relative error: own fill %.4f, key moments %.4f\n", own, moments);
-    EXPECT_LT(moments, 1.3 * own);
-    EXPECT_LT(moments, 0.03);
+    const double keyframes = relative_rms(render_alone(scene, shot_settings(10), 5), truth);
+    std::printf("relative error: own fill %.4f, lighting keyframes %.4f\n", own, keyframes);
+    EXPECT_LT(keyframes, 1.3 * own);
+    EXPECT_LT(keyframes, 0.03);
 }
 
-TEST(KeyMoments, IC14_AnObjectThatTouchesTheFloorBetweenMoments) {
+TEST(LightingKeyframes, IC14_AnObjectThatTouchesTheFloorBetweenMoments) {
     expect_as_own_fill(go_and_return({0.0, 2.4, -2.0}, {0.0, 0.45, -2.0}));
 }
 
-TEST(KeyMoments, IC14_AnObjectThatLeavesTheFloorBetweenMoments) {
+TEST(LightingKeyframes, IC14_AnObjectThatLeavesTheFloorBetweenMoments) {
     expect_as_own_fill(go_and_return({0.0, 0.45, -2.0}, {0.0, 2.4, -2.0}));
 }
 
-TEST(KeyMoments, IC14_AnObjectThatCrossesThePictureBetweenMoments) {
+TEST(LightingKeyframes, IC14_AnObjectThatCrossesThePictureBetweenMoments) {
     expect_as_own_fill(go_and_return({-9.0, 0.45, -2.0}, {-1.0, 0.45, -2.0}));
 }
 
 /// Everything turns together, so no light changes: all of it rides with the surfaces. What the frame computes are
 /// probes.
-TEST(KeyMoments, RecordsRideWithTheirSurfaces) {
+TEST(LightingKeyframes, RecordsRideWithTheirSurfaces) {
     Scene scene = make_shot();
     Node turntable;
     turntable.rotation.values = {no_turn, glm::angleAxis(1.5, glm::dvec3(0, 1, 0))};
@@ -207,11 +207,11 @@ TEST(KeyMoments, RecordsRideWithTheirSurfaces) {
     Sequence sequence(scene, shot_settings(10));
     const FrameOutput first = sequence.render(0);
     const FrameOutput middle = sequence.render(5);
-    ASSERT_EQ(first.statistics.moments.size(), 1u);
-    std::printf("%llu records at the moment, %llu in the frame\n",
-                static_cast<unsigned long long>(first.statistics.moments[0].counts.records),
+    ASSERT_EQ(first.statistics.keyframes.size(), 1u);
+    std::printf("%llu records at the keyframe, %llu in the frame\n",
+                static_cast<unsigned long long>(first.statistics.keyframes[0].counts.records),
                 static_cast<unsigned long long>(middle.statistics.counts.records));
-    EXPECT_LT(4 * middle.statistics.counts.records, first.statistics.moments[0].counts.records);
+    EXPECT_LT(4 * middle.statistics.counts.records, first.statistics.keyframes[0].counts.records);
     EXPECT_LT(relative_rms(middle.shaded.color, render_alone(scene, shot_settings(0), 5)), 0.05);
 }
 

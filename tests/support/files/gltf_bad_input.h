@@ -9,8 +9,8 @@
 #include "engine/base/errors.h"
 #include "engine/gltf/gltf.h"
 #include "engine/image/image_file.h"
-#include "tests/support/gltf_draft.h"
-#include "tests/support/load_cost.h"
+#include "tests/support/files/gltf_draft.h"
+#include "tests/support/files/load_cost.h"
 #include "tests/support/scratch_folder.h"
 
 namespace aleph {

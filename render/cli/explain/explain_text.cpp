@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "engine/base/errors.h"
-#include "render/cli/explain.h"
+#include "render/cli/explain/explain.h"
 
 namespace aleph {
 

@@ -1,11 +1,11 @@
-#include "render/cli/compare_frames.h"
+#include "render/cli/compare/compare_frames.h"
 
 #include <fmt/format.h>
 
 #include <map>
 
 #include "engine/base/errors.h"
-#include "render/cli/compare_frames_print.h"
+#include "render/cli/compare/compare_frames_print.h"
 #include "render/cli/frame_pattern.h"
 #include "render/cli/options.h"
 #include "render/cli/progress.h"

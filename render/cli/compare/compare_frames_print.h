@@ -1,7 +1,7 @@
 #pragma once
 // The comparison of two sequences as text and as JSON.
 
-#include "render/cli/compare_options.h"
+#include "render/cli/compare/compare_options.h"
 #include "render/compare/compare_sequence.h"
 
 namespace aleph {

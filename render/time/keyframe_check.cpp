@@ -1,4 +1,4 @@
-#include "render/time/moment_check.h"
+#include "render/time/keyframe_check.h"
 
 #include <algorithm>
 #include <cmath>
@@ -17,7 +17,7 @@ constexpr float noise_deviations = 1.5f;  // of a probe, by which it may differ 
 constexpr std::uint8_t still_bit = 1, moving_bit = 2;
 
 /// Around the vertices of an instance; relative to `anchor`.
-MomentRisk::Sphere bound_instance(const ShadingScene& shading, int i, const glm::dvec3& anchor) {
+KeyframeRisk::Sphere bound_instance(const ShadingScene& shading, int i, const glm::dvec3& anchor) {
     const PosedInstance& instance = shading.instances[i];
     const auto count = static_cast<std::uint32_t>(instance.mesh->positions.size());
     const auto place = [&](std::uint32_t v) { return instance.linear * instance.corner(v) + instance.translation; };
@@ -33,8 +33,8 @@ MomentRisk::Sphere bound_instance(const ShadingScene& shading, int i, const glm:
 }
 
 /// The cosine-weighted share of a hemisphere that a sphere hides is at most (radius / distance)^2.
-bool is_near(const MomentRisk& risk, const glm::vec3& position, float accuracy) {
-    return std::ranges::any_of(risk.movers, [&](const MomentRisk::Sphere& mover) {
+bool is_near(const KeyframeRisk& risk, const glm::vec3& position, float accuracy) {
+    return std::ranges::any_of(risk.movers, [&](const KeyframeRisk::Sphere& mover) {
         const glm::vec3 way = position - mover.center;
         return mover.radius * mover.radius > near_form_factor * accuracy * glm::dot(way, way);
     });
@@ -42,9 +42,9 @@ bool is_near(const MomentRisk& risk, const glm::vec3& position, float accuracy) 
 
 }  // namespace
 
-MomentRisk find_moment_risk(const ShadingScene& shading, const PosePlan& plan,
-                            std::span<const ShadingScene* const> moments) {
-    MomentRisk risk;
+KeyframeRisk find_keyframe_risk(const ShadingScene& shading, const PosePlan& plan,
+                                std::span<const ShadingScene* const> keyframes) {
+    KeyframeRisk risk;
     risk.moving.resize(shading.instances.size());
     for (const int i : plan.instances) risk.moving[i] = 1;
     const auto add = [&](const ShadingScene& at) {
@@ -53,12 +53,12 @@ MomentRisk find_moment_risk(const ShadingScene& shading, const PosePlan& plan,
         }
     };
     add(shading);
-    for (const ShadingScene* moment : moments) add(*moment);
+    for (const ShadingScene* keyframe : keyframes) add(*keyframe);
     return risk;
 }
 
-CheckedLight::CheckedLight(const IndirectContext& context, const MomentRisk& risk, const SampleHits& sample)
-    : moments_(*context.carried),
+CheckedLight::CheckedLight(const IndirectContext& context, const KeyframeRisk& risk, const SampleHits& sample)
+    : keyframes_(*context.carried),
       risk_(risk),
       sample_(sample),
       view_(context.view),
@@ -109,7 +109,7 @@ bool CheckedLight::differs(const IrradianceCache& cache, const IndirectContext& 
     const PixelSurface surface = *find_surface(context, sample_, probe.x, probe.y);
     const float accuracy = context.accuracy(probe.x, probe.y);
     const CacheQuery query{surface.point.position, surface.point.normal, accuracy, &task};
-    const std::optional<Rgb> own = cache.interpolate(query), theirs = moments_.find(surface, accuracy, task);
+    const std::optional<Rgb> own = cache.interpolate(query), theirs = keyframes_.find(surface, accuracy, task);
     if (!own || !theirs) return false;
     const std::optional<float> ray_variance = cache.expected_ray_variance(query);
     const int rays = choose_rays(context.settings, accuracy, ray_variance);
@@ -158,7 +158,7 @@ std::optional<Rgb> CheckedLight::find(const PixelSurface& surface, float accurac
             if ((rejected_(static_cast<int>(tile.x), static_cast<int>(tile.y)) & bit) != 0) return std::nullopt;
         }
     }
-    return moments_.find(surface, accuracy, task, used);
+    return keyframes_.find(surface, accuracy, task, used);
 }
 
 }  // namespace aleph

@@ -1,7 +1,7 @@
 #pragma once
 // `aleph compare` of two sequences of frames.
 
-#include "render/cli/compare_options.h"
+#include "render/cli/compare/compare_options.h"
 
 namespace aleph {
 

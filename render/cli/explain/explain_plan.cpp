@@ -7,7 +7,7 @@
 #include <set>
 
 #include "engine/pose/pose.h"
-#include "render/cli/explain.h"
+#include "render/cli/explain/explain.h"
 #include "render/plan/effects_json.h"
 
 namespace aleph {

@@ -1,10 +1,10 @@
-#include "render/cli/compare_frames_print.h"
+#include "render/cli/compare/compare_frames_print.h"
 
 #include <fmt/format.h>
 
 #include <nlohmann/json.hpp>
 
-#include "render/cli/compare_print.h"
+#include "render/cli/compare/compare_print.h"
 
 namespace aleph {
 

@@ -1,7 +1,7 @@
 #pragma once
 // Drafts of glTF files whose mesh deforms.
 
-#include "tests/support/gltf_draft.h"
+#include "tests/support/files/gltf_draft.h"
 
 namespace aleph {
 

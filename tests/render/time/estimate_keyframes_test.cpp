@@ -1,6 +1,6 @@
-// Indirect light of the quick estimate, carried from key moments to the frames between them.
+// Indirect light of the quick estimate, carried from lighting keyframes to the frames between them.
 
-#include "render/time/estimate_moments.h"
+#include "render/time/estimate_keyframes.h"
 
 #include <gtest/gtest.h>
 
@@ -58,17 +58,17 @@ double largest_bend(const Image<float>& light, const Image<Hit>& hits) {
     return largest;
 }
 
-TEST(EstimateMoments, FramesBetweenThemGatherNearlyNothing) {
+TEST(EstimateKeyframes, FramesBetweenThemGatherNearlyNothing) {
     Sequence own(make_shot_with_moving_camera(), estimate_settings(0));
     const std::uint64_t by_itself = own.render(5, only_maps).statistics.counts.rays.gather;
     Sequence sequence(make_shot_with_moving_camera(), estimate_settings(10));
-    const std::uint64_t moments = sequence.render(3, only_maps).statistics.counts.rays.gather;
-    EXPECT_LT(2 * moments, 3 * by_itself) << "the base moment, and what it does not know of the other";
+    const std::uint64_t keyframes = sequence.render(3, only_maps).statistics.counts.rays.gather;
+    EXPECT_LT(2 * keyframes, 3 * by_itself) << "the base keyframe, and what it does not know of the other";
     EXPECT_LT(20 * sequence.render(5, only_maps).statistics.counts.rays.gather, by_itself);
     EXPECT_EQ(sequence.render(10, only_maps).statistics.counts.rays.gather, 0u) << "kept";
 }
 
-TEST(EstimateMoments, TheirLightIsThatOfTheFrame) {
+TEST(EstimateKeyframes, TheirLightIsThatOfTheFrame) {
     for (const Scene& scene : {make_shot_with_moving_camera(), make_riding_shot(), make_shot_with_mover()}) {
         const double off =
             mean_difference(indirect_at(scene, estimate_settings(10), 4), indirect_at(scene, estimate_settings(0), 4));
@@ -76,15 +76,15 @@ TEST(EstimateMoments, TheirLightIsThatOfTheFrame) {
     }
 }
 
-/// Half way between a dark and a bright moment, but not a jump.
-TEST(EstimateMoments, TheirLightIsLinearInTime) {
+/// Half way between a dark and a bright keyframe, but not a jump.
+TEST(EstimateKeyframes, TheirLightIsLinearInTime) {
     Scene scene = make_shot();
     scene.lights[0].color.values = {glm::dvec3(4.0), glm::dvec3(12.0)};
     const Image<float> own = indirect_at(scene, estimate_settings(0), 3);
     EXPECT_LT(mean_difference(indirect_at(scene, estimate_settings(10), 3), own), 0.02);
 }
 
-TEST(EstimateMoments, TheyAddNoDetail) {
+TEST(EstimateKeyframes, TheyAddNoDetail) {
     const Scene scene = make_riding_shot();
     const FrameOutput own = Sequence(scene, estimate_settings(0)).render(4, only_maps);
     const FrameOutput carried = Sequence(scene, estimate_settings(10)).render(4, only_maps);
@@ -92,7 +92,7 @@ TEST(EstimateMoments, TheyAddNoDetail) {
               1.2 * largest_bend(own.indirect_luminance, own.hits));
 }
 
-TEST(EstimateMoments, MapsAreThoseOfThePicture) {
+TEST(EstimateKeyframes, MapsAreThoseOfThePicture) {
     const Scene scene = make_riding_shot();
     RenderSettings settings = shot_settings(4);
     settings.perception.guide = Guide::full;
@@ -110,7 +110,7 @@ TEST(EstimateMoments, MapsAreThoseOfThePicture) {
     }
 }
 
-TEST(EstimateMoments, MapsAreTheSameAloneAndOnAnyThreads) {
+TEST(EstimateKeyframes, MapsAreTheSameAloneAndOnAnyThreads) {
     const Scene scene = make_riding_shot();
     Sequence sequence(scene, estimate_settings(4));
     for (const int frame : {2, 3, 4, 7, 13, 1}) {
@@ -122,8 +122,8 @@ TEST(EstimateMoments, MapsAreTheSameAloneAndOnAnyThreads) {
     }
 }
 
-/// Of a frame and the next, either may be the base moment of the other.
-TEST(EstimateMoments, ImageMotionFindsTheBaseMomentOfEveryFrame) {
+/// Of a frame and the next, either may be the base keyframe of the other.
+TEST(EstimateKeyframes, ImageMotionFindsTheBaseMomentOfEveryFrame) {
     const Scene scene = make_shot_with_moving_camera();
     RenderSettings settings = shot_settings(1);
     settings.perception.guide = Guide::full;

@@ -5,7 +5,7 @@
 #include "engine/scene/operations.h"
 #include "engine/scene/points.h"
 #include "engine/scene_file/fields.h"
-#include "render/cli/explain.h"
+#include "render/cli/explain/explain.h"
 
 namespace aleph {
 

@@ -9,7 +9,7 @@
 #include "engine/base/errors.h"
 #include "engine/load/load_scene.h"
 #include "render/cli/commands.h"
-#include "render/cli/explain.h"
+#include "render/cli/explain/explain.h"
 #include "render/cli/scene_options.h"
 #include "render/settings/frame_list.h"
 #include "render/settings/scene_numbers.h"

@@ -1,4 +1,4 @@
-#include "render/time/moment_light.h"
+#include "render/time/keyframe_light.h"
 
 #include <cmath>
 
@@ -11,10 +11,10 @@ namespace aleph {
 
 namespace {
 
-/// Pixels, of views at other times than the moment's. Frames fill the little that tiles of this size leave open.
+/// Pixels, of views at other times than the keyframe's. Frames fill the little that tiles of this size leave open.
 constexpr int finest_tiles = 2;
 
-/// Whether linear interpolation between two moments may err too much: half way, if they differ by more than the
+/// Whether linear interpolation between two keyframes may err too much: half way, if they differ by more than the
 /// accuracy, relative to their mean; nearer to one of them, if they differ by accordingly more, as the error of linear
 /// interpolation is 0 at both ends.
 bool differ(const Rgb& before, const Rgb& after, float weight, float accuracy) {
@@ -23,7 +23,7 @@ bool differ(const Rgb& before, const Rgb& after, float weight, float accuracy) {
 }
 
 /// Records of things at rest, in the coordinates of another pose.
-std::vector<IrradianceRecord> shift_records(const MomentLight& from, const ShadingScene& to) {
+std::vector<IrradianceRecord> shift_records(const KeyframeLight& from, const ShadingScene& to) {
     std::vector<IrradianceRecord> records = from.cache.records();
     const glm::vec3 shift(from.at->shading.anchor - to.anchor);
     for (IrradianceRecord& record : records) record.position += shift;
@@ -32,7 +32,7 @@ std::vector<IrradianceRecord> shift_records(const MomentLight& from, const Shadi
 
 }  // namespace
 
-std::vector<IrradianceRecord> compute_records(const MomentInput& input, FrameCounts& counts) {
+std::vector<IrradianceRecord> compute_records(const KeyframeInput& input, FrameCounts& counts) {
     const LightingContext& lighting = input.lighting;
     const CameraView& first = input.views.front()->posed.view;
     IrradianceCache cache = make_cache(lighting.shading);
@@ -73,13 +73,13 @@ std::vector<IrradianceRecord> compute_records(const MomentInput& input, FrameCou
 
 /// The records' order decides in which order a look-up adds them, so the cache is always made from the list, whether
 /// it was computed or read from a file.
-MomentLight make_moment_light(std::shared_ptr<const KeyPose> at, const std::vector<IrradianceRecord>& records) {
-    MomentLight moment{at, make_cache(at->shading)};
-    moment.cache.restore(records);
-    return moment;
+KeyframeLight make_keyframe_light(std::shared_ptr<const KeyPose> at, const std::vector<IrradianceRecord>& records) {
+    KeyframeLight keyframe{at, make_cache(at->shading)};
+    keyframe.cache.restore(records);
+    return keyframe;
 }
 
-BlendedLight::BlendedLight(std::shared_ptr<const MomentLight> before, std::shared_ptr<const MomentLight> after,
+BlendedLight::BlendedLight(std::shared_ptr<const KeyframeLight> before, std::shared_ptr<const KeyframeLight> after,
                            double weight, bool still, double reach)
     : before_(std::move(before)),
       after_(std::move(after)),
@@ -87,18 +87,18 @@ BlendedLight::BlendedLight(std::shared_ptr<const MomentLight> before, std::share
       still_(still),
       reach_(static_cast<float>(reach)) {}
 
-std::optional<Rgb> BlendedLight::read(const MomentLight& moment, const PixelSurface& surface, float accuracy,
+std::optional<Rgb> BlendedLight::read(const KeyframeLight& keyframe, const PixelSurface& surface, float accuracy,
                                       RayTask& task, RecordUse& used) const {
-    const std::optional<SurfacePoint> point = carry_point(moment.at->shading, surface.hit, surface.point);
+    const std::optional<SurfacePoint> point = carry_point(keyframe.at->shading, surface.hit, surface.point);
     if (!point) return std::nullopt;
     CacheQuery query{point->position, point->normal, accuracy * reach_};
     query.used = &used;
-    // A surface that turned would need rays in the moment's own scene.
+    // A surface that turned would need rays in the keyframe's own scene.
     if (point->edges[0] == surface.point.edges[0] && point->edges[1] == surface.point.edges[1]) {
         query.task = &task;
         query.ray_shift = surface.point.position - point->position;
     }
-    return moment.cache.interpolate(query);
+    return keyframe.cache.interpolate(query);
 }
 
 std::optional<Rgb> BlendedLight::interpolate(const PixelSurface& surface, float accuracy, RayTask& task,

@@ -1,9 +1,9 @@
 #pragma once
-// Checks the light of key moments at a frame between them. Both moments may agree and be wrong: a ball that touches the
-// floor half way darkens it and itself, and neither moment shows that.
+// Checks the light of lighting keyframes at a frame between them. Both keyframes may agree and be wrong: a ball that
+// touches the floor half way darkens it and itself, and neither keyframe shows that.
 //
 // The frame computes irradiance of its own at probes: surfaces of the picture, the closer to each other the more may
-// have happened there. Where a probe differs from what the moments say, the frame does not read them.
+// have happened there. Where a probe differs from what the keyframes say, the frame does not read them.
 
 #include <cstdint>
 #include <span>
@@ -12,28 +12,28 @@
 
 namespace aleph {
 
-/// Where the light of a frame may differ from that of the key moments around it.
-struct MomentRisk {
+/// Where the light of a frame may differ from that of the lighting keyframes around it.
+struct KeyframeRisk {
     struct Sphere {
         glm::vec3 center{0.0f};  ///< m, relative to the frame's anchor
         float radius = 0.0f;     ///< m
     };
     std::vector<std::uint8_t> moving;  ///< per instance: it moves, deforms, comes or goes
-    std::vector<Sphere> movers;        ///< around moving instances, at the frame and at the key moments
+    std::vector<Sphere> movers;        ///< around moving instances, at the frame and at the lighting keyframes
 };
 
 /// @param shading  of the frame
-/// @param moments  the scene at the key moments around it
-MomentRisk find_moment_risk(const ShadingScene& shading, const PosePlan& plan,
-                            std::span<const ShadingScene* const> moments);
+/// @param keyframes  the scene at the lighting keyframes around it
+KeyframeRisk find_keyframe_risk(const ShadingScene& shading, const PosePlan& plan,
+                                std::span<const ShadingScene* const> keyframes);
 
-/// Light of key moments, but for parts of the picture where it is not to be used.
+/// Light of lighting keyframes, but for parts of the picture where it is not to be used.
 class CheckedLight final : public CarriedLight {
   public:
     /// Keeps references. Until `check`, probed parts are not used: their light may turn out not to be known.
-    /// @param context  of the frame; `carried` is the light of key moments
+    /// @param context  of the frame; `carried` is the light of lighting keyframes
     /// @param sample   of its pixels
-    CheckedLight(const IndirectContext& context, const MomentRisk& risk, const SampleHits& sample);
+    CheckedLight(const IndirectContext& context, const KeyframeRisk& risk, const SampleHits& sample);
 
     /// Computes irradiance at the probes, as records of the frame's cache, and compares it.
     /// @param context  as at construction, with deeper light
@@ -52,8 +52,8 @@ class CheckedLight final : public CarriedLight {
     void reject(const Probe& probe);
     bool differs(const IrradianceCache& cache, const IndirectContext& context, const Probe& probe, RayTask& task) const;
 
-    const CarriedLight& moments_;
-    const MomentRisk& risk_;
+    const CarriedLight& keyframes_;
+    const KeyframeRisk& risk_;
     const SampleHits& sample_;
     const CameraView& view_;
     glm::dvec3 anchor_;

@@ -1,0 +1,87 @@
+#pragma once
+// Indirect light of lighting keyframes (lighting_keyframes.h): computed at each of them, and read by the frames in
+// between.
+//
+// Records belong to surfaces. A frame looks up the light of a surface point where that point lies at the keyframe, so
+// records ride with rigid and with deforming objects. Between two keyframes the light is interpolated linearly in time.
+
+#include <functional>
+#include <memory>
+
+#include "engine/pose/posed_view.h"
+#include "render/cache/cache_fill.h"
+#include "render/pixels/shaded_frame.h"
+#include "render/time/lighting_keyframes.h"
+
+namespace aleph {
+
+/// The scene at a lighting keyframe. `shading` points into it: it must not move.
+struct KeyPose {
+    PosedView posed;
+    ShadingScene shading;
+};
+
+/// What a lighting keyframe's camera sees.
+struct KeyView : KeyPose {
+    std::int64_t frame = 0;
+    Image<float> accuracy;  ///< alpha per pixel
+    RayCounts rays;         ///< of its first hits and its quick estimate
+};
+
+/// The light of a lighting keyframe.
+struct KeyframeLight {
+    std::shared_ptr<const KeyPose> at;
+    IrradianceCache cache;
+};
+
+/// @param records  of this keyframe, from compute_records
+KeyframeLight make_keyframe_light(std::shared_ptr<const KeyPose> at, const std::vector<IrradianceRecord>& records);
+
+/// The first sample of every pixel of a view; adds its rays.
+using CastView = std::function<SampleHits(const KeyView& view, RayCounts& counts)>;
+
+/// What the light of a keyframe is computed from.
+struct KeyframeInput {
+    std::int64_t frame = 0;
+    const LightingContext& lighting;  ///< the scene at the keyframe
+    /// Their surfaces, taken to where they lie at the keyframe, get records.
+    const std::vector<std::shared_ptr<const KeyView>>& views;
+    const RenderSettings& settings;
+    const CastView& cast;
+    const CarriedLight* carried = nullptr;  ///< where it knows the light no records are needed; may be null
+    const KeyframeLight* base = nullptr;    ///< its records hold at this keyframe too; may be null
+};
+
+/// The records of a base keyframe, if there is one, and those computed at surfaces that they do not cover.
+/// @param counts  increased
+std::vector<IrradianceRecord> compute_records(const KeyframeInput& input, FrameCounts& counts);
+
+/// Light of the keyframes before and after a frame.
+class BlendedLight : public CarriedLight {
+  public:
+    /// @param after   null at a keyframe itself
+    /// @param weight  of `after`
+    /// @param still   nothing but the camera changes: light that only one of the keyframes has holds at the other
+    /// @param reach   shade_reach
+    BlendedLight(std::shared_ptr<const KeyframeLight> before, std::shared_ptr<const KeyframeLight> after, double weight,
+                 bool still, double reach);
+
+    /// Light of keyframes nearer to the frame, for what these keyframes do not know.
+    void set_finer(std::unique_ptr<const BlendedLight> finer) { finer_ = std::move(finer); }
+
+    std::optional<Rgb> find(const PixelSurface& surface, float accuracy, RayTask& task,
+                            RecordUse* used = nullptr) const override;
+
+  private:
+    std::optional<Rgb> read(const KeyframeLight& keyframe, const PixelSurface& surface, float accuracy, RayTask& task,
+                            RecordUse& used) const;
+    std::optional<Rgb> interpolate(const PixelSurface& surface, float accuracy, RayTask& task, RecordUse& used) const;
+
+    std::shared_ptr<const KeyframeLight> before_, after_;
+    float weight_;
+    bool still_;
+    float reach_;
+    std::unique_ptr<const BlendedLight> finer_;
+};
+
+}  // namespace aleph

@@ -1,0 +1,40 @@
+#pragma once
+// Lighting keyframes of a shot: the frames at which indirect light is computed. A frame between two of them reads both.
+
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+#include "engine/scene/scene.h"
+
+namespace aleph {
+
+/// Lighting keyframes are the first frame of the range and every `step`-th before and after it, the last frame of the
+/// range, and both sides of every cut and of every jump of the light.
+struct LightingKeyframes {
+    FrameRange range;
+    std::vector<std::int64_t> cuts;  ///< frames that begin a new shot
+    std::int64_t step = 10;          ///< frames, at least 1
+    /// Frames after `first`, up to `last`, before which the light jumps (LightBreaks). May be empty.
+    std::function<std::vector<std::int64_t>(std::int64_t first, std::int64_t last)> breaks;
+};
+
+/// The lighting keyframes around a frame: before <= frame <= after. A lighting keyframe has itself on both sides.
+struct KeyframePair {
+    std::int64_t before = 0, after = 0;
+    double weight = 0.0;  ///< of `after`; 1 - weight is that of `before`
+
+    bool operator==(const KeyframePair&) const = default;
+};
+
+KeyframePair find_keyframes(const LightingKeyframes& keyframes, std::int64_t frame);
+
+/// Frames whose views meet a lighting keyframe: its own, and the lighting keyframes before and after it, unless a cut
+/// or an end of the range lies between.
+std::vector<std::int64_t> find_keyframe_views(const LightingKeyframes& keyframes, std::int64_t keyframe);
+
+/// Where only the camera moves: the keyframe whose light others begin with. There is one in the middle of about every
+/// ten steps between cuts.
+std::int64_t find_base_keyframe(const LightingKeyframes& keyframes, std::int64_t keyframe);
+
+}  // namespace aleph
