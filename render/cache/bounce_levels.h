@@ -22,7 +22,7 @@ int count_bounces(const RenderSettings& settings);
 
 /// What gathers for the picture find at their hits.
 /// @param cache  from fill_levels; null: random paths only, without bias
-DeeperLight make_deeper_light(const RenderSettings& settings, const IrradianceCache* cache);
+MultiBounceLight make_multi_bounce_light(const RenderSettings& settings, const IrradianceCache* cache);
 
 /// A cache of one bounce fewer than the picture's, for the gathers that fill its cache.
 /// @param context  of the picture

@@ -49,14 +49,14 @@ struct Lighting {
         return {numbers.light(row, column), numbers.light_point(row, column)};
     }
     /// Irradiance of further bounces at a surface that a ray hit.
-    Rgb find_deeper(const SurfacePlace& met) const {
-        return find_deeper_irradiance(context, task, met, options.deeper, options.depth, random);
+    Rgb find_multi_bounce(const SurfacePlace& met) const {
+        return find_multi_bounce_irradiance(context, task, met, options.multi_bounce, options.depth, random);
     }
 };
 
 /// @param passed  share of the light that comes through
 void add_arrived(const ShadowSample& sample, const Rgb& passed, const GatherOptions& options, GatherScratch& scratch) {
-    const Rgb arrives = sample.deeper + (passed == Rgb(0.0f) ? passed : sample.unshadowed * passed);
+    const Rgb arrives = sample.multi_bounce + (passed == Rgb(0.0f) ? passed : sample.unshadowed * passed);
     scratch.light[sample.ray] += sample.scale * arrives;
     if (sample.grid != 0 && options.found != nullptr) options.found->push_back({sample.grid, arrives});
 }
@@ -83,13 +83,14 @@ void light_hit(const Lighting& lighting, std::size_t i) {
     const int depth = lighting.options.depth;
     if (depth > 0 && surface.material.has_specular()) {
         shares = share_lobes(lit, LobeSet::all);
-        scratch.light[i] = follow_lobes(lighting.context, lighting.task, lit, shares, lighting.options.deeper.bounces,
-                                        depth, lighting.random);
+        scratch.light[i] = follow_lobes(lighting.context, lighting.task, lit, shares,
+                                        lighting.options.multi_bounce.bounces, depth, lighting.random);
         shares[static_cast<int>(Lobe::diffuse)] = 0.0f;
     }
-    if (lighting.options.deeper.bounces > 0 && surface.material.has_diffuse()) {
-        const Rgb deeper = diffuse_radiance(surface.material, lit.cos_view, lighting.find_deeper(surface.point));
-        scratch.light[i] += deeper * lit.below_sheen;
+    if (lighting.options.multi_bounce.bounces > 0 && surface.material.has_diffuse()) {
+        const Rgb multi_bounce =
+            diffuse_radiance(surface.material, lit.cos_view, lighting.find_multi_bounce(surface.point));
+        scratch.light[i] += multi_bounce * lit.below_sheen;
     }
     const ScatteredLight scattered = choose_light(lighting.context, lit, shares, lighting.light_numbers(i));
     if (scattered.radiance == Rgb(0.0f)) return;
@@ -135,16 +136,16 @@ void light_plain_hit(const Lighting& lighting, const PlainHit& noted) {
     const LightingContext& context = lighting.context;
     const SurfacePlace place =
         make_surface_place(context.shading, scratch.hits[noted.ray], scratch.rays[noted.ray].direction);
-    const Rgb deeper = lighting.find_deeper(place) / pi;
+    const Rgb multi_bounce = lighting.find_multi_bounce(place) / pi;
     const ScatteredLight scattered = choose_lambert_light(context, place, lighting.light_numbers(noted.ray));
     if (scattered.radiance == Rgb(0.0f)) {
-        scratch.light[noted.ray] += noted.scale * deeper;
+        scratch.light[noted.ray] += noted.scale * multi_bounce;
         if (noted.grid != 0 && lighting.options.found != nullptr) {
-            lighting.options.found->push_back({noted.grid, deeper});
+            lighting.options.found->push_back({noted.grid, multi_bounce});
         }
         return;
     }
-    add_scattered(lighting, scattered, {scattered.radiance, noted.scale, deeper, noted.ray, noted.grid});
+    add_scattered(lighting, scattered, {scattered.radiance, noted.scale, multi_bounce, noted.ray, noted.grid});
 }
 
 /// All plain hits. What is read of the meshes is fetched ahead.
@@ -186,15 +187,15 @@ void light_hits(const Lighting& lighting) {
 void add_unshadowed(const LightingContext& context, RayTask& task, const GatherOptions& options,
                     GatherScratch& scratch) {
     const std::size_t count = scratch.shadow_rays.size();
-    if (!context.shading.has_sheets) {
+    if (!context.shading.has_thin_glass) {
         scratch.blocked.resize(count);
         task.tracer.occluded(scratch.shadow_rays, scratch.blocked);
         task.counts.shadow += count;
     }
     for (std::size_t s = 0; s < count; ++s) {
         const ShadowSample& sample = scratch.shadow_samples[s];
-        const Rgb passed = context.shading.has_sheets ? find_transmittance(context, task, scratch.shadow_rays[s])
-                                                      : Rgb(scratch.blocked[s] ? 0.0f : 1.0f);
+        const Rgb passed = context.shading.has_thin_glass ? find_transmittance(context, task, scratch.shadow_rays[s])
+                                                          : Rgb(scratch.blocked[s] ? 0.0f : 1.0f);
         add_arrived(sample, passed, options, scratch);
     }
 }

@@ -10,9 +10,9 @@
 #include <vector>
 
 #include "engine/base/color.h"
-#include "render/cache/deeper_light.h"
 #include "render/cache/direct_grid.h"
 #include "render/cache/hemisphere_strata.h"
+#include "render/cache/multi_bounce_light.h"
 #include "render/path/direct_light.h"
 #include "render/surface/lambert_hit.h"
 
@@ -76,7 +76,7 @@ struct RayPlace {
 struct ShadowSample {
     Rgb unshadowed{0.0f};
     Rgb scale{1.0f};         ///< of what arrives, to radiance
-    Rgb deeper{0.0f};        ///< light of further bounces, which arrives in any case
+    Rgb multi_bounce{0.0f};  ///< light of further bounces, which arrives in any case
     int ray = 0;             ///< that hit the surface
     std::uint64_t grid = 0;  ///< cell of the direct grid that the light is a sample of; 0: none
 };
@@ -125,7 +125,7 @@ struct GatherOptions {
     /// Null: every hit casts its own shadow ray, without bias.
     const DirectGrid* grid = nullptr;
     std::vector<DirectSample>* found = nullptr;  ///< if given, samples for the grid are added
-    DeeperLight deeper{};                        ///< light of further bounces; none: one bounce only
+    MultiBounceLight multi_bounce{};             ///< light of further bounces; none: one bounce only
     /// Each cell at most once. Which cells are here must not depend on the gather's own random numbers.
     std::span<const DividedCell> divided{};
 };

@@ -22,8 +22,8 @@ constexpr std::uint32_t turn_seed_step = 0x9e3779b9u;
 /// Records have random numbers of their place (make_place_key): a surface at rest that a camera at rest sees has the
 /// same noise at every time. Without records, the noise of every sample is its own.
 RandomKey choose_key(const IndirectContext& context, const PixelSurface& surface) {
-    const std::uint32_t turns = static_cast<std::uint32_t>(context.turns_before);
-    const std::uint32_t seed = (context.settings.seed ^ gather_seed_mask) + turns * turn_seed_step;
+    const std::uint32_t bounces = static_cast<std::uint32_t>(context.bounces_before);
+    const std::uint32_t seed = (context.settings.seed ^ gather_seed_mask) + bounces * turn_seed_step;
     if (!(context.settings.cache.accuracy > 0.0)) {
         return {seed, context.frame, surface.pixel, static_cast<std::uint32_t>(surface.sample)};
     }
@@ -51,8 +51,8 @@ IrradianceSample gather_at(const IndirectContext& context, RayTask& task, const 
                            GatherScratch& scratch, int rays, std::vector<DirectSample>* found) {
     const RandomKey key = choose_key(context, surface);
     return gather_irradiance(context.lighting, task, surface.point, choose_strata(rays), key, scratch,
-                             {std::max(0, context.settings.light.path_depth - 2 - context.turns_before), context.direct,
-                              found, context.deeper});
+                             {std::max(0, context.settings.light.path_depth - 2 - context.bounces_before),
+                              context.direct, found, context.multi_bounce});
 }
 
 }  // namespace aleph

@@ -4,9 +4,9 @@
 #include <optional>
 
 #include "engine/base/color.h"
-#include "render/cache/deeper_light.h"
 #include "render/cache/direct_grid.h"
 #include "render/cache/irradiance_cache.h"
+#include "render/cache/multi_bounce_light.h"
 #include "render/light/light_choice.h"
 #include "render/pixels/pixel_surfaces.h"
 #include "render/pixels/shaded_frame.h"
@@ -40,8 +40,8 @@ struct IndirectContext {
     /// If set, the hits were cast in this pose of the scene, and the light is wanted where their surfaces are in
     /// `lighting` (carry_point).
     const ShadingScene* seen = nullptr;
-    DeeperLight deeper{};  ///< of fewer bounces than the light that is gathered
-    int turns_before = 0;  ///< at Lambert layers, between the picture and the surfaces whose light is gathered
+    MultiBounceLight multi_bounce{};  ///< of fewer bounces than the light that is gathered
+    int bounces_before = 0;  ///< at Lambert layers, between the picture and the surfaces whose light is gathered
 };
 
 /// The context of a frame for a list of places instead of its pixels.
@@ -55,7 +55,7 @@ inline IndirectContext make_places_context(const IndirectContext& frame, const I
             .max_radius = frame.max_radius,
             .progress = {},
             .direct = frame.direct,
-            .deeper = frame.deeper};
+            .multi_bounce = frame.multi_bounce};
 }
 
 }  // namespace aleph

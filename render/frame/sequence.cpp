@@ -69,13 +69,13 @@ FrameOutput Sequence::render(std::int64_t frame, const FrameRequest& request) {
     SequenceState& s = state();
     // The first frame after an edit has a motion that no other frame has.
     const bool is_edited = s.preparation.motion.is_edited();
-    const std::int64_t first = is_edited ? frame : s.holds.find_first(frame);
-    std::optional<FrameOutput> out = s.held.copy(first, request);
+    const std::int64_t first = is_edited ? frame : s.static_spans.find_first(frame);
+    std::optional<FrameOutput> out = s.static_frame.copy(first, request);
     if (!out) {
-        s.held.drop();
+        s.static_frame.drop();
         out = render_frame(s, first, request);
-        const bool is_needed = !is_edited && (frame > first || s.holds.find_first(frame + 1) == first);
-        if (is_needed) s.held.keep(first, request, *out);
+        const bool is_needed = !is_edited && (frame > first || s.static_spans.find_first(frame + 1) == first);
+        if (is_needed) s.static_frame.keep(first, request, *out);
     }
     out->statistics.frame = frame;
     if (first != frame) out->statistics.copy_of = first;
@@ -84,7 +84,7 @@ FrameOutput Sequence::render(std::int64_t frame, const FrameRequest& request) {
 
 EffectsPlan Sequence::plan(std::int64_t frame) {
     SequenceState& s = state();
-    const std::int64_t first = s.preparation.motion.is_edited() ? frame : s.holds.find_first(frame);
+    const std::int64_t first = s.preparation.motion.is_edited() ? frame : s.static_spans.find_first(frame);
     return s.prepare(first, s.shot.needs_perception(), false).plan.effects;
 }
 
@@ -122,7 +122,7 @@ PartTimes Sequence::time_part(std::int64_t frame, const PicturePart& part, std::
                               const std::function<bool(const PartTimes&)>& go_on) {
     SequenceState& s = state();
     PartTimes times;
-    times.frame = s.holds.find_first(frame);
+    times.frame = s.static_spans.find_first(frame);
     StageClock clock;
     PreparedFrame prepared = s.prepare(times.frame, s.shot.needs_perception(), false);
     clock.add_to(times.before);
@@ -147,7 +147,7 @@ PartTimes Sequence::time_part(std::int64_t frame, const PicturePart& part, std::
 
 LightTime Sequence::time_light(std::int64_t frame) {
     SequenceState& s = state();
-    const std::int64_t first = s.holds.find_first(frame);
+    const std::int64_t first = s.static_spans.find_first(frame);
     PreparedFrame prepared = s.prepare(first, s.shot.needs_perception(), false);
     SampleOptions options = find_sample_options(s, first, prepared.plan);
     options.light_only = true;

@@ -46,7 +46,7 @@ KeyframeSource make_keyframe_source(SequenceState& s) {
 
 SequenceState::SequenceState(Scene given, const RenderSettings& settings, const std::vector<CameraShot>& shots)
     : shot(std::move(given), settings, shots),
-      holds(shot.scene, shot.pose_plan, shot.shots, [this](std::int64_t frame) { return shot.shutter(frame); }),
+      static_spans(shot.scene, shot.pose_plan, shot.shots, [this](std::int64_t frame) { return shot.shutter(frame); }),
       here(shot, shot.pose_plan),
       keyframe(shot, here),
       light_breaks(shot.scene, shot.pose_plan, shot.shutter(shot.range.first)),

@@ -4,8 +4,8 @@
 #include <memory>
 #include <optional>
 
-#include "render/frame/holds.h"
 #include "render/frame/prepared_frame.h"
+#include "render/frame/static_spans.h"
 #include "render/shade/frame.h"
 #include "render/time/light_breaks.h"
 #include "render/time/shot_light.h"
@@ -26,8 +26,8 @@ struct SequenceState {
     const CacheFingerprint& fingerprint();
 
     Shot shot;
-    Holds holds;
-    HeldFrame held;
+    StaticSpans static_spans;
+    StaticFrame static_frame;
     FrameScene here;      ///< the scene at the frame that is rendered
     FrameScene keyframe;  ///< the scene at a lighting keyframe
     LightBreaks light_breaks;
@@ -50,7 +50,7 @@ std::unique_ptr<CarriedLight> find_carried_light(SequenceState& s, std::int64_t 
 void shade_prepared(SequenceState& s, std::int64_t frame, PreparedFrame& prepared, const CarriedLight* carried,
                     SampleOptions options, const FrameProgress& progress = {});
 
-/// A frame by itself, whether or not it is in a hold.
+/// A frame by itself, whether or not it is in a static span.
 FrameOutput render_frame(SequenceState& s, std::int64_t frame, const FrameRequest& request);
 
 }  // namespace aleph

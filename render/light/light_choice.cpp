@@ -76,7 +76,7 @@ ScatteredLight choose_light(const LightingContext& context, const LitSurface& li
 }
 
 Rgb find_transmittance(const LightingContext& context, RayTask& task, const Ray& ray) {
-    if (!context.shading.has_sheets) {
+    if (!context.shading.has_thin_glass) {
         ++task.counts.shadow;
         return Rgb(task.tracer.occluded(ray) ? 0.0f : 1.0f);
     }

@@ -24,7 +24,7 @@ Emitter make_emitter(const ShadingScene& shading, int index) {
     emitter.instance = index;
     emitter.double_sided = material.double_sided;
     emitter.textured = material.material != nullptr && material.material->emission_texture.image != no_index;
-    emitter.pierced = material.material != nullptr && material.material->alpha_mode != Material::AlphaMode::opaque;
+    emitter.has_alpha = material.material != nullptr && material.material->alpha_mode != Material::AlphaMode::opaque;
     emitter.radiance = emitter.brightest = material.values.emission;
     if (const int texture = shading.textures->materials[instance.material].emission.texture; texture != no_index) {
         emitter.brightest *= glm::max(shading.textures->textures[texture].largest, 1.0f);

@@ -101,12 +101,12 @@ LightSample sample_emitter(const ShadingScene& shading, const Emitter& emitter, 
     sample.distance = distance * shadow_end;
     sample.pdf = angles.total > 0.0f ? 1.0f / angles.total : pdf_by_area(emitter, cosine, distance);
     Rgb radiance = emitter.radiance;
-    if (emitter.textured || emitter.pierced) {
+    if (emitter.textured || emitter.has_alpha) {
         const Hit hit{emitter.instance, triangle.primitive, b.x, b.y, distance};
         const SurfacePoint point = make_surface_point(shading, hit, sample.direction);
         const RayFootprint footprint{{}, {}, std::sqrt(share * emitter.area)};
         if (emitter.textured) radiance = evaluate_material(shading, point, footprint).emission;
-        if (emitter.pierced) radiance *= surface_coverage(shading, point, footprint);
+        if (emitter.has_alpha) radiance *= surface_coverage(shading, point, footprint);
     }
     sample.incoming = radiance / sample.pdf;
     return sample;

@@ -20,7 +20,7 @@ struct Emitter {
     int instance = no_index;
     bool double_sided = false;
     bool textured = false;
-    bool pierced = false;    ///< some rays may pass it: a mask, or blended
+    bool has_alpha = false;  ///< some rays may pass it: a mask, or blended
     Rgb radiance{0.0f};      ///< without texture
     Rgb brightest{0.0f};     ///< no less than the radiance anywhere: where its texture is brightest, or white
     float area = 0.0f;       ///< m2, of all triangles

@@ -29,7 +29,7 @@ class ShadowBatch {
             sum_ += contribution;
             return;
         }
-        if (context_.shading.has_sheets) {
+        if (context_.shading.has_thin_glass) {
             sum_ += contribution * find_transmittance(context_, task_, ray);
             return;
         }

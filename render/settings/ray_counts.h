@@ -6,15 +6,15 @@
 namespace aleph {
 
 struct RayCounts {
-    std::uint64_t primary = 0;   ///< through pixels
-    std::uint64_t shadow = 0;    ///< towards lights, from pixels and from the hits of gather rays
-    std::uint64_t gather = 0;    ///< over hemispheres, for irradiance values
-    std::uint64_t glossy = 0;    ///< sampled from glossy lobes, coats, sheen and rough glass
-    std::uint64_t specular = 0;  ///< reflected by mirrors, refracted and passed by smooth glass
-    std::uint64_t path = 0;      ///< sampled from Lambert layers along paths
-    std::uint64_t deeper = 0;    ///< from hits of gather rays, where no cache knows the light of further bounces
+    std::uint64_t primary = 0;       ///< through pixels
+    std::uint64_t shadow = 0;        ///< towards lights, from pixels and from the hits of gather rays
+    std::uint64_t gather = 0;        ///< over hemispheres, for irradiance values
+    std::uint64_t glossy = 0;        ///< sampled from glossy lobes, coats, sheen and rough glass
+    std::uint64_t specular = 0;      ///< reflected by mirrors, refracted and passed by smooth glass
+    std::uint64_t path = 0;          ///< sampled from Lambert layers along paths
+    std::uint64_t multi_bounce = 0;  ///< from hits of gather rays, where no cache knows the light of further bounces
 
-    std::uint64_t total() const { return primary + shadow + gather + glossy + specular + path + deeper; }
+    std::uint64_t total() const { return primary + shadow + gather + glossy + specular + path + multi_bounce; }
     RayCounts& operator+=(const RayCounts& o) {
         primary += o.primary;
         shadow += o.shadow;
@@ -22,7 +22,7 @@ struct RayCounts {
         glossy += o.glossy;
         specular += o.specular;
         path += o.path;
-        deeper += o.deeper;
+        multi_bounce += o.multi_bounce;
         return *this;
     }
 };

@@ -25,7 +25,7 @@ class CacheIntegrator final : public LightIntegrator {
           known_(context_, cached_ ? &cache_ : nullptr),
           direct_(context_.max_radius) {
         if (cached_) context_.direct = &direct_;
-        context_.deeper = make_deeper_light(context_.settings, nullptr);
+        context_.multi_bounce = make_multi_bounce_light(context_.settings, nullptr);
         if (input.options.record_maps) uses_ = Image<RecordUse>(context_.view.width, context_.view.height);
     }
 
@@ -86,11 +86,11 @@ class CacheIntegrator final : public LightIntegrator {
 
   private:
     void fill_fewer_bounces(const SampleHits& first) {
-        if (context_.deeper.bounces == 0) return;
+        if (context_.multi_bounce.bounces == 0) return;
         std::vector<PixelSurface> seen;
         add_seen_surfaces(context_, first, seen, input_.out.counts.rays);
         fewer_bounces_ = fill_levels(context_, seen, input_.out.counts);
-        if (fewer_bounces_) context_.deeper = make_deeper_light(context_.settings, &*fewer_bounces_);
+        if (fewer_bounces_) context_.multi_bounce = make_multi_bounce_light(context_.settings, &*fewer_bounces_);
     }
 
     const IntegratorInput input_;

@@ -76,7 +76,7 @@ void set_surroundings(ShadingScene& shading) {
     const ScenePose& pose = *shading.pose;
     shading.environment = pose.environment;
     shading.environment_rotation = glm::mat3(pose.environment_rotation);
-    shading.has_sheets = std::ranges::any_of(pose.materials, [](const MaterialValues& values) {
+    shading.has_thin_glass = std::ranges::any_of(pose.materials, [](const MaterialValues& values) {
         return values.transmission > 0.0f && values.thickness == 0.0f;
     });
 }

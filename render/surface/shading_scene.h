@@ -64,7 +64,7 @@ struct ShadingScene {
     Rgb environment{0.0f};                            ///< radiance all around, or factor on environment_map
     const EnvironmentMap* environment_map = nullptr;  ///< null: none
     glm::mat3 environment_rotation{1.0f};             ///< of environment_map, to the world
-    bool has_sheets = false;                          ///< some material may pass light straight: shadows depend on it
+    bool has_thin_glass = false;                      ///< some material may pass light straight: shadows depend on it
     std::vector<int> emitting;                        ///< instances whose material emits at some time
     SceneBounds bounds;                               ///< of the visible instances
     EffectSet skipped;                                ///< left out of shading

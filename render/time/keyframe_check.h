@@ -36,7 +36,7 @@ class CheckedLight final : public CarriedLight {
     CheckedLight(const IndirectContext& context, const KeyframeRisk& risk, const SampleHits& sample);
 
     /// Computes irradiance at the probes, as records of the frame's cache, and compares it.
-    /// @param context  as at construction, with deeper light
+    /// @param context  as at construction, with multi_bounce light
     void check(IrradianceCache& cache, const IndirectContext& context, FrameTally& tally);
 
     std::optional<Rgb> find(const PixelSurface& surface, float accuracy, RayTask& task,

@@ -60,7 +60,7 @@ std::vector<IrradianceRecord> compute_records(const KeyframeInput& input, FrameC
     }
     const std::optional<IrradianceCache> fewer_bounces = fill_levels(contexts.front(), seen, tally.counts);
     for (std::size_t v = 0; v < contexts.size(); ++v) {
-        contexts[v].deeper = make_deeper_light(input.settings, fewer_bounces ? &*fewer_bounces : nullptr);
+        contexts[v].multi_bounce = make_multi_bounce_light(input.settings, fewer_bounces ? &*fewer_bounces : nullptr);
         fill_cache(cache, contexts[v], first_samples[v], tally, contexts[v].seen == nullptr ? 1 : finest_tiles);
         // Other views were cast in another pose, where mirrors may show other things.
         if (contexts[v].seen == nullptr) fill_mirror_places(cache, contexts[v], first_samples[v], tally);

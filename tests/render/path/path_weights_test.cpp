@@ -175,7 +175,7 @@ Scene make_sheet_scene(double roughness) {
 
 TEST(PathWeights, LightPassesAThinSheet) {
     const Stage clear(make_sheet_scene(0.0)), rough(make_sheet_scene(0.6));
-    EXPECT_TRUE(clear.shading.has_sheets);
+    EXPECT_TRUE(clear.shading.has_thin_glass);
     const ViewedSurface floor{
         make_point({0.2f, 0.0f, 0.1f}, {0.0f, 1.0f, 0.0f}, 1e-4f), make_lambert(0.6f), {0.0f, 1.0f, 0.0f}};
     for (const Stage* stage : {&clear, &rough}) {

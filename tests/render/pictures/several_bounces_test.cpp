@@ -56,7 +56,7 @@ TEST(SeveralBounces, IC23_EachAddsItsTermOnce) {
         const double expected = direct * sum_of_powers(bounces);
         EXPECT_NEAR(mean_of_pixels(frame).mean(), expected, 0.004 * expected) << bounces;
         // Hardly a look-up finds no record.
-        EXPECT_LT(frame.counts.rays.deeper, frame.counts.rays.gather / 50) << bounces;
+        EXPECT_LT(frame.counts.rays.multi_bounce, frame.counts.rays.gather / 50) << bounces;
     }
 }
 
@@ -106,7 +106,7 @@ TEST(SeveralBounces, IC23_ALampBehindGlassIsNotFoundAgain) {
     RandomStream random({1, 2, 3, 4});
     const SurfacePoint floor = make_point(glm::vec3(0.0f), {0.0f, 1.0f, 0.0f});
     for (int i = 0; i < 200; ++i) {
-        ASSERT_EQ(find_deeper_irradiance(stage.lighting(), task, floor, {.bounces = 2}, 8, random), Rgb(0.0f));
+        ASSERT_EQ(find_multi_bounce_irradiance(stage.lighting(), task, floor, {.bounces = 2}, 8, random), Rgb(0.0f));
     }
     EXPECT_GT(task.counts.specular, 100u);
 }
@@ -122,7 +122,7 @@ TEST(SeveralBounces, IC23_RandomPathsWhereThereIsNoCache) {
             const Mean mean = mean_of_pixels(frame);
             trial.near(mean, expected, 1e-3 * expected);
             EXPECT_LT(mean.error(), 0.004 * expected);
-            EXPECT_GT(frame.counts.rays.deeper, frame.counts.rays.gather / 2);
+            EXPECT_GT(frame.counts.rays.multi_bounce, frame.counts.rays.gather / 2);
         })) << bounces;
     }
 }
@@ -140,10 +140,10 @@ TEST(SeveralBounces, IC23_FewerBouncesCostLessThanThePicture) {
     const Stage stage(make_shot(), 96, 72);
     const auto counts = [&](int bounces) { return shade(stage, cache_settings(bounces, 0.1, 128)).counts; };
     const FrameCounts one = counts(1), two = counts(2), three = counts(3);
-    EXPECT_EQ(one.deeper_rays, 0u);
-    EXPECT_GT(two.deeper_records, 0u);
-    EXPECT_LT(two.deeper_rays, one.rays.total());
-    EXPECT_LT(three.deeper_rays, 2 * two.deeper_rays);
+    EXPECT_EQ(one.multi_bounce_rays, 0u);
+    EXPECT_GT(two.multi_bounce_records, 0u);
+    EXPECT_LT(two.multi_bounce_rays, one.rays.total());
+    EXPECT_LT(three.multi_bounce_rays, 2 * two.multi_bounce_rays);
 }
 
 TEST(SeveralBounces, IC23_FilesAreEqualForAnyThreadsAloneAndInASequence) {

@@ -1,5 +1,5 @@
 #pragma once
-// Holds: runs of frames in which nothing changes. Such frames are rendered once and copied.
+// StaticSpans: runs of frames in which nothing changes. Such frames are rendered once and copied.
 
 #include <functional>
 
@@ -14,22 +14,22 @@ namespace aleph {
 /// Where nothing changes from the opening of the shutter of frame a to its closing at frame b, and no cut lies between,
 /// frames a to b-1 have the same pose and no motion: all of them are rendered as frame a. Frame b has the motion to the
 /// frame after it and is rendered by itself, unless it is the last of the range, whose motion is that from frame b-1.
-/// Holds end at both ends of the range, and frames before it belong to none. A scene in which nothing ever changes is
-/// one hold, which frames outside of the range belong to.
-class Holds {
+/// StaticSpans end at both ends of the range, and frames before it belong to none. A scene in which nothing ever
+/// changes is one static span, which frames outside of the range belong to.
+class StaticSpans {
   public:
     /// Keeps references to scene and shots.
     /// @param scene    its cuts include every change of cameras
     /// @param shutter  of a frame's camera
-    Holds(const Scene& scene, const PosePlan& plan, const std::vector<CameraShot>& shots,
-          std::function<glm::dvec2(std::int64_t frame)> shutter);
+    StaticSpans(const Scene& scene, const PosePlan& plan, const std::vector<CameraShot>& shots,
+                std::function<glm::dvec2(std::int64_t frame)> shutter);
 
-    /// The frame as which a frame is rendered: the first of its hold, or itself. The hold found last is kept, so that
-    /// its other frames cost next to nothing.
+    /// The frame as which a frame is rendered: the first of its static span, or itself. The hold found last is kept, so
+    /// that its other frames cost next to nothing.
     std::int64_t find_first(std::int64_t frame);
 
   private:
-    bool is_hold(std::int64_t first, std::int64_t last) const;
+    bool is_static(std::int64_t first, std::int64_t last) const;
     std::int64_t search_first(std::int64_t frame, std::int64_t end, std::int64_t limit) const;
 
     const Scene& scene_;
@@ -37,15 +37,15 @@ class Holds {
     const std::function<glm::dvec2(std::int64_t)> shutter_;
     const FrameRange range_;
     const SteadySpans spans_;
-    std::int64_t first_ = 0, last_ = -1;  ///< frames of the hold found last, as far as it is known
+    std::int64_t first_ = 0, last_ = -1;  ///< frames of the static span found last, as far as it is known
 };
 
-/// The output of the frame rendered last, while other frames of its hold may need it.
-class HeldFrame {
+/// The output of the frame rendered last, while other frames of its static span may need it.
+class StaticFrame {
   public:
-    /// A copy for a frame of the same hold, without times and counts; nothing if this holds another frame, or if other
-    /// contents are requested.
-    /// @param first  first frame of the hold
+    /// A copy for a frame of the same static span, without times and counts; nothing if this holds another frame, or if
+    /// other contents are requested.
+    /// @param first  first frame of the static span
     std::optional<FrameOutput> copy(std::int64_t first, const FrameRequest& request) const;
 
     void keep(std::int64_t first, const FrameRequest& request, const FrameOutput& output);

@@ -9,7 +9,7 @@ namespace aleph {
 class IrradianceCache;
 
 /// The light that hits of gather rays scatter in addition to direct light.
-struct DeeperLight {
+struct MultiBounceLight {
     int bounces = 0;  ///< of its irradiance; 0: there is none
     /// Of exactly so many bounces; null: every irradiance comes from a random path.
     const IrradianceCache* cache = nullptr;
@@ -17,9 +17,9 @@ struct DeeperLight {
 };
 
 /// Indirect irradiance at a surface point: from the cache, or without bias from one random path where it has no record.
-/// The path's first ray is counted as RayCounts::deeper.
+/// The path's first ray is counted as RayCounts::multi_bounce.
 /// @param depth  surfaces that may scatter on the path
-Rgb find_deeper_irradiance(const LightingContext& context, RayTask& task, const SurfacePlace& point,
-                           const DeeperLight& deeper, int depth, RandomStream& random);
+Rgb find_multi_bounce_irradiance(const LightingContext& context, RayTask& task, const SurfacePlace& point,
+                                 const MultiBounceLight& multi_bounce, int depth, RandomStream& random);
 
 }  // namespace aleph

@@ -1,6 +1,6 @@
 // Frames in which nothing changes are rendered once.
 
-#include "render/frame/holds.h"
+#include "render/frame/static_spans.h"
 
 #include <gtest/gtest.h>
 
@@ -60,11 +60,12 @@ std::vector<std::int64_t> list_firsts(const Scene& scene, std::int64_t begin = 0
     const std::vector<CameraShot> shots = list_camera_shots(scene, "");
     const PosePlan plan = make_pose_plan(scene);
     const auto shutter = [&](std::int64_t) { return scene.cameras[0].shutter; };
-    Holds kept(scene, plan, shots, shutter);
+    StaticSpans kept(scene, plan, shots, shutter);
     std::vector<std::int64_t> firsts;
     for (std::int64_t frame = begin; frame < end; ++frame) {
         firsts.push_back(kept.find_first(frame));
-        EXPECT_EQ(firsts.back(), Holds(scene, plan, shots, shutter).find_first(frame)) << "depends on other frames";
+        EXPECT_EQ(firsts.back(), StaticSpans(scene, plan, shots, shutter).find_first(frame))
+            << "depends on other frames";
     }
     for (std::int64_t frame = end; frame-- > begin;) EXPECT_EQ(kept.find_first(frame), firsts[frame - begin]);
     return firsts;
@@ -73,11 +74,11 @@ std::vector<std::int64_t> list_firsts(const Scene& scene, std::int64_t begin = 0
 using Firsts = std::vector<std::int64_t>;
 const Firsts own{0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14};
 
-TEST(Holds, TheLastFrameAtRestHasMotionOfItsOwn) {
+TEST(StaticSpans, TheLastFrameAtRestHasMotionOfItsOwn) {
     EXPECT_EQ(list_firsts(make_resting_scene()), (Firsts{0, 1, 2, 3, 4, 4, 4, 4, 4, 4, 10, 11, 12, 13, 14}));
 }
 
-TEST(Holds, EndAtTheRange) {
+TEST(StaticSpans, EndAtTheRange) {
     Scene scene = make_resting_scene();
     scene.range = FrameRange{6, 9};
     // The last frame's motion is that from the frame before it.
@@ -88,14 +89,14 @@ TEST(Holds, EndAtTheRange) {
     EXPECT_EQ(list_firsts(scene, 13, 18), (Firsts{13, 14, 15, 15, 15})) << "after its last key nothing changes";
 }
 
-TEST(Holds, AStillSceneIsOne) {
+TEST(StaticSpans, AStillSceneIsOne) {
     Scene scene = make_scene();
     EXPECT_EQ(list_firsts(scene, -2, 20), Firsts(22, 0));
     scene.nodes[0].translation = make_keys<glm::dvec3>(scene, [](int) { return glm::dvec3(0.25); });
     EXPECT_EQ(list_firsts(scene, -2, 20), Firsts(22, 0)) << "keys that are equal";
 }
 
-TEST(Holds, NoFrameIsCopiedAcrossACut) {
+TEST(StaticSpans, NoFrameIsCopiedAcrossACut) {
     Scene scene = make_resting_scene();
     scene.cuts = {7};
     EXPECT_EQ(list_firsts(scene), (Firsts{0, 1, 2, 3, 4, 4, 6, 7, 7, 7, 10, 11, 12, 13, 14}));
@@ -104,7 +105,7 @@ TEST(Holds, NoFrameIsCopiedAcrossACut) {
     EXPECT_EQ(list_firsts(scene), (Firsts{0, 0, 0, 0, 0, 0, 6, 7, 7, 7, 7, 7, 7, 7, 7}));
 }
 
-TEST(Holds, AnOpenShutterSeesWhatChangesAroundAFrame) {
+TEST(StaticSpans, AnOpenShutterSeesWhatChangesAroundAFrame) {
     Scene scene = make_resting_scene();
     scene.cameras[0].shutter = {-0.5, 0.5};
     EXPECT_EQ(list_firsts(scene), (Firsts{0, 1, 2, 3, 4, 5, 5, 5, 5, 9, 10, 11, 12, 13, 14}));
@@ -126,7 +127,7 @@ Firsts list_firsts_with(const Change& change) {
     return list_firsts(scene);
 }
 
-TEST(Holds, EveryKindOfChangeEndsOne) {
+TEST(StaticSpans, EveryKindOfChangeEndsOne) {
     const auto number = [](const Scene& scene, Interpolation how = Interpolation::linear) {
         Track<double> track = make_keys<double>(scene, [](int frame) { return frame == 7 ? 0.0 : 1.0; });
         track.interpolation = how;
@@ -218,7 +219,7 @@ TEST_P(HeldFrames, HaveTheSameBytesInAnyOrder) {
 }
 INSTANTIATE_TEST_SUITE_P(LightSteps, HeldFrames, testing::Values(0, 6));
 
-TEST(HeldFrame, IsNotACopyWithOtherContents) {
+TEST(StaticFrame, IsNotACopyWithOtherContents) {
     const RenderSettings settings = quick_settings(24, 16);
     Sequence sequence(make_seen_scene(), settings), other(make_seen_scene(), settings);
     sequence.render(5);
@@ -233,7 +234,7 @@ TEST(HeldFrame, IsNotACopyWithOtherContents) {
     EXPECT_TRUE(sequence.render(7).depth.empty());
 }
 
-TEST(HeldFrame, EndsWithAnEdit) {
+TEST(StaticFrame, EndsWithAnEdit) {
     const RenderSettings settings = quick_settings(24, 16);
     Sequence sequence(make_seen_scene(), settings);
     const FrameOutput before = sequence.render(5);

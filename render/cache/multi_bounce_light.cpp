@@ -1,4 +1,4 @@
-#include "render/cache/deeper_light.h"
+#include "render/cache/multi_bounce_light.h"
 
 #include <numbers>
 
@@ -14,7 +14,7 @@ Rgb sample_irradiance(const LightingContext& context, RayTask& task, const Surfa
                       RandomStream& random) {
     const glm::vec3 direction = make_basis(point.normal).to_world(sample_cosine_hemisphere(random.next_2d()));
     if (!(glm::dot(direction, point.geometric) > 0.0f)) return Rgb(0.0f);
-    ++task.counts.deeper;
+    ++task.counts.multi_bounce;
     const Hit hit = task.tracer.intersect({point.ray_origin(), direction});
     if (hit.instance == no_index) return Rgb(0.0f);
     const SurfacePoint met = make_surface_point(context.shading, hit, direction);
@@ -28,14 +28,14 @@ Rgb sample_irradiance(const LightingContext& context, RayTask& task, const Surfa
 
 }  // namespace
 
-Rgb find_deeper_irradiance(const LightingContext& context, RayTask& task, const SurfacePlace& point,
-                           const DeeperLight& deeper, int depth, RandomStream& random) {
-    if (deeper.bounces <= 0) return Rgb(0.0f);
-    if (deeper.cache != nullptr) {
-        const CacheQuery query{point.position, point.normal, deeper.accuracy, &task};
-        if (const std::optional<Rgb> found = deeper.cache->interpolate(query)) return *found;
+Rgb find_multi_bounce_irradiance(const LightingContext& context, RayTask& task, const SurfacePlace& point,
+                                 const MultiBounceLight& multi_bounce, int depth, RandomStream& random) {
+    if (multi_bounce.bounces <= 0) return Rgb(0.0f);
+    if (multi_bounce.cache != nullptr) {
+        const CacheQuery query{point.position, point.normal, multi_bounce.accuracy, &task};
+        if (const std::optional<Rgb> found = multi_bounce.cache->interpolate(query)) return *found;
     }
-    return sample_irradiance(context, task, point, {deeper.bounces - 1, depth}, random);
+    return sample_irradiance(context, task, point, {multi_bounce.bounces - 1, depth}, random);
 }
 
 }  // namespace aleph

@@ -1,4 +1,4 @@
-#include "render/frame/holds.h"
+#include "render/frame/static_spans.h"
 #include <algorithm>
 
 #include "render/settings/measure.h"
@@ -23,12 +23,12 @@ TimeSpan find_time_span(const Scene& scene, const glm::dvec2& relative, std::int
 
 }  // namespace
 
-Holds::Holds(const Scene& scene, const PosePlan& plan, const std::vector<CameraShot>& shots,
-             std::function<glm::dvec2(std::int64_t frame)> shutter)
+StaticSpans::StaticSpans(const Scene& scene, const PosePlan& plan, const std::vector<CameraShot>& shots,
+                         std::function<glm::dvec2(std::int64_t frame)> shutter)
     : scene_(scene), shots_(shots), shutter_(std::move(shutter)), range_(frame_range(scene)), spans_(scene, plan) {}
 
 /// Whether nothing changes from a frame to another one, and no cut lies between.
-bool Holds::is_hold(std::int64_t first, std::int64_t last) const {
+bool StaticSpans::is_static(std::int64_t first, std::int64_t last) const {
     const auto lies_between = [&](std::int64_t cut) { return first < cut && cut <= last; };
     if (std::ranges::any_of(scene_.cuts, lies_between)) return false;
     if (spans_.is_always_steady()) return true;
@@ -38,26 +38,26 @@ bool Holds::is_hold(std::int64_t first, std::int64_t last) const {
 
 /// The earliest frame from which on nothing changes up to `end`, if nothing does from `frame` to it.
 /// @param limit  holds do not reach beyond it
-std::int64_t Holds::search_first(std::int64_t frame, std::int64_t end, std::int64_t limit) const {
-    std::int64_t known = frame, step = 1;  // `known` is in the hold
-    while (known > limit && is_hold(std::max(limit, known - step), end)) {
+std::int64_t StaticSpans::search_first(std::int64_t frame, std::int64_t end, std::int64_t limit) const {
+    std::int64_t known = frame, step = 1;  // `known` is in the static span
+    while (known > limit && is_static(std::max(limit, known - step), end)) {
         known = std::max(limit, known - step);
         step *= 2;
     }
     for (; step > 0; step /= 2) {
-        if (known - step >= limit && is_hold(known - step, end)) known -= step;
+        if (known - step >= limit && is_static(known - step, end)) known -= step;
     }
     return known;
 }
 
-std::int64_t Holds::find_first(std::int64_t frame) {
+std::int64_t StaticSpans::find_first(std::int64_t frame) {
     if (spans_.is_always_steady() && scene_.cuts.empty()) return range_.first;
     if (frame < range_.first) return frame;
     // The frame with which this one has its motion; the last frame of a range has it with the one before it.
     const bool is_last = frame == range_.last && range_.last > range_.first;
     const std::int64_t begin = is_last ? frame - 1 : frame, end = begin + 1;
     if (first_ <= begin && end <= last_) return first_;
-    if (!is_hold(begin, end)) return frame;
+    if (!is_static(begin, end)) return frame;
     const std::int64_t limit = begin > range_.last ? range_.last + 1 : range_.first;
     const bool goes_on = begin == last_ && first_ < last_ && first_ >= limit;
     if (!goes_on) first_ = search_first(begin, end, limit);
@@ -65,14 +65,14 @@ std::int64_t Holds::find_first(std::int64_t frame) {
     return first_;
 }
 
-std::optional<FrameOutput> HeldFrame::copy(std::int64_t first, const FrameRequest& request) const {
+std::optional<FrameOutput> StaticFrame::copy(std::int64_t first, const FrameRequest& request) const {
     if (!output_ || first_ != first || frame_ != request.frame || maps_ != request.maps) return std::nullopt;
     std::optional<FrameOutput> copy = output_;
     copy->statistics.peak_memory_mib = peak_memory_mib();
     return copy;
 }
 
-void HeldFrame::keep(std::int64_t first, const FrameRequest& request, const FrameOutput& output) {
+void StaticFrame::keep(std::int64_t first, const FrameRequest& request, const FrameOutput& output) {
     first_ = first;
     frame_ = request.frame;
     maps_ = request.maps;
