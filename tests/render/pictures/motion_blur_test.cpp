@@ -235,6 +235,29 @@ TEST(MotionBlur, FX15_LightThatChangesWhereNothingInViewMoves) {
     }
 }
 
+TEST(MotionBlur, FX15_ALampThatIsDarkAtTheShuttersCentreCastsShadows) {
+    // The lamp shines in the last quarter of the shutter. A plate keeps its light from the floor at the origin.
+    Scene scene;
+    scene.exposure = 1.0;
+    scene.range = FrameRange{0, 10};
+    add_mesh(scene, make_quad(50.0, 50.0, add_lambert(scene, glm::dvec3(1.0), glm::dvec3(0.0), true)));
+    const int shining = add_lambert(scene, glm::dvec3(0.0), glm::dvec3(1.0), true);
+    scene.materials[shining].emission_strength = keyed<double>({0.0, at(0.75)}, {0.0, 100.0}, Interpolation::step);
+    add_mesh(scene, make_quad(1.0, 1.0, shining), {4.0, 0.0, 6.0});
+    add_mesh(scene, make_quad(2.0, 2.0, 0), {2.0, 0.0, 3.0});
+    add_camera(scene, {0.0, 0.0, 5.0}, glm::dvec3(0.0));
+    scene.cameras[0].shutter = {0.0, 1.0};
+    RenderSettings settings = blur_settings(0);
+    const Image<Rgb> planned = Sequence(scene, settings).render(0).shaded.color;
+    settings.effects.plan = EffectsPlanning::off;
+    const Image<Rgb> all = Sequence(scene, settings).render(0).shaded.color;
+    EXPECT_EQ(planned.pixels, all.pixels);
+    scene.nodes[2].visible = false;
+    const Image<Rgb> open = Sequence(scene, settings).render(0).shaded.color;
+    EXPECT_LT(all(width / 2, height / 2).x, 0.5f * open(width / 2, height / 2).x);
+    EXPECT_GT(open(width / 2, height / 2).x, 0.01f);
+}
+
 TEST(MotionBlur, MC27_AChangeOfTopologyShowsBothMeshes) {
     // A surface of one triangle in frame 0, of two in frame 1.
     Scene scene = load_scene(source_folder() / "scenes" / "hard" / "changing_topology.json");
