@@ -39,7 +39,7 @@ void warn_of_units(const FrameStatistics& frame) {
         frame.frame, median);
 }
 
-/// What share of the pixels is estimated to err by more than was asked for, and why.
+/// Prints the share of the pixels that is estimated to err by more than was asked for, and why.
 void print_error(const FrameStatistics& frame) {
     if (!frame.error) return;
     const ErrorShares& shares = *frame.error;

@@ -19,7 +19,7 @@ Image<Rgb> compute_estimate(const LightingContext& context, const CameraView& vi
                             EstimateKind kind, const EstimateNodes* indirect, double exposure, RayCounts& counts,
                             Image<float>* indirect_luminance = nullptr);
 
-/// What an estimate shows of a surface, without indirect light and exposure.
+/// Returns the radiance that an estimate shows for a surface, without indirect light and exposure.
 /// @param task  its rays are those of Blend::cutout
 Rgb estimate_radiance(const LightingContext& context, RayTask& task, const PixelSurface& surface, EstimateKind kind);
 

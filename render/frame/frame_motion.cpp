@@ -12,7 +12,7 @@ namespace aleph {
 
 namespace {
 
-/// Whether surfaces of one pose can be found in the other.
+/// Returns whether surfaces of one pose can be found in the other.
 bool has_same_elements(const ScenePose& a, const ScenePose& b) {
     const auto same_size = [](const PosedMesh& m, const PosedMesh& n) {
         return m.positions.size() == n.positions.size() && m.control.size() == n.control.size();

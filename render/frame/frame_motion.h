@@ -18,7 +18,7 @@ class FrameMotion {
 
     /// Motion of the next frame that is prepared leads from this pose, of the scene before it was edited.
     void begin_edited(PosedView before);
-    /// Whether begin_edited was called and the frame after it has not been rendered yet.
+    /// Returns whether begin_edited was called and the frame after it has not been rendered yet.
     bool is_edited() const { return before_edit_.has_value(); }
     /// Later frames have the motion of the scene's tracks. @return the pose given to begin_edited
     std::optional<PosedView> end_edited();

@@ -1,5 +1,5 @@
 #pragma once
-// What is requested of a frame, and what comes out: picture, maps, counts and times.
+// Request of a frame, and its output: picture, maps, counts and times.
 
 #include <array>
 #include <cstdint>
@@ -46,7 +46,7 @@ struct FrameStatistics {
     std::vector<KeyframeStatistics> keyframes;
 };
 
-/// What is computed beyond the statistics.
+/// Outputs to compute beyond the statistics.
 struct FrameRequest {
     bool frame = true;       ///< the picture
     bool maps = false;       ///< every map of perception and motion, with the hidden pixels in motion.validity

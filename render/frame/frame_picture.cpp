@@ -48,7 +48,8 @@ Image<Outline> find_visible_outlines(const Shot& shot, const PreparedFrame& fram
     return outlines;
 }
 
-/// Of the light of lighting keyframes; nothing if the frame is one itself, or if nothing but the camera changes.
+/// Risk of using the light of lighting keyframes; none if the frame is one itself, or if nothing but the camera
+/// changes.
 std::optional<KeyframeRisk> find_risk(const SequenceState& s, std::int64_t frame) {
     const std::vector<const ShadingScene*> keyframes = s.shot_light->scenes_around(frame);
     if (keyframes.empty()) return std::nullopt;

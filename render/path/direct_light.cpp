@@ -192,7 +192,7 @@ float bound_reflection(const LitSurface& lit) {
     return bound;
 }
 
-/// Whether all samples of the lobes have the same direction.
+/// Returns whether all samples of the lobes have the same direction.
 bool is_single_mirror(const LitSurface& lit, const LobeShares& shares) {
     const auto share = [&](Lobe lobe) { return shares[static_cast<std::size_t>(lobe)]; };
     const SurfaceMaterial& material = lit.material;

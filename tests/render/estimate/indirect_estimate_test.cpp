@@ -25,7 +25,7 @@ Image<Rgb> estimate(const Stage& stage, bool indirect, RayCounts& counts) {
                             counts);
 }
 
-/// What indirect light adds to the estimate's luminance.
+/// Luminance that indirect light adds to the estimate.
 Image<float> indirect_part(const Stage& stage) {
     RayCounts counts;
     const Image<Rgb> with = estimate(stage, true, counts), without = estimate(stage, false, counts);

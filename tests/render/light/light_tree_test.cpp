@@ -71,7 +71,7 @@ std::vector<double> find_illuminances(const Stage& stage, const Receiver& receiv
     return found;
 }
 
-/// Of each light, and of each group's lights together.
+/// Returns what each light brings, then what the lights of each group bring together.
 std::vector<double> add_up(const LightTree& tree, std::vector<double> brought) {
     std::vector<double> groups(tree.groups.size());
     brought.resize(brought.size() + groups.size());
