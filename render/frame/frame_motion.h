@@ -10,6 +10,8 @@
 
 namespace aleph {
 
+struct PreparedFrame;
+
 /// Keeps the scene at the other frame, and updates what moves.
 class FrameMotion {
   public:
@@ -30,8 +32,9 @@ class FrameMotion {
 
     /// Motion of a frame whose estimate is made, with the hidden pixels if maps are wanted. After pose_other.
     /// @param clock  adds an estimate of the other frame to that stage
-    void compute(const FrameWork& work, const FramePlan& plan, const FrameScene& here, const SampleHits& centers,
-                 EstimateLight& light, StageClock& clock, FrameOutput& out);
+    /// @param frame  its output gets the motion
+    void compute(const FrameWork& work, const FrameScene& here, EstimateLight& light, StageClock& clock,
+                 PreparedFrame& frame);
 
     /// The scene at other frames, for others to pose: it is needed from pose_other to compute only.
     FrameScene& other() { return other_; }

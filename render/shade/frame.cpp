@@ -129,7 +129,7 @@ class FrameShading {
                 return;
             }
             const PixelSurface surface =
-                make_pixel_surface(scene.lighting.shading, scene.view, at, hit, direction, x, y);
+                make_pixel_surface(scene.lighting.shading, scene.view, at, hit, direction, {x, y});
             begin_light(surface, light);
             if (integrator_->shade(task, surface, pixels_(x, y), light)) {
                 add_sample(task, x, y, light);

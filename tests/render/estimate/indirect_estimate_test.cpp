@@ -21,8 +21,7 @@ Image<Rgb> estimate(const Stage& stage, bool indirect, RayCounts& counts) {
     const SampleHits centers = cast_centers(stage.rays, stage.view, nullptr);
     std::optional<EstimateNodes> nodes;
     if (indirect) nodes = gather_estimate(stage.lighting(), stage.view, centers, nullptr, counts);
-    return compute_estimate(stage.lighting(), stage.view, centers, EstimateKind::direct, nodes ? &*nodes : nullptr, 1.0,
-                            counts);
+    return compute_estimate(stage.lighting(), stage.view, centers, {.indirect = nodes ? &*nodes : nullptr}, counts);
 }
 
 /// Luminance that indirect light adds to the estimate.

@@ -261,8 +261,8 @@ TEST(LightTree, LayersWithoutABoundLeaveNothingOut) {
                                 glm::vec3(0.0f, -1.0f, 0.0f)};
     const LobeShares shares{};
     float left_out = 1.0f;
-    sample_direct_light(stage.lighting(), task, LitSurface(surface), shares, PixelSequence(1, 0, 0, 0), {0, 1, 10.0f},
-                        &left_out);
+    sample_direct_light(stage.lighting(), task, LitSurface(surface), shares, PixelSequence(1, 0, 0, 0),
+                        {0, 1, 10.0f, &left_out});
     EXPECT_EQ(left_out, 0.0f);
 }
 
