@@ -159,7 +159,7 @@ struct ReplacedPixels {
 
     void add(const FrameStatistics& frame) {
         if (pixels == 0) first_frame = frame.frame;
-        pixels += frame.sanitized.replaced;
+        pixels += frame.estimate.sanitized.replaced;
     }
     void warn() const {
         if (pixels == 0) return;

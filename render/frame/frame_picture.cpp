@@ -134,9 +134,7 @@ FrameOutput render_frame(SequenceState& s, std::int64_t frame, const FrameReques
     out.hits = prepared.centers.hits;
     s.rendered = true;
     s.preparation.motion.end_edited();
-    const TracedRays traced = s.traced() - before;
-    stats.traced_rays = traced.all;
-    stats.invalid_rays = traced.invalid;
+    stats.traced = s.traced() - before;
     stats.plan = plan.effects;
     stats.plan_seconds = plan.seconds;
     stats.peak_memory_mib = peak_memory_mib();

@@ -80,7 +80,7 @@ void StaticFrame::keep(std::int64_t first, const FrameRequest& request, const Fr
     FrameStatistics& statistics = output_->statistics;
     statistics.seconds = {};
     statistics.counts = {};
-    statistics.traced_rays = statistics.invalid_rays = 0;
+    statistics.traced = {};
     statistics.instances_touched = 0;
     statistics.keyframes.clear();
 }
