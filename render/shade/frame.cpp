@@ -35,8 +35,8 @@ class FrameShading {
         if (place_.centered && as_centers) first_ = &centers;
     }
 
-    /// Fills the first of the pixel samples alone: where others need light beside them, they get it before they are
-    /// added.
+    /// Computes shared light for the first of the pixel samples alone: where others need light beside them, they get it
+    /// before they are added.
     void fill() {
         if (!integrator_->shares_light()) return;
         if (context_.progress) context_.progress(0.0, "fill");
