@@ -233,7 +233,7 @@ TEST(LightTree, DirectLightIsLessByNoMoreThanItSays) {
                 for (std::uint32_t run = 0; run < trial.times(400u); ++run) {
                     const PixelSequence sequence(run + trial.seed, 0, 0, 0);
                     mean.add(luminance(sample_direct_light(stage.lighting(), task, LitSurface(surface), shares,
-                                                           sequence, {0, 4, tolerance}, &left_out)));
+                                                           sequence, {0, 4, tolerance, &left_out})));
                 }
                 return mean;
             };
