@@ -22,7 +22,7 @@ std::vector<PartSeconds> sort_parts(std::vector<PartSeconds> parts) {
     return parts;
 }
 
-/// What a part's seconds have grown by at an error, since the largest error of the pilot.
+/// Growth of a part's seconds at an error, since the largest error of the pilot.
 /// @param parts  sort_parts
 double find_growth(const std::vector<PartSeconds>& parts, double PartSeconds::*seconds, double exponent, double error) {
     const double floor = parts.front().*seconds;

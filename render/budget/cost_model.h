@@ -1,5 +1,5 @@
 #pragma once
-// What frames will cost at an error that is asked for, predicted from measurements of some of them (the pilot).
+// Cost of frames at an error that is asked for, predicted from measurements of some of them (the pilot).
 //
 // Three things are measured:
 // - the stages before light and samples, for whole frames: they do not depend on the error;
@@ -27,7 +27,7 @@ struct LightSeconds {
     double keyframes = 0.0;  ///< of lighting keyframes
 };
 
-/// What was measured of some frames; sums over them.
+/// Measurements of some frames; sums over them.
 struct PilotSeconds {
     double start = 0.0;      ///< s, to make the sequence, once
     double before = 0.0;     ///< s, of the stages before light and samples
@@ -37,13 +37,13 @@ struct PilotSeconds {
     std::vector<LightSeconds> light;  ///< none, one or two pictures
 };
 
-/// What the frames to be rendered are, relative to those of the pilot.
+/// Numbers of the frames to be rendered, relative to those of the pilot.
 struct CostRatios {
     double frames = 1.0;     ///< number of frames that are rendered, not copied
     double keyframes = 1.0;  ///< number of lighting keyframes
 };
 
-/// What `build/study_cost` fits.
+/// Coefficients that `build/study_cost` fits.
 struct CostCoefficients {
     double shade = 1.0;    ///< seconds of samples beside light of their own, over those that read lighting keyframes
     double overlap = 1.0;  ///< light for a part alone, over its share of the picture's: blocks do not share it

@@ -26,8 +26,8 @@ struct PilotRequest {
     std::string camera;  ///< as for Sequence
     std::vector<std::int64_t> frames;
     std::vector<RenderSettings> settings;  ///< of the same pictures at falling errors; the first is the largest
-    /// Whether to go on to the next step, whose seconds are expected to be about these. Not asked before the first
-    /// small picture, the parts of the first frame and their first two errors.
+    /// Returns whether to go on to the next step, whose seconds are expected to be about these. Not asked before the
+    /// first small picture, the parts of the first frame and their first two errors.
     std::function<bool(const PilotSeconds& measured, double next)> go_on;
 };
 
@@ -46,7 +46,7 @@ Pilot run_pilot(const PilotRequest& request);
 std::size_t count_keyframes(const Scene& scene, const RenderSettings& settings,
                             const std::vector<std::int64_t>& frames);
 
-/// What a list of frames is, relative to its pilot.
+/// Finds the numbers of a list of frames, relative to its pilot.
 /// @param pilot_frames  choose_pilot_frames
 CostRatios find_cost_ratios(const Scene& scene, const RenderSettings& settings, const std::vector<int>& frames,
                             const std::vector<std::int64_t>& pilot_frames, int rendered);

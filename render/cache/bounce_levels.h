@@ -20,7 +20,7 @@ namespace aleph {
 /// Bounces of the picture's indirect light: the last surface of a path scatters direct light only.
 int count_bounces(const RenderSettings& settings);
 
-/// What gathers for the picture find at their hits.
+/// Makes the light that gathers for the picture find at their hits beside direct light.
 /// @param cache  from fill_levels; null: random paths only, without bias
 MultiBounceLight make_multi_bounce_light(const RenderSettings& settings, const IrradianceCache* cache);
 

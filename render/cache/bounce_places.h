@@ -12,7 +12,7 @@ namespace aleph {
 void add_seen_surfaces(const IndirectContext& context, const SampleHits& sample, std::vector<PixelSurface>& surfaces,
                        RayCounts& counts);
 
-/// What rays over the hemispheres of surfaces hit: one row for each surface.
+/// Hits of rays over the hemispheres of surfaces: one row for each surface.
 struct BouncePlaces {
     Image<Hit> hits;
     Image<glm::vec3> directions;  ///< unit

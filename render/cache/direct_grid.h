@@ -31,7 +31,7 @@ class DirectGrid {
     /// it shows as a change of brightness of the whole picture.
     static constexpr std::uint32_t enough = 26;
 
-    /// What a cell holds.
+    /// Sum and number of a cell's samples.
     struct Cell {
         std::uint64_t key = 0;  ///< 0: none
         Rgb sum{0.0f};          ///< of DirectSample::light

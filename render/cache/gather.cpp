@@ -14,19 +14,6 @@ namespace {
 
 constexpr float min_ray_cosine = 0.05f;  // limits the solid angle of cells at the horizon
 
-/// Light that comes back along a path which leaves a hit by another lobe than the Lambert layer's. Lamps that it sees
-/// straight through sheets of glass are direct light, which is computed elsewhere.
-Rgb follow_lobes(const LightingContext& context, RayTask& task, const LitSurface& lit, const LobeShares& shares,
-                 int bounces, int depth, RandomStream& random) {
-    const ScatterSample sample = sample_scatter(lit, shares, random.next(), random.next_2d(), random.next());
-    if (sample.lobe == Lobe::diffuse) return Rgb(0.0f);
-    PathState state;
-    state.left = {bounces, depth};
-    state.turned = true;
-    state.emission = EmissionWeight::none;
-    return follow_sample(context, task, lit, sample, state, random);
-}
-
 /// One gather while its hits are lit.
 struct Lighting {
     const LightingContext& context;
@@ -54,6 +41,19 @@ struct Lighting {
     }
 };
 
+/// Light that comes back along a path which leaves a hit by another lobe than the Lambert layer's. Lamps that it sees
+/// straight through sheets of glass are direct light, which is computed elsewhere.
+Rgb follow_lobes(const Lighting& lighting, const LitSurface& lit, const LobeShares& shares) {
+    RandomStream& random = lighting.random;
+    const ScatterSample sample = sample_scatter(lit, shares, random.next(), random.next_2d(), random.next());
+    if (sample.lobe == Lobe::diffuse) return Rgb(0.0f);
+    PathState state;
+    state.left = {lighting.options.multi_bounce.bounces, lighting.options.depth};
+    state.turned = true;
+    state.emission = EmissionWeight::none;
+    return follow_sample(lighting.context, lighting.task, lit, sample, state, random);
+}
+
 /// @param passed  share of the light that comes through
 void add_arrived(const ShadowSample& sample, const Rgb& passed, const GatherOptions& options, GatherScratch& scratch) {
     const Rgb arrives = sample.multi_bounce + (passed == Rgb(0.0f) ? passed : sample.unshadowed * passed);
@@ -80,11 +80,9 @@ void light_hit(const Lighting& lighting, std::size_t i) {
     if (shading.skipped.contains(Effect::caustics)) remove_specular(surface.material);
     const LitSurface lit(surface);
     LobeShares shares{};
-    const int depth = lighting.options.depth;
-    if (depth > 0 && surface.material.has_specular()) {
+    if (lighting.options.depth > 0 && surface.material.has_specular()) {
         shares = share_lobes(lit, LobeSet::all);
-        scratch.light[i] = follow_lobes(lighting.context, lighting.task, lit, shares,
-                                        lighting.options.multi_bounce.bounces, depth, lighting.random);
+        scratch.light[i] = follow_lobes(lighting, lit, shares);
         shares[static_cast<int>(Lobe::diffuse)] = 0.0f;
     }
     if (lighting.options.multi_bounce.bounces > 0 && surface.material.has_diffuse()) {

@@ -45,7 +45,7 @@ struct IrradianceSample {
     float relative_error = 0.0f;
 };
 
-/// Whether all three channels are finite.
+/// Returns whether all three channels are finite.
 inline bool is_finite(const Rgb& c) {
     return std::isfinite(c.x) && std::isfinite(c.y) && std::isfinite(c.z);
 }
@@ -113,7 +113,7 @@ struct GatherScratch {
     std::vector<ShadowSample> shadow_samples;
     std::vector<std::uint8_t> blocked;
     std::vector<PlainHit> plain_hits;
-    // Of the summary.
+    // Buffers of the summary.
     std::vector<float> sorted;
     std::vector<float> inverse_distances;
     std::vector<StrataRow> rows;

@@ -1,5 +1,5 @@
 #pragma once
-// What the radiance and the distances over a hemisphere tell besides the irradiance: gradients, noise, free space.
+// Summary of the radiance and the distances over a hemisphere: gradients, noise and free space, beside the irradiance.
 
 #include "render/cache/gather.h"
 

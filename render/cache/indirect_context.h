@@ -1,5 +1,5 @@
 #pragma once
-// What a frame's indirect light is computed from.
+// Inputs of a frame's indirect light.
 
 #include <optional>
 
@@ -25,7 +25,7 @@ struct CarriedLight {
                                     RecordUse* used = nullptr) const = 0;
 };
 
-/// What a frame's indirect light is computed from.
+/// Inputs of a frame's indirect light.
 struct IndirectContext {
     const LightingContext& lighting;
     const CameraView& view;

@@ -12,7 +12,7 @@ namespace aleph {
 
 namespace {
 
-/// Of neighbour clamping, in R_i per distance.
+/// Slope of neighbour clamping, in R_i per distance.
 constexpr float clamp_slope = 1.0f;
 
 /// Records are compared within this multiple of their reach: where shading uses both, and somewhat farther.
@@ -27,7 +27,7 @@ constexpr float variance_reach = 4.0f;
 /// A record of a looser pixel has more noise: it covers no pixel whose accuracy is smaller by more than this factor.
 constexpr float max_looser = 1.5f;
 
-/// Whether a ray passes between two points of surfaces. It is lifted off both.
+/// Returns whether a ray passes between two points of surfaces. It is lifted off both.
 bool is_in_sight(RayTask& task, const IrradianceRecord& record, const CacheQuery& query) {
     constexpr float lift = 0.02f;
     const float distance = glm::length(query.position - record.position);
@@ -39,7 +39,7 @@ bool is_in_sight(RayTask& task, const IrradianceRecord& record, const CacheQuery
     return !task.tracer.occluded({from + query.ray_shift, (to - from) / length, 0.0f, length});
 }
 
-/// Whether a record may be used for the query, by its error and by what may stand between.
+/// Returns whether a record may be used for the query, by its error and by what may stand between.
 bool is_usable(const IrradianceRecord& record, const CacheQuery& query, float error, float accuracy) {
     if (!(error < accuracy)) return false;
     if (!is_beyond_clearance(record, query.position)) return true;
@@ -51,7 +51,7 @@ float spread_of(const IrradianceRecord& record) {
     return record.growth > 0.0f ? 1.0f / std::sqrt(record.growth) : std::numeric_limits<float>::infinity();
 }
 
-/// Whether a record's value can be compared with another's, moved to its place.
+/// Returns whether a record's value can be compared with another's, moved to its place.
 bool is_comparable(const IrradianceRecord& from, const IrradianceRecord& to, float accuracy) {
     return glm::length(from.normal - to.normal) < accuracy * std::numbers::sqrt2_v<float> &&
            std::isfinite(interpolation_error(from, to.position, to.normal));

@@ -36,7 +36,7 @@ glm::vec3 limit_gradient(const glm::vec3& gradient, float irradiance, float radi
     return length * radius > irradiance ? gradient * (irradiance / (length * radius)) : gradient;
 }
 
-/// Of the luminance, per m.
+/// Length of the luminance's gradient, per m.
 float steepness(const std::array<glm::vec3, 3>& gradient) {
     glm::vec3 slope;
     for (int axis = 0; axis < 3; ++axis) {

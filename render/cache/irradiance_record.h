@@ -69,7 +69,7 @@ std::optional<IrradianceRecord> make_record(const glm::vec3& position, const glm
 /// (under it, above it or behind an edge), or beyond its headroom.
 float interpolation_error(const IrradianceRecord& record, const glm::vec3& position, const glm::vec3& normal);
 
-/// Whether the point is beyond the record's clearance, so that something may stand between them.
+/// Returns whether the point is beyond the record's clearance, so that something may stand between them.
 bool is_beyond_clearance(const IrradianceRecord& record, const glm::vec3& position);
 
 /// A record's irradiance moved to another place by its gradients, within [0, 2 E_i].

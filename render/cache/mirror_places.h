@@ -6,7 +6,7 @@
 
 namespace aleph {
 
-/// What mirrors, smooth glass and lobes about as narrow show of the scene.
+/// Places of the scene that mirrors, smooth glass and lobes about as narrow show.
 struct MirrorPlaces {
     /// As many as pixels; distances count from the camera along the whole path. Nothing where a pixel shows no surface
     /// with a Lambert layer that way, or its light is known (CarriedLight).

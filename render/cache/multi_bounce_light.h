@@ -11,7 +11,7 @@ class IrradianceCache;
 /// The light that hits of gather rays scatter in addition to direct light.
 struct MultiBounceLight {
     int bounces = 0;  ///< of its irradiance; 0: there is none
-    /// Of exactly so many bounces; null: every irradiance comes from a random path.
+    /// Cache of exactly so many bounces; null: every irradiance comes from a random path.
     const IrradianceCache* cache = nullptr;
     float accuracy = 0.0f;  ///< alpha of look-ups
 };

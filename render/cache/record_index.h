@@ -25,7 +25,7 @@ class RecordIndex {
     struct Cell {
         glm::vec3 center{0.0f};
         float half_size = 0.0f;
-        /// Of all records in it and below: at least their largest reach; not lowered when records shrink.
+        /// At least the largest reach of all records in it and below; not lowered when records shrink.
         RecordReach most{0.0f, 0.0f};
         float min_radius = std::numeric_limits<float>::infinity();  ///< at most their least radius
         int first_record = -1;                                      ///< head of a list
@@ -47,7 +47,7 @@ class RecordIndex {
     /// Notes that a record's radius shrank.
     void lower_radius(const glm::vec3& position, float radius);
 
-    /// Of the same box, without records.
+    /// Returns an index of the same box, without records.
     RecordIndex emptied() const;
 
     /// The records in an order in which those of one cell, and of cells beside each other, are together.

@@ -39,7 +39,7 @@ FrameRequest maps_request() {
     return {.frame = false, .maps = true, .progress = {}};
 }
 
-/// Whether --set KEY is of use without a scene. Keys that do not exist are reported by apply_settings.
+/// Returns whether --set KEY is of use without a scene. Keys that do not exist are reported by apply_settings.
 bool needs_scene(const std::string& key) {
     const auto found = std::ranges::find(setting_table(), key, &Setting::key);
     return found != setting_table().end() && found->needs_scene;
@@ -69,7 +69,7 @@ std::string name_of_maps(const std::filesystem::path& pattern) {
     return (name.empty() ? "frame" : name) + maps_suffix;
 }
 
-/// What the first picture says of the shot: our own frames and those of most programs carry their rate.
+/// Reads the shot from the first picture: our own frames and those of most programs carry their rate.
 void read_shot(Scene& shot, const ChannelImage& first) {
     const auto number = [&](const char* key, double& value) {
         const auto found = first.metadata.find(key);
@@ -159,7 +159,7 @@ struct ReplacedPixels {
 
     void add(const FrameStatistics& frame) {
         if (pixels == 0) first_frame = frame.frame;
-        pixels += frame.sanitized.replaced;
+        pixels += frame.estimate.sanitized.replaced;
     }
     void warn() const {
         if (pixels == 0) return;

@@ -21,7 +21,7 @@ void report(std::ostream& errors, const std::string& message) {
     errors << "aleph: error: " << printable(message, 4000) << "\n" << std::flush;
 }
 
-/// Whether a text reads as an option rather than as a value. Negative numbers are values.
+/// Returns whether a text reads as an option rather than as a value. Negative numbers are values.
 bool is_option(const CLI::App& app, const std::string& text) {
     return text.starts_with("--") || (text.starts_with("-") && app.get_option_no_throw(text) != nullptr);
 }
@@ -41,7 +41,7 @@ void refuse_options_as_values(const CLI::App& app) {
     for (const CLI::App* subcommand : app.get_subcommands()) refuse_options_as_values(*subcommand);
 }
 
-/// What to do next after wrong usage; the end of the message.
+/// Advice after wrong usage: the end of the message.
 std::string where_to_look(const CLI::App& app) {
     const auto chosen = app.get_subcommands();
     if (!chosen.empty()) return fmt::format("aleph {} --help lists the options", chosen.front()->get_name());
@@ -58,7 +58,7 @@ const CLI::App& chosen_app(const CLI::App& app) {
     return chosen.empty() ? app : *chosen.front();
 }
 
-/// What is wrong with the first argument that no option takes, and what may have been meant.
+/// Describes the first argument that no option takes, and suggests what may have been meant.
 std::string describe_unexpected(const CLI::App& app) {
     const CLI::App& chosen = chosen_app(app);
     const std::vector<std::string> arguments = app.remaining(true);

@@ -60,7 +60,7 @@ std::string value_name(const Setting& setting) {
     return "VALUE";
 }
 
-/// What the setting does, with the range of a number and its unit.
+/// Help on a setting, with the range of a number and its unit.
 std::string setting_help(const Setting& setting) {
     const std::string unit = setting.unit.empty() ? "" : " " + setting.unit;
     switch (setting.type) {

@@ -10,15 +10,16 @@
 
 namespace aleph {
 
-/// Whether the file is to be written again. All of it is written each time, which takes longer the more frames it has:
-/// at most a tenth of the time goes into that. Frames that take longer are in the file as soon as they are finished.
+/// Returns whether the file is to be written again. All of it is written each time, which takes longer the more frames
+/// it has: at most a tenth of the time goes into that. Frames that take longer are in the file as soon as they are
+/// finished.
 /// @param since  seconds since it was written last
 /// @param took  seconds which that took
 bool is_write_due(double since, double took);
 
 class StatisticsFile {
   public:
-    /// What the file says of all frames. The references outlive this object.
+    /// Takes what the file says of all frames. The references must outlive this object.
     /// @param path  empty: no file is written
     StatisticsFile(std::filesystem::path path, const Scene& scene, const RenderSettings& settings, double exposure,
                    const std::optional<BudgetStatistics>& budget = std::nullopt);

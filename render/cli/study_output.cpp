@@ -19,7 +19,7 @@ namespace aleph {
 
 namespace {
 
-/// What the table shows of the metrics: those that the study names, or the usual ones. The files have all of them.
+/// Returns whether the table shows a metric: those that the study names, or the usual ones. The files have all of them.
 bool is_shown(const Metric& metric, const Study& study) {
     if (!study.metrics.empty()) return true;
     constexpr const char* hidden[] = {"wall_seconds", "share_certain",         "records",

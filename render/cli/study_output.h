@@ -1,5 +1,5 @@
 #pragma once
-// What `aleph study` prints and writes.
+// Output of `aleph study`: text and files.
 
 #include <filesystem>
 #include <iosfwd>
@@ -20,7 +20,7 @@ std::string study_command_line();
 /// A row per variant, with the means over its frames.
 void print_study(const PreparedStudy& prepared, const StudyResults& results, bool markdown, std::ostream& out);
 
-/// What write_study writes beside the usual files.
+/// Files that write_study writes beside the usual ones.
 struct StudyExtras {
     bool viewer_test = false;         ///< viewer-test.html
     std::vector<std::string> errors;  ///< names of variants, for errors.jpg; may be empty

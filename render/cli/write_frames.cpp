@@ -31,7 +31,7 @@ void warn_of_changed_values(std::size_t count) {
 
 /// Thresholds of vision are in cd/m2. In a scene of another unit every pixel is above or below all of them.
 void warn_of_units(const FrameStatistics& frame) {
-    const double median = frame.median_luminance;
+    const double median = frame.estimate.median_luminance;
     if (median == 0.0 || (median >= 1e-3 && median <= 1e4)) return;
     std::cerr << fmt::format(
         "aleph: warning: frame {}: the median luminance is {:.3g} cd/m2, outside 1e-3 to 1e4: check \"exposure\" and "
@@ -39,7 +39,7 @@ void warn_of_units(const FrameStatistics& frame) {
         frame.frame, median);
 }
 
-/// What share of the pixels is estimated to err by more than was asked for, and why.
+/// Prints the share of the pixels that is estimated to err by more than was asked for, and why.
 void print_error(const FrameStatistics& frame) {
     if (!frame.error) return;
     const ErrorShares& shares = *frame.error;

@@ -11,7 +11,7 @@ namespace aleph {
 /// hundredth of a pixel at most a hundredth of a neighbouring pixel's error would come in.
 constexpr double rest_limit = 0.01;
 
-/// What the flicker needs of a frame's maps (`aleph maps`).
+/// Maps of a frame that the flicker needs (`aleph maps`).
 struct FlickerMaps {
     Image<float> u, v;           ///< motion to the next frame, pixels; u to the right, v upwards
     Image<float> valid;          ///< 1 where the motion is valid

@@ -33,7 +33,7 @@ struct LuminanceDifference {
     std::size_t far = 0;
 };
 
-/// What `LuminanceDifference::far` allows.
+/// Differences that `LuminanceDifference::far` allows.
 struct LuminanceTolerance {
     double absolute = 0.0;  ///< in units of Y
     double relative = 0.0;  ///< times |Y_b|

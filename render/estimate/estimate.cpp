@@ -24,12 +24,13 @@ Rgb estimate_radiance(const LightingContext& context, RayTask& task, const Pixel
 }
 
 Image<Rgb> compute_estimate(const LightingContext& context, const CameraView& view, const SampleHits& centers,
-                            EstimateKind kind, const EstimateNodes* indirect, double exposure, RayCounts& counts,
-                            Image<float>* indirect_luminance) {
+                            const EstimateOptions& options, RayCounts& counts, Image<float>* indirect_luminance) {
+    const EstimateKind kind = options.kind;
     Image<Rgb> estimate(view.width, view.height);
-    const float scale = static_cast<float>(exposure);
+    const float scale = static_cast<float>(options.exposure);
     Image<DiffuseSurface> surfaces;
-    if (indirect != nullptr && kind == EstimateKind::direct) surfaces = Image<DiffuseSurface>(view.width, view.height);
+    if (options.indirect != nullptr && kind == EstimateKind::direct)
+        surfaces = Image<DiffuseSurface>(view.width, view.height);
     std::mutex counts_mutex;
     parallel_rows(view.height, 4, [&](int begin, int end) {
         RayTask task(context.rays, Blend::cutout);  // without noise
@@ -56,7 +57,7 @@ Image<Rgb> compute_estimate(const LightingContext& context, const CameraView& vi
         if (indirect_luminance != nullptr) *indirect_luminance = luminance_image(estimate);
         return estimate;
     }
-    const Image<Rgb> light = interpolate_estimate(*indirect, surfaces);
+    const Image<Rgb> light = interpolate_estimate(*options.indirect, surfaces);
     for (std::size_t i = 0; i < estimate.size(); ++i) estimate.pixels[i] += light.pixels[i] * scale;
     if (indirect_luminance != nullptr) {
         *indirect_luminance = luminance_image(light);

@@ -6,20 +6,25 @@
 
 namespace aleph {
 
+struct EstimateOptions {
+    EstimateKind kind = EstimateKind::direct;
+    /// With `direct`: nodes of this view (gather_estimate), whose light of one bounce is added; may be null.
+    const EstimateNodes* indirect = nullptr;
+    double exposure = 1.0;
+};
+
 /// One sample at every pixel centre, from the frame's first hits. Exposure is applied; values that are not finite are
 /// kept (perception/sanitize.h replaces them).
 /// flat: albedo plus emission, as under constant white light; no rays.
 /// direct: emission plus direct light from a fixed pattern of points per light (estimate_direct_light).
-/// @param indirect  with `direct`: nodes of this view (gather_estimate), whose light of one bounce is added; may be
-/// null
 /// @param counts    increased by the rays cast
 /// @param indirect_luminance  if not null: of the light of one bounce alone, or of the whole estimate where that is not
 ///                            computed
 Image<Rgb> compute_estimate(const LightingContext& context, const CameraView& view, const SampleHits& centers,
-                            EstimateKind kind, const EstimateNodes* indirect, double exposure, RayCounts& counts,
+                            const EstimateOptions& options, RayCounts& counts,
                             Image<float>* indirect_luminance = nullptr);
 
-/// What an estimate shows of a surface, without indirect light and exposure.
+/// Returns the radiance that an estimate shows for a surface, without indirect light and exposure.
 /// @param task  its rays are those of Blend::cutout
 Rgb estimate_radiance(const LightingContext& context, RayTask& task, const PixelSurface& surface, EstimateKind kind);
 

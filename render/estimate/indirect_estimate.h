@@ -9,7 +9,7 @@
 
 namespace aleph {
 
-/// What indirect light finds at a pixel.
+/// Surface that indirect light finds at a pixel.
 struct DiffuseSurface {
     glm::vec3 position{0.0f};  ///< m, relative to the anchor
     glm::vec3 normal{0.0f};    ///< unit

@@ -106,7 +106,7 @@ struct Look {
             if (const auto known = reader.read(*still, hit.instance, *at, footprint)) return *known;
         }
         const PixelSurface surface =
-            make_pixel_surface(keyframe.lighting.shading, keyframe.view, SamplePlace{}, hit, direction, x, y);
+            make_pixel_surface(keyframe.lighting.shading, keyframe.view, SamplePlace{}, hit, direction, {x, y});
         return shade(task, surface, still, at.value_or(glm::dvec2(x, y))) * exposure;
     }
 };

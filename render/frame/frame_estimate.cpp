@@ -7,8 +7,8 @@ namespace aleph {
 
 Image<Rgb> estimate_scene(const Shot& shot, const FrameScene& scene, const SampleHits& centers,
                           const EstimateNodes* nodes, RayCounts& counts, Image<float>* indirect_luminance) {
-    return compute_estimate(scene.lighting(), scene.posed().view, centers, shot.settings.guide.estimate, nodes,
-                            shot.exposure, counts, indirect_luminance);
+    return compute_estimate(scene.lighting(), scene.posed().view, centers,
+                            {shot.settings.guide.estimate, nodes, shot.exposure}, counts, indirect_luminance);
 }
 
 void EstimateLight::gather_around(std::int64_t frame, std::int64_t but, RayCounts& counts) {
@@ -78,17 +78,18 @@ SampleScene open_scene(const Shot& shot, std::int64_t frame, double at, const Fr
     return shutter.sample_scene();
 }
 
-void blur_frame_estimate(const Shot& shot, std::int64_t frame, const FrameScene& scene, FrameScene& shutter,
-                         const SampleHits& centers, const EstimateNodes* nodes, const FramePlan& plan,
+void blur_frame_estimate(const OpenFrame& frame, const SampleHits& centers, const EstimateNodes* nodes,
                          Image<Rgb>& sharp, RayCounts& counts) {
-    const OpenLens open = find_open_lens(shot, frame, scene, plan);
+    const Shot& shot = frame.shot;
+    const FrameScene& scene = frame.scene;
+    const OpenLens open = find_open_lens(shot, frame.number, scene, frame.plan);
     if (!open.shutter && !(open.lens.radius > 0.0)) return;
     const SharpEstimate estimate{scene.shading(), scene.posed().view,           centers,      sharp,
                                  nodes,           shot.settings.guide.estimate, shot.exposure};
     const auto look = [&](double place) -> SampleScene {
         if (!open.shutter) return scene.sample_scene();
         const double at = open.shutter->open + (open.shutter->close - open.shutter->open) * place;
-        return open_scene(shot, frame, at, scene, shutter);
+        return open_scene(shot, frame.number, at, scene, frame.shutter);
     };
     Image<Rgb> blurred = blur_estimate(estimate, open.lens, look, counts);
     sanitize_estimate(blurred);

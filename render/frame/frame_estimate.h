@@ -58,10 +58,18 @@ OpenLens find_open_lens(const Shot& shot, std::int64_t frame, const FrameScene& 
 /// @param shutter  moved there
 SampleScene open_scene(const Shot& shot, std::int64_t frame, double at, const FrameScene& scene, FrameScene& shutter);
 
+/// A frame whose shutter or lens may be open.
+struct OpenFrame {
+    const Shot& shot;
+    std::int64_t number = 0;
+    const FramePlan& plan;
+    const FrameScene& scene;
+    FrameScene& shutter;  ///< moved to times while the shutter is open
+};
+
 /// Blurs the sharp estimate by shutter and lens, if they are open.
 /// @param sharp  the estimate; replaced
-void blur_frame_estimate(const Shot& shot, std::int64_t frame, const FrameScene& scene, FrameScene& shutter,
-                         const SampleHits& centers, const EstimateNodes* nodes, const FramePlan& plan,
+void blur_frame_estimate(const OpenFrame& frame, const SampleHits& centers, const EstimateNodes* nodes,
                          Image<Rgb>& sharp, RayCounts& counts);
 
 }  // namespace aleph

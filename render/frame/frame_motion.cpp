@@ -6,13 +6,14 @@
 #include "motion/image_motion.h"
 #include "motion/still_motion.h"
 #include "perception/sanitize.h"
+#include "render/frame/prepared_frame.h"
 #include "render/settings/measure.h"
 
 namespace aleph {
 
 namespace {
 
-/// Whether surfaces of one pose can be found in the other.
+/// Returns whether surfaces of one pose can be found in the other.
 bool has_same_elements(const ScenePose& a, const ScenePose& b) {
     const auto same_size = [](const PosedMesh& m, const PosedMesh& n) {
         return m.positions.size() == n.positions.size() && m.control.size() == n.control.size();
@@ -55,8 +56,11 @@ OtherFrame FrameMotion::pose_other(const FrameWork& work, const PosedView& here)
     return OtherFrame::previous;
 }
 
-void FrameMotion::compute(const FrameWork& work, const FramePlan& plan, const FrameScene& here,
-                          const SampleHits& centers, EstimateLight& light, StageClock& clock, FrameOutput& out) {
+void FrameMotion::compute(const FrameWork& work, const FrameScene& here, EstimateLight& light, StageClock& clock,
+                          PreparedFrame& frame) {
+    const FramePlan& plan = frame.plan;
+    const SampleHits& centers = frame.centers;
+    FrameOutput& out = frame.out;
     const bool has_other = work.other != OtherFrame::none;
     RayCounts& counts = out.statistics.counts.rays;
     if (has_other && plan.skips(Effect::motion)) {

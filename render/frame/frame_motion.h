@@ -10,6 +10,8 @@
 
 namespace aleph {
 
+struct PreparedFrame;
+
 /// Keeps the scene at the other frame, and updates what moves.
 class FrameMotion {
   public:
@@ -18,7 +20,7 @@ class FrameMotion {
 
     /// Motion of the next frame that is prepared leads from this pose, of the scene before it was edited.
     void begin_edited(PosedView before);
-    /// Whether begin_edited was called and the frame after it has not been rendered yet.
+    /// Returns whether begin_edited was called and the frame after it has not been rendered yet.
     bool is_edited() const { return before_edit_.has_value(); }
     /// Later frames have the motion of the scene's tracks. @return the pose given to begin_edited
     std::optional<PosedView> end_edited();
@@ -30,8 +32,9 @@ class FrameMotion {
 
     /// Motion of a frame whose estimate is made, with the hidden pixels if maps are wanted. After pose_other.
     /// @param clock  adds an estimate of the other frame to that stage
-    void compute(const FrameWork& work, const FramePlan& plan, const FrameScene& here, const SampleHits& centers,
-                 EstimateLight& light, StageClock& clock, FrameOutput& out);
+    /// @param frame  its output gets the motion
+    void compute(const FrameWork& work, const FrameScene& here, EstimateLight& light, StageClock& clock,
+                 PreparedFrame& frame);
 
     /// The scene at other frames, for others to pose: it is needed from pose_other to compute only.
     FrameScene& other() { return other_; }

@@ -1,5 +1,5 @@
 #pragma once
-// What is requested of a frame, and what comes out: picture, maps, counts and times.
+// Request of a frame, and its output: picture, maps, counts and times.
 
 #include <array>
 #include <cstdint>
@@ -24,18 +24,22 @@ struct StageSeconds {
 /// The stages by name, in that order.
 std::array<std::pair<const char*, double>, 10> list_stages(const StageSeconds& seconds);
 
+/// Facts about the quick estimate, and what the model of vision made of it.
+struct EstimateStatistics {
+    SanitizeCounts sanitized;       ///< pixels
+    double median_luminance = 0.0;  ///< cd/m2; thresholds of vision hold from 1e-3 to 1e4
+    bool saliency_fallback = false;
+};
+
 struct FrameStatistics {
     std::int64_t frame = 0;
     /// The earlier frame whose picture this is, because nothing changes between the two. Times and counts are those of
     /// rendering it, or 0 if that output was kept.
     std::optional<std::int64_t> copy_of;
     StageSeconds seconds;
-    FrameCounts counts;              ///< of all stages
-    std::uint64_t traced_rays = 0;   ///< counted where rays are traced; equals counts.rays.total()
-    std::uint64_t invalid_rays = 0;  ///< not traced, because they were not finite
-    SanitizeCounts sanitized;        ///< pixels of the estimate
-    bool saliency_fallback = false;
-    double median_luminance = 0.0;  ///< of the estimate, cd/m2; thresholds of vision hold from 1e-3 to 1e4
+    FrameCounts counts;  ///< of all stages
+    TracedRays traced;
+    EstimateStatistics estimate;
     std::size_t instances_touched = 0;
     std::optional<ErrorShares> error;  ///< where the visible threshold is known, and pixels have several samples
     EffectsPlan plan;
@@ -46,7 +50,7 @@ struct FrameStatistics {
     std::vector<KeyframeStatistics> keyframes;
 };
 
-/// What is computed beyond the statistics.
+/// Outputs to compute beyond the statistics.
 struct FrameRequest {
     bool frame = true;       ///< the picture
     bool maps = false;       ///< every map of perception and motion, with the hidden pixels in motion.validity

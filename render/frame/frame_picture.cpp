@@ -48,7 +48,8 @@ Image<Outline> find_visible_outlines(const Shot& shot, const PreparedFrame& fram
     return outlines;
 }
 
-/// Of the light of lighting keyframes; nothing if the frame is one itself, or if nothing but the camera changes.
+/// Risk of using the light of lighting keyframes; none if the frame is one itself, or if nothing but the camera
+/// changes.
 std::optional<KeyframeRisk> find_risk(const SequenceState& s, std::int64_t frame) {
     const std::vector<const ShadingScene*> keyframes = s.shot_light->scenes_around(frame);
     if (keyframes.empty()) return std::nullopt;
@@ -133,9 +134,7 @@ FrameOutput render_frame(SequenceState& s, std::int64_t frame, const FrameReques
     out.hits = prepared.centers.hits;
     s.rendered = true;
     s.preparation.motion.end_edited();
-    const TracedRays traced = s.traced() - before;
-    stats.traced_rays = traced.all;
-    stats.invalid_rays = traced.invalid;
+    stats.traced = s.traced() - before;
     stats.plan = plan.effects;
     stats.plan_seconds = plan.seconds;
     stats.peak_memory_mib = peak_memory_mib();

@@ -24,7 +24,7 @@ struct FramePlan {
     bool skips(Effect effect) const { return effects.skips(effect); }
 };
 
-/// What is made of a frame before its picture.
+/// Work on a frame before its picture.
 struct FrameWork {
     std::int64_t frame = 0;
     bool perceive = false;  ///< estimate, motion, and the model of vision
@@ -38,7 +38,7 @@ class FramePlanner {
   public:
     explicit FramePlanner(const Shot& shot) : shot_(shot), camera_span_(shot.scene, shot.pose_plan) {}
 
-    /// What cannot change the picture is skipped. Known before the first ray.
+    /// Plans to skip what cannot change the picture, as far as that is known before the first ray.
     FramePlan begin(const FrameWork& work, const PosedView& posed);
 
     /// Adds what a viewer cannot see, once the frame has been estimated.

@@ -15,12 +15,6 @@
 namespace aleph {
 
 /// Counted where rays are traced.
-struct TracedRays {
-    std::uint64_t all = 0, invalid = 0;
-    TracedRays operator+(const TracedRays& o) const { return {all + o.all, invalid + o.invalid}; }
-    TracedRays operator-(const TracedRays& o) const { return {all - o.all, invalid - o.invalid}; }
-};
-
 /// Keeps its structures from time to time and updates what moved, which gives the same as making them anew.
 class FrameScene {
   public:

@@ -8,8 +8,8 @@
 namespace aleph {
 
 void note_estimate(FrameOutput& out, const SanitizeCounts& sanitized, const ViewingConditions& viewing) {
-    out.statistics.sanitized = sanitized;
-    out.statistics.median_luminance = median_luminance(out.estimate, viewing);
+    out.statistics.estimate.sanitized = sanitized;
+    out.statistics.estimate.median_luminance = median_luminance(out.estimate, viewing);
 }
 
 bool needs_indirect_luminance(const RenderSettings& settings, bool maps) {
@@ -23,7 +23,7 @@ void compute_frame_vision(FrameOutput& out, const Scene& shot, const RenderSetti
     clock.add_to(seconds.motion);
     out.perception = compute_perception(out.estimate, out.velocity, shot.viewing, shot.frame_rate, settings.perception,
                                         {.retinal_velocity = maps, .conspicuity = maps, .bands = false});
-    out.statistics.saliency_fallback = out.perception.fallback;
+    out.statistics.estimate.saliency_fallback = out.perception.fallback;
     Image<float>& adaptation = out.perception.adaptation;
     if (adaptation.empty()) adaptation = compute_adaptation_luminance(out.estimate, shot.viewing);
     out.threshold = compute_threshold(out.perception.aleph, adaptation, *settings.perception.vision);

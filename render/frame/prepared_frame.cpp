@@ -24,8 +24,8 @@ void perceive(Preparation& kept, const FrameScene& here, const FrameWork& work, 
         estimate_scene(shot, here, frame.centers, indirect, counts, tolerance ? &out.indirect_luminance : nullptr);
     note_estimate(out, sanitize_estimate(out.estimate), shot.scene.viewing);
     clock.add_to(out.statistics.seconds.estimate);
-    kept.motion.compute(work, plan, here, frame.centers, kept.estimate_light, clock, out);
-    blur_frame_estimate(shot, work.frame, here, kept.shutter, frame.centers, indirect, plan, out.estimate, counts);
+    kept.motion.compute(work, here, kept.estimate_light, clock, frame);
+    blur_frame_estimate({shot, work.frame, plan, here, kept.shutter}, frame.centers, indirect, out.estimate, counts);
     clock.add_to(out.statistics.seconds.estimate);
     RenderSettings vision = shot.settings;
     if (plan.skips(Effect::saliency) && vision.perception.guide == Guide::saliency)

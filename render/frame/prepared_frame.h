@@ -12,7 +12,7 @@ struct PreparedFrame {
     FrameOutput out;     ///< all but the picture
 };
 
-/// What preparing frames keeps from one to the next. All of it is updated to the same values as made anew.
+/// State that preparing frames keeps from one to the next. All of it is updated to the same values as made anew.
 struct Preparation {
     /// Keeps references. @param shot_light  see EstimateLight
     Preparation(const Shot& given, const std::optional<ShotLight>& shot_light, FrameScene& here, FrameScene& keyframe)

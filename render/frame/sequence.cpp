@@ -28,8 +28,8 @@ double find_exposure(const Shot& shot, FrameScene& scene) {
     scene.prepare();
     RayCounts counts;
     const SampleHits centers = cast_centers(scene.rays(), scene.posed().view, &counts.primary);
-    return compute_exposure(compute_estimate(scene.lighting(), scene.posed().view, centers, EstimateKind::direct,
-                                             nullptr, shot.exposure, counts));
+    return compute_exposure(
+        compute_estimate(scene.lighting(), scene.posed().view, centers, {.exposure = shot.exposure}, counts));
 }
 
 }  // namespace

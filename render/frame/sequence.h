@@ -17,7 +17,7 @@ namespace aleph {
 
 struct SequenceState;
 
-/// What a part of a frame's picture took.
+/// Time and work of a part of a frame's picture.
 struct PartTime {
     double fill = 0.0, shade = 0.0;          ///< s
     std::uint64_t samples = 0, records = 0;  ///< irradiance values
@@ -29,7 +29,7 @@ struct PartTimes {
     std::vector<PartTime> parts;  ///< by settings
 };
 
-/// What the light of a frame took, with nothing shaded; s.
+/// Time that the light of a frame took, with nothing shaded; s.
 struct LightTime {
     double fill = 0.0;       ///< for this frame
     double keyframes = 0.0;  ///< of the lighting keyframes that no frame before it needed

@@ -1,5 +1,5 @@
 #pragma once
-// What a Sequence keeps between frames.
+// State that a Sequence keeps between frames.
 
 #include <memory>
 #include <optional>
@@ -22,7 +22,7 @@ struct SequenceState {
     TracedRays traced() const {
         return here.traced() + keyframe.traced() + preparation.motion.traced() + preparation.shutter.traced();
     }
-    /// Of the scene, its settings and this program; made when it is first asked for.
+    /// Fingerprint of the scene, its settings and this program; made when it is first asked for.
     const CacheFingerprint& fingerprint();
 
     Shot shot;

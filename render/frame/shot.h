@@ -1,5 +1,5 @@
 #pragma once
-// What all frames of a sequence have in common: the scene, its settings, and what follows from the two alone.
+// Data that all frames of a sequence share: the scene, its settings, and all that follows from the two alone.
 
 #include <algorithm>
 #include <optional>
@@ -42,19 +42,19 @@ struct Shot {
         return is_still(camera(frame)) ? 0u : static_cast<std::uint32_t>(frame);
     }
     bool can_change() const { return is_world_animated(scene) || !pose_plan.cameras.empty() || shots.size() > 1; }
-    /// Whether a camera has the same view at all times.
+    /// Returns whether a camera has the same view at all times.
     bool is_still(int camera) const { return std::ranges::find(pose_plan.cameras, camera) == pose_plan.cameras.end(); }
     /// Paths do not follow the map.
     bool is_guided() const {
         return settings.perception.guide != Guide::none && settings.light.integrator == Integrator::cache;
     }
-    /// Whether something obeys the visible threshold.
+    /// Returns whether something obeys the visible threshold.
     bool needs_perception() const { return is_guided() || settings.sampling.rule != Sampling::uniform; }
     /// @param bounces  of the frame's settings
     bool estimates_indirect_light(int bounces) const {
         return bounces > 0 && settings.guide.estimate == EstimateKind::direct;
     }
-    /// Whether frames with a closed shutter read their indirect light from lighting keyframes.
+    /// Returns whether frames with a closed shutter read their indirect light from lighting keyframes.
     bool reads_keyframes() const {
         return settings.light.integrator == Integrator::cache && settings.cache.light_step > 0 &&
                settings.light.bounces > 0 && settings.light.path_depth > 1 && settings.cache.accuracy > 0.0;

@@ -27,7 +27,7 @@ StaticSpans::StaticSpans(const Scene& scene, const PosePlan& plan, const std::ve
                          std::function<glm::dvec2(std::int64_t frame)> shutter)
     : scene_(scene), shots_(shots), shutter_(std::move(shutter)), range_(frame_range(scene)), spans_(scene, plan) {}
 
-/// Whether nothing changes from a frame to another one, and no cut lies between.
+/// Returns whether nothing changes from one frame to another, and no cut lies between them.
 bool StaticSpans::is_static(std::int64_t first, std::int64_t last) const {
     const auto lies_between = [&](std::int64_t cut) { return first < cut && cut <= last; };
     if (std::ranges::any_of(scene_.cuts, lies_between)) return false;
@@ -80,7 +80,7 @@ void StaticFrame::keep(std::int64_t first, const FrameRequest& request, const Fr
     FrameStatistics& statistics = output_->statistics;
     statistics.seconds = {};
     statistics.counts = {};
-    statistics.traced_rays = statistics.invalid_rays = 0;
+    statistics.traced = {};
     statistics.instances_touched = 0;
     statistics.keyframes.clear();
 }

@@ -1,5 +1,5 @@
 #pragma once
-// What each light can bring to a point.
+// Power of the lights: what each of them can bring to a point.
 
 #include <algorithm>
 #include <cmath>

@@ -67,7 +67,7 @@ void add_punctual(const ShadingScene& shading, std::size_t i, LightSet& lights) 
                                versine(light.outer_cone)});
 }
 
-/// What is computed from all lights.
+/// Computes what depends on all lights.
 void finish(const ShadingScene& shading, LightSet& lights) {
     lights.bounds = make_light_bounds(shading, lights);
     lights.tree = make_light_tree(make_light_nodes(shading, lights));

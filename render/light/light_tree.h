@@ -17,7 +17,7 @@ struct LightNode {
     glm::vec3 center{0.0f};
     float radius = 0.0f;
     bool nearby = true;  ///< light falls off with distance
-    /// Whether the directions of light are limited: to what is within `emission` of any direction within `cone` of the
+    /// True if the directions of light are limited: to what is within `emission` of any direction within `cone` of the
     /// axis. The cone holds the normals of surfaces, or the axes of spots.
     bool directed = false;
     glm::vec3 axis{0.0f};
@@ -28,7 +28,7 @@ struct LightNode {
     float most = 0.0f;          ///< sum of the largest illuminances; infinite where there are point lights
 };
 
-/// What eight nodes can bring to a surface without shadows, as illuminance.
+/// Illuminance that eight nodes can bring to a surface without shadows.
 struct LightReaches {
     /// Never less than what they bring.
     std::array<float, 8> bounds;

@@ -40,8 +40,8 @@ struct PunctualLight {
     float inner_versine = 0.0f, outer_versine = 0.0f;
 };
 
-/// What each light brings to a point, roughly and quickly: for choosing among lights (bound_illuminance). One array for
-/// each value, so that several lights are looked at together.
+/// Bounds of what each light brings to a point, rough and quick: for choosing among lights (bound_illuminance). One
+/// array for each value, so that several lights are looked at together.
 struct LightBounds {
     static constexpr std::size_t step = 8;  ///< lights without strength fill the arrays up to a multiple of it
 

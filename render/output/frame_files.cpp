@@ -58,7 +58,7 @@ void add_cryptomatte(ChannelImage& file, const Image<Hit>& hits, const Scene& sc
     file.metadata[prefix + "manifest"] = cryptomatte_manifest(shown);
 }
 
-/// What each channel holds, as the attribute channel:NAME.
+/// Adds a description of each channel, as the attribute channel:NAME.
 void add_descriptions(ChannelImage& file) {
     for (const ChannelInfo& info : channel_table()) {
         for (const std::string& name : info.names) {

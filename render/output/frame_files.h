@@ -13,8 +13,8 @@
 
 namespace aleph {
 
-/// What all frames were to take (`aleph render --budget`), and what they took: seconds of a clock, those before the
-/// first frame included.
+/// Seconds that all frames were to take (`aleph render --budget`), and those that they took: of a clock, those before
+/// the first frame included.
 struct BudgetStatistics {
     double asked = 0.0;
     double error = 0.0;  ///< that was chosen, thresholds

@@ -192,7 +192,7 @@ float bound_reflection(const LitSurface& lit) {
     return bound;
 }
 
-/// Whether all samples of the lobes have the same direction.
+/// Returns whether all samples of the lobes have the same direction.
 bool is_single_mirror(const LitSurface& lit, const LobeShares& shares) {
     const auto share = [&](Lobe lobe) { return shares[static_cast<std::size_t>(lobe)]; };
     const SurfaceMaterial& material = lit.material;
@@ -203,12 +203,13 @@ bool is_single_mirror(const LitSurface& lit, const LobeShares& shares) {
 }  // namespace
 
 Rgb sample_direct_light(const LightingContext& context, RayTask& task, const LitSurface& lit, const LobeShares& shares,
-                        const PixelSequence& sequence, const DirectSamples& samples, float* left_out) {
+                        const PixelSequence& sequence, const DirectSamples& samples) {
     CutLimits limits;
     const float reflection = samples.tolerance > 0.0f ? bound_reflection(lit) : 0.0f;
     if (reflection > 0.0f) limits.divided = limits.left_out = samples.tolerance / reflection;
     ChosenLights lights(context, lit, shares, limits);
-    if (left_out != nullptr) *left_out = limits.left_out > 0.0f ? lights.cut().left_out * reflection : 0.0f;
+    if (samples.left_out != nullptr)
+        *samples.left_out = limits.left_out > 0.0f ? lights.cut().left_out * reflection : 0.0f;
     if (!std::isfinite(lights.cut().total)) return Rgb(lights.cut().total);
     Rgb sum(0.0f);
     ShadowBatch shadows(context, task, sum);
@@ -221,30 +222,29 @@ Rgb sample_direct_light(const LightingContext& context, RayTask& task, const Lit
 }
 
 SampledLight compute_sampled_light(const LightingContext& context, RayTask& task, const ViewedSurface& surface,
-                                   const LightPoints& points, RandomStream& random, const PathState& beyond,
-                                   RandomStream& path_random, const LobeShares* lobes) {
+                                   const LightPoints& points, RandomStream& random, const LobePaths& paths) {
     const LitSurface lit(surface);
     const bool lights_can_be_met = !context.lights.emitters.empty() || context.lights.has_environment;
     LobeShares shares{};
-    if (lights_can_be_met || beyond.left.depth > 0) {
-        shares = lobes != nullptr ? *lobes : share_lobes(lit, LobeSet::specular);
+    if (lights_can_be_met || paths.beyond.left.depth > 0) {
+        shares = paths.shares != nullptr ? *paths.shares : share_lobes(lit, LobeSet::specular);
     }
     SampledLight light{sample_lights(context, task, lit, RandomPattern{random, points, shares})};
     const glm::vec2 shift = random.next_2d();
     const float pick_shift = random.next();
     if (shares == LobeShares{}) return light;
-    const int paths = is_single_mirror(lit, shares) ? 1 : points.count;
-    PathState state = beyond;
-    if (paths < points.count) {
+    const int count = is_single_mirror(lit, shares) ? 1 : points.count;
+    PathState state = paths.beyond;
+    if (count < points.count) {
         state.light_samples *= points.count;
         state.survival *= static_cast<float>(points.count);
     }
-    for (int i = 0; i < paths; ++i) {
+    for (int i = 0; i < count; ++i) {
         const float pick = fraction(pick_shift + static_cast<float>(i * points.parts + points.part) * 0.75487767f);
-        const ScatterSample sample = sample_scatter(lit, shares, pick, points.at(i, shift), path_random.next());
-        light.lobes += follow_sample(context, task, lit, sample, state, path_random);
+        const ScatterSample sample = sample_scatter(lit, shares, pick, points.at(i, shift), paths.random.next());
+        light.lobes += follow_sample(context, task, lit, sample, state, paths.random);
     }
-    light.lobes /= static_cast<float>(paths);
+    light.lobes /= static_cast<float>(count);
     return light;
 }
 

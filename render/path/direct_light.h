@@ -29,6 +29,7 @@ struct DirectSamples {
     int count = 1;
     /// Luminance of radiance: lights that together cannot bring so much, even without shadows, are left out.
     float tolerance = 0.0f;
+    float* left_out = nullptr;  ///< set, if not null, to a bound of the luminance of what was left out
 };
 
 /// Radiance that a surface scatters from the lights, without its own emission: the mean of these samples, each of one
@@ -37,23 +38,26 @@ struct DirectSamples {
 /// Samples of the lobes are left to the caller. Each light is weighted against them by its own density alone (power
 /// heuristic, Veach 1997), as if it were the only one: so a ray that meets the light needs no other weight than that
 /// of PathState, whatever the choice of lights and the number of samples.
-/// @param shares    of the lobes from which directions are sampled as well; those of share 0 have full weight
-/// @param left_out  set, if not null, to a bound of the luminance of what was left out
+/// @param shares  of the lobes from which directions are sampled as well; those of share 0 have full weight
 Rgb sample_direct_light(const LightingContext& context, RayTask& task, const LitSurface& lit, const LobeShares& shares,
-                        const PixelSequence& sequence, const DirectSamples& samples, float* left_out = nullptr);
+                        const PixelSequence& sequence, const DirectSamples& samples);
+
+/// Paths that go on from samples of the lobes.
+struct LobePaths {
+    PathState beyond;
+    RandomStream& random;
+    const LobeShares* shares = nullptr;  ///< of sampled lobes (choose_sampled_lobes); null: all but the Lambert layer
+};
 
 /// Radiance that a surface scatters from the lights, without its own emission. The Lambert layer samples lights only;
 /// the other lobes combine light and lobe sampling by the power heuristic (Veach 1997). Unbiased.
-/// Within the limits of `beyond`, the rays that are sampled from the lobes go on as paths: they find reflections, and
-/// what glass shows. With a depth of 0 the result is direct light alone.
-/// More than 16 lights share the samples that 16 would have.
-/// @param points       per light that has an area, and as many samples of the lobes
-/// @param random       moved on by a fixed number of dimensions per call
-/// @param path_random  for those paths
-/// @param lobes        that are sampled (choose_sampled_lobes); null: all but the Lambert layer
+/// Within the limits of `paths.beyond`, the rays that are sampled from the lobes go on as paths: they find reflections,
+/// and what glass shows. With a depth of 0 the result is direct light alone. More than 16 lights share the samples that
+/// 16 would have.
+/// @param points  per light that has an area, and as many samples of the lobes
+/// @param random  moved on by a fixed number of dimensions per call
 SampledLight compute_sampled_light(const LightingContext& context, RayTask& task, const ViewedSurface& surface,
-                                   const LightPoints& points, RandomStream& random, const PathState& beyond,
-                                   RandomStream& path_random, const LobeShares* lobes = nullptr);
+                                   const LightPoints& points, RandomStream& random, const LobePaths& paths);
 
 /// Direct light from a fixed pattern of points on each light. The pattern is the same for every pixel, so the result
 /// has no noise that the model of vision would take for detail. Biased: penumbrae come in steps, and narrow highlights

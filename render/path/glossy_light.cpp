@@ -74,7 +74,7 @@ float mean_alpha(const SurfaceMaterial& material) {
     return 0.5f * (widths.x + widths.y);
 }
 
-/// What a lobe reflects of uniform light, and how far real light is from that, relative.
+/// Share of uniform light that a lobe reflects, and how far real light is from uniform, relative.
 struct LobeStandIn {
     Rgb albedo{0.0f};
     float deviation = 0.0f;  ///< root mean square; infinite: the lobe has to be sampled

@@ -40,7 +40,7 @@ class OutlineFinder {
         });
     }
 
-    /// Whether three neighbours in a row do not lie on a plane.
+    /// Returns whether three neighbours in a row do not lie on a plane.
     bool bends(const Hit& before, const Hit& here, const Hit& after) const {
         const double a = before.distance, b = here.distance, c = after.distance;
         const double bend = view_.orthographic ? a - 2.0 * b + c : b / a - 2.0 + b / c;

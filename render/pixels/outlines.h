@@ -10,7 +10,7 @@
 
 namespace aleph {
 
-/// What the centres of a pixel and the eight around it show.
+/// Outline of a pixel: the faces that its centre and the eight around it show.
 enum class Outline : std::uint8_t {
     none = 0,   ///< one face, evenly lit
     still = 1,  ///< several faces, which move alike, or a contrast
@@ -33,7 +33,7 @@ Image<Outline> find_outlines(const CameraView& view, const Image<Hit>& hits, con
 void mark_contrasts(Image<Outline>& outlines, const Image<Rgb>& estimate, const Image<float>& threshold,
                     double tolerated);
 
-/// Whether both pixels have an outline, or neither has one: their samples vary alike.
+/// Returns whether both pixels have an outline, or neither has one: their samples vary alike.
 /// @param outlines  empty: none has
 inline bool are_alike(const Image<Outline>& outlines, int x, int y, int other_x, int other_y) {
     return outlines.empty() || (outlines(x, y) == Outline::none) == (outlines(other_x, other_y) == Outline::none);

@@ -38,7 +38,7 @@ void PixelSamples::add(const SampleLight& light) {
     end_sample();
 }
 
-/// Of one object, about parallel, and not a step behind or before it.
+/// Returns whether a sample saw the first one's object, about parallel to it and not a step behind or before it.
 bool PixelSamples::is_on_first_face(const SampleLight& light) const {
     if (light.instance != instance_ || instance_ == no_index) return light.instance == instance_;
     const float step = std::abs(glm::dot(light.position - position_, geometric_));

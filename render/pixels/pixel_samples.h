@@ -71,7 +71,7 @@ class PixelSamples {
     /// such samples looked up, at places spread over the pixel. Nothing before there are four.
     /// @param light  of the sample: its surface
     std::optional<Rgb> find_irradiance(const SampleLight& light) const;
-    /// Whether its samples saw several objects, or faces of one: an edge crosses the pixel.
+    /// Returns whether its samples saw several objects, or faces of one: an edge crosses the pixel.
     bool has_edge() const { return edge_; }
 
   private:

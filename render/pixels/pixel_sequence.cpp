@@ -21,7 +21,7 @@ struct Digits {
     }
 };
 
-/// What each binary digit of an index adds to three dimensions of Sobol's sequence (Joe and Kuo 2008).
+/// Terms that each binary digit of an index adds to three dimensions of Sobol's sequence (Joe and Kuo 2008).
 struct SobolColumns {
     std::array<std::uint32_t, pixel_bits + sample_bits> x{}, y{}, z{};
 };

@@ -10,7 +10,7 @@
 
 namespace aleph {
 
-/// What the numbers of a sample are for. Each use has points of its own, which do not depend on those of any other.
+/// Use of a sample's numbers. Each use has points of its own, which do not depend on those of any other.
 enum class SampleUse : std::uint8_t {
     pixel,           ///< the place within the pixel's filter
     lens,            ///< the place on the lens

@@ -46,7 +46,7 @@ CameraRay make_sample_ray(const CameraView& view, const SamplePlace& place, int 
 }
 
 PixelSurface make_pixel_surface(const ShadingScene& shading, const CameraView& view, const SamplePlace& place,
-                                const Hit& hit, const glm::vec3& direction, int x, int y) {
+                                const Hit& hit, const glm::vec3& direction, const glm::ivec2& pixel) {
     const SurfacePoint point = make_surface_point(shading, hit, direction);
     PixelSurface surface{view_surface(shading, point, -direction,
                                       make_pixel_footprint(view, point, direction, hit.distance, place.spacing))};
@@ -54,18 +54,18 @@ PixelSurface make_pixel_surface(const ShadingScene& shading, const CameraView& v
     surface.distance = hit.distance;
     const float distance = view.orthographic ? 1.0f : hit.distance;
     surface.footprint = distance / static_cast<float>(view.pixels_per_unit);
-    surface.x = x;
-    surface.y = y;
+    surface.x = pixel.x;
+    surface.y = pixel.y;
     surface.sample = place.index;
-    surface.pixel =
-        static_cast<std::uint32_t>(y) * static_cast<std::uint32_t>(view.width) + static_cast<std::uint32_t>(x);
+    surface.pixel = static_cast<std::uint32_t>(pixel.y) * static_cast<std::uint32_t>(view.width) +
+                    static_cast<std::uint32_t>(pixel.x);
     return surface;
 }
 
 PixelSurface make_pixel_surface(const ShadingScene& shading, const CameraView& view, const SampleHits& sample, int x,
                                 int y) {
     const glm::vec3 direction(make_sample_ray(view, sample.place, x, y).direction);
-    return make_pixel_surface(shading, view, sample.place, sample.hits(x, y), direction, x, y);
+    return make_pixel_surface(shading, view, sample.place, sample.hits(x, y), direction, {x, y});
 }
 
 SampleHits cast_sample(const RayScene& rays, const CameraView& view, const SamplePlace& place,

@@ -54,7 +54,7 @@ struct PixelSurface : ViewedSurface {
 /// @param direction  of the sample's ray, unit
 /// @param hit        of that ray: a surface
 PixelSurface make_pixel_surface(const ShadingScene& shading, const CameraView& view, const SamplePlace& place,
-                                const Hit& hit, const glm::vec3& direction, int x, int y);
+                                const Hit& hit, const glm::vec3& direction, const glm::ivec2& pixel);
 /// Undefined if the pixel's ray hit nothing.
 PixelSurface make_pixel_surface(const ShadingScene& shading, const CameraView& view, const SampleHits& sample, int x,
                                 int y);

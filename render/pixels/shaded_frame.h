@@ -11,7 +11,7 @@
 
 namespace aleph {
 
-/// What causes the error of a pixel.
+/// Cause of a pixel's error.
 enum class ErrorCause : std::uint8_t {
     edges,     ///< samples that saw several surfaces, textures
     blur,      ///< the same, while the shutter or the lens is open
@@ -52,14 +52,14 @@ struct FrameCounts {
     std::uint64_t invalid_samples = 0;       ///< pixel samples and irradiance values dropped for a NaN or infinity
 };
 
-/// What computing the light of a lighting keyframe took.
+/// Work and time of computing the light of a lighting keyframe.
 struct KeyframeStatistics {
     std::int64_t frame = 0;
     FrameCounts counts;  ///< the quick estimates of its views included
     double seconds = 0.0;
 };
 
-/// What filling and shading a frame count: per pixel and in all.
+/// Counts of filling and shading a frame: per pixel and in all.
 struct FrameTally {
     Image<float> records;          ///< irradiance values computed for this pixel
     Image<float> invalid_samples;  ///< pixel samples and irradiance values dropped for a NaN or infinity

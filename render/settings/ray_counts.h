@@ -27,4 +27,12 @@ struct RayCounts {
     }
 };
 
+/// Counted where rays are traced.
+struct TracedRays {
+    std::uint64_t all = 0;      ///< together with `invalid`: RayCounts::total()
+    std::uint64_t invalid = 0;  ///< not traced, because they were not finite
+    TracedRays operator+(const TracedRays& o) const { return {all + o.all, invalid + o.invalid}; }
+    TracedRays operator-(const TracedRays& o) const { return {all - o.all, invalid - o.invalid}; }
+};
+
 }  // namespace aleph

@@ -12,7 +12,7 @@
 
 namespace aleph {
 
-/// What a viewer tolerates in a frame. Images have the frame's size.
+/// Errors that a viewer tolerates in a frame. Images have the frame's size.
 struct VisibleLimits {
     const Image<float>& threshold;           ///< cd/m2 (6.9)
     const Image<float>& aleph;               ///< elevation of the threshold

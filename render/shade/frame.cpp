@@ -35,7 +35,8 @@ class FrameShading {
         if (place_.centered && as_centers) first_ = &centers;
     }
 
-    /// Of pixel samples, the first alone: where others need light beside them, they get it before they are added.
+    /// Computes shared light for the first of the pixel samples alone: where others need light beside them, they get it
+    /// before they are added.
     void fill() {
         if (!integrator_->shares_light()) return;
         if (context_.progress) context_.progress(0.0, "fill");
@@ -128,7 +129,7 @@ class FrameShading {
                 return;
             }
             const PixelSurface surface =
-                make_pixel_surface(scene.lighting.shading, scene.view, at, hit, direction, x, y);
+                make_pixel_surface(scene.lighting.shading, scene.view, at, hit, direction, {x, y});
             begin_light(surface, light);
             if (integrator_->shade(task, surface, pixels_(x, y), light)) {
                 add_sample(task, x, y, light);

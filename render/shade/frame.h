@@ -19,7 +19,7 @@ struct SampleOptions {
     std::function<SampleScene(int sample, int time_class)> at_sample;
     bool light_lasts = true;             ///< while the shutter is open; otherwise indirect light is found by paths then
     const KeyframeRisk* risk = nullptr;  ///< of carried light; null: it need not be checked
-    /// What the samples may err by; null: not known, which Sampling::uniform alone allows.
+    /// Errors that the samples may have; null: not known, which Sampling::uniform alone allows.
     const VisibleLimits* limits = nullptr;
     const PicturePart* part = nullptr;  ///< pixels that are lit and shaded, without a picture; null: all
     bool light_only = false;            ///< the cache is filled, and nothing shaded

@@ -1,5 +1,5 @@
 #pragma once
-// What an integrator is: how the light of a frame's samples is found. To add one, write a class like those of
+// Integrators: ways to find the light of a frame's samples. To add one, write a class like those of
 // cache_integrator.cpp and path_integrator.cpp, give it a row in make_integrator (integrator.cpp) and a name in the
 // setting table.
 
@@ -17,7 +17,7 @@ class LightIntegrator {
   public:
     virtual ~LightIntegrator() = default;
 
-    /// Whether light is computed before the samples, which they share.
+    /// Returns whether light is computed before the samples, which share it.
     virtual bool shares_light() const { return false; }
     /// Computes it.
     /// @param first  the first sample of every pixel
@@ -41,7 +41,7 @@ class LightIntegrator {
     virtual void resolve(const Image<PixelSamples>& pixels, double exposure) = 0;
 };
 
-/// What an integrator is made from; all of it must outlive the integrator.
+/// Inputs of an integrator; all of it must outlive the integrator.
 struct IntegratorInput {
     const IndirectContext& context;
     const SampleOptions& options;

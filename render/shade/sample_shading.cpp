@@ -103,15 +103,9 @@ PathState start_beyond(const SampleShading& shading, const PixelSurface& surface
 }
 
 /// One sample of the lobes, from the pixel's sequence.
-Rgb sample_lobes(const SampleShading& shading, const LightingContext& lighting, ShadingTask& task,
-                 const PixelSurface& surface, const LitSurface& lit, const LobeShares& shares,
-                 const PixelSequence& sequence) {
-    const int i = surface.sample;
-    const ScatterSample sample =
-        sample_scatter(lit, shares, sequence.at_1d(SampleUse::lobe_choice, i),
-                       sequence.at_2d(SampleUse::lobe_direction, i), sequence.at_1d(SampleUse::lobe_side, i));
-    RandomStream random = path_stream(shading, surface);
-    return follow_sample(lighting, task, lit, sample, start_beyond(shading, surface), random);
+ScatterSample sample_lobes(const LitSurface& lit, const LobeShares& shares, const PixelSequence& sequence, int i) {
+    return sample_scatter(lit, shares, sequence.at_1d(SampleUse::lobe_choice, i),
+                          sequence.at_2d(SampleUse::lobe_direction, i), sequence.at_1d(SampleUse::lobe_side, i));
 }
 
 /// @param irradiance  indirect; nothing where it is not known
@@ -127,8 +121,8 @@ void add_with_cache(const SampleShading& shading, const SampleScene& scene, Shad
         RandomStream path_random = path_stream(shading, surface);
         LightPoints points = shading.points;
         points.part = surface.sample;
-        const SampledLight sampled = compute_sampled_light(lighting, task, surface, points, random,
-                                                           start_beyond(shading, surface), path_random, &lobes.shares);
+        const SampledLight sampled = compute_sampled_light(
+            lighting, task, surface, points, random, {start_beyond(shading, surface), path_random, &lobes.shares});
         light[LightPart::direct] = sampled.direct;
         light[LightPart::gloss] = sampled.lobes;
         return;
@@ -138,7 +132,9 @@ void add_with_cache(const SampleShading& shading, const SampleScene& scene, Shad
     if (shading.tolerance != nullptr) samples.tolerance = shading.tolerance->lights(surface.x, surface.y);
     light[LightPart::direct] = sample_direct_light(lighting, task, lit, lobes.shares, sequence, samples);
     if (lobes.shares != LobeShares{}) {
-        light[LightPart::gloss] = sample_lobes(shading, lighting, task, surface, lit, lobes.shares, sequence);
+        const ScatterSample sample = sample_lobes(lit, lobes.shares, sequence, surface.sample);
+        RandomStream random = path_stream(shading, surface);
+        light[LightPart::gloss] = follow_sample(lighting, task, lit, sample, start_beyond(shading, surface), random);
     }
 }
 

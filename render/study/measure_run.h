@@ -10,7 +10,7 @@
 
 namespace aleph {
 
-/// What judges the pictures of one frame.
+/// Reference and thresholds that the pictures of one frame are judged by.
 struct FrameTruth {
     ChannelImage reference;                ///< R, G, B, variance.Y, and indirect.R/G/B where it has them
     std::vector<Image<float>> thresholds;  ///< cd/m2, of each viewer

@@ -1,5 +1,5 @@
 #pragma once
-// What a study measures of a frame.
+// Metrics: values that a study measures of a frame.
 
 #include <string>
 #include <vector>

@@ -50,7 +50,7 @@ RenderSettings reference_settings(const RenderSettings& settings, const Referenc
     return out;
 }
 
-/// What the picture depends on, but for its scene.
+/// Describes everything that the picture depends on, but for its scene.
 std::string describe_settings(const RenderSettings& settings, const ReferencePictureOptions& options) {
     std::string text =
         fmt::format("{} {} {} {} {}", settings.sampling.spp, settings.light.bounces, settings.light.path_depth,

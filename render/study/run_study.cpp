@@ -19,7 +19,7 @@ namespace {
 /// How long a pass of a reference takes, in runs of a frame: for progress alone.
 constexpr double frames_per_pass = 4.0;
 
-/// What the Aleph map of a frame is the sum of.
+/// Adds the bands whose sum is the Aleph map of a frame.
 void add_bands(const FrameOutput& output, const Scene& scene, const RenderSettings& settings, JudgingFrame& frame) {
     PerceptionSettings perception = settings.perception;
     if (output.perception.saliency.empty()) perception.guide = Guide::full;  // nothing moves, or all is alike
@@ -70,7 +70,7 @@ class StudyRunner {
     }
 
   private:
-    /// Of a seed, by its number, in all scenes.
+    /// Lists the pictures of a seed, by its number, in all scenes.
     static std::vector<std::string> pictures_of(const std::vector<std::vector<MeasuredRun>>& scenes, std::size_t seed) {
         std::vector<std::string> pictures;
         for (const std::vector<MeasuredRun>& runs : scenes)

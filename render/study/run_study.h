@@ -19,7 +19,8 @@ struct JudgingFrame {
     std::int64_t frame = 0;
     ReferenceQuality quality;
     std::filesystem::path reference;  ///< the file
-    /// Of `aleph maps`, for the first viewer, with band.0 to .6, R_i of (5.3), and elevation.0 to .6, f_i of (5.9).
+    /// Maps of `aleph maps`, for the first viewer, with band.0 to .6, R_i of (5.3), and elevation.0 to .6, f_i of
+    /// (5.9).
     ChannelImage maps;
     std::array<double, band_count> frequencies{};  ///< of the bands, cycles per degree
     std::vector<Image<float>> thresholds;          ///< cd/m2, of each viewer

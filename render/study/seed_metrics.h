@@ -1,5 +1,5 @@
 #pragma once
-// What chance does to a sequence: two renderings of it that differ in their random numbers alone.
+// Metrics of chance: two renderings of a sequence that differ in their random numbers alone.
 
 #include <string>
 #include <vector>

@@ -11,7 +11,7 @@
 
 namespace aleph {
 
-/// What variants are judged by.
+/// Reference that variants are judged by.
 struct StudyReference {
     /// "path": traced paths. "gather": no cache, gather rays at every pixel sample. "settings": the study's settings
     /// with `settings` in their places.

@@ -68,7 +68,7 @@ std::vector<std::string> read_texts(const JsonRef& root, std::string_view key) {
     return texts;
 }
 
-/// What a list of objects has.
+/// Reads the lists of objects.
 void read_lists(const JsonRef& root, const std::filesystem::path& folder, Study& study) {
     for_each_object(root, "scenes", [&](const JsonRef& scene, std::size_t) {
         const std::filesystem::path file = scene.require("scene").string();

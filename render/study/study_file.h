@@ -9,7 +9,7 @@
 
 namespace aleph {
 
-/// Whether a file is a study, and no scene: a .json file whose root has a list `scenes`.
+/// Returns whether a file is a study, and no scene: a .json file whose root has a list `scenes`.
 /// @throws InputError if it is a .json file that cannot be read
 bool is_study(const std::filesystem::path& file);
 

@@ -9,7 +9,7 @@
 
 namespace aleph {
 
-/// What the files say of how the study was made.
+/// Facts that the files state about how the study was made.
 struct StudyContext {
     std::string command;  ///< of the user
     std::string date;     ///< "2026-01-31T12:00:00Z" (study_date)
@@ -30,7 +30,7 @@ nlohmann::ordered_json study_json(const PreparedStudy& prepared, const StudyResu
 /// is not known is empty.
 std::string study_csv(const PreparedStudy& prepared, const StudyResults& results);
 
-/// What the reference is, and how noisy, in a sentence.
+/// Describes the reference and its noise in a sentence.
 std::string describe_reference(const PreparedStudy& prepared, const StudyResults& results);
 
 }  // namespace aleph

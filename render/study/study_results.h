@@ -1,5 +1,5 @@
 #pragma once
-// What a study found: each variant's costs and errors, with their uncertainty.
+// Results of a study: each variant's costs and errors, with their uncertainty.
 
 #include <cstdint>
 #include <map>

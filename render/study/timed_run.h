@@ -13,7 +13,7 @@
 
 namespace aleph {
 
-/// What a frame took, the lighting keyframes that it was the first to need included.
+/// Time and work of a frame, with the lighting keyframes that it was the first to need.
 struct FrameRun {
     std::int64_t frame = 0;
     double processor_seconds = 0.0;  ///< of all threads
@@ -25,7 +25,7 @@ struct FrameRun {
     std::string plan;  ///< of effects, JSON (effects_json.h)
 };
 
-/// What a run hands on of each frame.
+/// Receives the picture of each frame of a run.
 using SaveFrame = std::function<void(std::int64_t frame, const ChannelImage& picture)>;
 
 /// Renders the frames in order with one Sequence, as `aleph render` does, so that later frames find the light of key

@@ -7,7 +7,7 @@
 
 namespace aleph {
 
-/// What encloses a ray: meshes with a volume (KHR_materials_volume) that it has entered, the innermost last.
+/// Media around a ray: meshes with a volume (KHR_materials_volume) that it has entered, the innermost last.
 class Media {
   public:
     struct Medium {
@@ -23,7 +23,7 @@ class Media {
     /// 1/m, of the ray that ends at this surface. If no mesh was entered and the surface is met from inside, the ray
     /// started inside: the camera is in the glass.
     Rgb attenuation(const ViewedSurface& end) const;
-    /// Of the far side over the viewer's side, at a surface with a volume.
+    /// Index of refraction of the far side over the viewer's side, at a surface with a volume.
     float ratio_at(const ViewedSurface& surface) const;
     /// Goes through a surface with a volume, by the side that was hit.
     void pass(const ViewedSurface& surface);

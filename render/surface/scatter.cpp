@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
+#include <optional>
 
 #include "render/surface/fresnel.h"
 #include "render/surface/glass.h"
@@ -96,6 +98,25 @@ bool has_lobe(const SurfaceMaterial& material, Lobe lobe) {
 
 constexpr std::array lobes{Lobe::diffuse, Lobe::gloss, Lobe::coat, Lobe::sheen, Lobe::glass};
 
+/// Direction that the coat reflects to, in the frame of the surface; none below the coat.
+std::optional<glm::vec3> sample_coat(const LitSurface& lit, const glm::vec2& u) {
+    if (!(lit.coat_view.z > 0.0f)) return std::nullopt;
+    const SurfaceMaterial& material = lit.material;
+    const glm::vec3 h = material.is_coat_mirror()
+                            ? glm::vec3(0.0f, 0.0f, 1.0f)
+                            : sample_visible_normal(glm::vec2(material.coat_alpha), lit.coat_view, u);
+    const glm::vec3 reflected = 2.0f * glm::dot(lit.coat_view, h) * h - lit.coat_view;
+    if (!(reflected.z > 0.0f)) return std::nullopt;
+    return lit.basis.to_local(lit.coat_basis.to_world(reflected));
+}
+
+/// Direction of uniform density over the hemisphere.
+glm::vec3 sample_sheen(const glm::vec2& u) {
+    const float radius = std::sqrt(std::max(0.0f, 1.0f - u.x * u.x));
+    const float phi = 2.0f * std::numbers::pi_v<float> * u.y;
+    return {radius * std::cos(phi), radius * std::sin(phi), u.x};
+}
+
 }  // namespace
 
 LitSurface::LitSurface(const ViewedSurface& surface)
@@ -188,22 +209,16 @@ ScatterSample sample_scatter(const LitSurface& lit, const LobeShares& shares, fl
             if (mirror) sample.weight = glossy_reflectance(material, lit.view.z) * lit.below_sheen;
             break;
         case Lobe::coat: {
-            if (!(lit.coat_view.z > 0.0f)) return sample;
+            const std::optional<glm::vec3> reflected = sample_coat(lit, u);
+            if (!reflected) return sample;
+            local = *reflected;
             mirror = material.is_coat_mirror();
-            const glm::vec3 h = mirror ? glm::vec3(0.0f, 0.0f, 1.0f)
-                                       : sample_visible_normal(glm::vec2(material.coat_alpha), lit.coat_view, u);
-            const glm::vec3 reflected = 2.0f * glm::dot(lit.coat_view, h) * h - lit.coat_view;
-            if (!(reflected.z > 0.0f)) return sample;
-            local = lit.basis.to_local(lit.coat_basis.to_world(reflected));
             if (mirror) sample.weight = Rgb(coat_reflectance(lit));
             break;
         }
-        case Lobe::sheen: {
-            const float radius = std::sqrt(std::max(0.0f, 1.0f - u.x * u.x));
-            const float phi = 2.0f * std::numbers::pi_v<float> * u.y;
-            local = {radius * std::cos(phi), radius * std::sin(phi), u.x};
+        case Lobe::sheen:
+            local = sample_sheen(u);
             break;
-        }
         case Lobe::glass: {
             const GlassSample glass = sample_glass(material, lit.view, u, side);
             local = glass.light;

@@ -71,7 +71,7 @@ ShadingMaterial make_material(const ShadingScene& shading, int i) {
     return made;
 }
 
-/// What the pose says of the whole scene's light.
+/// Sets what the pose says of the whole scene's light.
 void set_surroundings(ShadingScene& shading) {
     const ScenePose& pose = *shading.pose;
     shading.environment = pose.environment;

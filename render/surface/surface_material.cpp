@@ -113,11 +113,8 @@ Rgb find_attenuation(const MaterialValues& values) {
     return attenuation;
 }
 
-void add_glass(const MaterialValues& values, float transmission, float thickness, float specular, const Rgb& base,
-               bool front, SurfaceMaterial& surface) {
-    surface.glass = transmission;
-    surface.glass_tint = base;
-    surface.glass_specular = specular;
+/// Sets what glass does to rays that pass it.
+void add_refraction(const MaterialValues& values, float thickness, bool front, SurfaceMaterial& surface) {
     surface.ior = values.ior;
     surface.volume = thickness > 0.0f;
     surface.ior_ratio = values.ior;
@@ -198,7 +195,10 @@ SurfaceMaterial evaluate_material(const ShadingScene& shading, const SurfacePoin
         surface.f90_max = specular * dielectric + metallic;
         surface.alpha = roughness * roughness;
         if (transmission > 0.0f) {
-            add_glass(values, dielectric * transmission, thickness, specular, base, point.front, surface);
+            surface.glass = dielectric * transmission;
+            surface.glass_tint = base;
+            surface.glass_specular = specular;
+            add_refraction(values, thickness, point.front, surface);
         }
         if (entry.layered) add_layers(values, textures, look_up, surface);
         if (entry.emits && (point.front || entry.double_sided)) surface.emission = emission;

@@ -43,14 +43,14 @@ struct SurfaceMaterial {
     bool has_coat() const { return coat > 0.0f; }
     bool has_sheen() const { return sheen != Rgb(0.0f); }
     bool has_glass() const { return glass > 0.0f; }
-    /// Whether anything but the Lambert layer scatters light.
+    /// Returns whether anything but the Lambert layer scatters light.
     bool has_specular() const { return has_glossy() || has_glass() || has_coat() || has_sheen(); }
-    /// Whether the glossy layer is smooth to single precision, along the tangent too.
+    /// Returns whether the glossy layer is smooth to single precision, along the tangent too.
     bool is_mirror() const { return alpha + (1.0f - alpha) * stretch < min_ggx_alpha; }
     bool is_coat_mirror() const { return coat_alpha < min_ggx_alpha; }
     /// Glass without microfacets: smooth, or between equal media, where nothing turns.
     bool is_glass_smooth() const { return is_mirror() || ior_ratio == 1.0f; }
-    /// Whether light passes it without a turn: a smooth sheet.
+    /// Returns whether light passes it without a turn: a smooth sheet.
     bool passes_straight() const { return has_glass() && !volume && is_glass_smooth(); }
     /// GGX widths along the tangent and across it (KHR_materials_anisotropy), unless it is a mirror.
     glm::vec2 widths() const { return {alpha + (1.0f - alpha) * stretch, std::max(alpha, min_ggx_alpha)}; }

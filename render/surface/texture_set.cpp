@@ -76,7 +76,7 @@ Image<glm::vec4> reduce(int width, int height, const Read& read) {
     return out;
 }
 
-/// Of all texels, without values that are not numbers.
+/// Finds the range of all texels, without values that are not numbers.
 void find_range(Texture& texture) {
     glm::vec3 &smallest = texture.smallest, &largest = texture.largest;
     smallest = glm::vec3(std::numeric_limits<float>::max());

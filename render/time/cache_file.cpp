@@ -37,7 +37,7 @@ bool is_fingerprint(const Json& json) {
            json.contains("build") && json.contains("scene");
 }
 
-/// What differs between a file's fingerprint and the one that is wanted; empty if nothing does.
+/// Describes the difference between a file's fingerprint and the one that is wanted; empty if there is none.
 std::string find_difference(const Json& found, const CacheFingerprint& wanted) {
     if (found["build"] != wanted.build) return "it was written by another build of aleph";
     for (const auto& [key, value] : wanted.settings) {

@@ -20,7 +20,7 @@ namespace aleph {
 /// The records of each lighting keyframe, by its frame.
 using KeyframeRecords = std::map<std::int64_t, std::vector<IrradianceRecord>>;
 
-/// What records depend on.
+/// Everything that records depend on.
 struct CacheFingerprint {
     std::string build;    ///< version and SHA-1 of the program file
     std::string scene;    ///< hash_scene, and the cameras

@@ -12,7 +12,7 @@ namespace {
 /// looks too.
 constexpr std::size_t most_kept = 5;
 
-/// What the nodes of a keyframe know of a surface of another frame, where that surface lies at the keyframe.
+/// Reads the nodes of a keyframe for a surface of another frame, where that surface lies at the keyframe.
 EstimateNodes::Interpolated read_keyframe(const EstimateKeyframe& keyframe, const PixelSurface& surface) {
     const std::optional<SurfacePoint> point = carry_point(keyframe.shading, surface.hit, surface.point);
     if (!point) return {};

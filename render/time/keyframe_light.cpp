@@ -14,9 +14,9 @@ namespace {
 /// Pixels, of views at other times than the keyframe's. Frames fill the little that tiles of this size leave open.
 constexpr int finest_tiles = 2;
 
-/// Whether linear interpolation between two keyframes may err too much: half way, if they differ by more than the
-/// accuracy, relative to their mean; nearer to one of them, if they differ by accordingly more, as the error of linear
-/// interpolation is 0 at both ends.
+/// Returns whether linear interpolation between two keyframes may err too much: half way, if they differ by more than
+/// the accuracy, relative to their mean; nearer to one of them, if they differ by accordingly more, as the error of
+/// linear interpolation is 0 at both ends.
 bool differ(const Rgb& before, const Rgb& after, float weight, float accuracy) {
     const float a = luminance(before), b = luminance(after);
     return 4.0f * weight * (1.0f - weight) * std::abs(a - b) > 0.5f * accuracy * (a + b);

@@ -21,7 +21,7 @@ struct KeyPose {
     ShadingScene shading;
 };
 
-/// What a lighting keyframe's camera sees.
+/// View of a lighting keyframe's camera.
 struct KeyView : KeyPose {
     std::int64_t frame = 0;
     Image<float> accuracy;  ///< alpha per pixel
@@ -40,7 +40,7 @@ KeyframeLight make_keyframe_light(std::shared_ptr<const KeyPose> at, const std::
 /// The first sample of every pixel of a view; adds its rays.
 using CastView = std::function<SampleHits(const KeyView& view, RayCounts& counts)>;
 
-/// What the light of a keyframe is computed from.
+/// Inputs of a keyframe's light.
 struct KeyframeInput {
     std::int64_t frame = 0;
     const LightingContext& lighting;  ///< the scene at the keyframe

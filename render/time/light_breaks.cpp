@@ -13,7 +13,7 @@ constexpr float max_change = 0.25f;  // from one frame to the next, of the large
 
 }  // namespace
 
-/// What sends light in a frame, and what is there to receive it.
+/// Sources of light in a frame, and the objects that are there to receive it.
 struct LightBreaks::Sources {
     std::vector<int> there;     ///< instances that can come or go: shown or not; nodes of the visible lamps
     std::vector<float> values;  ///< radiance and intensity, channel by channel

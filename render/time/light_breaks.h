@@ -24,7 +24,8 @@ class LightBreaks {
     /// the largest value that it has in the span.
     const std::vector<std::int64_t>& find(std::int64_t first, std::int64_t last);
 
-    /// Whether such a change lies within an interval of time, which may be slow there: it is looked at nine times.
+    /// Returns whether such a change lies within an interval of time, which may be slow there: it is looked at nine
+    /// times.
     /// @param open, close  frames
     bool changes(double open, double close);
 

@@ -18,7 +18,7 @@ bool is_start(const LightingKeyframes& keyframes, std::int64_t frame) {
     return frame == keyframes.range.first || std::ranges::find(keyframes.cuts, frame) != keyframes.cuts.end();
 }
 
-/// Whether frame + 1 has another camera or lies outside of the range.
+/// Returns whether frame + 1 has another camera or lies outside of the range.
 bool is_end(const LightingKeyframes& keyframes, std::int64_t frame) {
     return frame == keyframes.range.last || std::ranges::find(keyframes.cuts, frame + 1) != keyframes.cuts.end();
 }

@@ -37,7 +37,7 @@ std::vector<ShutterMover> find_movers(const ShadingScene& frame, const ShadingSc
 float find_hidden_change(const std::vector<ShutterMover>& movers, const glm::vec3& position, const glm::vec3& moved,
                          int instance, float enough);
 
-/// What is known of a frame's indirect light, for surfaces seen at the time of one of its samples.
+/// Known indirect light of a frame, for surfaces seen at the time of one of its samples.
 class ShutterLight {
   public:
     /// Keeps references to the poses and what is known.

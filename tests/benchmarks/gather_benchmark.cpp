@@ -49,7 +49,7 @@ class Best {
     clockid_t clock_;
 };
 
-/// What gathers need of a frame.
+/// Data of a frame that gathers need.
 struct Frame {
     Frame(const Scene& scene, std::int64_t number, int width, int height)
         : posed(make_posed_view(scene, scene.frame_rate.seconds_of(number), 0, width, height)),

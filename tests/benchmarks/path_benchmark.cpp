@@ -52,8 +52,8 @@ int run(int argc, char** argv) {
     rays_of_frame.update(posed.pose, compute_anchor(posed.view));
     RawEmbree raw(scene, posed.pose, posed.view, true, origin_of_recorded(rays_of_frame, posed.pose));
     fmt::print("{}, frame {}, {}x{}, {} samples, {} threads: {} rays\n", argv[1], frame, settings.picture.width,
-               settings.picture.height, settings.sampling.spp, thread_count(), paths.traced_rays);
-    const double rays = static_cast<double>(paths.traced_rays), path_seconds = paths.seconds.shade;
+               settings.picture.height, settings.sampling.spp, thread_count(), paths.traced.all);
+    const double rays = static_cast<double>(paths.traced.all), path_seconds = paths.seconds.shade;
     double best = 0.0;
     for (const auto& [name, packets] : {std::pair("single rays", RawEmbree::Packets::none),
                                         std::pair("packets of 16", RawEmbree::Packets::incoherent)}) {

@@ -1,4 +1,4 @@
-// What it costs to pose a scene for the samples of an open shutter, beside shading them: on one thread, at 640x480.
+// Cost of posing a scene for the samples of an open shutter, beside shading them: on one thread, at 640x480.
 // Every sample of a pixel takes time_classes poses. `bench_shutter SCENE FRAME...` measures scenes from files too.
 
 #include <fmt/format.h>

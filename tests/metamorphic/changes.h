@@ -14,7 +14,7 @@ void scale_light(Scene& scene, double factor);
 /// Everything happens `frames` frames later.
 void delay(Scene& scene, std::int64_t frames);
 
-/// What was at t is at -t. Steps are not turned round: they begin at their key.
+/// Everything at t moves to -t. Steps are not turned round: they begin at their key.
 void reverse_time(Scene& scene);
 
 /// Everything below one new node, and the picture around the scene turned with it. It becomes node 0.

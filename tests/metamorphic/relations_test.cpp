@@ -93,7 +93,7 @@ Difference compare(const FrameOutput& a, const FrameOutput& b, double lengths) {
     return most;
 }
 
-/// What a relation changes, and by how much pictures may differ then.
+/// Change of a scene, and how much pictures may differ then.
 struct Relation {
     std::function<void(Scene&)> change;
     Difference limit{};
@@ -229,7 +229,7 @@ TEST(Relations, Elsewhere) {
                      .other_numbers = true});
 }
 
-// Of two surfaces in one place the first node's is seen.
+// Where two surfaces lie in one place, the first node's is seen.
 TEST(Relations, OrderOfNodes) {
     expect_relation(
         "nodes in the opposite order",

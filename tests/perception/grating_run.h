@@ -8,7 +8,7 @@
 
 namespace aleph {
 
-/// What is shown and by which model it is seen.
+/// Grating that is shown, and the model that sees it.
 struct GratingRun {
     Grating grating;
     double velocity = 0.0;          ///< of the image, deg/s, everywhere

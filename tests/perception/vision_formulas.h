@@ -9,7 +9,7 @@
 
 namespace aleph {
 
-/// What an elevation depends on besides frequency.
+/// Conditions that an elevation depends on besides frequency.
 struct EyeMotion {
     double retinal = 0.15;     ///< v_R, deg/s
     double tracked = 0.0;      ///< what the eye follows, deg/s

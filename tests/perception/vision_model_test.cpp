@@ -1,4 +1,4 @@
-// What every model of vision promises, and models that are not in the list.
+// Promises of every model of vision, and models that are not in the list.
 
 #include "perception/vision_model.h"
 

@@ -241,7 +241,7 @@ class Coverage {
         return {now, place};
     }
 
-    /// What is keyed is keyed in one way, whatever it is.
+    /// Names a key. All values are keyed in the same way, whatever they are.
     static std::string name_of(const std::string& place, const std::string& key) {
         return (place.starts_with("/definitions/keyed_") ? "keyed" : place) + "/" + key;
     }

@@ -24,8 +24,8 @@ void expect_all_finite(const FrameOutput& output) {
     for (const glm::dvec2& d : output.motion.displacement.pixels)
         ASSERT_TRUE(glm::length(d) <= std::hypot(48.0, 36.0) + 1e-9) << d.x << " " << d.y;
     EXPECT_EQ(output.statistics.counts.invalid_samples, 0u);
-    EXPECT_EQ(output.statistics.invalid_rays, 0u);
-    EXPECT_EQ(output.statistics.traced_rays, output.statistics.counts.rays.total());
+    EXPECT_EQ(output.statistics.traced.invalid, 0u);
+    EXPECT_EQ(output.statistics.traced.all, output.statistics.counts.rays.total());
 }
 
 class EveryHardScene : public testing::TestWithParam<std::string> {};
@@ -154,7 +154,7 @@ TEST(HardScenes, BlankWallHasAlephOne) {
     HardScene hard("blank_wall");
     const FrameOutput output = hard.render(0);
     for (const float aleph : output.perception.aleph.pixels) ASSERT_EQ(aleph, 1.0f);
-    EXPECT_TRUE(output.statistics.saliency_fallback);
+    EXPECT_TRUE(output.statistics.estimate.saliency_fallback);
 }
 TEST(HardScenes, CS10_MC17_BlackIsBlack) {
     expect_black("black");

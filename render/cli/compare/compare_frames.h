@@ -5,8 +5,8 @@
 
 namespace aleph {
 
-/// Whether an argument names a sequence: a folder, or a name with a place for the frame number. An existing file is a
-/// picture, whatever its name.
+/// Returns whether an argument names a sequence: a folder, or a name with a place for the frame number. An existing
+/// file is a picture, whatever its name.
 bool names_sequence(const std::string& argument);
 
 /// Pairs the frames of both sequences by number, compares them and prints the result.

@@ -1,5 +1,5 @@
 #pragma once
-// What `aleph compare` is asked for.
+// Options of `aleph compare`.
 
 #include <string>
 

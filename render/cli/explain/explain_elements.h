@@ -13,10 +13,10 @@ nlohmann::ordered_json to_json(const glm::dvec3& v);
 /// null where empty
 nlohmann::ordered_json to_json(const Bounds& bounds);
 
-/// What deforms a mesh; null if nothing does.
+/// Names what deforms a mesh; null if nothing does.
 const char* how_it_deforms(const Scene& scene, const Mesh& mesh);
 
-/// Whether a mesh of the node has a material that gives light at some time.
+/// Returns whether a mesh of the node has a material that gives light at some time.
 bool is_area_light(const Scene& scene, const Node& node);
 
 nlohmann::ordered_json describe_node(const Scene& scene, std::size_t index, const NodePaths& paths);

@@ -1,4 +1,4 @@
-// What frames are predicted to cost, and the error that a budget chooses.
+// Predicted cost of frames, and the error that a budget chooses.
 
 #include "render/budget/cost_model.h"
 

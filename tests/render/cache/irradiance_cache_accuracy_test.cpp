@@ -1,4 +1,4 @@
-// What the accuracy of the irradiance cache buys: at 0 and near it the light of the path tracer, and less error at
+// Effect of the irradiance cache's accuracy: at 0 and near it the light of the path tracer, and less error at
 // every step on the way there.
 
 #include <gtest/gtest.h>

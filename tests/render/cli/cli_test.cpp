@@ -205,7 +205,7 @@ TEST(Progress, Durations) {
     EXPECT_EQ(format_duration(0.0 / 0.0), "?");
 }
 
-/// What a Progress of ten frames writes, at one frame a second.
+/// Returns the text that a Progress of ten frames writes, at one frame a second.
 std::string progress_text(const ProgressLook& look) {
     const ScratchFolder folder;
     const auto path = folder / "log";

@@ -1,4 +1,4 @@
-// What the command line says of frames that are copies.
+// Messages of the command line about frames that are copies.
 
 #include "render/cli/copied_frames.h"
 

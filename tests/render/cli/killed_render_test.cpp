@@ -57,7 +57,7 @@ std::vector<std::string> names_in(const fs::path& folder) {
     return names;
 }
 
-/// What the folder tells about files that a program writes into it.
+/// Events of a folder: files that a program writes into it.
 class FolderEvents {
   public:
     explicit FolderEvents(const fs::path& folder) : file_(::inotify_init1(IN_CLOEXEC)) {

@@ -22,7 +22,7 @@ std::string hostile_gltf() {
     return text + "]}";
 }
 
-/// What `aleph explain` does with a file.
+/// Does what `aleph explain` does with a file.
 void explain(const fs::path& path, const LoadLimits& limits) {
     try {
         load_scene(path, limits);

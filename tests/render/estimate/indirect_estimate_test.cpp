@@ -21,11 +21,10 @@ Image<Rgb> estimate(const Stage& stage, bool indirect, RayCounts& counts) {
     const SampleHits centers = cast_centers(stage.rays, stage.view, nullptr);
     std::optional<EstimateNodes> nodes;
     if (indirect) nodes = gather_estimate(stage.lighting(), stage.view, centers, nullptr, counts);
-    return compute_estimate(stage.lighting(), stage.view, centers, EstimateKind::direct, nodes ? &*nodes : nullptr, 1.0,
-                            counts);
+    return compute_estimate(stage.lighting(), stage.view, centers, {.indirect = nodes ? &*nodes : nullptr}, counts);
 }
 
-/// What indirect light adds to the estimate's luminance.
+/// Luminance that indirect light adds to the estimate.
 Image<float> indirect_part(const Stage& stage) {
     RayCounts counts;
     const Image<Rgb> with = estimate(stage, true, counts), without = estimate(stage, false, counts);

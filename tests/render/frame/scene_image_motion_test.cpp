@@ -22,7 +22,7 @@ TEST(SceneMotionFromImages, IsTheSearchBetweenTheQuickEstimates) {
     const MotionField truth = compute_image_motion(now.estimate, next.estimate);
     EXPECT_EQ(now.motion.displacement, truth.displacement);
     EXPECT_EQ(now.motion.validity, truth.validity);
-    EXPECT_EQ(now.statistics.counts.rays.total(), now.statistics.traced_rays);
+    EXPECT_EQ(now.statistics.counts.rays.total(), now.statistics.traced.all);
     // The last frame is compared with the previous one.
     const FrameRange range = sequence.range();
     const FrameOutput last = sequence.render(range.last, request), before = sequence.render(range.last - 1, request);
@@ -44,7 +44,7 @@ TEST(SceneMotionFromImages, NoneAcrossACut) {
     const FrameOutput output = Sequence(scene, settings).render(4, {.frame = false, .maps = true, .progress = {}});
     for (const glm::dvec2& d : output.motion.displacement.pixels) EXPECT_EQ(d, glm::dvec2(0.0));
     EXPECT_EQ(output.motion.validity.pixels.front(), MotionValidity::no_counterpart);
-    EXPECT_EQ(output.statistics.counts.rays.total(), output.statistics.traced_rays);
+    EXPECT_EQ(output.statistics.counts.rays.total(), output.statistics.traced.all);
 }
 
 }  // namespace

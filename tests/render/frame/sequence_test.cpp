@@ -41,7 +41,7 @@ Scene make_moving_scene() {
     return scene;
 }
 
-/// What the frames of a sequence show.
+/// Renders the pictures of two frames of a sequence.
 std::vector<Image<Rgb>> render_two(Sequence& sequence) {
     std::vector<Image<Rgb>> pictures;
     for (const int frame : {0, 15}) pictures.push_back(sequence.render(frame).shaded.color);
@@ -68,7 +68,7 @@ TEST(Sequence, OwnsItsScene) {
     EXPECT_TRUE(render_two(of_temporary)[1].pixels == expected[1].pixels);
     EXPECT_TRUE(Sequence(make_moving_scene(), settings).render(15).shaded.color.pixels == expected[1].pixels);
 
-    // What becomes of the caller's scene has no influence: every part that a frame reads is changed.
+    // The fate of the caller's scene has no influence: every part that a frame reads is changed.
     auto changed = std::make_unique<Scene>(make_moving_scene());
     Sequence of_changed(*changed, settings);
     for (Node& node : changed->nodes) node.translation = glm::dvec3(1e6);
@@ -147,7 +147,7 @@ TEST(SequenceCameras, KeysAscendAndNameCameras) {
 
 const auto maps_only = FrameRequest{.frame = false, .maps = true, .progress = {}};
 
-/// Whether no surface has motion.
+/// Returns whether no surface has motion.
 bool is_without_motion(const MotionField& motion) {
     return std::ranges::none_of(motion.validity.pixels, [](MotionValidity v) { return v == MotionValidity::valid; });
 }

@@ -208,7 +208,7 @@ TEST_P(HeldFrames, HaveTheSameBytesInAnyOrder) {
         const FrameStatistics& statistics = outputs[frame].statistics;
         const bool is_copy = frame > 4 && frame < 10;
         EXPECT_EQ(statistics.copy_of.value_or(-1), is_copy ? 4 : -1) << frame;
-        EXPECT_EQ(statistics.traced_rays == 0, is_copy) << frame;
+        EXPECT_EQ(statistics.traced.all == 0, is_copy) << frame;
         EXPECT_EQ(statistics.counts.rays.total() == 0, is_copy) << frame;
         EXPECT_EQ(statistics.counts.samples == 0, is_copy) << frame;
     }
@@ -226,11 +226,11 @@ TEST(StaticFrame, IsNotACopyWithOtherContents) {
     const FrameRequest maps{.frame = true, .maps = true, .progress = {}};
     const FrameOutput with_maps = sequence.render(6, maps);
     EXPECT_FALSE(with_maps.depth.empty());
-    EXPECT_GT(with_maps.statistics.traced_rays, 0u);
+    EXPECT_GT(with_maps.statistics.traced.all, 0u);
     expect_equal(with_maps, other.render(6, maps));
     const FrameOutput again = sequence.render(7, maps);
     EXPECT_FALSE(again.depth.empty());
-    EXPECT_EQ(again.statistics.traced_rays, 0u);
+    EXPECT_EQ(again.statistics.traced.all, 0u);
     EXPECT_TRUE(sequence.render(7).depth.empty());
 }
 
@@ -244,8 +244,8 @@ TEST(StaticFrame, EndsWithAnEdit) {
     EXPECT_FALSE(edited.statistics.copy_of) << "its motion is that of the edit";
     const FrameOutput after = sequence.render(7);
     EXPECT_EQ(after.statistics.copy_of.value_or(-1), 4);
-    EXPECT_GT(after.statistics.traced_rays, 0u) << "the frame after an edit is no copy's source";
-    EXPECT_EQ(sequence.render(8).statistics.traced_rays, 0u);
+    EXPECT_GT(after.statistics.traced.all, 0u) << "the frame after an edit is no copy's source";
+    EXPECT_EQ(sequence.render(8).statistics.traced.all, 0u);
 }
 
 }  // namespace

@@ -71,7 +71,7 @@ std::vector<double> find_illuminances(const Stage& stage, const Receiver& receiv
     return found;
 }
 
-/// Of each light, and of each group's lights together.
+/// Returns what each light brings, then what the lights of each group bring together.
 std::vector<double> add_up(const LightTree& tree, std::vector<double> brought) {
     std::vector<double> groups(tree.groups.size());
     brought.resize(brought.size() + groups.size());
@@ -233,7 +233,7 @@ TEST(LightTree, DirectLightIsLessByNoMoreThanItSays) {
                 for (std::uint32_t run = 0; run < trial.times(400u); ++run) {
                     const PixelSequence sequence(run + trial.seed, 0, 0, 0);
                     mean.add(luminance(sample_direct_light(stage.lighting(), task, LitSurface(surface), shares,
-                                                           sequence, {0, 4, tolerance}, &left_out)));
+                                                           sequence, {0, 4, tolerance, &left_out})));
                 }
                 return mean;
             };
@@ -261,8 +261,8 @@ TEST(LightTree, LayersWithoutABoundLeaveNothingOut) {
                                 glm::vec3(0.0f, -1.0f, 0.0f)};
     const LobeShares shares{};
     float left_out = 1.0f;
-    sample_direct_light(stage.lighting(), task, LitSurface(surface), shares, PixelSequence(1, 0, 0, 0), {0, 1, 10.0f},
-                        &left_out);
+    sample_direct_light(stage.lighting(), task, LitSurface(surface), shares, PixelSequence(1, 0, 0, 0),
+                        {0, 1, 10.0f, &left_out});
     EXPECT_EQ(left_out, 0.0f);
 }
 

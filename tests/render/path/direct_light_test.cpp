@@ -18,7 +18,8 @@ namespace {
 Rgb compute_direct_light(const LightingContext& context, RayTask& task, const ViewedSurface& surface,
                          const LightPoints& points, RandomStream& random) {
     RandomStream path_random = random;
-    const SampledLight light = compute_sampled_light(context, task, surface, points, random, PathState{}, path_random);
+    const SampledLight light =
+        compute_sampled_light(context, task, surface, points, random, {PathState{}, path_random});
     return light.direct + light.lobes;
 }
 

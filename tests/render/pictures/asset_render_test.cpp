@@ -74,7 +74,7 @@ TEST_P(TruckRender, RollsItsWheelsAndNothingElse) {
 
     const FrameStatistics& statistics = output.statistics;
     EXPECT_EQ(statistics.counts.invalid_samples, 0u);
-    EXPECT_EQ(statistics.counts.rays.total(), statistics.traced_rays);
+    EXPECT_EQ(statistics.counts.rays.total(), statistics.traced.all);
     EXPECT_GT(statistics.counts.records, 0u);
     // The scene has no lights and gets a white environment, so the paint shows its texture's colour.
     double blueness = 0.0;

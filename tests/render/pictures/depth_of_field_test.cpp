@@ -58,7 +58,7 @@ TEST(DepthOfField, MC28_TheCircleOfConfusionHasItsClosedForm) {
         // The moments of lens, disc and pixel add up: r^2/2, and 1/12 along each axis for the pixel.
         const double found = std::sqrt(spot.radius * spot.radius - 9.0 - 2.0 * 2.0 / 12.0);
         EXPECT_NEAR(found, blur, 0.01 * blur) << distance;
-        // What leaves the sharp disc arrives elsewhere.
+        // Light that leaves the sharp disc arrives elsewhere.
         const double sharp = measure(shade_through(stage, 0.0, 1.0, 64).coverage).sum;
         EXPECT_NEAR(spot.sum, sharp, 0.03 * sharp);
     }

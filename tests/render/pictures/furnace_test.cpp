@@ -10,7 +10,7 @@ namespace {
 
 const glm::vec3 box_size(3.0f, 2.0f, 4.0f);
 
-/// Whether a point of the box is not next to an edge.
+/// Returns whether a point of the box is not next to an edge.
 bool is_off_edges(const glm::vec3& p) {
     const glm::vec3 to_faces = 0.5f * box_size - glm::abs(p);
     int near = 0;

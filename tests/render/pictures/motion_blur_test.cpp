@@ -42,7 +42,7 @@ double at(double frame) {
     return frame / frames_per_second;
 }
 
-/// Whether the square covers a point of the picture (m, from its middle) at a time in frames.
+/// Returns whether the square covers a point of the picture (m, from its middle) at a time in frames.
 using Shape2d = std::function<bool(glm::dvec2 point, double frame)>;
 
 bool is_in_square(const glm::dvec2& p) {

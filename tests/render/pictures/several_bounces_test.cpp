@@ -171,7 +171,7 @@ TEST(SeveralBounces, IC23_FilesAreEqualForAnyThreadsAloneAndInASequence) {
     }
 }
 
-/// What lighting keyframes know and what a frame computes itself have the same bounces.
+/// Lighting keyframes have as many bounces as light that a frame computes itself.
 TEST(SeveralBounces, IC23_KeyMomentsHaveThemToo) {
     const Scene scene = make_shot_with_mover();
     const auto mean = [&](int bounces, int light_step) {

@@ -88,7 +88,7 @@ TEST(PixelFilterTest, APointIsTheFilter) {
     for (int y = 0; y < 12; ++y) {
         for (int x = 0; x < 16; ++x) {
             sum += picture(x, y).x;
-            // Of 4096 samples about n are met: n is right within its square root.
+            // About n of 4096 samples are met: n is right within its square root.
             const double expected = share(7.8, x) * share(5.3, 11 - y);
             EXPECT_NEAR(picture(x, y).x, expected, 4.5 * std::sqrt(expected / 4096.0) + 1e-3) << x << ' ' << y;
         }

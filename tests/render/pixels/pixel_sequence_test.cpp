@@ -19,7 +19,7 @@ void add_points(Points& points, const PixelSequence& sequence, int first, int co
     for (int i = first; i < first + count; ++i) points.push_back(sequence.at_2d(use, i));
 }
 
-/// Whether each elementary interval of as many rectangles as points, of all shapes, holds one point.
+/// Returns whether each elementary interval of as many rectangles as points, of all shapes, holds one point.
 bool is_net(const Points& points) {
     const auto count = static_cast<int>(points.size());
     for (int columns = 1; columns <= count; columns *= 2) {
@@ -93,7 +93,7 @@ double blurred_rms(const std::vector<double>& picture) {
     return std::sqrt(sum / static_cast<double>(picture.size()));
 }
 
-/// Of the errors of all pixels' means, against those of the same points shifted in each pixel at random.
+/// Returns the blurred errors of all pixels' means, over those of the same points shifted in each pixel at random.
 double blurred_against_white(const Function& f, double expected, int samples) {
     double ours = 0.0, white = 0.0;
     for (std::uint32_t seed = 0; seed < 4; ++seed) {
@@ -151,7 +151,7 @@ TEST(PixelSequence, PointsAreUniformOverSeeds) {
     }
 }
 
-/// Of the numbers of many pixels and samples.
+/// Correlation of the numbers of many pixels and samples.
 double correlation(const std::function<float(int x, int y, int i)>& a,
                    const std::function<float(int x, int y, int i)>& b) {
     double sum = 0.0;
@@ -180,7 +180,7 @@ TEST(PixelSequence, SeedsMomentsUsesAndCoordinatesAreIndependent) {
         uses += std::pow(correlation(base, numbers(k, 0, SampleUse::other, false)), 2.0);
         coordinates += std::pow(correlation(base, numbers(k, 0, SampleUse::time, true)), 2.0);
     }
-    // Of 4096 independent pairs of numbers the correlation is 1/64 in the root mean square; points that are stratified
+    // The correlation of 4096 independent pairs of numbers is 1/64 in the root mean square; points that are stratified
     // are paired less freely.
     for (const double squares : {seeds, moments, uses, coordinates}) {
         EXPECT_LT(std::sqrt(squares / pairs), 2.0 / 64.0);

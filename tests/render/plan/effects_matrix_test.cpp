@@ -112,7 +112,7 @@ TEST(EffectsPlan, EachTinySceneCallsForItsEffectsAlone) {
                              c.effects.contains("caustics");
         EXPECT_TRUE(mirrors || rays.specular == 0) << c.name;
         EXPECT_TRUE(c.effects != Names{"direct_light"} || rays.shadow == 0) << c.name;
-        EXPECT_EQ(rays.total(), statistics.traced_rays) << c.name;
+        EXPECT_EQ(rays.total(), statistics.traced.all) << c.name;
     }
 }
 

@@ -41,7 +41,7 @@ std::string sentence(const Setting& setting) {
     return setting.unit.empty() ? text + "." : fmt::format("{} ({}).", text, setting.unit);
 }
 
-/// What the schema has to say of a setting.
+/// Makes the schema that a setting must have.
 Json schema_of(const Setting& setting) {
     Json schema{{"description", sentence(setting)}};
     switch (setting.type) {

@@ -47,7 +47,7 @@ const std::map<std::string, SettingValue>& other_values() {
     return values;
 }
 
-/// What an error says, and that it names source and key.
+/// Returns the message of an error, and expects it to name source and key.
 std::string refusal(const std::string& key, const SettingValue& value) {
     RenderSettings settings;
     const Refusal found = find_refusal([&] { apply_settings(settings, {{key, value}}, "--set"); });

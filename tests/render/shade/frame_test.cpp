@@ -56,8 +56,8 @@ TEST(Frame, RaysByPurposeSumToWhatTheWrapperTraced) {
                 FrameRequest request;
                 request.maps = guide == Guide::saliency;
                 const FrameStatistics s = sequence.render(0, request).statistics;
-                EXPECT_EQ(s.counts.rays.total(), s.traced_rays + s.invalid_rays);
-                EXPECT_EQ(s.invalid_rays, 0u);
+                EXPECT_EQ(s.counts.rays.total(), s.traced.all + s.traced.invalid);
+                EXPECT_EQ(s.traced.invalid, 0u);
                 EXPECT_GT(s.counts.rays.shadow, 0u);
                 EXPECT_GT(s.counts.rays.glossy, 0u);
                 EXPECT_GE(s.counts.rays.gather, 15 * s.counts.records);  // a few are below smooth-shaded facets

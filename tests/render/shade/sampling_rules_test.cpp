@@ -12,7 +12,7 @@ namespace {
 
 constexpr double frame_rate = 30.0;
 
-/// Of a picture of direct light and emission.
+/// Settings of a picture of direct light and emission.
 RenderSettings make_settings(int width, int height) {
     RenderSettings settings;
     settings.picture.width = width;

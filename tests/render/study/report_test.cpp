@@ -123,7 +123,7 @@ struct ReportDraft {
     Json json;
 };
 
-/// What the page's script would read.
+/// Parses the data that the page's script would read.
 Json data_of(const std::string& page) {
     const std::string start = "<script id=\"study\" type=\"application/json\">";
     const std::size_t begin = page.find(start) + start.size();

@@ -153,7 +153,7 @@ std::vector<NamedMaterial> list_rough_materials() {
             {"mixture, inside the volume", make_mixture(true, false, 0.7)}};
 }
 
-/// What is compared: all light, what passes, where it goes, and how much of it sampling the lobes finds.
+/// Moments to compare: all light, what passes, where it goes, and how much of it sampling the lobes finds.
 constexpr int keyframe_count = 5;
 using Moments = std::array<double, keyframe_count>;
 constexpr std::array<const char*, keyframe_count> keyframe_names{"all", "passed", "along x", "height",

@@ -44,7 +44,7 @@ struct Checker {
                 for (int x = 0; x < sum.width; ++x) {
                     if (hits(x, y).instance == no_index) continue;
                     const glm::vec3 direction(make_camera_ray(stage.view, x + offset_x, y + offset_y).direction);
-                    sum(x, y) += make_pixel_surface(stage.shading, stage.view, place, hits(x, y), direction, x, y)
+                    sum(x, y) += make_pixel_surface(stage.shading, stage.view, place, hits(x, y), direction, {x, y})
                                      .material.diffuse /
                                  static_cast<float>(n * n);
                 }

@@ -122,7 +122,7 @@ TEST(EstimateKeyframes, MapsAreTheSameAloneAndOnAnyThreads) {
     }
 }
 
-/// Of a frame and the next, either may be the base keyframe of the other.
+/// Either of a frame and the next may be the base keyframe of the other.
 TEST(EstimateKeyframes, ImageMotionFindsTheBaseMomentOfEveryFrame) {
     const Scene scene = make_shot_with_moving_camera();
     RenderSettings settings = shot_settings(1);

@@ -65,7 +65,8 @@ TEST(LightingKeyframes, IC14_AFrameAloneInASequenceInAnyOrderOnAnyThreads) {
     expect_any_order(make_shot_with_moving_camera());
 }
 
-/// What moves fast or near is computed in the frame: lighting keyframes err hardly more than a fill of the frame's own.
+/// Light is computed in the frame where something moves fast or near: lighting keyframes err hardly more than a fill of
+/// the frame's own.
 TEST(LightingKeyframes, IC14_LightOfAnotherTimeIsNotUsed) {
     Scene scene = make_shot();
     const int board = add_mesh(scene, make_box({1.5, 1.5, 0.05}, 1));
