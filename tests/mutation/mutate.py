@@ -77,7 +77,7 @@ def build(programs, jobs):
         made = subprocess.run(["ninja", "-C", folder, "-j", str(jobs), "-k", "0", *programs], capture_output=True, text=True)
         if made.returncode == 0:
             return dropped
-        wrong = {(path, int(line)) for path, line in re.findall(rf"{tree}/(\S+?):(\d+):\d+:? (?:error|  required)", made.stdout)}
+        wrong = {(path, int(line)) for path, line in re.findall(rf"(?:{tree}|\.\./tree)/(\S+?):(\d+):\d+:? (?:error|  required)", made.stdout)}
         if not wrong - dropped:
             sys.exit(made.stdout[-4000:])
         dropped |= wrong
