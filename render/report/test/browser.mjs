@@ -58,6 +58,19 @@ export function shownPanes(page) {
   return page.$$eval('#panes canvas[data-pane]', nodes => nodes.map(node => node.dataset.pane));
 }
 
+/**
+ * Points at a place until a tooltip says what is expected. A chart that is drawn again hides its tooltip until the pointer moves.
+ * @param {import('puppeteer-core').Page} page @param {{x: number, y: number}} place @param {string} pattern of a regular expression
+ */
+export async function waitForTooltip(page, place, pattern) {
+  for (let left = 20; left >= 0; --left) {
+    await page.mouse.move(place.x + left % 2, place.y);
+    const shown = page.waitForFunction(text => new RegExp(text).test(document.querySelector('#vg-tooltip-element.visible')?.innerText ?? ''),
+      { timeout: 2000 }, pattern);
+    if (await shown.then(() => true, error => { if (left === 0) throw error; return false; })) return;
+  }
+}
+
 /** Waits until the panes show these ids in this order. */
 export async function waitForPanes(page, ids) {
   await page.waitForFunction(list => document.querySelector('#panes').dataset.drawn?.split('|').slice(1).join('|') === list,

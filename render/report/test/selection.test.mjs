@@ -1,7 +1,7 @@
 // The selection by chart and table, and what follows it.
 import assert from 'node:assert/strict';
 import { describe, it } from 'node:test';
-import { brushAll, choose, selectedRows, shownPanes, waitForPanes } from './browser.mjs';
+import { brushAll, choose, selectedRows, shownPanes, waitForPanes, waitForTooltip } from './browser.mjs';
 import { all, id, openPage, study } from './fixture.mjs';
 
 describe('selection', () => {
@@ -51,10 +51,8 @@ describe('selection', () => {
       const { x, y, width, height } = nodes[2].getBoundingClientRect();
       return { x: x + width / 2, y: y + height / 2, data: nodes[2].__data__.datum.id };
     });
-    await page.mouse.move(point.x, point.y);
-    await page.waitForSelector('#vg-tooltip-element.visible');
     const { error, guide } = study.variants.find(variant => variant.id === point.data).settings;
-    assert.match(await page.$eval('#vg-tooltip-element', node => node.innerText), new RegExp(`error\\s+${error}\\s+guide\\s+${guide}`));
+    await waitForTooltip(page, point, `error\\s+${error}\\s+guide\\s+${guide}`);
     await page.mouse.click(point.x, point.y);
     await waitForPanes(page, ['reference', point.data]);
   });
