@@ -14,15 +14,15 @@ from concurrent.futures import ThreadPoolExecutor
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 WORK = ROOT / "build-mutation"
 FOLDERS = {
-    "engine": ["engine/base", "engine/scene", "engine/pose", "engine/rays", "engine/surface"],
-    "motion": ["motion"],
-    "perception": ["perception"],
+    "engine": ["engine/base/", "engine/scene/", "engine/pose/", "engine/rays/", "engine/surface/"],
+    "motion": ["motion/"],
+    "perception": ["perception/"],
     "cache": ["render/cache/", "render/pixels/pixel_filter"],
 }
 PROGRAMS = {
-    "engine": ["test_base", "test_pose", "test_motion", "test_subdivide", "test_render"],
+    "engine": ["test_base", "test_pose", "test_motion", "test_subdivide", "test_scene_file", "test_render"],
     "motion": ["test_motion", "test_pose", "test_render"],
-    "perception": ["test_perception"],
+    "perception": ["test_perception", "test_gratings"],
     "cache": ["test_render", "test_cache", "test_lighting_keyframes", "test_sequence"],
 }
 OPERATOR = re.compile(r"(?<=[\w)\]}]) (<=|>=|==|!=|<|>|\+|-|\*|/)(?= |$)")
