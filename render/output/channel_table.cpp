@@ -68,9 +68,9 @@ std::vector<ChannelInfo> picture_channels() {
 std::vector<ChannelInfo> motion_channels() {
     return {
         {{"forward.u", "forward.v"},
-         "motion to frame N+1, in a shot's last frame from N-1; pixels, u right, v up",
-         "position in frame N+1 minus position in frame N, both at the centre of the shutter; in a shot's last frame N "
-         "minus N-1",
+         "motion to frame N+1, in the scene's last frame from N-1; pixels, u right, v up",
+         "position in frame N+1 minus position in frame N, both at the centre of the shutter; in the scene's last "
+         "frame N minus N-1, before a cut 0",
          "pixels, u positive to the right, v positive upwards",
          "motion by the camera's rotation"},
         {{"motion.valid"},
