@@ -39,21 +39,29 @@ void FrameMotion::begin_edited(PosedView before) {
 
 std::optional<PosedView> FrameMotion::end_edited() {
     edited_.reset();
+    from_edit_ = false;
     return std::exchange(before_edit_, std::nullopt);
 }
 
 OtherFrame FrameMotion::pose_other(const FrameWork& work, const PosedView& here) {
     edited_.reset();
+    from_edit_ = false;
     if (!work.edited || !work.perceive) {
         if (work.other != OtherFrame::none) other_.pose(other_frame_number(work.frame, work.other));
         return work.other;
     }
     const bool begins_shot = std::ranges::find(shot_.scene.cuts, work.frame) != shot_.scene.cuts.end();
     if (begins_shot || !has_same_elements(before_edit_->pose, here.pose)) return OtherFrame::none;
-    all_ = plan_all(shot_.pose_plan, shot_.scene.nodes.size(), here.pose.instances.size());
+    from_edit_ = true;
+    return OtherFrame::previous;
+}
+
+FrameScene& FrameMotion::other_scene(const FrameScene& here) {
+    if (!from_edit_) return other_;
+    all_ = plan_all(shot_.pose_plan, shot_.scene.nodes.size(), here.posed().pose.instances.size());
     edited_ = std::make_unique<FrameScene>(shot_, all_);
     edited_->pose(*before_edit_);
-    return OtherFrame::previous;
+    return *edited_;
 }
 
 void FrameMotion::compute(const FrameWork& work, const FrameScene& here, EstimateLight& light, StageClock& clock,
@@ -67,17 +75,18 @@ void FrameMotion::compute(const FrameWork& work, const FrameScene& here, Estimat
         out.motion = make_still_motion(out.view, centers.hits);
         return;
     }
-    FrameScene& other = posed_other();
     if (shot_.settings.guide.motion == MotionSource::model) {
         if (!model_) model_.emplace(shot_.scene, shot_.pose_plan);
-        out.motion = model_->compute(here.posed(), has_other ? other.posed() : here.posed(), centers.hits, work.other);
+        out.motion = model_->compute(here.posed(), has_other ? other_view() : here.posed(), centers.hits, work.other);
         if (!has_other || !work.maps) return;
+        FrameScene& other = other_scene(here);
         other.update_rays();
         counts.primary += mark_hidden(out.motion, shot_.scene, other.posed(), centers.hits, other.rays());
         return;
     }
     Image<Rgb> other_estimate;
     if (has_other) {
+        FrameScene& other = other_scene(here);
         other.prepare();
         const SampleHits other_centers = cast_centers(other.rays(), other.posed().view, &counts.primary);
         std::optional<EstimateNodes> nodes;

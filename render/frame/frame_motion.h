@@ -41,14 +41,16 @@ class FrameMotion {
     TracedRays traced() const { return edited_ ? other_.traced() + edited_->traced() : other_.traced(); }
 
   private:
-    FrameScene& posed_other() { return edited_ ? *edited_ : other_; }
+    const PosedView& other_view() const { return from_edit_ ? *before_edit_ : other_.posed(); }
+    FrameScene& other_scene(const FrameScene& here);
 
     const Shot& shot_;
     FrameScene other_;
     std::optional<ModelMotion> model_;
     std::optional<PosedView> before_edit_;
     PosePlan all_;                        ///< an edit may have moved what the scene's own tracks leave at rest
-    std::unique_ptr<FrameScene> edited_;  ///< the scene before an edit, while it is the other frame
+    bool from_edit_ = false;              ///< motion leads from before_edit_
+    std::unique_ptr<FrameScene> edited_;  ///< the scene before an edit, once its rays are needed
 };
 
 }  // namespace aleph

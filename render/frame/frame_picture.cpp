@@ -133,8 +133,8 @@ FrameOutput render_frame(SequenceState& s, std::int64_t frame, const FrameReques
     }
     out.hits = prepared.centers.hits;
     s.rendered = true;
-    s.preparation.motion.end_edited();
     stats.traced = s.traced() - before;
+    s.preparation.motion.end_edited();
     stats.plan = plan.effects;
     stats.plan_seconds = plan.seconds;
     stats.peak_memory_mib = peak_memory_mib();

@@ -14,7 +14,6 @@
 
 namespace aleph {
 
-/// Counted where rays are traced.
 /// Keeps its structures from time to time and updates what moved, which gives the same as making them anew.
 class FrameScene {
   public:

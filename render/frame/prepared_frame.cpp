@@ -53,9 +53,9 @@ PreparedFrame prepare_frame(Preparation& kept, FrameScene& here, FrameWork work)
         kept.estimate_light.gather_around(work.frame, work.frame, counts);
         if (work.other != OtherFrame::none && shot.settings.guide.motion == MotionSource::image)
             kept.estimate_light.gather_around(other_frame_number(work.frame, work.other), work.frame, counts);
+        here.pose(work.frame);  // gathering moved it if lighting keyframes are prepared in it
     }
     clock.add_to(stats.seconds.estimate);
-    here.pose(work.frame);  // which gathering moved if `here` is where lighting keyframes are prepared
     work.other = kept.motion.pose_other(work, here.posed());
     clock.add_to(stats.seconds.pose);
 
