@@ -167,7 +167,10 @@ TEST(SequenceEdit, MotionLeadsFromTheFrameRenderedLast) {
     Sequence stepped(still, settings);
     stepped.render(6, maps_only);
     stepped.edit([&](Scene& scene) { place_at(scene, 7); });
-    const MotionField after = stepped.render(7, maps_only).motion;
+    const FrameOutput first_after = stepped.render(7, maps_only);
+    const MotionField& after = first_after.motion;
+    const FrameStatistics& statistics = first_after.statistics;
+    EXPECT_EQ(statistics.traced.all, statistics.counts.rays.total()) << "rays in the scene before the edit included";
 
     keyed.range = FrameRange{0, 7};
     const MotionField expected = Sequence(keyed, settings).render(7, maps_only).motion;
