@@ -66,6 +66,24 @@ double find_maximum(const Function& function) {
     return std::max(at_a, at_b);
 }
 
+/// A chromatic mechanism: a low-pass filter over frequency.
+struct Mechanism {
+    double temporal_power, temporal_scale;
+    double gain[3];  ///< of saturating_law
+    double peak;     ///< of the parabola, cycles per degree
+    Channel shape;
+};
+constexpr Mechanism red_green{1.15591, 16.4325, {681.434, 38.0038, 0.480386}, 0.0178364,
+                              {2.42104, 0.0, 2816.44, 0.0711058}};
+constexpr Mechanism yellow_violet{0.969123, 7.15012, {166.683, 62.8974, 0.41193}, 0.00425753,
+                                  {2.68197, 0.0, 2.82789e7, 0.000635093}};
+
+double evaluate_mechanism(const Mechanism& m, double rho, double omega, double luminance, double area) {
+    const double response = std::exp(-std::pow(clamp_input(omega), m.temporal_power) / m.temporal_scale);
+    return response * saturating_law(m.gain[0], m.gain[1], m.gain[2], clamp_luminance(luminance)) *
+           evaluate_shape(m.shape, clamp_input(rho), m.peak, std::fmax(area, 0.0));
+}
+
 double transient_gain(double luminance) {
     return 2748.09 * std::pow(luminance, 0.193434);
 }
@@ -102,6 +120,14 @@ double castle_transient_response(double omega, double luminance) {
 double castle_sensitivity(double rho, double omega, double luminance, double area) {
     return castle_sustained_response(omega) * castle_sustained(rho, luminance, area) +
            castle_transient_response(omega, luminance) * castle_transient(rho, luminance, area);
+}
+
+double castle_red_green(double rho, double omega, double luminance, double area) {
+    return evaluate_mechanism(red_green, rho, omega, luminance, area);
+}
+
+double castle_yellow_violet(double rho, double omega, double luminance, double area) {
+    return evaluate_mechanism(yellow_violet, rho, omega, luminance, area);
 }
 
 double castle_peak(double luminance) {

@@ -30,6 +30,12 @@ double castle_transient_response(double omega, double luminance);
 /// Hz: 9.5 at 100 cd/m2; 0 below .0113 cd/m2, where the fit has none.
 double castle_transient_peak(double luminance);
 
+/// Sensitivity to the chromatic mechanisms, 1 / threshold contrast: red-green is L - 2.3112 M, yellow-violet is
+/// 50.9875 S - (L + M), each over L + M of what the eye is adapted to (cones of CIE 2006). Thresholds of all three
+/// mechanisms combine as the root of the sum of squares. Arguments as in castle_sensitivity.
+double castle_red_green(double rho, double omega, double luminance, double area = 1.0);
+double castle_yellow_violet(double rho, double omega, double luminance, double area = 1.0);
+
 /// The highest sensitivity to a pattern at rest, over all frequencies: 134.3 at 100 cd/m2, at most 153. Of the
 /// sustained channel: at rest the transient one adds less than 0.1 % from .02 cd/m2 up, and is not fitted in the dark.
 double castle_peak(double luminance);

@@ -178,7 +178,7 @@ void add_options(CLI::App& study, StudyCommandOptions& options) {
         ->allow_extra_args(false);
     study
         .add_option("--reference", options.reference,
-                    "what judges: traced paths, or gather rays at every sample (default: the study's, or gather)")
+                    "what judges: traced paths, or gather rays at every sample (default: the study's, or path)")
         ->check(CLI::IsMember({"path", "gather"}));
     add_value(study, "--reference-passes", options.passes,
               "renderings that the reference is the mean of, at least 2; 0: the study's, or 4");

@@ -9,66 +9,75 @@
 
 namespace aleph {
 
-SequenceComparison::SequenceComparison(CompareSettings settings, std::vector<std::int64_t> cuts)
-    : settings_(std::move(settings)), cuts_(std::move(cuts)) {}
+namespace {
 
-FrameComparison SequenceComparison::add(std::int64_t frame, const ChannelImage& a, const ChannelImage& b,
-                                        const ChannelImage* maps) {
-    ALEPH_CHECK(!last_ || last_->frame < frame, fmt::format("frame {}", frame));
-    FrameComparison comparison{frame, compare_images(a, b, settings_, maps), std::nullopt, false};
-    if (maps) {
-        LuminanceError error = compute_luminance_error(a, b);
-        threshold_.add(measure_error(error, *maps->find("threshold.Y")));
-        std::optional<FlickerMaps> motion = make_flicker_maps(*maps);
-        comparison.flicker = follow(frame, error, motion);
-        last_.reset();
-        if (motion) last_ = Last{frame, std::move(error), std::move(*motion)};
-    }
-    comparison.same =
-        comparison.result.same && (!comparison.flicker || comparison.flicker->percent_beyond() <= settings_.share);
-    add_to_summary(comparison);
-    return comparison;
-}
-
-std::optional<FlickerFigures> SequenceComparison::follow(std::int64_t frame, const LuminanceError& error,
-                                                         const std::optional<FlickerMaps>& maps) {
-    const bool cut = std::ranges::find(cuts_, frame) != cuts_.end();
-    if (!last_ || last_->frame + 1 != frame || cut) return std::nullopt;
-    const FlickerSum sum = measure_flicker(last_->error, error, last_->maps, maps ? maps->object : Image<float>{});
-    flicker_.add(sum);
-    own_threshold_ = own_threshold_ && last_->maps.own_threshold;
-    ++summary_.flicker_pairs;
-    return summarize(sum, last_->maps.own_threshold);
-}
-
-void SequenceComparison::add_to_summary(const FrameComparison& comparison) {
+void add_to_summary(const FrameComparison& comparison, SequenceSummary& summary) {
     const CompareResult& result = comparison.result;
-    if (summary_.frames == 0 || result.all.max_abs > summary_.max_abs) {
-        summary_.max_abs = result.all.max_abs;
-        summary_.worst_frame = comparison.frame;
+    if (summary.frames == 0 || result.all.max_abs > summary.max_abs) {
+        summary.max_abs = result.all.max_abs;
+        summary.worst_frame = comparison.frame;
     }
-    ++summary_.frames;
-    summary_.different += !comparison.same;
-    summary_.pixels += result.pixels();
-    summary_.beyond += result.beyond;
-    summary_.a.nan += result.a.nan;
-    summary_.a.inf += result.a.inf;
-    summary_.b.nan += result.b.nan;
-    summary_.b.inf += result.b.inf;
-    const std::size_t values = result.pixels() * result.channels.size();
-    values_ += values;
-    squares_ += result.all.rms * result.all.rms * static_cast<double>(values);
-    if (result.threshold) {
-        if (!summary_.threshold) summary_.threshold.emplace();
-        summary_.threshold->display_white = result.threshold->display_white;
+    ++summary.frames;
+    summary.different += !comparison.same;
+    summary.pixels += result.pixels();
+    summary.beyond += result.beyond;
+    summary.a.nan += result.a.nan;
+    summary.a.inf += result.a.inf;
+    summary.b.nan += result.b.nan;
+    summary.b.inf += result.b.inf;
+}
+
+}  // namespace
+
+SequenceComparison::SequenceComparison(CompareSettings settings, std::vector<std::int64_t> cuts, ReceiveVisible receive)
+    : settings_(std::move(settings)), cuts_(std::move(cuts)), receive_(std::move(receive)) {}
+
+void SequenceComparison::add(std::int64_t frame, const ChannelImage& a, const ChannelImage& b,
+                             const SequenceMaps& maps) {
+    ALEPH_CHECK(frames_.empty() || frames_.back().frame < frame, fmt::format("frame {}", frame));
+    FrameComparison comparison{frame, compare_images(a, b, settings_, maps.threshold), std::nullopt, false};
+    comparison.same = comparison.result.same;
+    if (maps.threshold)
+        threshold_.add(measure_error(compute_luminance_error(a, b), *maps.threshold->find("threshold.Y")));
+    frames_.push_back(std::move(comparison));
+    if (!maps.visible) return;
+    if (!visible_) visible_.emplace(read_viewing(*maps.visible));
+    const Image<float>* saliency = maps.visible->find("saliency.Y");
+    saliency_[frame] = saliency ? *saliency : Image<float>{};
+    const bool cut = std::ranges::find(cuts_, frame) != cuts_.end();
+    take(visible_->add(frame, linear_colour(a), linear_colour(b), read_motion(*maps.visible), cut));
+}
+
+void SequenceComparison::finish() {
+    if (visible_) take(visible_->finish());
+}
+
+void SequenceComparison::take(const std::vector<VisibleMaps>& finished) {
+    for (const VisibleMaps& maps : finished) {
+        FrameComparison& frame = *std::ranges::find(frames_, maps.frame, &FrameComparison::frame);
+        const auto saliency = saliency_.extract(maps.frame);
+        VisibleCount count;
+        for (VisibleCount* sum : {&count, &visible_count_})
+            sum->add(maps, saliency.mapped().empty() ? nullptr : &saliency.mapped());
+        frame.visible = count.shares();
+        frame.same = frame.same && frame.visible->seen <= settings_.share;
+        if (receive_) receive_(maps);
     }
 }
 
 SequenceSummary SequenceComparison::summary() const {
-    SequenceSummary summary = summary_;
-    if (values_ > 0) summary.rms = std::sqrt(squares_ / static_cast<double>(values_));
-    if (summary.threshold) *summary.threshold = {summarize(threshold_), summary.threshold->display_white};
-    if (summary.flicker_pairs > 0) summary.flicker = summarize(flicker_, own_threshold_);
+    SequenceSummary summary;
+    double squares = 0.0, values = 0.0;
+    for (const FrameComparison& frame : frames_) {
+        const CompareResult& result = frame.result;
+        add_to_summary(frame, summary);
+        const auto count = static_cast<double>(result.pixels() * result.channels.size());
+        values += count;
+        squares += result.all.rms * result.all.rms * count;
+        if (result.threshold) summary.threshold = {summarize(threshold_), result.threshold->display_white};
+    }
+    if (values > 0.0) summary.rms = std::sqrt(squares / values);
+    if (visible_count_.pixels() > 0) summary.visible = visible_count_.shares();
     return summary;
 }
 

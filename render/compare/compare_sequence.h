@@ -1,19 +1,20 @@
 #pragma once
-// Compares the frames of an animation with those of a reference, one after the other. Of the frames before, only the
-// luminance error and the motion of the last one are kept.
+// Compares the frames of an animation with those of a reference, one after the other.
 
 #include <cstdint>
+#include <functional>
+#include <map>
 
 #include "render/compare/compare.h"
-#include "render/compare/compare_flicker.h"
+#include "render/compare/visible_shares.h"
 
 namespace aleph {
 
 struct FrameComparison {
     std::int64_t frame = 0;
     CompareResult result;
-    std::optional<FlickerFigures> flicker;  ///< from the frame before, if that was compared and has motion
-    bool same = false;  ///< result.same, and at most `share` percent of the pixels flicker beyond the threshold
+    std::optional<VisibleShares> visible;  ///< where maps for it were given
+    bool same = false;                     ///< result.same, and at most `share` percent of the pixels have a visible difference
 };
 
 /// Over all frames so far.
@@ -26,8 +27,7 @@ struct SequenceSummary {
     std::int64_t worst_frame = 0;     ///< the first one with the largest difference
     NonFinite a, b;
     std::optional<ThresholdDifference> threshold;
-    std::size_t flicker_pairs = 0;          ///< pairs of consecutive frames
-    std::optional<FlickerFigures> flicker;  ///< if there is a pair
+    std::optional<VisibleShares> visible;
 
     bool same() const { return different == 0; }
     double percent(std::size_t count) const {
@@ -35,38 +35,43 @@ struct SequenceSummary {
     }
 };
 
+/// Maps of the reference (`aleph maps`); both may be the same.
+struct SequenceMaps {
+    const ChannelImage* threshold = nullptr;  ///< compares luminance by its threshold.Y
+    const ChannelImage* visible = nullptr;    ///< measures visible differences along its motion
+};
+
+/// Called with the visible differences of each frame, in order.
+using ReceiveVisible = std::function<void(const VisibleMaps&)>;
+
 class SequenceComparison {
   public:
-    /// @param cuts  frames that begin a new shot: nothing flickers from the frame before
-    explicit SequenceComparison(CompareSettings settings, std::vector<std::int64_t> cuts = {});
+    /// @param cuts  frames that begin a new shot: no motion leads there from the frame before
+    explicit SequenceComparison(CompareSettings settings, std::vector<std::int64_t> cuts = {},
+                                ReceiveVisible receive = {});
 
-    /// Compares the next frame; frames are in ascending order. Flicker is measured where the frame before has the
-    /// number frame - 1 and its maps have motion.
-    /// @param maps  of the reference (`aleph maps`), or null
+    /// Compares the next frame; frames are in ascending order.
     /// @throws InputError as compare_images, or if the size changes between consecutive frames
-    FrameComparison add(std::int64_t frame, const ChannelImage& a, const ChannelImage& b, const ChannelImage* maps);
+    void add(std::int64_t frame, const ChannelImage& a, const ChannelImage& b, const SequenceMaps& maps);
 
+    /// Ends the sequence: visible differences depend on later frames.
+    void finish();
+
+    /// All frames so far; complete after finish().
+    const std::vector<FrameComparison>& frames() const { return frames_; }
     SequenceSummary summary() const;
 
   private:
-    struct Last {
-        std::int64_t frame;
-        LuminanceError error;
-        FlickerMaps maps;
-    };
-    std::optional<FlickerFigures> follow(std::int64_t frame, const LuminanceError& error,
-                                         const std::optional<FlickerMaps>& maps);
-    void add_to_summary(const FrameComparison& comparison);
+    void take(const std::vector<VisibleMaps>& maps);
 
     CompareSettings settings_;
     std::vector<std::int64_t> cuts_;
-    std::optional<Last> last_;
-    SequenceSummary summary_;
-    double squares_ = 0.0;  ///< sum of squared differences
-    std::size_t values_ = 0;
+    ReceiveVisible receive_;
+    std::vector<FrameComparison> frames_;
+    std::optional<VisibleDifference> visible_;
+    std::map<std::int64_t, Image<float>> saliency_;  ///< of frames that are not finished; empty where it is not known
+    VisibleCount visible_count_;
     ThresholdSum threshold_;
-    FlickerSum flicker_;
-    bool own_threshold_ = true;
 };
 
 }  // namespace aleph

@@ -19,6 +19,10 @@ struct Row {
 
 constexpr Row rows[] = {
     {"processor_seconds", "processor seconds", "s", true, false},
+    {"share_seen", "pixels whose error a viewer sees", "%", false, false},
+    {"share_flicker", "pixels whose error is seen to flicker", "%", false, false},
+    {"share_lasting", "pixels whose error is seen and lasts", "%", false, false},
+    {"share_noticed", "pixels whose error is seen, weighed by where viewers look", "%", false, false},
     {"share_beyond", "pixels beyond one visible threshold", "%", false, true},
     {"share_certain", "pixels certainly beyond it, whatever the noise of the reference", "%", false, true},
     {"mean_error", "mean error", "visible thresholds", false, true},
@@ -26,8 +30,8 @@ constexpr Row rows[] = {
     {"relative_mse", "relative MSE of luminance, less the noise of the reference", "", false, false},
     {"relative_mse_indirect", "relative MSE of indirect light", "", false, false},
     {"bias", "bias of the mean luminance", "%", false, false},
-    {"seed_difference", "pixels in which two seeds differ by more than one visible threshold", "%", false, false},
-    {"seed_flicker", "pixels in which that difference flickers along the motion", "%", false, false},
+    {"seed_seen", "pixels in which two seeds are seen to differ", "%", false, false},
+    {"seed_flicker", "pixels in which their difference is seen to flicker", "%", false, false},
     {"rays", "rays", "million", true, false},
     {"gather_rays", "rays for irradiance values", "million", true, false},
     {"samples", "samples per pixel", "", true, false},
@@ -78,7 +82,7 @@ std::vector<Metric> list_metrics(const Study& study) {
     // Those that charts show first are always measured.
     std::erase_if(all, [&](const Metric& metric) {
         const std::string row = metric.name.substr(0, metric.name.find('.'));
-        return row != "processor_seconds" && row != "share_beyond" &&
+        return row != "processor_seconds" && row != "share_seen" &&
                std::ranges::find(study.metrics, row) == study.metrics.end();
     });
     return all;

@@ -17,7 +17,7 @@ struct Metric {
 };
 
 /// All metrics of a study, or those that it names, of every viewer; of two seeds only where it has them. The first cost
-/// and the first error are what charts show first: processor_seconds and share_beyond.
+/// and the first error are what charts show first: processor_seconds and share_seen.
 /// @throws InputError for a name in `Study::metrics` that is unknown
 std::vector<Metric> list_metrics(const Study& study);
 

@@ -70,7 +70,9 @@ PreparedStudy prepare_study(Study study) {
     }
     prepared.metrics = list_metrics(study);
     if (std::ranges::none_of(prepared.scenes, has_consecutive_frames))
-        std::erase_if(prepared.metrics, [](const Metric& metric) { return metric.name == "seed_flicker"; });
+        std::erase_if(prepared.metrics, [](const Metric& metric) {
+            return metric.name == "seed_flicker" || metric.name == "share_flicker" || metric.name == "share_lasting";
+        });
     prepared.study = std::move(study);
     check(prepared);
     return prepared;

@@ -18,6 +18,8 @@ namespace aleph {
 namespace {
 
 constexpr std::uint32_t reference_seed = 0x70696374u;  // keeps references apart from all that they judge
+/// Diffuse bounces of a reference: what is left out is at most albedo^16 of the light.
+constexpr int full_light_bounces = 16;
 constexpr float infinite = std::numeric_limits<float>::infinity();
 constexpr const char *variance_name = "variance.Y", *passes_key = "passes", *exposure_key = "exposureFactor";
 
@@ -32,7 +34,7 @@ RenderSettings reference_settings(const RenderSettings& settings, const Referenc
     RenderSettings out;
     out.picture.width = settings.picture.width;
     out.picture.height = settings.picture.height;
-    out.light.bounces = settings.light.bounces;
+    out.light.bounces = std::max(settings.light.bounces, full_light_bounces);
     out.light.path_depth = settings.light.path_depth;
     out.picture.subdivision_level = settings.picture.subdivision_level;
     out.guide.estimate = settings.guide.estimate;  // the automatic exposure is that of the estimate

@@ -10,7 +10,7 @@
 #include "render/frame/sequence.h"
 #include "render/output/frame_files.h"
 #include "render/study/run_store.h"
-#include "render/study/seed_metrics.h"
+#include "render/study/visible_metrics.h"
 
 namespace aleph {
 
@@ -65,7 +65,7 @@ class StudyRunner {
             results_.variants.push_back(std::move(result));
         }
         results_.judges = study_.judges;
-        find_front(results_.variants, "processor_seconds", "share_beyond");
+        find_front(results_.variants, "processor_seconds", "share_seen");
         return std::move(results_);
     }
 
@@ -166,6 +166,15 @@ class StudyRunner {
             run.errors.push_back(measure_errors(read_image(file), truths_[s][i], prepared_.metrics));
             run.pictures.push_back(file.string());
         }
+        std::size_t first = 0;
+        for (std::size_t before = 0; before < s; ++before) first += prepared_.scenes[before].frames.size();
+        const std::vector<VisibleShares> shares = measure_visible(
+            std::span(results_.frames).subspan(first, run.frames.size()), [&](std::size_t i) {
+                ChannelImage picture = read_image(run.pictures[i]);
+                ChannelImage reference = expose_like(picture, truths_[s][i].reference);
+                return std::pair(std::move(picture), std::move(reference));
+            });
+        for (std::size_t i = 0; i < shares.size(); ++i) add_visible_metrics(shares[i], run.errors[i]);
     }
 
     static std::string identity(const SceneWithSettings& own, const std::vector<int>& frames) {

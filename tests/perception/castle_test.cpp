@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 
 #include "perception/castle.h"
 #include "perception/kelly.h"
@@ -280,6 +281,25 @@ TEST(Castle, LargerPatternsAreSeenBetterUpToTheCriticalArea) {
     }
     // Small patterns follow Piper's law: sensitivity grows with the square root of area.
     EXPECT_NEAR(castle_sensitivity(2, 0, 100, 4e-4) / castle_sensitivity(2, 0, 100, 1e-4), 2.0, 1e-3);
+}
+
+TEST(Castle, ChromaticMechanisms) {
+    // Logarithm of red-green sensitivity at 10,000 cd/m2 to a patch with a radius of 1.5 degrees, as the table
+    // csf_lut_weber_fixed_size.json of gfxdisp/ColorVideoVDP has it, which was made from another version of the model.
+    const std::pair<double, double> red_green[] = {{0.80393205669145917, 2.6122275674138447},
+                                                   {5.2470687940479692, 2.2513183453036421},
+                                                   {63.999999999999986, 1.1253547263529633}};
+    for (const auto& [rho, expected] : red_green)
+        EXPECT_NEAR(std::log10(castle_red_green(rho, 0.0, 1e4, 2.25 * std::numbers::pi)), expected, 0.08) << rho;
+    // Blue is seen in coarse patterns only, and both fade in the dark.
+    EXPECT_LT(castle_yellow_violet(8.0, 0.0, 100.0), 0.5 * castle_yellow_violet(1.0, 0.0, 100.0));
+    EXPECT_LT(castle_red_green(1.0, 0.0, 0.1), 0.1 * castle_red_green(1.0, 0.0, 100.0));
+    EXPECT_LT(castle_yellow_violet(1.0, 0.0, 0.1), 0.2 * castle_yellow_violet(1.0, 0.0, 100.0));
+    // Both see slow changes only.
+    EXPECT_NEAR(castle_red_green(1.0, 4.0, 100.0) / castle_red_green(1.0, 0.0, 100.0),
+                std::exp(-std::pow(4.0, 1.15591) / 16.4325), 1e-12);
+    EXPECT_NEAR(castle_yellow_violet(1.0, 4.0, 100.0) / castle_yellow_violet(1.0, 0.0, 100.0),
+                std::exp(-std::pow(4.0, 0.969123) / 7.15012), 1e-12);
 }
 
 }  // namespace

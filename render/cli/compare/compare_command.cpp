@@ -9,6 +9,7 @@
 #include "render/cli/commands.h"
 #include "render/cli/compare/compare_frames.h"
 #include "render/cli/compare/compare_print.h"
+#include "render/cli/compare/seen_file.h"
 
 namespace aleph {
 
@@ -19,12 +20,23 @@ int compare_pictures(const CompareOptions& options) {
     const ChannelImage first = read_image(options.first), second = read_image(options.second);
     ChannelImage map;
     if (!options.threshold.empty()) map = read_image(options.threshold);
-    const CompareResult result =
-        compare_images(first, second, options.settings, options.threshold.empty() ? nullptr : &map);
+    CompareResult result = compare_images(first, second, options.settings, options.threshold.empty() ? nullptr : &map);
+    std::optional<VisibleShares> visible;
+    if (!options.seen.empty()) {
+        const ChannelImage maps = read_image(options.seen);
+        const VisibleMaps seen = compare_stills(first, second, maps);
+        VisibleCount count;
+        count.add(seen, maps.find("saliency.Y"));
+        visible = count.shares();
+        result.same = result.same && visible->seen <= options.settings.share;
+        if (!options.seen_out.empty()) write_seen(options.seen_out, seen);
+    }
     if (options.json) {
-        fmt::print("{}\n", comparison_json(result).dump(2));
+        nlohmann::ordered_json json = comparison_json(result);
+        json["visible"] = shares_json(visible);
+        fmt::print("{}\n", json.dump(2));
     } else if (!options.quiet) {
-        print_comparison(options, result);
+        print_comparison(options, result, visible);
     }
     if (!options.difference.empty()) write_png(options.difference, difference_picture(first, second, options.settings));
     return result.same ? exit_done : exit_different;
@@ -44,8 +56,11 @@ void check_numbers(const CompareSettings& s) {
     }
 }
 
-int compare(const CompareOptions& options) {
+int compare(CompareOptions options) {
     check_numbers(options.settings);
+    if (!options.seen.empty()) options.settings.tolerance = unlimited;  // visible differences judge in its place
+    if (options.seen.empty() && !options.seen_out.empty())
+        throw InputError("", "--seen-out", "needs --seen with the reference's maps");
     const bool first = names_sequence(options.first), second = names_sequence(options.second);
     if (first != second) {
         const auto& [sequence, picture] =
@@ -86,14 +101,14 @@ constexpr const char* compare_footer =
     "and\n"
     "cache.radius only if both pictures have them.\n\n"
     "Sequences: 'name.####.exr', in quotes, or folders that hold one numbered sequence. Frames are paired by number.\n"
-    "With --threshold the sequences differ too where the error flickers: where it changes from one frame to the next\n"
-    "along the motion in the maps by more than their threshold.flicker or, without it, their threshold.Y. Surfaces at\n"
-    "rest (up to 0.01 pixels per frame) and moving ones have separate columns. Hidden and invalid pixels, and those\n"
-    "that leave the picture or meet another object, are left out.\n\n"
+    "--seen follows differences along the motion in the maps, as the eye follows a surface. Those that change from\n"
+    "frame to frame *flicker*, the others *last*; *noticed* weighs pixels by how likely viewers look there (saliency).\n"
+    "It uses contrast sensitivity (castleCSF), masking, and the display that the maps name. One picture alone does not\n"
+    "flicker.\n\n"
     "Examples:\n"
     "  aleph compare new.exr golden.exr --relative 1e-4 --share 0.5 --max-rms 0.001\n"
     "  aleph compare guided.exr dense.exr --threshold maps.exr      which differences would a viewer see?\n"
-    "  aleph compare 'guided.####.exr' reference/ --threshold maps/\n"
+    "  aleph compare 'guided.####.exr' reference/ --seen maps/ --share 1 --seen-out seen.####.png\n"
     "  aleph compare cached.exr traced.exr --standard-errors 4 --relative 0.1 --share 1 --max-bias 1\n"
     "  aleph compare a.exr b.exr --channels forward,Z --diff where.png";
 
@@ -109,6 +124,16 @@ void add_compare_command(CLI::App& app, Command& command) {
                      "an EXR file of `aleph maps`, or the sequence of the reference's maps: the pictures differ where "
                      "their luminance differs by more than its threshold.Y; replaces --tolerance and --relative")
         ->type_name("MAPS.exr");
+    compare_app
+        ->add_option("--seen", options->seen,
+                     "an EXR file of `aleph maps`, or the sequence of the reference's maps: the pictures differ where a "
+                     "viewer who looks there sees a difference; replaces --tolerance and --relative")
+        ->type_name("MAPS.exr");
+    compare_app
+        ->add_option("--seen-out", options->seen_out,
+                     "write what is seen, flickers and lasts, in just visible differences: three panels (.png), or the "
+                     "channels seen.Y, flicker.Y and lasting.Y (.exr)")
+        ->type_name("FILE");
     CompareSettings& settings = options->settings;
     add_value(*compare_app, "--tolerance", settings.tolerance, "allowed difference, in the channel's unit, 0 and up");
     add_value(*compare_app, "--relative", settings.relative,

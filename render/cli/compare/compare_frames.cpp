@@ -6,6 +6,7 @@
 
 #include "engine/base/errors.h"
 #include "render/cli/compare/compare_frames_print.h"
+#include "render/cli/compare/seen_file.h"
 #include "render/cli/frame_pattern.h"
 #include "render/cli/options.h"
 #include "render/cli/progress.h"
@@ -47,7 +48,7 @@ std::string format_frames(const std::vector<std::int64_t>& frames) {
 }
 
 void check_partners(const CompareOptions& options, const SequenceFiles& first, const SequenceFiles& second,
-                    const SequenceFiles& maps) {
+                    const std::vector<std::pair<std::string, SequenceFiles>>& maps) {
     std::string missing;
     const auto add = [&](const SequenceFiles& files, const SequenceFiles& others, const std::string& where) {
         const std::vector<std::int64_t> frames = frames_without(files, others);
@@ -57,19 +58,19 @@ void check_partners(const CompareOptions& options, const SequenceFiles& first, c
     };
     add(first, second, options.second);
     add(second, first, options.first);
-    if (!options.threshold.empty()) add(first, maps, options.threshold);
+    for (const auto& [argument, files] : maps) add(first, files, argument);
     if (!missing.empty()) throw InputError("", "", missing);
 }
 
-/// The maps of every frame; a single file serves a sequence of one frame.
-SequenceFiles find_maps(const CompareOptions& options, const SequenceFiles& first) {
-    if (options.threshold.empty()) return {};
-    if (names_sequence(options.threshold)) return find_sequence(options.threshold, "--threshold");
+/// The maps of every frame; a single file serves a sequence of one frame. Nothing without the option.
+SequenceFiles find_maps(const std::string& argument, const std::string& option, const SequenceFiles& first) {
+    if (argument.empty()) return {};
+    if (names_sequence(argument)) return find_sequence(argument, option);
     if (first.size() > 1) {
-        throw InputError("", "--threshold",
+        throw InputError("", option,
                          "one file cannot serve several frames: give a pattern or a folder of `aleph maps`");
     }
-    return {{first.begin()->first, options.threshold}};
+    return {{first.begin()->first, argument}};
 }
 
 std::vector<std::int64_t> parse_cuts(const std::string& text) {
@@ -82,11 +83,11 @@ std::vector<std::int64_t> parse_cuts(const std::string& text) {
     }
 }
 
-/// Where the frame's difference goes; nothing without --diff.
-std::optional<NumberField> find_difference_field(const CompareOptions& options) {
-    if (options.difference.empty()) return std::nullopt;
-    const auto field = find_number_field(options.difference, "--diff");
-    if (!field) throw InputError("", "--diff", "several frames need a name such as diff.####.png");
+/// Where the frames' pictures go; nothing without the option.
+std::optional<NumberField> find_output_field(const std::string& argument, const std::string& option) {
+    if (argument.empty()) return std::nullopt;
+    const auto field = find_number_field(argument, option);
+    if (!field) throw InputError("", option, "several frames need a name such as diff.####.png");
     return field;
 }
 
@@ -108,18 +109,27 @@ bool names_sequence(const std::string& argument) {
 
 int compare_frames(const CompareOptions& options) {
     const SequenceFiles first = find_sequence(options.first, "first"), second = find_sequence(options.second, "second");
-    const SequenceFiles maps = find_maps(options, first);
+    const SequenceFiles thresholds = find_maps(options.threshold, "--threshold", first);
+    const SequenceFiles seen = find_maps(options.seen, "--seen", first);
+    std::vector<std::pair<std::string, SequenceFiles>> maps;
+    if (!options.threshold.empty()) maps.emplace_back(options.threshold, thresholds);
+    if (!options.seen.empty()) maps.emplace_back(options.seen, seen);
     check_partners(options, first, second, maps);
-    const auto difference_field = find_difference_field(options);
-    SequenceComparison sequence(options.settings, parse_cuts(options.cuts));
-    std::vector<FrameComparison> frames;
+    const auto difference_field = find_output_field(options.difference, "--diff");
+    const auto seen_field = find_output_field(options.seen_out, "--seen-out");
+    SequenceComparison sequence(options.settings, parse_cuts(options.cuts), [&](const VisibleMaps& visible) {
+        if (!seen_field) return;
+        write_seen(insert_number(options.seen_out, *seen_field, static_cast<int>(visible.frame)), visible);
+    });
     {
         Progress progress("compare", static_cast<double>(first.size()), terminal_look(options.quiet));
         for (const auto& [frame, file] : first) {
             const ChannelImage a = read_image(file), b = read_image(second.at(frame));
-            const ChannelImage frame_maps = maps.empty() ? ChannelImage{} : read_image(maps.at(frame));
+            const ChannelImage threshold = thresholds.empty() ? ChannelImage{} : read_image(thresholds.at(frame));
+            const ChannelImage visible = seen.empty() ? ChannelImage{} : read_image(seen.at(frame));
             try {
-                frames.push_back(sequence.add(frame, a, b, maps.empty() ? nullptr : &frame_maps));
+                sequence.add(frame, a, b,
+                             {thresholds.empty() ? nullptr : &threshold, seen.empty() ? nullptr : &visible});
             } catch (const InputError& e) {
                 throw InputError(printable(file.string(), 400), e.place(), e.reason());
             }
@@ -127,14 +137,15 @@ int compare_frames(const CompareOptions& options) {
                 write_png(insert_number(options.difference, *difference_field, static_cast<int>(frame)),
                           difference_picture(a, b, options.settings));
             }
-            progress.update(static_cast<double>(frames.size()), fmt::format("frame {}", frame));
+            progress.update(static_cast<double>(sequence.frames().size()), fmt::format("frame {}", frame));
         }
+        sequence.finish();
     }
     const SequenceSummary summary = sequence.summary();
     if (options.json) {
-        print_sequence_json(frames, summary);
+        print_sequence_json(sequence.frames(), summary);
     } else if (!options.quiet) {
-        print_sequence(options, frames, summary);
+        print_sequence(options, sequence.frames(), summary);
     }
     return summary.same() ? exit_done : exit_different;
 }

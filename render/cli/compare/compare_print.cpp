@@ -97,6 +97,13 @@ nlohmann::ordered_json comparison_json(const CompareResult& result) {
     return json;
 }
 
+nlohmann::ordered_json shares_json(const std::optional<VisibleShares>& shares) {
+    if (!shares) return nullptr;
+    nlohmann::ordered_json json{{"seen", shares->seen}, {"flicker", shares->flicker}, {"lasting", shares->lasting}};
+    json["noticed"] = shares->noticed ? nlohmann::ordered_json(*shares->noticed) : nlohmann::ordered_json(nullptr);
+    return json;
+}
+
 void print_less_noise(const std::string& what, const ThresholdFigures& figures) {
     if (!figures.noise) return;
     fmt::print("  {:<24} {:.4g} % by more than 3 standard errors; by noise alone {:.4g} %\n", what,
@@ -120,7 +127,8 @@ std::string exceeded_options(const CompareResult& result) {
     return options;
 }
 
-void print_comparison(const CompareOptions& options, const CompareResult& result) {
+void print_comparison(const CompareOptions& options, const CompareResult& result,
+                      const std::optional<VisibleShares>& visible) {
     fmt::print("{} against {}: {}x{}\n", options.first, options.second, result.width, result.height);
     fmt::print("  {:<24} {:>12} {:>12} {:>12} {:>12} {:>12}\n", "channel", "max", "at x,y", "RMS", "relative MSE",
                "beyond");
@@ -132,7 +140,7 @@ void print_comparison(const CompareOptions& options, const CompareResult& result
     if (result.a.any() || result.b.any()) {
         fmt::print("  NaN: {} and {}, infinite: {} and {}\n", result.a.nan, result.b.nan, result.a.inf, result.b.inf);
     }
-    print_pixels("beyond the tolerance", result, result.beyond);
+    if (!visible) print_pixels("beyond the tolerance", result, result.beyond);
     if (result.luminance) print_luminance(options, result);
     if (const auto& threshold = result.threshold) {
         print_pixels("beyond the Aleph map", result, threshold->beyond,
@@ -140,6 +148,10 @@ void print_comparison(const CompareOptions& options, const CompareResult& result
                                  threshold->display_white));
         print_less_noise("beyond, less noise", *threshold);
         print_noise(*threshold);
+    }
+    if (visible) {
+        fmt::print("  {:<24} {:.4g} % of the pixels{}\n", "a difference is seen in", visible->seen,
+                   visible->noticed ? fmt::format(", {:.4g} % weighed by saliency", *visible->noticed) : "");
     }
     if (const std::string limits = exceeded_options(result); !limits.empty()) {
         fmt::print("  {:<24} {}\n", "above its limit", limits);

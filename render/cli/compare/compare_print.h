@@ -10,7 +10,9 @@
 namespace aleph {
 
 /// Prints one picture's table.
-void print_comparison(const CompareOptions& options, const CompareResult& result);
+void print_comparison(const CompareOptions& options, const CompareResult& result,
+                      const std::optional<VisibleShares>& visible);
+nlohmann::ordered_json shares_json(const std::optional<VisibleShares>& shares);
 nlohmann::ordered_json comparison_json(const CompareResult& result);
 
 nlohmann::ordered_json difference_json(const Difference& difference);

@@ -76,29 +76,33 @@ TEST(CompareFrames, MissingPartnersAreNamed) {
     EXPECT_NE(outcome.errors.find("m.####.exr' has no frame 3"), std::string::npos) << outcome.errors;
 }
 
-TEST(CompareFrames, FlickerAgainstTheMapsAsJson) {
-    const Sequences s({3, 4, 6}, {0.004f, -0.004f, 0.004f});
-    const CompareOutcome outcome = run_compare({s.a, s.b, "--threshold", s.maps, "--json"});
-    EXPECT_EQ(outcome.code, 1) << outcome.errors;  // .4 cd/m2 is below the threshold, the change of .8 above .5
+TEST(CompareFrames, VisibleDifferencesAsJsonTextAndPictures) {
+    const Sequences s({3, 4, 6}, {0.0f, 0.25f, 0.25f});
+    ChannelImage dark = grey(0.9f);
+    for (Channel& channel : dark.channels) channel.values(3, 2) = 0.1f;
+    write_exr(s.a + "/new.0004.exr", dark);
+    const CompareOutcome outcome =
+        run_compare({s.a, s.b, "--seen", s.maps, "--json", "--seen-out", s.folder / "seen.####.exr"});
+    EXPECT_EQ(outcome.code, 1) << outcome.errors;
     const auto json = nlohmann::json::parse(outcome.out);
-    EXPECT_EQ(json["same"], false);
     ASSERT_EQ(json["frames"].size(), 3u);
-    EXPECT_EQ(json["frames"][1]["frame"], 4);
     EXPECT_EQ(json["frames"][0]["same"], true);
-    EXPECT_TRUE(json["frames"][0]["flicker"].is_null());
     EXPECT_EQ(json["frames"][1]["same"], false);
-    EXPECT_EQ(json["frames"][1]["flicker"]["threshold"], "threshold.flicker");
-    EXPECT_NEAR(json["frames"][1]["flicker"]["rest"]["worst"].get<double>(), 1.6, 1e-4);
-    EXPECT_TRUE(json["frames"][2]["flicker"].is_null());  // frame 5 is missing
-    EXPECT_EQ(json["all"]["flicker_pairs"], 1);
-    EXPECT_EQ(json["all"]["flicker"]["rest"]["percent"], 100.0);
-    EXPECT_EQ(json["all"]["flicker"]["moving"]["counted"], 0);
-    EXPECT_NEAR(json["all"]["threshold"]["worst"].get<double>(), 0.4, 1e-4);
-    const CompareOutcome cut = run_compare({s.a, s.b, "--threshold", s.maps, "--cuts", "4"});
-    EXPECT_EQ(cut.code, 0) << cut.out;
-    EXPECT_NE(cut.out.find("no pair of consecutive frames"), std::string::npos);
-    const CompareOutcome text = run_compare({s.a, s.b, "--threshold", s.maps});
-    EXPECT_NE(text.out.find("1 pairs of frames, in units of threshold.flicker"), std::string::npos) << text.out;
+    EXPECT_EQ(json["frames"][1]["visible"]["seen"], 100.0);
+    EXPECT_TRUE(json["frames"][1]["visible"]["noticed"].is_null());
+    EXPECT_GT(json["all"]["visible"]["flicker"].get<double>(), 0.0);
+    const ChannelImage seen = read_image(s.folder / "seen.0004.exr");
+    EXPECT_GT(seen.find("seen.Y")->operator()(3, 2), 1.0f);
+    EXPECT_NE(seen.find("flicker.Y"), nullptr);
+    EXPECT_NE(seen.find("lasting.Y"), nullptr);
+    const CompareOutcome text = run_compare({s.a, s.b, "--seen", s.maps});
+    EXPECT_NE(text.out.find("seen   flicker   lasting   noticed"), std::string::npos) << text.out;
+    EXPECT_EQ(run_compare({s.a, s.b, "--seen", s.maps, "--share", "100"}).code, 0);
+    const std::string a = s.a + "/new.0004.exr", b = s.b + "/old.0004.exr", maps = s.maps + "/m.0004.exr";
+    const CompareOutcome one = run_compare({a, b, "--seen", maps, "--seen-out", s.folder / "seen.png"});
+    EXPECT_EQ(one.code, 1);
+    EXPECT_NE(one.out.find("a difference is seen in  100 % of the pixels"), std::string::npos) << one.out;
+    EXPECT_TRUE(fs::exists(s.folder / "seen.png"));
 }
 
 TEST(CompareFrames, WrongKindsAreRefused) {
@@ -108,7 +112,10 @@ TEST(CompareFrames, WrongKindsAreRefused) {
     const std::vector<std::pair<std::vector<std::string>, std::string>> cases{
         {{s.a, picture}, "is a sequence and '"},
         {{s.a, s.b, "--threshold", maps}, "one file cannot serve several frames"},
+        {{s.a, s.b, "--seen", maps}, "one file cannot serve several frames"},
         {{s.a, s.b, "--diff", s.folder / "diff.png"}, "diff.####.png"},
+        {{s.a, s.b, "--seen", s.maps, "--seen-out", s.folder / "seen.png"}, "--seen-out"},
+        {{s.a, s.b, "--seen-out", s.folder / "seen.####.png"}, "needs --seen"},
         {{s.a, s.b, "--cuts", "x"}, "--cuts"},
         {{picture, picture, "--cuts", "2"}, "--cuts"},
         {{s.a, s.folder / "none.####.exr"}, "no file fits"},
@@ -156,18 +163,6 @@ TEST(CompareFrames, NoiseOfTheReferenceIsPrinted) {
         << outcome.out;
     EXPECT_NE(outcome.out.find("bias 4 %"), std::string::npos) << outcome.out;
     EXPECT_EQ(run_compare({folder / "a.exr", folder / "b.exr", "--standard-errors", "2"}).code, 0);
-}
-
-TEST(CompareFrames, NoiseOfBothFramesIsTakenFromTheFlicker) {
-    const Sequences s({1, 2}, {0.0f, 0.0f});
-    ChannelImage reference = grey(0.5f);
-    reference.channels.push_back({"variance.Y", Image<float>(6, 5, 1.25e-5f)});  // in two frames (.5 cd/m2)^2
-    for (const char* name : {"b/old.0001.exr", "b/old.0002.exr"}) write_exr(s.folder / name, reference);
-    const CompareOutcome outcome = run_compare({s.a, s.b, "--threshold", s.maps});
-    EXPECT_EQ(outcome.code, 0) << outcome.errors;
-    EXPECT_NE(outcome.out.find("flicker at rest          0 % by more than 3 standard errors; by noise alone 31.73 %"),
-              std::string::npos)
-        << outcome.out;
 }
 
 TEST(FramePattern, FoldersHoldOneSequence) {

@@ -33,10 +33,10 @@ ChannelImage still_maps() {
 TEST(CompareSequence, SumsOverFrames) {
     SequenceComparison sequence({.tolerance = 0.15});
     for (const auto& [frame, step] : {std::pair{3, 0.0f}, {4, 0.2f}, {9, 0.1f}}) {
-        const FrameComparison comparison = sequence.add(frame, grey(0.5f + step), grey(0.5f), nullptr);
-        EXPECT_EQ(comparison.frame, frame);
-        EXPECT_EQ(comparison.same, step < 0.15f);
-        EXPECT_FALSE(comparison.flicker.has_value());
+        sequence.add(frame, grey(0.5f + step), grey(0.5f), {});
+        EXPECT_EQ(sequence.frames().back().frame, frame);
+        EXPECT_EQ(sequence.frames().back().same, step < 0.15f);
+        EXPECT_FALSE(sequence.frames().back().visible.has_value());
     }
     const SequenceSummary summary = sequence.summary();
     EXPECT_EQ(summary.frames, 3u);
@@ -46,93 +46,102 @@ TEST(CompareSequence, SumsOverFrames) {
     EXPECT_NEAR(summary.rms, std::sqrt((0.04 + 0.01) / 3.0), 1e-6);
     EXPECT_NEAR(summary.percent(summary.beyond), 100.0 / 3.0, 1e-9);
     EXPECT_FALSE(summary.threshold.has_value());
-    EXPECT_FALSE(summary.flicker.has_value());
+    EXPECT_FALSE(summary.visible.has_value());
     EXPECT_FALSE(summary.same());
 }
 
-TEST(CompareSequence, ConstantErrorIsSeenButDoesNotFlicker) {
+TEST(CompareSequence, ErrorsAgainstTheThresholdOfTheMaps) {
     SequenceComparison sequence({});
     const ChannelImage maps = still_maps();
     for (int frame = 0; frame < 4; ++frame) {
-        const FrameComparison comparison = sequence.add(frame, grey(0.53f), grey(0.5f), &maps);  // 3 cd/m2
-        EXPECT_EQ(comparison.result.threshold->beyond, pixels);
-        EXPECT_EQ(comparison.flicker.has_value(), frame > 0);
-        EXPECT_FALSE(comparison.same);
+        sequence.add(frame, grey(0.53f), grey(0.5f), {.threshold = &maps});  // 3 cd/m2
+        EXPECT_EQ(sequence.frames().back().result.threshold->beyond, pixels);
+        EXPECT_FALSE(sequence.frames().back().same);
     }
     const SequenceSummary summary = sequence.summary();
     EXPECT_EQ(summary.threshold->pixels, 4 * pixels);
     EXPECT_NEAR(summary.threshold->worst, 3.0, 1e-5);
     EXPECT_NEAR(summary.threshold->percentile_99, 3.0, 0.016);
-    EXPECT_EQ(summary.flicker_pairs, 3u);
-    EXPECT_EQ(summary.flicker->rest.pixels, 3 * pixels);
-    EXPECT_EQ(summary.flicker->rest.worst, 0.0);
-    EXPECT_FALSE(summary.flicker->own_threshold);
-}
-
-TEST(CompareSequence, ErrorOfAlternatingSignDiffersByItsFlickerAlone) {
-    SequenceComparison sequence({});
-    const ChannelImage maps = still_maps();
-    for (int frame = 0; frame < 3; ++frame) {  // .8 cd/m2 stays below the threshold, its change of 1.6 does not
-        const float step = frame % 2 ? -0.008f : 0.008f;
-        const FrameComparison comparison = sequence.add(frame, grey(0.5f + step), grey(0.5f), &maps);
-        EXPECT_TRUE(comparison.result.same);
-        EXPECT_EQ(comparison.same, frame == 0);
-    }
-    EXPECT_NEAR(sequence.summary().flicker->rest.worst, 1.6, 1e-4);
-    EXPECT_EQ(sequence.summary().flicker->percent_beyond(), 100.0);
-    EXPECT_EQ(sequence.summary().different, 2u);
-}
-
-TEST(CompareSequence, NothingFlickersAcrossGapsAndCuts) {
-    SequenceComparison sequence({}, {7});
-    const ChannelImage maps = still_maps();
-    for (const int frame : {1, 3, 4, 6, 7, 8}) {
-        const FrameComparison comparison = sequence.add(frame, grey(0.5f), grey(0.5f), &maps);
-        EXPECT_EQ(comparison.flicker.has_value(), frame == 4 || frame == 8) << frame;
-    }
-    EXPECT_EQ(sequence.summary().flicker_pairs, 2u);
-    EXPECT_TRUE(sequence.summary().same());
-}
-
-TEST(CompareSequence, OneFrameHasNoFlicker) {
-    SequenceComparison sequence({});
-    const ChannelImage maps = still_maps();
-    EXPECT_TRUE(sequence.add(5, grey(0.5f), grey(0.5f), &maps).same);
-    EXPECT_FALSE(sequence.summary().flicker.has_value());
-    EXPECT_TRUE(sequence.summary().same());
-}
-
-TEST(CompareSequence, MapsWithoutMotionGiveErrorsOnly) {
-    SequenceComparison sequence({});
-    const ChannelImage maps{{{"threshold.Y", Image<float>(picture_width, picture_height, 1.0f)}}, {}};
-    for (int frame = 0; frame < 2; ++frame) sequence.add(frame, grey(0.5f), grey(0.5f), &maps);
-    EXPECT_TRUE(sequence.summary().threshold.has_value());
-    EXPECT_FALSE(sequence.summary().flicker.has_value());
     const ChannelImage no_threshold{{{"Z", Image<float>(picture_width, picture_height, 1.0f)}}, {}};
-    EXPECT_THROW(sequence.add(2, grey(0.5f), grey(0.5f), &no_threshold), InputError);
+    EXPECT_THROW(sequence.add(5, grey(0.5f), grey(0.5f), {.threshold = &no_threshold}), InputError);
 }
 
-TEST(CompareSequence, NanIsDifferentAndStaysOutOfTheFlicker) {
+/// A checkerboard of 2 pixels: what the eye sees well.
+ChannelImage checkers(float step) {
+    ChannelImage picture = grey(0.5f);
+    for (Channel& channel : picture.channels) {
+        for (int y = 0; y < picture_height; ++y) {
+            for (int x = 0; x < picture_width; ++x) channel.values(x, y) += (x / 2 + y / 2) % 2 ? step : -step;
+        }
+    }
+    return picture;
+}
+
+TEST(CompareSequence, VisibleDifferencesJudgeOnceTheSequenceEnds) {
+    std::vector<std::int64_t> received;
+    SequenceComparison sequence({.tolerance = unlimited, .share = 50.0}, {},
+                                [&](const VisibleMaps& maps) { received.push_back(maps.frame); });
+    const ChannelImage maps = still_maps();
+    for (int frame = 0; frame < 14; ++frame)
+        sequence.add(frame, checkers(frame < 13 ? 1e-5f : 0.3f), grey(0.5f), {.visible = &maps});
+    EXPECT_FALSE(sequence.frames().back().visible.has_value()) << "frames after it may matter";
+    sequence.finish();
+    ASSERT_EQ(received.size(), 14u);
+    EXPECT_EQ(received.back(), 13);
+    EXPECT_TRUE(sequence.frames()[0].same);
+    EXPECT_EQ(sequence.frames()[0].visible->seen, 0.0);
+    EXPECT_FALSE(sequence.frames().back().same);
+    EXPECT_EQ(sequence.frames().back().visible->seen, 100.0);
+    EXPECT_EQ(sequence.frames().back().visible->flicker, 100.0);
+    EXPECT_FALSE(sequence.frames().back().visible->noticed.has_value()) << "the maps have no saliency";
+    EXPECT_GE(sequence.summary().visible->seen, 100.0 / 14.0);
+}
+
+TEST(CompareSequence, NothingFlickersAcrossCuts) {
+    const auto flicker = [](std::vector<std::int64_t> cuts) {
+        SequenceComparison sequence({.tolerance = unlimited}, std::move(cuts));
+        const ChannelImage maps = still_maps();
+        for (int frame = 0; frame < 2; ++frame)
+            sequence.add(frame, checkers(frame == 0 ? 0.3f : -0.3f), grey(0.5f), {.visible = &maps});
+        sequence.finish();
+        return sequence.summary().visible->flicker;
+    };
+    EXPECT_EQ(flicker({}), 100.0);
+    EXPECT_EQ(flicker({1}), 0.0);
+}
+
+TEST(CompareSequence, SharesAreWeighedBySaliency) {
+    ChannelImage maps = still_maps(), picture = checkers(0.0f), reference = checkers(0.0f);
+    maps.channels.push_back({"saliency.Y", Image<float>(picture_width, picture_height, 0.25f)});
+    maps.channels.back().values(0, 0) = 1.0f;
+    for (ChannelImage* each : {&picture, &reference})
+        each->channels[0].values(0, 0) = std::numeric_limits<float>::quiet_NaN();
+    const VisibleMaps seen = compare_stills(picture, reference, maps);
+    VisibleCount count;
+    count.add(seen, maps.find("saliency.Y"));
+    EXPECT_NEAR(count.shares().seen, 100.0 / 80.0, 1e-9);
+    EXPECT_NEAR(count.shares().noticed.value(), 100.0 / (0.25 * 79.0 + 1.0), 1e-4);
+}
+
+TEST(CompareSequence, NanIsDifferent) {
     SequenceComparison sequence({.share = 100.0});
     const ChannelImage maps = still_maps();
     ChannelImage broken = grey(0.5f);
     broken.channels[1].values(2, 2) = std::numeric_limits<float>::quiet_NaN();
-    EXPECT_TRUE(sequence.add(0, grey(0.5f), grey(0.5f), &maps).same);
-    const FrameComparison comparison = sequence.add(1, broken, grey(0.5f), &maps);
-    EXPECT_FALSE(comparison.same);
-    EXPECT_EQ(comparison.result.threshold->beyond, 1u);
-    EXPECT_EQ(comparison.flicker->left_out, 1u);
+    sequence.add(0, broken, grey(0.5f), {.threshold = &maps});
+    EXPECT_FALSE(sequence.frames().back().same);
+    EXPECT_EQ(sequence.frames().back().result.threshold->beyond, 1u);
     EXPECT_EQ(sequence.summary().a.nan, 1u);
 }
 
 TEST(CompareSequence, SizesMayNotChangeWithinAShot) {
     SequenceComparison sequence({});
     const ChannelImage maps = still_maps();
-    sequence.add(0, grey(0.5f), grey(0.5f), &maps);
+    sequence.add(0, grey(0.5f), grey(0.5f), {.visible = &maps});
     ChannelImage small_maps = maps;
     for (Channel& channel : small_maps.channels) channel.values = Image<float>(4, 4, 1.0f);
-    EXPECT_THROW(sequence.add(1, grey(0.5f, 4, 4), grey(0.5f, 4, 4), &small_maps), InputError);
-    EXPECT_THROW(SequenceComparison({}).add(0, grey(0.5f), grey(0.5f, 4, 4), nullptr), InputError);
+    EXPECT_THROW(sequence.add(1, grey(0.5f, 4, 4), grey(0.5f, 4, 4), {.visible = &small_maps}), InputError);
+    EXPECT_THROW(SequenceComparison({}).add(0, grey(0.5f), grey(0.5f, 4, 4), {}), InputError);
 }
 
 }  // namespace

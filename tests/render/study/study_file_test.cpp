@@ -47,14 +47,14 @@ TEST(StudyFile, HoldsWhatTheTextSays) {
     std::vector<std::string> metrics;
     for (const Metric& metric : list_metrics(study)) metrics.push_back(metric.name);
     EXPECT_EQ(metrics,
-              (std::vector<std::string>{"processor_seconds", "share_beyond", "share_beyond.castle", "relative_mse"}));
+              (std::vector<std::string>{"processor_seconds", "share_seen", "relative_mse"}));
 }
 
 TEST(StudyFile, HasDefaults) {
     const Study study = parse_study(R"({"scenes": [{"scene": "scene.json"}], "sweep": {"spp": [1]}})", "s.json");
     EXPECT_EQ(study.title, "s");
     EXPECT_EQ(std::get<std::string>(study.settings.at("size")), "320x240");
-    EXPECT_EQ(study.reference.kind, "gather");
+    EXPECT_EQ(study.reference.kind, "path");
     EXPECT_EQ(study.seeds, std::vector<std::uint32_t>{0});
     EXPECT_EQ(study.viewers.size(), 1u);
     for (const Metric& metric : list_metrics(study)) EXPECT_FALSE(metric.name.starts_with("seed_")) << "needs two";

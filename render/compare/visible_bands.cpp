@@ -1,0 +1,117 @@
+#include "render/compare/visible_bands.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/base/pyramid.h"
+
+namespace aleph {
+
+namespace {
+
+// CIE 1931 XYZ to cones of CIE 2006 for the spectrum of an LED display (Mantiuk et al. 2021, "FovVideoVDP").
+constexpr double xyz_to_lms[3][3] = {{0.187596268556126, 0.585168649077728, -0.026384263306304},
+                                     {-0.133397430663221, 0.405505777260049, 0.034502127690364},
+                                     {0.000244379021663, -0.000542995890619, 0.019406849066323}};
+// Linear Rec.709 to XYZ (IEC 61966-2-1).
+constexpr double rgb_to_xyz[3][3] = {
+    {0.4124564, 0.3575761, 0.1804375}, {0.2126729, 0.7151522, 0.0721750}, {0.0193339, 0.1191920, 0.9503041}};
+// Mechanisms of castleCSF (Ashraf et al. 2024).
+constexpr double lms_to_channels[3][3] = {{1.0, 1.0, 0.0}, {1.0, -2.3112, 0.0}, {-1.0, -1.0, 50.9875}};
+
+using Matrix = std::array<std::array<double, 3>, 3>;
+
+Matrix product(const double (&a)[3][3], const Matrix& b) {
+    Matrix out{};
+    for (int i = 0; i < 3; ++i) {
+        for (int j = 0; j < 3; ++j) {
+            for (int k = 0; k < 3; ++k) out[i][j] += a[i][k] * b[k][j];
+        }
+    }
+    return out;
+}
+
+Matrix rgb_to_channels() {
+    const Matrix xyz = product(rgb_to_xyz, Matrix{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}});
+    return product(lms_to_channels, product(xyz_to_lms, xyz));
+}
+
+float displayed(float component) {
+    const float positive = component > 0.0f ? component : 0.0f;  // also where it is NaN
+    return positive < 1.0f ? positive : 1.0f;
+}
+
+/// {1 2 1} / 4 in both axes.
+Image<float> soften(const Image<float>& image) {
+    Image<float> rows(image.width, image.height), out(image.width, image.height);
+    for (int y = 0; y < image.height; ++y) {
+        for (int x = 0; x < image.width; ++x) {
+            const float around = image(reflect_101(x - 1, image.width), y) + image(reflect_101(x + 1, image.width), y);
+            rows(x, y) = 0.5f * image(x, y) + 0.25f * around;
+        }
+    }
+    for (int y = 0; y < image.height; ++y) {
+        const float *above = rows.row(reflect_101(y - 1, image.height)), *below = rows.row(reflect_101(y + 1, image.height));
+        for (int x = 0; x < image.width; ++x) out(x, y) = 0.5f * rows(x, y) + 0.25f * (above[x] + below[x]);
+    }
+    return out;
+}
+
+Image<float> difference(Image<float> a, const Image<float>& b) {
+    for (std::size_t i = 0; i < a.size(); ++i) a.pixels[i] -= b.pixels[i];
+    return a;
+}
+
+}  // namespace
+
+VisualChannels compute_visual_channels(const Image<Rgb>& picture, double white) {
+    const Matrix matrix = rgb_to_channels();
+    VisualChannels out;
+    for (int c = 0; c < visual_channels; ++c) {
+        out[c] = Image<float>(picture.width, picture.height);
+        for (std::size_t i = 0; i < picture.size(); ++i) {
+            const Rgb& p = picture.pixels[i];
+            out[c].pixels[i] = static_cast<float>(white * (matrix[c][0] * displayed(p.x) + matrix[c][1] * displayed(p.y) +
+                                                           matrix[c][2] * displayed(p.z)));
+        }
+    }
+    return out;
+}
+
+std::vector<BandShape> visible_bands(int width, int height) {
+    // Frequencies and gains by least squares over log frequency, of gratings at castleCSF's thresholds at 100 cd/m2 and
+    // 31 pixels per degree.
+    std::vector<BandShape> bands{{0.4762, 1.247, 0, 0, 1}, {0.2595, 2.098, 0, 0, 4}};
+    const int levels = static_cast<int>(std::floor(std::log2(std::max(4, std::min(width, height)) / 4.0)));
+    for (int level = 1; level <= levels; ++level) bands.push_back({std::ldexp(0.2027, -level), 1.635, level - 1, level, 4});
+    return bands;
+}
+
+std::vector<Image<float>> split_bands(const Image<float>& channel) {
+    const std::vector<BandShape> shapes = visible_bands(channel.width, channel.height);
+    std::vector<Image<float>> bands;
+    const Image<float> soft = soften(channel);
+    bands.push_back(difference(channel, soft));
+    Image<float> coarse = reduce(channel);
+    bands.push_back(difference(soft, expand(coarse, {channel.width, channel.height})));
+    LevelSize finer{channel.width, channel.height};
+    while (bands.size() < shapes.size()) {
+        const LevelSize size{coarse.width, coarse.height};
+        Image<float> next = reduce(coarse);
+        bands.push_back(expand(difference(coarse, expand(next, size)), finer));
+        coarse = std::move(next);
+        finer = size;
+    }
+    return bands;
+}
+
+Image<float> local_amplitude(Image<float> signal, const BandShape& band) {
+    for (float& value : signal.pixels) value *= value;
+    if (band.level > band.signal_level) signal = reduce(signal);
+    for (int i = 0; i < band.blurs; ++i) signal = low_pass(signal);
+    const auto gain = static_cast<float>(band.gain);
+    for (float& value : signal.pixels) value = gain * std::sqrt(2.0f * std::max(0.0f, value));
+    return signal;
+}
+
+}  // namespace aleph

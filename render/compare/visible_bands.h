@@ -1,0 +1,41 @@
+#pragma once
+// Pictures as a display shows them, in bands of spatial frequency: what visible_difference.h compares.
+
+#include <array>
+#include <vector>
+
+#include "engine/base/color.h"
+#include "engine/base/image.h"
+
+namespace aleph {
+
+/// Achromatic (L + M), red-green (L - 2.3112 M) and yellow-violet (50.9875 S - (L + M)) signals of the cones of CIE
+/// 2006, in cd/m2: grey of luminance Y has about (Y, 0, 0).
+inline constexpr int visual_channels = 3;
+using VisualChannels = std::array<Image<float>, visual_channels>;
+
+/// What a display emits: components are clamped to [0,1], NaN counts as 0.
+/// @param picture  linear RGB, Rec.709, white = 1
+/// @param white    cd/m2
+VisualChannels compute_visual_channels(const Image<Rgb>& picture, double white);
+
+/// A band of a decomposition, on levels of a pyramid: pixel i of level n lies on the picture's pixel 2^n i (pyramid.h).
+struct BandShape {
+    double frequency = 0.0;  ///< at which sensitivity is taken, cycles per pixel of the picture
+    double gain = 1.0;       ///< amplitudes times gain add up, as squares, to the amplitude of any grating
+    int signal_level = 0;    ///< of its signal: at least 4 pixels a cycle from the third band on, for tracks between pixels
+    int level = 0;           ///< of its amplitude
+    int blurs = 0;           ///< passes of low_pass that average energy over about half a cycle
+};
+
+/// Bands of a picture, finest first, down to where a side has less than 4 pixels. With the frequencies and gains here
+/// the bands' thresholds give a grating of .01 to .4 cycles per pixel its own threshold within 10 % (at 100 cd/m2).
+std::vector<BandShape> visible_bands(int width, int height);
+
+/// The signal of a channel in each band; the rest below the last one is left out.
+std::vector<Image<float>> split_bands(const Image<float>& channel);
+
+/// Amplitude of a band's signal around each pixel of its level: sqrt(2 mean of squares), times the band's gain.
+Image<float> local_amplitude(Image<float> signal, const BandShape& band);
+
+}  // namespace aleph

@@ -1,0 +1,169 @@
+#include "render/compare/visible_difference.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "engine/base/errors.h"
+#include "engine/base/parallel.h"
+#include "engine/base/pyramid.h"
+#include "render/compare/visible_signal.h"
+
+namespace aleph {
+
+namespace {
+
+bool is_finite(const Rgb& c) {
+    return std::isfinite(c.x) && std::isfinite(c.y) && std::isfinite(c.z);
+}
+
+std::vector<std::size_t> find_broken(const Image<Rgb>& a, const Image<Rgb>& b) {
+    std::vector<std::size_t> broken;
+    for (std::size_t i = 0; i < a.size(); ++i) {
+        if (!is_finite(a.pixels[i]) || !is_finite(b.pixels[i])) broken.push_back(i);
+    }
+    return broken;
+}
+
+/// The eye is adapted to the mean over about half a degree, and for coarser bands over the band's own pixels: Gaussian
+/// levels of the reference, each at the size of its band's level.
+std::vector<Image<float>> find_background(const Image<float>& achromatic, int levels, double pixels_per_degree) {
+    const int adaptation = static_cast<int>(std::clamp(std::round(std::log2(0.5 * pixels_per_degree)), 1.0, levels + 1.0));
+    const std::vector<LevelSize> sizes = pyramid_sizes(achromatic.width, achromatic.height, levels + 2);
+    const std::vector<Image<float>> gaussian = make_gaussian_pyramid(achromatic, levels + 2);
+    std::vector<Image<float>> background;
+    for (int level = 0; level <= levels; ++level) {
+        const int from = std::max(adaptation, level + 1);
+        background.push_back(expand_to_level(gaussian[from], sizes, from, level));
+    }
+    return background;
+}
+
+/// What a coarser level has of an image that changes slowly.
+Image<float> even_pixels(const Image<float>& image) {
+    Image<float> half((image.width + 1) / 2, (image.height + 1) / 2);
+    for (int y = 0; y < half.height; ++y) {
+        for (int x = 0; x < half.width; ++x) half(x, y) = image(2 * x, 2 * y);
+    }
+    return half;
+}
+
+Image<float> least(Image<float> a, const Image<float>& b) {
+    for (std::size_t i = 0; i < a.size(); ++i) a.pixels[i] = std::min(a.pixels[i], b.pixels[i]);
+    return a;
+}
+
+template <class Number>
+void take(const ChannelImage& image, const char* key, Number& value) {
+    const auto found = image.metadata.find(key);
+    const double* number = found == image.metadata.end() ? nullptr : std::get_if<double>(&found->second);
+    if (number && std::isfinite(*number) && *number > 0.0) value = *number;
+}
+
+}  // namespace
+
+ViewingSettings read_viewing(const ChannelImage& maps) {
+    ViewingSettings settings;
+    take(maps, "whiteLuminance", settings.viewing.display_white);
+    take(maps, "pixelsPerDegree", settings.viewing.pixels_per_degree);
+    take(maps, "displayPersistence", settings.viewing.persistence);
+    const auto rate = maps.metadata.find("framesPerSecond");
+    if (rate != maps.metadata.end()) {
+        const auto* fraction = std::get_if<std::array<int, 2>>(&rate->second);
+        if (fraction && (*fraction)[0] > 0 && (*fraction)[1] > 0) settings.frame_rate = {(*fraction)[0], (*fraction)[1]};
+    }
+    return settings;
+}
+
+void VisibleDifference::prepare(int width, int height) {
+    shapes_ = visible_bands(width, height);
+    for (int channel = 0; channel < visual_channels; ++channel) {
+        for (const BandShape& shape : shapes_) {
+            filters_.emplace_back(channel, shape.frequency * settings_.viewing.pixels_per_degree, settings_.viewing,
+                                  settings_.frame_rate, settings_.tracking);
+        }
+    }
+}
+
+std::vector<VisibleMaps> VisibleDifference::add(std::int64_t frame, const Image<Rgb>& picture,
+                                                const Image<Rgb>& reference, MotionMaps maps, bool cut) {
+    if (!same_size(picture, reference) || !same_size(picture, maps.u) || picture.empty()) {
+        throw InputError("", "",
+                         fmt::format("the pictures are {}x{} and {}x{}, the maps {}x{}", picture.width, picture.height,
+                                     reference.width, reference.height, maps.u.width, maps.u.height));
+    }
+    std::vector<VisibleMaps> finished;
+    if (!frames_.empty() && (cut || frames_.back().number + 1 != frame)) finished = finish();
+    if (shapes_.empty()) prepare(picture.width, picture.height);
+    if (!frames_.empty() && !same_size(frames_.back().motion.u, maps.u))
+        throw InputError("", "", fmt::format("frame {} has another size than the frame before", frame));
+    const double white = settings_.viewing.display_white;
+    const VisualChannels shown = compute_visual_channels(picture, white), truth = compute_visual_channels(reference, white);
+    Frame next{frame, std::move(maps), {}, {}, find_background(truth[0], shapes_.back().level, settings_.viewing.pixels_per_degree),
+               find_broken(picture, reference)};
+    parallel_for(visual_channels, 1, [&](std::size_t c, std::size_t) {
+        Bands a = split_bands(shown[c]), b = split_bands(truth[c]);
+        for (std::size_t i = 0; i < a.size(); ++i) {
+            next.masker[c].push_back(least(local_amplitude(a[i], shapes_[i]), local_amplitude(b[i], shapes_[i])));
+            for (std::size_t p = 0; p < a[i].size(); ++p) a[i].pixels[p] -= b[i].pixels[p];
+        }
+        next.error[c] = std::move(a);
+    });
+    frames_.push_back(std::move(next));
+    const auto reach = static_cast<std::size_t>(filter_reach(settings_.frame_rate));
+    while (done_ + reach < frames_.size()) {
+        finished.push_back(measure(done_++));
+        if (done_ > reach) {
+            frames_.pop_front();
+            --done_;
+        }
+    }
+    return finished;
+}
+
+std::vector<VisibleMaps> VisibleDifference::finish() {
+    std::vector<VisibleMaps> finished;
+    while (done_ < frames_.size()) finished.push_back(measure(done_++));
+    frames_.clear();
+    done_ = 0;
+    shapes_.clear();
+    filters_.clear();
+    return finished;
+}
+
+VisibleMaps VisibleDifference::measure(std::size_t index) const {
+    const Frame& frame = frames_[index];
+    const auto reach = static_cast<std::size_t>(filter_reach(settings_.frame_rate));
+    std::vector<const MotionMaps*> forward, backward;
+    for (std::size_t i = index; i < frames_.size() && i <= index + reach; ++i) forward.push_back(&frames_[i].motion);
+    for (std::size_t k = 0; k <= std::min(index, reach); ++k) backward.push_back(&frames_[index - k].motion);
+    const std::vector<TrackImage> after = track_forward(forward, static_cast<int>(forward.size()) - 1);
+    const std::vector<TrackImage> before = track_backward(backward, static_cast<int>(backward.size()) - 1);
+    const Image<float> velocity = image_velocity(frame.motion, before.empty() ? nullptr : &before.front(), settings_);
+
+    const int width = frame.motion.u.width, height = frame.motion.u.height;
+    const std::vector<LevelSize> sizes = pyramid_sizes(width, height, shapes_.back().level + 1);
+    VisibleSums sums(width, height);
+    for (std::size_t b = 0; b < shapes_.size(); ++b) {
+        for (std::size_t c = 0; c < visual_channels; ++c) {
+            BandWindow window{&frame.error[c][b], {}, {}, &after, &before, shapes_[b].signal_level, static_cast<int>(reach)};
+            for (std::size_t k = 1; k < forward.size(); ++k) window.next.push_back(&frames_[index + k].error[c][b]);
+            for (std::size_t k = 1; k < backward.size(); ++k) window.previous.push_back(&frames_[index - k].error[c][b]);
+            const SignalParts parts = filter_band(window, filters_[c * shapes_.size() + b], velocity,
+                                                  frame.background[shapes_[b].signal_level]);
+            const Image<float> elevation = masking_elevation(
+                frame.masker[c][b], frame.background[shapes_[b].level],
+                shapes_[b].level > shapes_[b].signal_level ? even_pixels(parts.sensitivity) : parts.sensitivity,
+                static_cast<int>(c));
+            sums.add(parts, elevation, shapes_[b], sizes);
+        }
+    }
+    VisibleMaps maps = sums.result();
+    maps.frame = frame.number;
+    for (const std::size_t i : frame.broken) maps.seen.pixels[i] = maps.lasting.pixels[i] = std::numeric_limits<float>::infinity();
+    return maps;
+}
+
+}  // namespace aleph

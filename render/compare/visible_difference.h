@@ -1,0 +1,75 @@
+#pragma once
+// What a viewer sees of the difference between two sequences: an instrument that judges pictures and guides nothing.
+//
+// Differences of what a display shows, in three channels of colour and in bands of spatial frequency, are followed along
+// the exact motion of the surfaces, as an eye does that follows them. castleCSF weighs them at their luminance and at the
+// velocity that is left on the retina (visible_filters.h); contrast of both pictures masks them. The result is in units
+// of one just visible difference of a viewer who looks at the pixel: no attention. Differences that ride with a surface
+// last; those that change from frame to frame along the motion flicker. Sources: castleCSF (Ashraf et al. 2024);
+// FovVideoVDP (Mantiuk et al. 2021) and ColorVideoVDP (Mantiuk et al. 2024) for bands, channels and masking.
+
+#include <cstdint>
+#include <deque>
+#include <vector>
+
+#include "perception/retinal_velocity.h"
+#include "render/compare/surface_track.h"
+#include "render/compare/visible_bands.h"
+#include "render/compare/visible_filters.h"
+
+namespace aleph {
+
+/// How a sequence is shown and looked at.
+struct ViewingSettings {
+    ViewingConditions viewing;
+    FrameRate frame_rate;
+    double tracking = tracking_efficiency;  ///< share of the image velocity that the eye follows, [0,1]
+};
+
+/// Reads whiteLuminance, pixelsPerDegree, displayPersistence and framesPerSecond; others keep their defaults.
+ViewingSettings read_viewing(const ChannelImage& maps);
+
+/// Visible differences of a frame, in just visible differences. A value that is not finite in either picture is
+/// infinitely visible.
+struct VisibleMaps {
+    std::int64_t frame = 0;
+    Image<float> seen;     ///< all together
+    Image<float> flicker;  ///< what changes from frame to frame along the motion
+    Image<float> lasting;  ///< what is the same in the frames around
+};
+
+class VisibleDifference {
+  public:
+    explicit VisibleDifference(ViewingSettings settings) : settings_(settings) {}
+
+    /// Takes the next frame. If its number does not follow the last one's, or `cut` is true, a new shot begins.
+    /// @param maps  of the reference: motion to the next frame (read_motion)
+    /// @return frames that are finished by this one, in order: of those, all frames that they depend on are known
+    /// @throws InputError if sizes differ
+    std::vector<VisibleMaps> add(std::int64_t frame, const Image<Rgb>& picture, const Image<Rgb>& reference,
+                                 MotionMaps maps, bool cut = false);
+
+    /// Ends the sequence. @return the remaining frames
+    std::vector<VisibleMaps> finish();
+
+  private:
+    using Bands = std::vector<Image<float>>;
+    struct Frame {
+        std::int64_t number;
+        MotionMaps motion;
+        std::array<Bands, visual_channels> error, masker;  ///< signals; amplitudes of what both pictures have
+        Bands background;                                  ///< L + M that the eye is adapted to, cd/m2, by level
+        std::vector<std::size_t> broken;                   ///< pixels that are not finite
+    };
+
+    void prepare(int width, int height);
+    VisibleMaps measure(std::size_t index) const;
+
+    ViewingSettings settings_;
+    std::vector<BandShape> shapes_;
+    std::vector<VisibleFilter> filters_;  ///< by channel and band
+    std::deque<Frame> frames_;            ///< of this shot that are still needed
+    std::size_t done_ = 0;                ///< frames at the front that are finished
+};
+
+}  // namespace aleph

@@ -1,0 +1,131 @@
+#include "render/compare/visible_filters.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "perception/castle.h"
+#include "perception/display_hold.h"
+#include "perception/retinal_velocity.h"
+
+namespace aleph {
+
+namespace {
+
+constexpr int luminance_nodes = 29;  // 4 a decade
+constexpr int velocity_nodes = 33;   // 0, then geometric
+constexpr double lowest_velocity = 0.1, highest_velocity = 400.0;
+
+double node_luminance(int i) {
+    return castle_min_luminance *
+           std::pow(castle_max_luminance / castle_min_luminance, i / static_cast<double>(luminance_nodes - 1));
+}
+
+double node_velocity(int i) {
+    if (i == 0) return 0.0;
+    return lowest_velocity * std::pow(highest_velocity / lowest_velocity, (i - 1) / static_cast<double>(velocity_nodes - 2));
+}
+
+/// A place between two nodes.
+struct Place {
+    int node = 0;
+    float fraction = 0.0f;
+};
+
+Place place_of(double at, int nodes) {
+    const double clamped = std::clamp(at, 0.0, nodes - 1.0);
+    const int node = std::min(static_cast<int>(clamped), nodes - 2);
+    return {node, static_cast<float>(clamped - node)};
+}
+
+Place luminance_place(float luminance) {
+    const double value = luminance > castle_min_luminance ? luminance : castle_min_luminance;
+    return place_of((std::log10(value) - std::log10(castle_min_luminance)) * 4.0, luminance_nodes);
+}
+
+Place velocity_place(float velocity) {
+    const double v = velocity > 0.0f ? velocity : 0.0;
+    if (v <= lowest_velocity) return {0, static_cast<float>(v / lowest_velocity)};
+    return place_of(1.0 + std::log(v / lowest_velocity) / std::log(highest_velocity / lowest_velocity) * (velocity_nodes - 2),
+                    velocity_nodes);
+}
+
+double sinc(double x) {
+    const double angle = std::numbers::pi * x;
+    return angle < 1e-9 ? 1.0 : std::sin(angle) / angle;
+}
+
+/// Sensitivity over time of one band and channel at one luminance and velocity.
+struct TemporalResponse {
+    int channel;
+    double frequency, luminance, slip, transfer, persistence, rate;
+
+    double at(double omega) const {
+        const double radius = 1.5 / frequency, area = std::numbers::pi * radius * radius;
+        omega = std::abs(omega);
+        if (channel == 0) return castle_sensitivity(frequency, omega, luminance, area);
+        if (channel == 1) return castle_red_green(frequency, omega, luminance, area);
+        return castle_yellow_violet(frequency, omega, luminance, area);
+    }
+    /// Of what changes at `omega` Hz along the motion: on the retina it changes faster or slower.
+    double shifted(double omega) const {
+        const double shift = frequency * slip;
+        return std::sqrt(0.5 * (std::pow(at(omega + shift), 2.0) + std::pow(at(omega - shift), 2.0)));
+    }
+    double held(double omega) const {
+        const double mirror = rate - omega;
+        return transfer * std::hypot(sinc(persistence * omega / rate) * shifted(omega),
+                                     sinc(persistence * mirror / rate) * shifted(mirror));
+    }
+};
+
+}  // namespace
+
+int filter_reach(const FrameRate& frame_rate) {
+    return static_cast<int>(std::clamp(std::round(0.15 * frame_rate.per_second()), 1.0, 7.0));
+}
+
+VisibleFilter::VisibleFilter(int channel, double frequency, const ViewingConditions& viewing,
+                             const FrameRate& frame_rate, double tracking)
+    : reach_(filter_reach(frame_rate)),
+      nodes_(static_cast<std::size_t>(luminance_nodes * velocity_nodes * (reach_ + 2))) {
+    const double rate = frame_rate.per_second(), persistence = std::clamp(viewing.persistence, 0.0, 1.0);
+    const int count = 2 * reach_ + 1;
+    std::vector<double> response(static_cast<std::size_t>(reach_) + 1);
+    float* out = nodes_.data();
+    for (int l = 0; l < luminance_nodes; ++l) {
+        for (int v = 0; v < velocity_nodes; ++v) {
+            const double followed = std::min(tracking * node_velocity(v), pursuit_limit);
+            const TemporalResponse of{channel,
+                                      frequency,
+                                      node_luminance(l),
+                                      node_velocity(v) - followed,
+                                      hold_transfer(frequency, followed, persistence, frame_rate),
+                                      persistence,
+                                      rate};
+            for (int j = 0; j <= reach_; ++j) response[j] = of.held(j * rate / count);
+            for (int k = 0; k <= reach_; ++k) {
+                double sum = response[0];
+                for (int j = 1; j <= reach_; ++j) sum += 2.0 * response[j] * std::cos(2.0 * std::numbers::pi * j * k / count);
+                *out++ = static_cast<float>(sum / count);
+            }
+            *out++ = static_cast<float>(response[0]);
+        }
+    }
+}
+
+float VisibleFilter::evaluate(float luminance, float velocity, float* weights) const {
+    const Place l = luminance_place(luminance), v = velocity_place(velocity);
+    const auto stride = static_cast<std::size_t>(reach_ + 2);
+    const float* low = nodes_.data() + (static_cast<std::size_t>(l.node) * velocity_nodes + v.node) * stride;
+    const float* high = low + velocity_nodes * stride;
+    const auto value = [&](std::size_t k) {
+        const float a = low[k] + v.fraction * (low[k + stride] - low[k]);
+        const float b = high[k] + v.fraction * (high[k + stride] - high[k]);
+        return a + l.fraction * (b - a);
+    };
+    for (int k = 0; k <= reach_; ++k) weights[k] = value(static_cast<std::size_t>(k));
+    return value(stride - 1);
+}
+
+}  // namespace aleph

@@ -1,0 +1,156 @@
+#include "render/compare/visible_signal.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "engine/base/parallel.h"
+#include "perception/castle.h"
+
+namespace aleph {
+
+namespace {
+
+constexpr int most_frames = 15;  // of a window: reach is at most 7
+constexpr float darkest = static_cast<float>(castle_min_luminance);
+
+/// Weights of four samples around a place between the middle two (Catmull and Rom 1974).
+std::array<float, 4> cubic_weights(float t) {
+    return {t * (-0.5f + t * (1.0f - 0.5f * t)), 1.0f + t * t * (-2.5f + 1.5f * t), t * (0.5f + t * (2.0f - 1.5f * t)),
+            t * t * (-0.5f + 0.5f * t)};
+}
+
+float sample(const Image<float>& image, float x, float y) {
+    const float left = std::floor(x), top = std::floor(y);
+    const int column = static_cast<int>(left), row = static_cast<int>(top);
+    if (x == left && y == top && column >= 0 && row >= 0 && column < image.width && row < image.height) return image(column, row);
+    const auto wx = cubic_weights(x - left), wy = cubic_weights(y - top);
+    float sum = 0.0f;
+    for (int j = 0; j < 4; ++j) {
+        const float* pixels = image.row(std::clamp(row - 1 + j, 0, image.height - 1));
+        float line = 0.0f;
+        for (int i = 0; i < 4; ++i) line += wx[i] * pixels[std::clamp(column - 1 + i, 0, image.width - 1)];
+        sum += wy[j] * line;
+    }
+    return sum;
+}
+
+/// The errors of one pixel along its track: values[reach] is the current frame's.
+struct Track {
+    std::array<float, most_frames> values;
+    std::array<bool, most_frames> known;
+};
+
+void fill_gaps(Track& track, int reach) {
+    for (int k = 1; k <= reach; ++k) {
+        for (const int side : {-1, 1}) {
+            const int at = reach + side * k, mirror = reach - side * k;
+            if (track.known[at]) continue;
+            track.values[at] = track.known[mirror] ? track.values[mirror] : track.values[at - side];
+        }
+    }
+}
+
+}  // namespace
+
+Image<float> image_velocity(const MotionMaps& motion, const TrackImage* before, const ViewingSettings& settings) {
+    const double scale = settings.frame_rate.per_second() / settings.viewing.pixels_per_degree;
+    Image<float> velocity(motion.u.width, motion.u.height);
+    for (int y = 0; y < velocity.height; ++y) {
+        for (int x = 0; x < velocity.width; ++x) {
+            const std::size_t i = velocity.index(x, y);
+            double pixels = 0.0;
+            if (motion.valid.pixels[i] == 1.0f) {
+                pixels = std::hypot(motion.u.pixels[i], motion.v.pixels[i]);
+            } else if (before && !std::isnan(before->pixels[i].x)) {
+                pixels = std::hypot(before->pixels[i].x - static_cast<float>(x), before->pixels[i].y - static_cast<float>(y));
+            }
+            velocity.pixels[i] = std::isfinite(pixels) ? static_cast<float>(scale * pixels) : 0.0f;
+        }
+    }
+    return velocity;
+}
+
+SignalParts filter_band(const BandWindow& window, const VisibleFilter& filter, const Image<float>& velocity,
+                        const Image<float>& background) {
+    const int width = window.current->width, height = window.current->height, reach = window.reach;
+    const float scale = std::ldexp(1.0f, -window.level);
+    SignalParts parts{Image<float>(width, height), Image<float>(width, height), Image<float>(width, height)};
+    const auto look_up = [&](Track& track, int side, const std::vector<const Image<float>*>& errors,
+                             const std::vector<TrackImage>& tracks, std::size_t pixel) {
+        for (int k = 1; k <= reach; ++k) {
+            const auto of = static_cast<std::size_t>(k - 1);
+            const int at = reach + side * k;
+            track.known[at] = of < errors.size() && !std::isnan(tracks[of].pixels[pixel].x);
+            if (!track.known[at]) continue;
+            const glm::vec2 p = tracks[of].pixels[pixel] * scale;
+            track.values[at] = sample(*errors[of], p.x, p.y);
+        }
+    };
+    parallel_rows(height, 8, [&](int begin, int end) {
+        Track track{};
+        std::array<float, most_frames> weights{};
+        for (int y = begin; y < end; ++y) {
+            for (int x = 0; x < width; ++x) {
+                const std::size_t pixel = velocity.index(x << window.level, y << window.level), i = background.index(x, y);
+                track.values[reach] = window.current->pixels[i];
+                look_up(track, 1, window.next, *window.after, pixel);
+                look_up(track, -1, window.previous, *window.before, pixel);
+                fill_gaps(track, reach);
+                const float adapted = std::max(darkest, background.pixels[i]);
+                const float sensitivity = filter.evaluate(adapted, velocity.pixels[pixel], weights.data());
+                float all = weights[0] * track.values[reach], mean = track.values[reach];
+                for (int k = 1; k <= reach; ++k) {
+                    const float pair = track.values[reach - k] + track.values[reach + k];
+                    all += weights[k] * pair;
+                    mean += pair;
+                }
+                const float lasting = sensitivity * mean / static_cast<float>(2 * reach + 1);
+                parts.lasting.pixels[i] = lasting / adapted;
+                parts.flicker.pixels[i] = (all - lasting) / adapted;
+                parts.sensitivity.pixels[i] = sensitivity;
+            }
+        }
+    });
+    return parts;
+}
+
+Image<float> masking_elevation(const Image<float>& masker, const Image<float>& background,
+                               const Image<float>& sensitivity, int channel) {
+    constexpr float k = 0.160141f, p = 2.264355f;  // k = 10^-.795497
+    constexpr float q[visual_channels] = {1.302623f, 2.888591f, 3.680771f};
+    constexpr float w[visual_channels] = {0.876909f, 1.269330f, 0.697693f};  // 2^-.189501, 2^.344067, 2^-.519338
+    Image<float> elevation(masker.width, masker.height);
+    for (std::size_t i = 0; i < masker.size(); ++i) {
+        const float contrast = sensitivity.pixels[i] * masker.pixels[i] / std::max(darkest, background.pixels[i]);
+        elevation.pixels[i] = std::pow(1.0f + w[channel] * std::pow(k * contrast, q[channel]), 1.0f / p);
+    }
+    return elevation;
+}
+
+void VisibleSums::add(const SignalParts& parts, const Image<float>& elevation, const BandShape& shape,
+                      const std::vector<LevelSize>& sizes) {
+    const auto add_to = [&](Image<float>& sum, const Image<float>& signal) {
+        Image<float> squares = local_amplitude(signal, shape);
+        for (std::size_t i = 0; i < squares.size(); ++i) {
+            const float units = squares.pixels[i] / elevation.pixels[i];
+            squares.pixels[i] = units * units;
+        }
+        const Image<float> full = expand_to_level(squares, sizes, shape.level, 0);
+        for (std::size_t i = 0; i < sum.size(); ++i) sum.pixels[i] += full.pixels[i];
+    };
+    Image<float> all = parts.lasting;
+    for (std::size_t i = 0; i < all.size(); ++i) all.pixels[i] += parts.flicker.pixels[i];
+    add_to(seen_, all);
+    add_to(flicker_, parts.flicker);
+    add_to(lasting_, parts.lasting);
+}
+
+VisibleMaps VisibleSums::result() {
+    for (Image<float>* image : {&seen_, &flicker_, &lasting_}) {
+        for (float& value : image->pixels) value = std::sqrt(std::max(0.0f, value));
+    }
+    return {0, std::move(seen_), std::move(flicker_), std::move(lasting_)};
+}
+
+}  // namespace aleph

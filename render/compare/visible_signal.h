@@ -1,0 +1,55 @@
+#pragma once
+// The steps of visible_difference.h for one band and channel of a frame.
+
+#include "engine/base/pyramid.h"
+#include "render/compare/visible_difference.h"
+
+namespace aleph {
+
+/// Image velocity of each pixel, deg/s: from the motion to the next frame or, where that is not valid, from the track to
+/// the frame before; else 0. @param before  positions in the frame before, or null
+Image<float> image_velocity(const MotionMaps& motion, const TrackImage* before, const ViewingSettings& settings);
+
+/// The errors of a band in the frames around, and where its pixels are in them.
+struct BandWindow {
+    const Image<float>* current;
+    std::vector<const Image<float>*> next, previous;  ///< from the nearest on
+    const std::vector<TrackImage>*after, *before;     ///< tracks, at least as many
+    int level = 0;                                    ///< of the band
+    int reach = 0;                                    ///< of the filter
+};
+
+/// Signals in just visible differences before masking, of a band's size.
+struct SignalParts {
+    Image<float> flicker, lasting;
+    Image<float> sensitivity;  ///< to what lasts, 1 / contrast
+};
+
+/// Filters the errors over time along the tracks. Where a track ends before the window does, the frames on the other side
+/// of the current one stand for those that are missing, and beyond both ends the last one that is known.
+/// @param velocity    of the picture's pixels, deg/s
+/// @param background  cd/m2, of the band's size
+SignalParts filter_band(const BandWindow& window, const VisibleFilter& filter, const Image<float>& velocity,
+                        const Image<float>& background);
+
+/// How many times contrast that both pictures have raises the threshold, 1 and up: contrast masking within a channel,
+/// (1 + w (k M)^q)^(1/p), with the constants of ColorVideoVDP 0.5.4 (Mantiuk et al. 2024).
+/// @param masker  amplitude in cd/m2; M is its contrast times sensitivity
+Image<float> masking_elevation(const Image<float>& masker, const Image<float>& background,
+                               const Image<float>& sensitivity, int channel);
+
+/// Adds up squares of amplitudes over bands and channels, at the picture's size.
+class VisibleSums {
+  public:
+    VisibleSums(int width, int height) : seen_(width, height), flicker_(width, height), lasting_(width, height) {}
+
+    /// @param sizes  of all levels
+    void add(const SignalParts& parts, const Image<float>& elevation, const BandShape& shape,
+             const std::vector<LevelSize>& sizes);
+    VisibleMaps result();
+
+  private:
+    Image<float> seen_, flicker_, lasting_;
+};
+
+}  // namespace aleph
