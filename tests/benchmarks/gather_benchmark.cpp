@@ -83,7 +83,7 @@ struct Frame {
                 GatherOptions options{depth, nullptr, nullptr};
                 if (with_grid) options = {depth, &grid, &found[i]};
                 const RandomKey key{seed, 0, static_cast<std::uint32_t>(first + i), 0};
-                gather_irradiance(lighting, task, points[first + i], strata, key, scratch, options);
+                gather_irradiance(lighting, task, points[first + i], {strata, key}, scratch, options);
                 counts[first + i] = task.counts;
             });
             for (std::size_t i = 0; i < count; ++i) grid.insert(found[i]);
