@@ -14,11 +14,6 @@
 
 namespace aleph {
 
-inline std::string text_of(const std::filesystem::path& path) {
-    std::ifstream file(path, std::ios::binary);
-    return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
-}
-
 /// How many files and folders are in it.
 inline std::size_t entries_in(const std::filesystem::path& folder) {
     return static_cast<std::size_t>(
