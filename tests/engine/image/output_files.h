@@ -2,7 +2,6 @@
 // A picture to write, and what a write leaves: the file, the folder, the error.
 
 #include <filesystem>
-#include <fstream>
 #include <functional>
 #include <iterator>
 #include <string>
