@@ -213,9 +213,9 @@ void merge_rays(const HemisphereStrata& strata, GatherScratch& scratch) {
 }  // namespace
 
 IrradianceSample gather_irradiance(const LightingContext& context, RayTask& task, const SurfacePoint& point,
-                                   const HemisphereStrata& strata, const RandomKey& key, GatherScratch& scratch,
-                                   const GatherOptions& options) {
-    RandomStream random(key);
+                                   const GatherPattern& pattern, GatherScratch& scratch, const GatherOptions& options) {
+    const HemisphereStrata& strata = pattern.strata;
+    RandomStream random(pattern.key);
     const Basis basis = make_basis(point.normal);
     const CellNumbers numbers(random);
     const int ray_count = divide_cells(strata, options.divided, scratch);

@@ -79,7 +79,7 @@ struct Gathers {
             GatherOptions options;
             if (with_grid) options = {0, &grid, &found};
             const RandomKey key{seed, 0, static_cast<std::uint32_t>(i), 0};
-            light.push_back(gather_irradiance(stage.lighting(), task, point, choose_strata(96), key, scratch, options)
+            light.push_back(gather_irradiance(stage.lighting(), task, point, {choose_strata(96), key}, scratch, options)
                                 .irradiance.y);
             if (i % 16 == 15) {
                 grid.insert(found);
@@ -121,14 +121,14 @@ TEST(DirectGrid, AGridOfItsOwnSamplesNeedsNoShadowRays) {
     const SurfacePoint point = make_point({-0.2f, -1.499f, -0.2f}, up);
     DirectGrid grid;
     const auto gather = [&](std::vector<DirectSample>* found) {
-        return gather_irradiance(stage.lighting(), task, point, choose_strata(256), {1, 2, 3, 4}, scratch,
+        return gather_irradiance(stage.lighting(), task, point, {choose_strata(256), {1, 2, 3, 4}}, scratch,
                                  {0, &grid, found});
     };
     std::vector<DirectSample> found;
     const IrradianceSample first = gather(&found);
     // An empty grid changes nothing.
     const IrradianceSample alone =
-        gather_irradiance(stage.lighting(), task, point, choose_strata(256), {1, 2, 3, 4}, scratch);
+        gather_irradiance(stage.lighting(), task, point, {choose_strata(256), {1, 2, 3, 4}}, scratch);
     EXPECT_NEAR(first.irradiance.y, alone.irradiance.y, 1e-5f * alone.irradiance.y);
     EXPECT_FALSE(found.empty());
     for (std::uint32_t i = 0; i < DirectGrid::enough; ++i) grid.insert(found);
