@@ -45,7 +45,7 @@ void SequenceComparison::add(std::int64_t frame, const ChannelImage& a, const Ch
     const Image<float>* saliency = maps.visible->find("saliency.Y");
     saliency_[frame] = saliency ? *saliency : Image<float>{};
     const bool cut = std::ranges::find(cuts_, frame) != cuts_.end();
-    take(visible_->add(frame, linear_colour(a), linear_colour(b), read_motion(*maps.visible), cut));
+    take(visible_->add(frame, read_pair(a, b), read_motion(*maps.visible), cut));
 }
 
 void SequenceComparison::finish() {

@@ -55,6 +55,18 @@ Image<float> least(Image<float> a, const Image<float>& b) {
     return a;
 }
 
+Image<Rgb> sum_of(Image<Rgb> a, const Image<Rgb>& b) {
+    for (std::size_t i = 0; i < a.size(); ++i) a.pixels[i] += b.pixels[i];
+    return a;
+}
+
+std::vector<Image<float>> differences(std::vector<Image<float>> a, const std::vector<Image<float>>& b) {
+    for (std::size_t i = 0; i < a.size(); ++i) {
+        for (std::size_t p = 0; p < a[i].size(); ++p) a[i].pixels[p] -= b[i].pixels[p];
+    }
+    return a;
+}
+
 template <class Number>
 void take(const ChannelImage& image, const char* key, Number& value) {
     const auto found = image.metadata.find(key);
@@ -77,6 +89,16 @@ ViewingSettings read_viewing(const ChannelImage& maps) {
     return settings;
 }
 
+Image<Rgb> read_noise(const ChannelImage& reference) {
+    double passes = 1.0;
+    take(reference, "passes", passes);
+    const Image<float>*r = reference.find("noise.R"), *g = reference.find("noise.G"), *b = reference.find("noise.B");
+    if (!r || !g || !b || std::fmod(passes, 2.0) != 0.0) return {};
+    Image<Rgb> noise(r->width, r->height);
+    for (std::size_t i = 0; i < noise.size(); ++i) noise.pixels[i] = {r->pixels[i], g->pixels[i], b->pixels[i]};
+    return noise;
+}
+
 void VisibleDifference::prepare(int width, int height) {
     shapes_ = visible_bands(width, height);
     for (int channel = 0; channel < visual_channels; ++channel) {
@@ -87,8 +109,9 @@ void VisibleDifference::prepare(int width, int height) {
     }
 }
 
-std::vector<VisibleMaps> VisibleDifference::add(std::int64_t frame, const Image<Rgb>& picture,
-                                                const Image<Rgb>& reference, MotionMaps maps, bool cut) {
+std::vector<VisibleMaps> VisibleDifference::add(std::int64_t frame, const PicturePair& pictures, MotionMaps maps,
+                                                bool cut) {
+    const auto& [picture, reference, noise] = pictures;
     if (!same_size(picture, reference) || !same_size(picture, maps.u) || picture.empty()) {
         throw InputError("", "",
                          fmt::format("the pictures are {}x{} and {}x{}, the maps {}x{}", picture.width, picture.height,
@@ -101,15 +124,21 @@ std::vector<VisibleMaps> VisibleDifference::add(std::int64_t frame, const Image<
         throw InputError("", "", fmt::format("frame {} has another size than the frame before", frame));
     const double white = settings_.viewing.display_white;
     const VisualChannels shown = compute_visual_channels(picture, white), truth = compute_visual_channels(reference, white);
-    Frame next{frame, std::move(maps), {}, {}, find_background(truth[0], shapes_.back().level, settings_.viewing.pixels_per_degree),
+    VisualChannels noisy;
+    if (!noise.empty()) noisy = compute_visual_channels(sum_of(reference, noise), white);
+    Frame next{frame,
+               std::move(maps),
+               {},
+               {},
+               {},
+               find_background(truth[0], shapes_.back().level, settings_.viewing.pixels_per_degree),
                find_broken(picture, reference)};
     parallel_for(visual_channels, 1, [&](std::size_t c, std::size_t) {
         Bands a = split_bands(shown[c]), b = split_bands(truth[c]);
-        for (std::size_t i = 0; i < a.size(); ++i) {
+        for (std::size_t i = 0; i < a.size(); ++i)
             next.masker[c].push_back(least(local_amplitude(a[i], shapes_[i]), local_amplitude(b[i], shapes_[i])));
-            for (std::size_t p = 0; p < a[i].size(); ++p) a[i].pixels[p] -= b[i].pixels[p];
-        }
-        next.error[c] = std::move(a);
+        if (!noise.empty()) next.noise[c] = differences(split_bands(noisy[c]), b);
+        next.error[c] = differences(std::move(a), b);
     });
     frames_.push_back(std::move(next));
     const auto reach = static_cast<std::size_t>(filter_reach(settings_.frame_rate));
@@ -146,18 +175,26 @@ VisibleMaps VisibleDifference::measure(std::size_t index) const {
     const int width = frame.motion.u.width, height = frame.motion.u.height;
     const std::vector<LevelSize> sizes = pyramid_sizes(width, height, shapes_.back().level + 1);
     VisibleSums sums(width, height);
+    const bool has_noise = std::ranges::none_of(frames_, [](const Frame& each) { return each.noise[0].empty(); });
     for (std::size_t b = 0; b < shapes_.size(); ++b) {
         for (std::size_t c = 0; c < visual_channels; ++c) {
-            BandWindow window{&frame.error[c][b], {}, {}, &after, &before, shapes_[b].signal_level, static_cast<int>(reach)};
-            for (std::size_t k = 1; k < forward.size(); ++k) window.next.push_back(&frames_[index + k].error[c][b]);
-            for (std::size_t k = 1; k < backward.size(); ++k) window.previous.push_back(&frames_[index - k].error[c][b]);
-            const SignalParts parts = filter_band(window, filters_[c * shapes_.size() + b], velocity,
-                                                  frame.background[shapes_[b].signal_level]);
+            const BandShape& shape = shapes_[b];
+            const auto filter = [&](const std::array<Bands, visual_channels> Frame::*signals) {
+                BandWindow window{{}, {}, {}, &after, &before, shape.signal_level, static_cast<int>(reach)};
+                const auto signal = [&](std::size_t i) { return &(frames_[i].*signals)[c][b]; };
+                window.current = signal(index);
+                for (std::size_t k = 1; k < forward.size(); ++k) window.next.push_back(signal(index + k));
+                for (std::size_t k = 1; k < backward.size(); ++k) window.previous.push_back(signal(index - k));
+                return filter_band(window, filters_[c * shapes_.size() + b], velocity,
+                                   frame.background[shape.signal_level]);
+            };
+            const SignalParts parts = filter(&Frame::error);
             const Image<float> elevation = masking_elevation(
-                frame.masker[c][b], frame.background[shapes_[b].level],
-                shapes_[b].level > shapes_[b].signal_level ? even_pixels(parts.sensitivity) : parts.sensitivity,
+                frame.masker[c][b], frame.background[shape.level],
+                shape.level > shape.signal_level ? even_pixels(parts.sensitivity) : parts.sensitivity,
                 static_cast<int>(c));
-            sums.add(parts, elevation, shapes_[b], sizes);
+            sums.add(parts, elevation, shape, sizes, 1.0f);
+            if (has_noise) sums.add(filter(&Frame::noise), elevation, shape, sizes, -1.0f);
         }
     }
     VisibleMaps maps = sums.result();

@@ -29,6 +29,17 @@ struct ViewingSettings {
 /// Reads whiteLuminance, pixelsPerDegree, displayPersistence and framesPerSecond; others keep their defaults.
 ViewingSettings read_viewing(const ChannelImage& maps);
 
+/// The noise of a reference that is a mean of renderings: half the difference of the means of both halves of them, which
+/// has the spectrum of the mean's own noise. Reads noise.R, noise.G and noise.B; nothing if there are none, or the number
+/// of renderings (`passes`) is odd.
+Image<Rgb> read_noise(const ChannelImage& reference);
+
+/// Two pictures of a frame.
+struct PicturePair {
+    Image<Rgb> picture, reference;  ///< linear RGB, Rec.709, white = 1
+    Image<Rgb> noise{};             ///< of the reference (read_noise); its energy is taken off the difference's; may be empty
+};
+
 /// Visible differences of a frame, in just visible differences. A value that is not finite in either picture is
 /// infinitely visible.
 struct VisibleMaps {
@@ -46,8 +57,7 @@ class VisibleDifference {
     /// @param maps  of the reference: motion to the next frame (read_motion)
     /// @return frames that are finished by this one, in order: of those, all frames that they depend on are known
     /// @throws InputError if sizes differ
-    std::vector<VisibleMaps> add(std::int64_t frame, const Image<Rgb>& picture, const Image<Rgb>& reference,
-                                 MotionMaps maps, bool cut = false);
+    std::vector<VisibleMaps> add(std::int64_t frame, const PicturePair& pictures, MotionMaps maps, bool cut = false);
 
     /// Ends the sequence. @return the remaining frames
     std::vector<VisibleMaps> finish();
@@ -57,7 +67,8 @@ class VisibleDifference {
     struct Frame {
         std::int64_t number;
         MotionMaps motion;
-        std::array<Bands, visual_channels> error, masker;  ///< signals; amplitudes of what both pictures have
+        std::array<Bands, visual_channels> error, noise;  ///< signals; noise is empty if there is none
+        std::array<Bands, visual_channels> masker;        ///< amplitudes of what both pictures have
         Bands background;                                  ///< L + M that the eye is adapted to, cd/m2, by level
         std::vector<std::size_t> broken;                   ///< pixels that are not finite
     };

@@ -31,11 +31,16 @@ VisibleShares VisibleCount::shares() const {
     return shares;
 }
 
+PicturePair read_pair(const ChannelImage& a, const ChannelImage& b) {
+    PicturePair pair{linear_colour(a), linear_colour(b), read_noise(b)};
+    if (pair.picture.empty() || pair.reference.empty())
+        throw InputError("", "colour", "needs pictures with R, G and B");
+    return pair;
+}
+
 VisibleMaps compare_stills(const ChannelImage& a, const ChannelImage& b, const ChannelImage& maps) {
-    const Image<Rgb> picture = linear_colour(a), reference = linear_colour(b);
-    if (picture.empty() || reference.empty()) throw InputError("", "colour", "needs pictures with R, G and B");
     VisibleDifference difference(read_viewing(maps));
-    difference.add(0, picture, reference, read_motion(maps));
+    difference.add(0, read_pair(a, b), read_motion(maps));
     return std::move(difference.finish().front());
 }
 

@@ -29,6 +29,9 @@ class VisibleCount {
     bool has_saliency_ = true;
 };
 
+/// @throws InputError if either has no R, G, B
+PicturePair read_pair(const ChannelImage& a, const ChannelImage& b);
+
 /// What a viewer sees of the differences between two still pictures: nothing flickers.
 /// @param maps  of the reference (`aleph maps`), for its motion and how it is shown
 /// @throws InputError if the pictures have no R, G, B, or sizes differ

@@ -129,7 +129,7 @@ Image<float> masking_elevation(const Image<float>& masker, const Image<float>& b
 }
 
 void VisibleSums::add(const SignalParts& parts, const Image<float>& elevation, const BandShape& shape,
-                      const std::vector<LevelSize>& sizes) {
+                      const std::vector<LevelSize>& sizes, float factor) {
     const auto add_to = [&](Image<float>& sum, const Image<float>& signal) {
         Image<float> squares = local_amplitude(signal, shape);
         for (std::size_t i = 0; i < squares.size(); ++i) {
@@ -137,7 +137,7 @@ void VisibleSums::add(const SignalParts& parts, const Image<float>& elevation, c
             squares.pixels[i] = units * units;
         }
         const Image<float> full = expand_to_level(squares, sizes, shape.level, 0);
-        for (std::size_t i = 0; i < sum.size(); ++i) sum.pixels[i] += full.pixels[i];
+        for (std::size_t i = 0; i < sum.size(); ++i) sum.pixels[i] += factor * full.pixels[i];
     };
     Image<float> all = parts.lasting;
     for (std::size_t i = 0; i < all.size(); ++i) all.pixels[i] += parts.flicker.pixels[i];

@@ -43,9 +43,10 @@ class VisibleSums {
   public:
     VisibleSums(int width, int height) : seen_(width, height), flicker_(width, height), lasting_(width, height) {}
 
-    /// @param sizes  of all levels
+    /// @param sizes   of all levels
+    /// @param factor  of the squares; -1 takes off the energy of noise
     void add(const SignalParts& parts, const Image<float>& elevation, const BandShape& shape,
-             const std::vector<LevelSize>& sizes);
+             const std::vector<LevelSize>& sizes, float factor);
     VisibleMaps result();
 
   private:

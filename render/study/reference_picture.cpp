@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <limits>
 
@@ -64,7 +65,7 @@ std::string describe_settings(const RenderSettings& settings, const ReferencePic
 
 ChannelImage read_reference(const std::filesystem::path& path, const RenderSettings& settings) {
     ChannelImage image = read_image(path);
-    for (const char* name : {"R", "G", "B", variance_name}) {
+    for (const char* name : {"R", "G", "B", variance_name, "noise.R", "noise.G", "noise.B"}) {
         const Image<float>* channel = image.find(name);
         if (!channel || channel->width != settings.picture.width || channel->height != settings.picture.height ||
             !(reference_passes(image) >= 1.0)) {
@@ -124,13 +125,20 @@ void add_pass(ChannelImage& mean, const ChannelImage& pass) {
         mean = pass;
         const Image<float>& red = pass.channels.front().values;
         mean.channels.push_back({variance_name, Image<float>(red.width, red.height, infinite)});
+        for (const char* name : {"R", "G", "B"}) mean.channels.push_back({std::string("noise.") + name, *pass.find(name)});
         mean.metadata[passes_key] = 1.0;
         return;
     }
+    const float sign = std::fmod(count, 2.0) == 0.0 ? 1.0f : -1.0f;
     const Image<Rgb> before = linear_colour(mean), added = linear_colour(pass);
     for (Channel& channel : mean.channels) {
         for (std::size_t i = 0; i < before.size(); ++i) {
             float& value = channel.values.pixels[i];
+            if (channel.name.starts_with("noise.")) {  // the passes with alternating signs
+                const float signed_pass = sign * pass.find(channel.name.substr(6))->pixels[i];
+                value += static_cast<float>((signed_pass - value) / (count + 1.0));
+                continue;
+            }
             if (channel.name != variance_name) {
                 value += static_cast<float>((pass.find(channel.name)->pixels[i] - value) / (count + 1.0));
                 continue;

@@ -47,7 +47,8 @@ std::filesystem::path reference_picture_path(const RenderSettings& settings, std
 double reference_passes(const ChannelImage& reference);
 
 /// Adds a rendering, R, G and B, to a mean of others; variance.Y is the variance of the mean's luminance as their
-/// differences tell it, infinite of one rendering.
+/// differences tell it, infinite of one rendering; noise.R, noise.G and noise.B are the mean with alternating signs, of
+/// an even number of renderings noise like the mean's own (read_noise).
 void add_pass(ChannelImage& mean, const ChannelImage& pass);
 
 /// Names of the channels of indirect light.

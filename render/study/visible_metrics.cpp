@@ -12,7 +12,7 @@ void add_mean(const char* metric, VariantResult& variant) {
 
 }  // namespace
 
-std::vector<VisibleShares> measure_visible(std::span<const JudgingFrame> frames, const PicturePair& pictures) {
+std::vector<VisibleShares> measure_visible(std::span<const JudgingFrame> frames, const FramePictures& pictures) {
     std::vector<VisibleShares> shares;
     std::optional<VisibleDifference> difference;
     const auto take = [&](const std::vector<VisibleMaps>& finished) {
@@ -28,8 +28,7 @@ std::vector<VisibleShares> measure_visible(std::span<const JudgingFrame> frames,
             difference.emplace(read_viewing(frames[i].maps));
         }
         const auto [picture, reference] = pictures(i);
-        take(difference->add(frames[i].frame, linear_colour(picture), linear_colour(reference),
-                             read_motion(frames[i].maps)));
+        take(difference->add(frames[i].frame, read_pair(picture, reference), read_motion(frames[i].maps)));
     }
     if (difference) take(difference->finish());
     return shares;

@@ -12,11 +12,11 @@
 namespace aleph {
 
 /// Makes the two pictures of frame i that are compared: one and its reference.
-using PicturePair = std::function<std::pair<ChannelImage, ChannelImage>(std::size_t i)>;
+using FramePictures = std::function<std::pair<ChannelImage, ChannelImage>(std::size_t i)>;
 
 /// Shares of the pixels that show a visible difference, frame by frame. Consecutive frames of a scene are a sequence.
 /// @param frames  in order, with their maps
-std::vector<VisibleShares> measure_visible(std::span<const JudgingFrame> frames, const PicturePair& pictures);
+std::vector<VisibleShares> measure_visible(std::span<const JudgingFrame> frames, const FramePictures& pictures);
 
 /// Adds share_seen, share_flicker, share_lasting and, where saliency is known, share_noticed.
 void add_visible_metrics(const VisibleShares& shares, MetricValues& out);

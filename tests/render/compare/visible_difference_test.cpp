@@ -68,7 +68,7 @@ Shown show(const Frames& pictures, const Frames& references, float u = 0.0f, con
     const int reach = filter_reach(settings.frame_rate);
     std::vector<VisibleMaps> maps;
     for (int frame = 0; frame <= 2 * reach; ++frame) {
-        for (VisibleMaps& done : difference.add(frame, pictures(frame), references(frame), uniform_motion(u)))
+        for (VisibleMaps& done : difference.add(frame, {pictures(frame), references(frame)}, uniform_motion(u)))
             maps.push_back(std::move(done));
     }
     for (VisibleMaps& done : difference.finish()) maps.push_back(std::move(done));
@@ -196,6 +196,35 @@ TEST(VisibleDifference, NoiseThatIsNewInEveryFrameFlickers) {
     EXPECT_NEAR(fresh.lasting, frozen.lasting / std::sqrt(11.0), 0.1 * frozen.lasting) << "a mean of 11 frames";
 }
 
+TEST(VisibleDifference, NoiseOfTheReferenceIsTakenOff) {
+    std::mt19937 generator(5);
+    std::normal_distribution<double> normal(0.0, 0.03);
+    const auto noise_picture = [&] { return picture_of([&](double, double) { return normal(generator); }); };
+    const auto energy = [&](bool with_noise, double contrast) {
+        VisibleDifference difference{{}};
+        std::vector<VisibleMaps> maps;
+        for (int frame = 0; frame < 11; ++frame) {
+            // The reference is the mean of two renderings with noise; the picture is exact, or a grating.
+            const Image<Rgb> one = noise_picture(), other = noise_picture();
+            PicturePair pair{picture_of(grating(2.0, contrast)), one, one};
+            for (std::size_t i = 0; i < one.size(); ++i) {
+                pair.reference.pixels[i] = 0.5f * (one.pixels[i] + other.pixels[i]);
+                pair.noise.pixels[i] = 0.5f * (one.pixels[i] - other.pixels[i]);
+            }
+            if (!with_noise) pair.noise = {};
+            for (VisibleMaps& done : difference.add(frame, pair, uniform_motion(0.0f))) maps.push_back(std::move(done));
+        }
+        for (VisibleMaps& done : difference.finish()) maps.push_back(std::move(done));
+        Image<float> squares = maps[5].seen;
+        for (float& value : squares.pixels) value *= value;
+        return middle(squares);
+    };
+    const double by_noise = energy(false, 0.0);
+    EXPECT_LT(energy(true, 0.0), 0.35 * by_noise) << "what chance leaves above zero";
+    const double exact = std::pow(show(still(grating(2.0, 0.02)), still(flat())).seen, 2.0);
+    EXPECT_NEAR(energy(true, 0.02), exact, 0.1 * exact);
+}
+
 TEST(VisibleDifference, ContrastOfBothPicturesMasks) {
     const auto both = [](double contrast) {
         return [=](double x, double y) {
@@ -241,7 +270,7 @@ TEST(VisibleDifference, ValuesThatAreNotFiniteAreSeen) {
     Image<Rgb> broken = picture_of(flat());
     broken(10, 20).y = std::numeric_limits<float>::quiet_NaN();
     VisibleDifference difference{{}};
-    difference.add(0, broken, picture_of(flat()), uniform_motion(0.0f));
+    difference.add(0, {broken, picture_of(flat())}, uniform_motion(0.0f));
     const auto maps = difference.finish();
     ASSERT_EQ(maps.size(), 1u);
     EXPECT_TRUE(std::isinf(maps[0].seen(10, 20)));
@@ -252,8 +281,8 @@ TEST(VisibleDifference, ShotsEndAtCutsAndGaps) {
     const Image<Rgb> dark = picture_of(grating(2.0, 0.2)), light = picture_of(grating(2.0, -0.2));
     const auto flicker = [&](std::int64_t second, bool cut) {
         VisibleDifference difference{{}};
-        auto maps = difference.add(0, dark, picture_of(flat()), uniform_motion(0.0f));
-        for (VisibleMaps& done : difference.add(second, light, picture_of(flat()), uniform_motion(0.0f), cut))
+        auto maps = difference.add(0, {dark, picture_of(flat())}, uniform_motion(0.0f));
+        for (VisibleMaps& done : difference.add(second, {light, picture_of(flat())}, uniform_motion(0.0f), cut))
             maps.push_back(std::move(done));
         for (VisibleMaps& done : difference.finish()) maps.push_back(std::move(done));
         EXPECT_EQ(maps.size(), 2u);
@@ -266,17 +295,17 @@ TEST(VisibleDifference, ShotsEndAtCutsAndGaps) {
 
 TEST(VisibleDifference, RefusesPicturesOfOtherSizes) {
     VisibleDifference difference{{}};
-    EXPECT_THROW(difference.add(0, Image<Rgb>(4, 4), picture_of(flat()), uniform_motion(0.0f)), InputError);
-    difference.add(0, picture_of(flat()), picture_of(flat()), uniform_motion(0.0f));
+    EXPECT_THROW(difference.add(0, {Image<Rgb>(4, 4), picture_of(flat())}, uniform_motion(0.0f)), InputError);
+    difference.add(0, {picture_of(flat()), picture_of(flat())}, uniform_motion(0.0f));
     const Image<Rgb> small(16, 16);
     const MotionMaps still{Image<float>(16, 16), Image<float>(16, 16), Image<float>(16, 16, 1.0f), {}};
-    EXPECT_THROW(difference.add(1, small, small, still), InputError);
+    EXPECT_THROW(difference.add(1, {small, small}, still), InputError);
 }
 
 TEST(VisibleDifference, PicturesOfOnePixelHaveBands) {
     VisibleDifference difference{{}};
     const Image<Rgb> a(1, 1, Rgb(0.2f)), b(1, 1, Rgb(0.8f));
-    difference.add(0, a, b, {Image<float>(1, 1), Image<float>(1, 1), Image<float>(1, 1, 1.0f), {}});
+    difference.add(0, {a, b}, {Image<float>(1, 1), Image<float>(1, 1), Image<float>(1, 1, 1.0f), {}});
     EXPECT_TRUE(std::isfinite(difference.finish().at(0).seen(0, 0)));
 }
 

@@ -27,6 +27,8 @@ TEST(ReferencePicture, IsTheMeanOfItsPassesWithItsVariance) {
     EXPECT_NEAR(mean.find("G")->pixels[0], 2.0, 1e-6);
     EXPECT_NEAR(mean.find("variance.Y")->pixels[0], 6.0 / 3.0 / 4.0, 1e-6);
     EXPECT_NEAR(mean.find("variance.Y")->pixels[1], 0.0, 1e-12);
+    EXPECT_NEAR(mean.find("noise.B")->pixels[0], (1.0 - 4.0 + 1.0 - 2.0) / 4.0, 1e-6);
+    EXPECT_NEAR(mean.find("noise.B")->pixels[1], 0.0, 1e-6);
 }
 
 TEST(ReferencePicture, FollowsTheExposure) {
