@@ -7,11 +7,10 @@
 #include <glm/gtc/type_ptr.hpp>
 
 #include "tests/support/motion_scenes.h"
+#include "tests/support/numbers.h"
 
 namespace aleph {
 namespace {
-
-constexpr double pi = std::numbers::pi;
 
 /// The turn of node 0 within a span of time, before a camera that stands still.
 double turn_of(const Node& node, double begin, double end) {
