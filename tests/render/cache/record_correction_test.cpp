@@ -78,8 +78,10 @@ TEST(RecordCorrection, RaysFollowVarianceAndAccuracy) {
     settings.cache.gather = 1000;
     EXPECT_EQ(choose_rays(settings, 0.1f, 9.0f), 1000);
     EXPECT_EQ(choose_rays(settings, 0.2f, 9.0f), 250);
+    EXPECT_EQ(choose_rays(settings, 0.0f, std::nullopt), 1000);
     settings.cache.accuracy = 0.0;
     EXPECT_EQ(choose_rays(settings, 0.0f, std::nullopt), 1000);
+    EXPECT_EQ(choose_rays(settings, 0.5f, std::nullopt), 1000);
 }
 
 TEST(RecordCorrection, VarianceIsExpectedFromRecordsAround) {
