@@ -125,6 +125,21 @@ TEST(GatherSummary, DistancesBelowATenThousandthOfTheMedianAreLeftOut) {
     EXPECT_NEAR(found.harmonic_mean_distance, 13.0 / inverse, 1e-6 * 13.0 / inverse);
 }
 
+TEST(GatherSummary, WhatIsLeftOutFollowsTheScale) {
+    for (const float scale : {1e-3f, 1.0f, 1e3f}) {
+        Hemisphere hemisphere({3, 5}, 1.0f, 8.0f * scale);
+        hemisphere.set_distance(2, 1, 14.0f * scale);
+        EXPECT_EQ(hemisphere.summarize().ignored_distances, 0);
+        hemisphere.set_distance(0, 0, 1e-4f * (8.0f * scale));  // just as far counts
+        hemisphere.set_distance(0, 1, 8.1e-4f * scale);
+        EXPECT_EQ(hemisphere.summarize().ignored_distances, 0);
+        EXPECT_EQ(hemisphere.summarize().nearest_distance, 1e-4f * (8.0f * scale));
+        hemisphere.set_distance(0, 0, 7.9e-4f * scale);
+        EXPECT_EQ(hemisphere.summarize().ignored_distances, 1);
+        EXPECT_EQ(hemisphere.summarize().nearest_distance, 8.1e-4f * scale);
+    }
+}
+
 TEST(GatherSummary, WithoutHitsDistancesAreInfinite) {
     Hemisphere hemisphere({2, 4});
     for (int i = 0; i < 8; ++i) hemisphere.set_distance(i / 4, i % 4, float_infinity);
@@ -145,7 +160,7 @@ TEST(GatherSummary, RowsOfTwoRaysPerSectorClearTheWay) {
         for (int row = 0; row < strata.rows; ++row) {
             Hemisphere hemisphere(strata, 1.0f, 1e3f);
             hemisphere.set_distance(row, 3, 2.0f);
-            hemisphere.set_distance(row, 2, 2.5f);
+            hemisphere.set_distance(row, 0, 2.5f);
             const IrradianceSample found = hemisphere.summarize();
             const bool low = row >= strata.rows - low_rows;
             const auto angle = static_cast<float>(hemisphere.azimuth(3));
@@ -154,6 +169,7 @@ TEST(GatherSummary, RowsOfTwoRaysPerSectorClearTheWay) {
             const float height = 2.0f * std::sqrt(1.0f - hemisphere.elevation(row));
             if (low) {
                 EXPECT_NEAR(found.clearance[sector], along, 1e-5f) << row;
+                EXPECT_LT(found.clearance[0], 2.51f) << row;
                 EXPECT_GT(found.headroom, 100.0f);
             } else {
                 EXPECT_NEAR(found.headroom, height, 1e-5f) << row;
@@ -199,6 +215,15 @@ TEST(GatherSummary, DividedCellsTellTheirOwnNoise) {
     scratch.light.insert(scratch.light.begin() + at, 3, scratch.light[cell]);
     scratch.light[cell + 3] = Rgb(5.0f);
     EXPECT_NEAR(hemisphere.summarize().relative_error, 0.8 * std::sqrt(1.0) / 33.0, 1e-6);
+    // Where every square has a divided cell, only these tell.
+    Hemisphere small({2, 2});
+    small.scratch.sides[0] = 2;
+    small.scratch.places.insert(small.scratch.places.begin(), 3, small.scratch.places[0]);
+    small.scratch.rays.insert(small.scratch.rays.begin(), 3, small.scratch.rays[0]);
+    small.scratch.hits.insert(small.scratch.hits.begin(), 3, small.scratch.hits[0]);
+    small.scratch.light.insert(small.scratch.light.begin(), 3, small.scratch.light[0]);
+    small.scratch.light[2] = Rgb(5.0f);
+    EXPECT_NEAR(small.summarize().relative_error, 0.8 * std::sqrt(1.0) / 4.0, 1e-6);
     // And one cell far from it adds its own: 31 cells of one ray, 20 squares without the divided cell.
     scratch.radiance[static_cast<std::size_t>(hemisphere.strata.cell(2, 7))] = Rgb(2.0f);
     EXPECT_NEAR(hemisphere.summarize().relative_error, 0.8 * std::sqrt(31.0 * 4.0 / (4.0 * 20.0) + 1.0) / 34.0, 1e-6);

@@ -12,9 +12,11 @@
 namespace aleph {
 namespace {
 
+constexpr glm::vec3 origin(1.0f, 2.0f, -3.0f);
+
 IrradianceRecord make_record_at(float x, float radius, float irradiance = 1.0f, float accuracy = 0.5f) {
     IrradianceRecord record;
-    record.position = {x, 0.0f, 0.0f};
+    record.position = origin + glm::vec3(x, 0.0f, 0.0f);
     record.normal = up;
     record.tangent = make_basis(up).tangent;
     record.radius = radius;
@@ -28,16 +30,17 @@ IrradianceCache make_empty_cache() {
 }
 
 CacheQuery make_query(float x, float accuracy) {
-    return {{x, 0.0f, 0.0f}, up, accuracy};
+    return {origin + glm::vec3(x, 0.0f, 0.0f), up, accuracy};
 }
 
 TEST(IrradianceCacheValues, RadiiAreClampedByDistance) {
     IrradianceCache cache = make_empty_cache();
     cache.insert(make_record_at(0.0f, 1.0f));
-    EXPECT_EQ(cache.radius_bound({0.5f, 0.0f, 0.0f}, up, 9.0f), 1.5f);
-    EXPECT_EQ(cache.radius_bound({0.5f, 0.0f, 0.0f}, up, 1.25f), 1.25f);
-    EXPECT_EQ(cache.radius_bound({0.5f, 0.0f, 0.0f}, -up, 9.0f), 9.0f);
-    EXPECT_EQ(cache.radius_bound({0.5f, 0.0f, 0.0f}, {1.0f, 0.0f, 0.0f}, 9.0f), 9.0f);  // at right angles
+    const glm::vec3 beside = origin + glm::vec3(0.5f, 0.0f, 0.0f);
+    EXPECT_EQ(cache.radius_bound(beside, up, 9.0f), 1.5f);
+    EXPECT_EQ(cache.radius_bound(beside, up, 1.25f), 1.25f);
+    EXPECT_EQ(cache.radius_bound(beside, -up, 9.0f), 9.0f);
+    EXPECT_EQ(cache.radius_bound(beside, {1.0f, 0.0f, 0.0f}, 9.0f), 9.0f);  // at right angles
     cache.insert(make_record_at(2.0f, 9.0f));
     EXPECT_EQ(cache.records()[1].radius, 3.0f);
     // A small one shrinks both, down to their least radii; not those that face away.
@@ -47,12 +50,16 @@ TEST(IrradianceCacheValues, RadiiAreClampedByDistance) {
     IrradianceRecord bounded = make_record_at(0.0f, 1.0f);
     bounded.min_radius = 0.75f;
     cache.insert(bounded);
+    IrradianceRecord across = make_record_at(0.0f, 2.0f);
+    across.normal = {1.0f, 0.0f, 0.0f};
+    cache.insert(across);
     cache.insert(make_record_at(0.5f, 0.125f));
     EXPECT_EQ(cache.records()[0].radius, 0.625f);
     EXPECT_EQ(cache.records()[1].radius, 1.625f);
     EXPECT_EQ(cache.records()[2].radius, 5.0f);
     EXPECT_EQ(cache.records()[3].radius, 0.75f);
-    EXPECT_EQ(cache.records()[4].radius, 0.125f);
+    EXPECT_EQ(cache.records()[4].radius, 2.0f);
+    EXPECT_EQ(cache.records()[5].radius, 0.125f);
 }
 
 TEST(IrradianceCacheValues, WeightsFallWithErrorAndWithLooserAccuracy) {
@@ -94,6 +101,7 @@ TEST(IrradianceCacheValues, MuchLooserRecordsCoverNothing) {
         EXPECT_EQ(cache.covers(make_query(0.1f, 0.25f)), covers);
         EXPECT_TRUE(cache.covers(make_query(0.1f, 0.26f)));
         EXPECT_FALSE(cache.covers(make_query(0.3f, 0.26f)));
+        EXPECT_FALSE(cache.covers(make_query(0.5f, 0.5f)));  // an error that is just the accuracy
     }
 }
 
@@ -162,7 +170,7 @@ TEST(IrradianceCacheValues, FinishAveragesWhatDiffersByNoise) {
     cache.restore(make_pair(1.2f));
     cache.finish();
     ASSERT_EQ(cache.records().size(), 2u);
-    const IrradianceRecord* first = &cache.records()[cache.records()[0].position.x == 0.0f ? 0 : 1];
+    const IrradianceRecord* first = &cache.records()[cache.records()[0].position.x == origin.x ? 0 : 1];
     EXPECT_NEAR(first->irradiance.y, (1.0 + 0.75 * (1.2 - 0.05)) / 1.75, 1e-6);
     expect_near(first->translation_gradient[1], glm::dvec3(0.4, 0.0, 0.8) * (0.75 / 1.75), 1e-6);
     expect_near(first->rotation_gradient[1], glm::dvec3(0.0, 0.0, 0.3) * (0.75 / 1.75), 1e-6);
@@ -171,14 +179,14 @@ TEST(IrradianceCacheValues, FinishAveragesWhatDiffersByNoise) {
         IrradianceCache other = make_empty_cache();
         other.restore(make_pair(value));
         other.finish();
-        first = &other.records()[other.records()[0].position.x == 0.0f ? 0 : 1];
+        first = &other.records()[other.records()[0].position.x == origin.x ? 0 : 1];
         EXPECT_NEAR(first->irradiance.y, averaged ? (1.0 + 0.75 * (value - 0.05)) / 1.75 : 1.0, 1e-6) << value;
     }
     // The first records may be kept.
     cache.restore(make_pair(1.2f));
     cache.finish(1);
-    first = &cache.records()[cache.records()[0].position.x == 0.0f ? 0 : 1];
-    const IrradianceRecord* second = &cache.records()[cache.records()[0].position.x == 0.0f ? 1 : 0];
+    first = &cache.records()[cache.records()[0].position.x == origin.x ? 0 : 1];
+    const IrradianceRecord* second = &cache.records()[cache.records()[0].position.x == origin.x ? 1 : 0];
     EXPECT_EQ(first->irradiance.y, 1.0f);
     EXPECT_NEAR(second->irradiance.y, (1.2 + 0.75 * 1.0) / 1.75, 1e-6);
     // Not beyond the clearance of either.
@@ -188,37 +196,35 @@ TEST(IrradianceCacheValues, FinishAveragesWhatDiffersByNoise) {
         cache.restore(records);
         cache.finish();
         for (const IrradianceRecord& record : cache.records()) {
-            EXPECT_EQ(record.irradiance.y, record.position.x == 0.0f ? 1.0f : 1.2f);
+            EXPECT_EQ(record.irradiance.y, record.position.x == origin.x ? 1.0f : 1.2f);
         }
     }
 }
 
 TEST(IrradianceCacheValues, BeyondTheClearanceARayDecides) {
-    // A low wall between x = 0, where the record is, and x = 1. Rays are lifted by .02 of the distance.
-    for (const auto& [height, blocked] : {std::pair(0.019, false), std::pair(0.021, true)}) {
+    // A low wall half way from the record to a place 2 m away. Rays are lifted by .02 of the distance.
+    for (const auto& [height, blocked] : {std::pair(0.039, false), std::pair(0.041, true)}) {
         Scene scene;
         const int black = add_lambert(scene, glm::dvec3(0.0), glm::dvec3(0.0), true);
-        const glm::dvec3 shift(30.0, 0.0, 0.0);  // rays are in other coordinates than records
-        add_mesh(scene, make_quad(2.0, 2.0 * height, black), shift + glm::dvec3(0.5, 0.0, 0.0),
-                 glm::angleAxis(pi / 2, glm::dvec3(0.0, 1.0, 0.0)));
-        add_mesh(scene, make_quad(2.0, 2.0, black), shift + glm::dvec3(1.1, 0.0, 0.0),
-                 glm::angleAxis(pi / 2, glm::dvec3(0.0, 1.0, 0.0)));  // behind the query
-        add_mesh(scene, make_quad(2.0, 2.0, black), shift - glm::dvec3(0.1, 0.0, 0.0),
-                 glm::angleAxis(pi / 2, glm::dvec3(0.0, 1.0, 0.0)));  // behind the record
+        const glm::dvec3 shift(30.0, 0.0, 0.0), at = shift + glm::dvec3(origin);  // rays have other coordinates
+        const glm::dquat quarter = glm::angleAxis(pi / 2, glm::dvec3(0.0, 1.0, 0.0));
+        add_mesh(scene, make_quad(2.0, 2.0 * height, black), at + glm::dvec3(1.0, 0.0, 0.0), quarter);
+        add_mesh(scene, make_quad(2.0, 2.0, black), at + glm::dvec3(2.1, 0.0, 0.0), quarter);   // behind the query
+        add_mesh(scene, make_quad(2.0, 2.0, black), at + glm::dvec3(-0.1, 0.0, 0.0), quarter);  // behind the record
         const Stage stage(std::move(scene));
         RayTask task(stage.rays);
         IrradianceCache cache = make_empty_cache();
-        IrradianceRecord record = make_record_at(0.0f, 2.0f, 3.0f, 0.75f);
-        record.clearance.fill(0.5f);
+        IrradianceRecord record = make_record_at(0.0f, 4.0f, 3.0f, 0.75f);
+        record.clearance.fill(1.0f);
         cache.insert(record);
-        CacheQuery query = make_query(1.0f, 0.75f);
+        CacheQuery query = make_query(2.0f, 0.75f);
         EXPECT_FALSE(cache.covers(query));  // without rays
         query.task = &task;
         query.ray_shift = glm::vec3(shift - glm::dvec3(stage.rays.anchor()));
         EXPECT_EQ(cache.covers(query), !blocked);
         EXPECT_EQ(cache.interpolate(query).has_value(), !blocked);
         EXPECT_EQ(task.counts.shadow, 2u);
-        query.position.x = 0.49f;  // within it, none is cast
+        query.position.x = origin.x + 0.99f;  // within it, none is cast
         EXPECT_TRUE(cache.covers(query));
         EXPECT_EQ(task.counts.shadow, 2u);
     }

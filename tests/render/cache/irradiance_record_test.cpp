@@ -186,7 +186,9 @@ TEST(IrradianceRecord, GrowthIsTheDifferenceBeyondNoise) {
     EXPECT_EQ(measure_growth(a, b), 0.0f);
     b.position = a.position;
     EXPECT_EQ(measure_growth(a, b), 0.0f);
-    EXPECT_EQ(measure_growth(make_unit_record(0.0f), make_unit_record(0.0f)), 0.0f);
+    a = b = make_unit_record(0.0f);
+    b.position.x = 1.0f;
+    EXPECT_EQ(measure_growth(a, b), 0.0f);
 }
 
 }  // namespace

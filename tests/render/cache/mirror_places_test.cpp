@@ -103,6 +103,34 @@ TEST(MirrorPlaces, TurnsEndWithThePath) {
     Mirror{.path_depth = 2}.expect_accuracy(0.0);
 }
 
+TEST(MirrorPlaces, GlassIsLookedThrough) {
+    Scene scene;
+    const int white = add_lambert(scene, glm::dvec3(0.5));
+    Material glass;
+    glass.metallic = glass.roughness = 0.0;
+    glass.transmission = 1.0;
+    scene.materials.push_back(glass);
+    add_mesh(scene, make_quad(40.0, 40.0, 1), {0.0, 0.0, -4.0});
+    add_mesh(scene, make_quad(400.0, 400.0, white), {0.0, 0.0, -9.0});
+    add_camera(scene, glm::dvec3(0.0), {0.0, 0.0, -1.0});
+    const Stage stage(std::move(scene), width, height);
+    const RenderSettings settings = plain_settings(0.1, 64);
+    const Image<float> alpha(width, height, 0.1f);
+    const LightingContext lighting = stage.lighting();
+    const IndirectContext context{
+        .lighting = lighting, .view = stage.view, .settings = settings, .accuracy = alpha, .progress = {}};
+    RayCounts counts;
+    const MirrorPlaces found = cast_mirror_places(context, cast_centers(stage.rays, stage.view, nullptr), counts);
+    for (int y = 0; y < height; ++y) {
+        for (int x = 0; x < width; ++x) {
+            const glm::dvec3 ray = make_camera_ray(stage.view, x + 0.5, y + 0.5).direction;
+            ASSERT_EQ(found.places.hits(x, y).instance, 1);
+            expect_near(found.places.directions(x, y), ray, 1e-6);
+            EXPECT_NEAR(found.places.hits(x, y).distance, 9.0 / std::abs(ray.z), 1e-4);
+        }
+    }
+}
+
 /// Knows all light up to some accuracy.
 struct Known : CarriedLight {
     float finest = 0.0f;
