@@ -55,7 +55,8 @@ TEST(ReprojectionTurn, RP07_ViewsMadeByHand) {
     const Scene scene = make_point_scene({1.0f, 0.0f, -10.0f}, 1500.0);
     TwoViews views(scene, 1.0, 3.0, 1000, 1000);
     CameraView& view = views.other.view;
-    view.axes = glm::dmat3(glm::mat3_cast(glm::angleAxis(90.0 * degrees, glm::dvec3(0, 0, 1)))) * views.now.view.axes;
+    views.now.view.axes = glm::mat3_cast(glm::angleAxis(30.0 * degrees, glm::dvec3(0, 0, 1)));
+    view.axes = glm::mat3_cast(glm::angleAxis(120.0 * degrees, glm::dvec3(0, 0, 1)));
     view.position += glm::dvec3(0.5, 0.25, -1.0);
     view.pixels_per_unit *= 1.5;
     Image<Hit> hits(1000, 1000);
@@ -64,7 +65,7 @@ TEST(ReprojectionTurn, RP07_ViewsMadeByHand) {
     // Five steps of 18 degrees.
     const auto place_at = [&](double fraction) {
         const glm::dvec3 off(1.0 - 0.5 * fraction, -0.25 * fraction, -10.0 + fraction);
-        const double angle = fraction * 90.0 * degrees, c = std::cos(angle), s = std::sin(angle);
+        const double angle = (30.0 + 90.0 * fraction) * degrees, c = std::cos(angle), s = std::sin(angle);
         const double scale = views.now.view.pixels_per_unit * (1.0 + 0.5 * fraction) / -off.z;
         return glm::dvec2(c * off.x + s * off.y, -(c * off.y - s * off.x)) * scale;
     };
