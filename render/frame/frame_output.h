@@ -71,7 +71,7 @@ struct FrameOutput {
     Image<float> tolerance;           ///< relative error of indirect light that is not seen (compute_tolerance)
     Image<float> alpha;               ///< ambient accuracy
     Image<float> threshold;           ///< cd/m2, of an error that lasts
-    Image<float> threshold_flicker;   ///< cd/m2, of an error that is new in every frame; at most `threshold`
+    Image<float> threshold_noise;     ///< cd/m2, standard deviation of noise of single pixels (NoiseVisibility)
     Image<Rgb> albedo;                ///< base of what is reflected; 0 for background. Filled if `maps` of a scene
     Image<Rgb> effects;               ///< make_effect_picture. Filled if `maps`
     Image<float> depth;               ///< planar, m; 1e30 for background. Filled if `maps`

@@ -78,6 +78,7 @@ void shade_prepared(SequenceState& s, std::int64_t frame, PreparedFrame& prepare
     FrameOutput& out = prepared.out;
     const Image<Outline> outlines = find_visible_outlines(s.shot, prepared);
     const VisibleLimits limits{out.threshold,
+                               out.threshold_noise,
                                out.perception.aleph,
                                out.alpha,
                                out.indirect_luminance,

@@ -16,18 +16,19 @@ bool needs_indirect_luminance(const RenderSettings& settings, bool maps) {
     return maps || settings.guide.adapter == Adapter::threshold || settings.sampling.rule == Sampling::threshold;
 }
 
-void compute_frame_vision(FrameOutput& out, const Scene& shot, const RenderSettings& settings, bool maps,
-                          StageClock& clock) {
+void compute_frame_vision(FrameOutput& out, const Scene& shot, const RenderSettings& settings, const NoiseVisibility& noise,
+                          bool maps, StageClock& clock) {
     StageSeconds& seconds = out.statistics.seconds;
     out.velocity = compute_image_velocity(out.motion, shot.viewing, shot.frame_rate);
     clock.add_to(seconds.motion);
     out.perception = compute_perception(out.estimate, out.velocity, shot.viewing, shot.frame_rate, settings.perception,
-                                        {.retinal_velocity = maps, .conspicuity = maps, .bands = false});
+                                        {.retinal_velocity = true, .conspicuity = maps, .bands = false});
     out.statistics.estimate.saliency_fallback = out.perception.fallback;
     Image<float>& adaptation = out.perception.adaptation;
     if (adaptation.empty()) adaptation = compute_adaptation_luminance(out.estimate, shot.viewing);
     out.threshold = compute_threshold(out.perception.aleph, adaptation, *settings.perception.vision);
-    out.threshold_flicker = compute_flicker_threshold(out.threshold, adaptation, shot.frame_rate);
+    out.threshold_noise =
+        compute_noise_threshold(noise, adaptation, out.perception.retinal_velocity, out.velocity);
     if (needs_indirect_luminance(settings, maps)) {
         if (out.indirect_luminance.empty()) out.indirect_luminance = luminance_image(out.estimate);
         out.tolerance = compute_tolerance(out.threshold, out.indirect_luminance, shot.viewing);

@@ -2,6 +2,7 @@
 // The model of vision applied to a frame: from its estimate and motion to the accuracy of each pixel.
 
 #include "engine/scene/scene.h"
+#include "perception/noise_threshold.h"
 #include "render/frame/frame_output.h"
 #include "render/settings/measure.h"
 #include "render/settings/settings.h"
@@ -13,10 +14,11 @@ void note_estimate(FrameOutput& out, const SanitizeCounts& sanitized, const View
 
 /// Fills velocity, perception, threshold and alpha from `estimate` and `motion`, which are filled.
 /// @param shot   viewing conditions and frame rate
+/// @param noise  of that viewing and frame rate
 /// @param maps   also the maps that only files need: retinal velocity and conspicuity
 /// @param clock  adds the time to the stages motion and perception
-void compute_frame_vision(FrameOutput& out, const Scene& shot, const RenderSettings& settings, bool maps,
-                          StageClock& clock);
+void compute_frame_vision(FrameOutput& out, const Scene& shot, const RenderSettings& settings, const NoiseVisibility& noise,
+                          bool maps, StageClock& clock);
 
 /// Returns whether the tolerance of indirect light is computed, which needs its luminance in the estimate.
 bool needs_indirect_luminance(const RenderSettings& settings, bool maps);

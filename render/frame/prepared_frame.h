@@ -1,6 +1,7 @@
 #pragma once
 // A frame before its picture: pose, first hits and, where something obeys it, estimate, motion and the model of vision.
 
+#include "perception/noise_threshold.h"
 #include "render/frame/frame_estimate.h"
 #include "render/frame/frame_motion.h"
 
@@ -27,6 +28,18 @@ struct Preparation {
     EstimateLight estimate_light;
     FrameMotion motion;
     FrameScene shutter;  ///< the scene while the shutter is open
+
+    /// How visible the noise of a frame is: it lasts where noise_key is the same in every frame.
+    const NoiseVisibility& noise(std::int64_t frame) {
+        const bool lasts = shot.is_still(shot.camera(frame));
+        std::optional<NoiseVisibility>& known = lasts ? lasting_noise_ : fresh_noise_;
+        if (!known)
+            known.emplace(shot.scene.viewing, shot.scene.frame_rate, lasts ? NoiseOverTime::lasts : NoiseOverTime::fresh);
+        return *known;
+    }
+
+  private:
+    std::optional<NoiseVisibility> lasting_noise_, fresh_noise_;  ///< made when first needed
 };
 
 /// The stages of a frame before its picture, with their times and counts.

@@ -38,7 +38,7 @@ Image<float> compute_tolerance(const Image<float>& threshold, const Image<float>
 
 namespace {
 
-double adapt(double aleph, double tolerance, const RenderSettings& settings) {
+double adapt(double aleph, double /*tolerance*/, const RenderSettings& settings) {
     switch (settings.guide.adapter) {
         case Adapter::compress:
             return compress_accuracy(settings.cache.accuracy, aleph);
@@ -47,7 +47,7 @@ double adapt(double aleph, double tolerance, const RenderSettings& settings) {
         case Adapter::threshold:
             break;
     }
-    return threshold_accuracy(settings.cache.accuracy, tolerance);
+    return settings.cache.accuracy;
 }
 
 }  // namespace

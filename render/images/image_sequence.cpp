@@ -70,6 +70,7 @@ struct ImageSequence::State {
     int width = 0, height = 0;
     std::string first_read;
     bool motion_in_files = false;
+    std::optional<NoiseVisibility> noise;  ///< made when first needed
 
     const LoadedFrame& load(std::int64_t frame) {
         const auto found = loaded.find(frame);
@@ -141,7 +142,8 @@ FrameOutput ImageSequence::compute_maps(std::int64_t frame) {
     clock.add_to(stats.seconds.estimate);
     out.motion = s.find_motion(frame, now);
     out.motion_from_picture = now.motion.has_value();
-    compute_frame_vision(out, s.shot, s.settings, true, clock);
+    if (!s.noise) s.noise.emplace(s.shot.viewing, s.shot.frame_rate, NoiseOverTime::fresh);
+    compute_frame_vision(out, s.shot, s.settings, *s.noise, true, clock);
     stats.peak_memory_mib = peak_memory_mib();
     total.add_to(stats.seconds.total);
     return out;

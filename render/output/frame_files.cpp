@@ -84,7 +84,7 @@ void add_maps(ChannelImage& file, const FrameOutput& output, const Scene& scene)
     add(file, "aleph.Y", maps.aleph);
     add(file, "alpha.acc", output.alpha);
     add(file, "threshold.Y", output.threshold);
-    add(file, "threshold.flicker", output.threshold_flicker);
+    add(file, "threshold.noise", output.threshold_noise);
     add_color(file, "estimate.", output.estimate);
     add(file, "Z", output.depth);
     for (int c = 0; c < 3; ++c) {

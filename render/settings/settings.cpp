@@ -12,13 +12,13 @@
 namespace aleph {
 
 void follow_error(RenderSettings& settings, double error) {
-    constexpr double accuracy_per_threshold = 0.1;  // interpolated light then errs by a tenth of what is asked for
+    constexpr double accuracy_per_threshold = 0.3;  // interpolated light then errs by a tenth of what is asked for
     constexpr int most_samples = 4096;
     settings.error = error;
     settings.sampling.rule = Sampling::threshold;
     settings.guide.adapter = Adapter::threshold;
     settings.cache.accuracy = std::min(1.0, accuracy_per_threshold * error);
-    settings.cache.gather = 0;
+    settings.cache.gather = 256;
     settings.sampling.spp = most_samples;
 }
 

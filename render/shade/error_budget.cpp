@@ -8,8 +8,6 @@ namespace aleph {
 
 namespace {
 
-constexpr double least_share = 1.0 / 3.0;  // of a pixel's budget that samples get
-
 float strictest_around(const Image<float>& threshold, int x, int y) {
     float least = threshold(x, y);
     for (int ny = std::max(0, y - 1); ny <= std::min(threshold.height - 1, y + 1); ++ny) {
@@ -44,15 +42,9 @@ Image<float> compute_sampling_tolerance(const VisibleLimits& limits, const Rende
     for (int y = 0; y < tolerance.height; ++y) {
         for (int x = 0; x < tolerance.width; ++x) {
             const bool moves = limits.outlines(x, y) == Outline::moving;
-            const float threshold = moves ? strictest_around(limits.threshold, x, y) : limits.threshold(x, y);
-            double left = error * threshold / white;
-            if (settings.sampling.rule == Sampling::threshold && !limits.indirect_luminance.empty()) {
-                const double cached = error_deviations * error_per_accuracy * limits.accuracy(x, y) *
-                                      static_cast<double>(limits.indirect_luminance(x, y));
-                const double shares = settings.error > 0.0 ? left_out_share + error_deviations * gloss_share : 0.0;
-                const double fixed = shares + limits.left_out / error;
-                left = std::max(left * (1.0 - fixed) - cached, least_share * left);
-            }
+            const Image<float>& limit = settings.sampling.rule == Sampling::threshold ? limits.noise : limits.threshold;
+            const float threshold = moves ? strictest_around(limit, x, y) : limit(x, y);
+            const double left = error * threshold / white;
             tolerance(x, y) = static_cast<float>(left / exposure);
         }
     }

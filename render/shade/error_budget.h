@@ -15,6 +15,7 @@ namespace aleph {
 /// Errors that a viewer tolerates in a frame. Images have the frame's size.
 struct VisibleLimits {
     const Image<float>& threshold;           ///< cd/m2 (6.9)
+    const Image<float>& noise;               ///< cd/m2 (NoiseVisibility)
     const Image<float>& aleph;               ///< elevation of the threshold
     const Image<float>& accuracy;            ///< alpha, of cached light
     const Image<float>& indirect_luminance;  ///< of the quick estimate, exposure applied; empty: none is cached

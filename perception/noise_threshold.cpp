@@ -1,0 +1,142 @@
+#include "perception/noise_threshold.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "engine/base/errors.h"
+#include "engine/base/parallel.h"
+#include "perception/castle.h"
+#include "perception/display_hold.h"
+#include "perception/luminance_curve.h"
+
+namespace aleph {
+
+namespace {
+
+constexpr int luminance_nodes = 15, velocity_nodes = 25, frequency_nodes = 20, time_nodes = 8;
+constexpr double lowest_velocity = 0.1, highest_velocity = 100.0;  // deg/s
+constexpr double lowest_frequency = 0.01;                          // cycles per pixel
+
+double node_luminance(int i) {
+    return castle_min_luminance *
+           std::pow(castle_max_luminance / castle_min_luminance, i / static_cast<double>(luminance_nodes - 1));
+}
+
+/// 0, then evenly spaced in its logarithm.
+double node_velocity(int i) {
+    if (i == 0) return 0.0;
+    return lowest_velocity *
+           std::pow(highest_velocity / lowest_velocity, (i - 1) / static_cast<double>(velocity_nodes - 2));
+}
+
+struct Place {
+    int node = 0;
+    float fraction = 0.0f;
+};
+
+Place place_at(float at, int nodes) {
+    const float clamped = std::min(std::max(at, 0.0f), static_cast<float>(nodes - 1));
+    const int node = std::min(static_cast<int>(clamped), nodes - 2);
+    return {node, clamped - static_cast<float>(node)};
+}
+
+Place luminance_place(float luminance) {
+    constexpr float per_octave = static_cast<float>(luminance_nodes - 1) / 23.253496664211536f;  // of 7 decades
+    return place_at((fast_log2(LuminanceGrid::clamp(luminance)) + 9.9657842846620870f) * per_octave, luminance_nodes);
+}
+
+Place velocity_place(float velocity) {
+    constexpr auto lowest = static_cast<float>(lowest_velocity);
+    constexpr float per_octave = static_cast<float>(velocity_nodes - 2) / 9.965784284662087f;  // of 3 decades
+    if (!(velocity > lowest)) return {0, velocity > 0.0f ? velocity / lowest : 0.0f};
+    return place_at(1.0f + fast_log2(velocity / lowest) * per_octave, velocity_nodes);
+}
+
+/// A frequency over space, and the share of the noise's energy around it.
+struct Annulus {
+    double frequency = 0.0, energy = 0.0;  ///< cycles per pixel
+};
+
+/// Annuli evenly spaced in the logarithm of frequency, cut by the square of the pixel grid's frequencies.
+std::array<Annulus, frequency_nodes> annuli() {
+    std::array<Annulus, frequency_nodes> out;
+    const double highest = std::numbers::sqrt2 / 2.0, ratio = std::pow(highest / lowest_frequency, 1.0 / frequency_nodes);
+    for (int i = 0; i < frequency_nodes; ++i) {
+        const double inner = lowest_frequency * std::pow(ratio, i), f = inner * std::sqrt(ratio);
+        const double arc = f <= 0.5 ? 2.0 * std::numbers::pi : 2.0 * std::numbers::pi - 8.0 * std::acos(0.5 / f);
+        out[i] = {f, arc * f * inner * (ratio - 1.0)};
+    }
+    return out;
+}
+
+}  // namespace
+
+NoiseVisibility::NoiseVisibility(const ViewingConditions& viewing, const FrameRate& frame_rate,
+                                 NoiseOverTime over_time)
+    : sensitivity_(static_cast<std::size_t>(luminance_nodes * velocity_nodes * velocity_nodes)) {
+    const std::array<Annulus, frequency_nodes> space = annuli();
+    const int times = over_time == NoiseOverTime::fresh ? time_nodes : 1;
+    parallel_for(luminance_nodes, 1, [&](std::size_t l, std::size_t) {
+        const double luminance = node_luminance(static_cast<int>(l));
+        for (int r = 0; r < velocity_nodes; ++r) {
+            std::array<double, frequency_nodes> squares{};  // sensitivity over time
+            std::array<double, frequency_nodes> rho{};
+            for (int i = 0; i < frequency_nodes; ++i) {
+                rho[i] = space[i].frequency * viewing.pixels_per_degree;
+                const double radius = 1.5 / rho[i], area = std::numbers::pi * radius * radius;
+                const double sustained = castle_sustained(rho[i], luminance, area);
+                const double transient = castle_transient(rho[i], luminance, area);
+                const double shift = rho[i] * node_velocity(r);
+                for (int t = 0; t < times; ++t) {
+                    const double omega = times == 1 ? 0.0 : 0.5 * frame_rate.per_second() * (t + 0.5) / times;
+                    for (const double shifted : {omega + shift, std::abs(omega - shift)}) {
+                        const double s = castle_sustained_response(shifted) * sustained +
+                                         castle_transient_response(shifted, luminance) * transient;
+                        squares[i] += 0.5 * s * s / times;
+                    }
+                }
+            }
+            for (int f = 0; f < velocity_nodes; ++f) {
+                double energy = 0.0;
+                for (int i = 0; i < frequency_nodes; ++i) {
+                    const double held = hold_transfer(rho[i], node_velocity(f), viewing.persistence, frame_rate);
+                    energy += space[i].energy * squares[i] * held * held;
+                }
+                const std::size_t at = (l * velocity_nodes + static_cast<std::size_t>(r)) * velocity_nodes;
+                sensitivity_[at + static_cast<std::size_t>(f)] = static_cast<float>(std::sqrt(2.0 * energy));
+            }
+        }
+    });
+}
+
+float NoiseVisibility::threshold(float luminance, float retinal, float tracked) const {
+    const Place l = luminance_place(luminance), r = velocity_place(retinal), f = velocity_place(tracked);
+    float sum = 0.0f;
+    for (int i = 0; i < 8; ++i) {
+        const int a = i & 1, b = (i >> 1) & 1, c = i >> 2;
+        const float weight = (a ? l.fraction : 1.0f - l.fraction) * (b ? r.fraction : 1.0f - r.fraction) *
+                             (c ? f.fraction : 1.0f - f.fraction);
+        const int at = ((l.node + a) * velocity_nodes + r.node + b) * velocity_nodes + f.node + c;
+        sum += weight * sensitivity_[static_cast<std::size_t>(at)];
+    }
+    return clamp_threshold_luminance(luminance) / std::max(1.0f, sum);
+}
+
+Image<float> compute_noise_threshold(const NoiseVisibility& noise, const Image<float>& adaptation_luminance,
+                                     const Image<float>& retinal, const Image<float>& velocity) {
+    if (!same_size(adaptation_luminance, retinal) || !same_size(retinal, velocity))
+        throw InputError("", "noise threshold", "adaptation luminance and velocities differ in size");
+    Image<float> out(retinal.width, retinal.height);
+    parallel_for(out.size(), 4096, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) {
+            const float moved = retinal.pixels[i], seen = velocity.pixels[i];
+            out.pixels[i] =
+                noise.threshold(adaptation_luminance.pixels[i], moved, seen > moved ? seen - moved : 0.0f);
+        }
+    });
+    return out;
+}
+
+}  // namespace aleph
