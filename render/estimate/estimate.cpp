@@ -24,7 +24,7 @@ Rgb estimate_radiance(const LightingContext& context, RayTask& task, const Pixel
 }
 
 Image<Rgb> compute_estimate(const LightingContext& context, const CameraView& view, const SampleHits& centers,
-                            const EstimateOptions& options, RayCounts& counts, Image<float>* indirect_luminance) {
+                            const EstimateOptions& options, RayCounts& counts) {
     const EstimateKind kind = options.kind;
     Image<Rgb> estimate(view.width, view.height);
     const float scale = static_cast<float>(options.exposure);
@@ -53,23 +53,10 @@ Image<Rgb> compute_estimate(const LightingContext& context, const CameraView& vi
         const std::lock_guard lock(counts_mutex);
         counts += task.counts;
     });
-    if (surfaces.empty()) {
-        if (indirect_luminance != nullptr) *indirect_luminance = luminance_image(estimate);
-        return estimate;
-    }
+    if (surfaces.empty()) return estimate;
     const Image<Rgb> light = interpolate_estimate(*options.indirect, surfaces);
     for (std::size_t i = 0; i < estimate.size(); ++i) estimate.pixels[i] += light.pixels[i] * scale;
-    if (indirect_luminance != nullptr) {
-        *indirect_luminance = luminance_image(light);
-        for (float& y : indirect_luminance->pixels) y *= scale;
-    }
     return estimate;
-}
-
-Image<float> luminance_image(const Image<Rgb>& picture) {
-    Image<float> values(picture.width, picture.height);
-    for (std::size_t i = 0; i < values.size(); ++i) values.pixels[i] = luminance(picture.pixels[i]);
-    return values;
 }
 
 double compute_exposure(const Image<Rgb>& estimate) {

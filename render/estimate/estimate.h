@@ -17,12 +17,9 @@ struct EstimateOptions {
 /// kept (perception/sanitize.h replaces them).
 /// flat: albedo plus emission, as under constant white light; no rays.
 /// direct: emission plus direct light from a fixed pattern of points per light (estimate_direct_light).
-/// @param counts    increased by the rays cast
-/// @param indirect_luminance  if not null: of the light of one bounce alone, or of the whole estimate where that is not
-///                            computed
+/// @param counts  increased by the rays cast
 Image<Rgb> compute_estimate(const LightingContext& context, const CameraView& view, const SampleHits& centers,
-                            const EstimateOptions& options, RayCounts& counts,
-                            Image<float>* indirect_luminance = nullptr);
+                            const EstimateOptions& options, RayCounts& counts);
 
 /// Returns the radiance that an estimate shows for a surface, without indirect light and exposure.
 /// @param task  its rays are those of Blend::cutout

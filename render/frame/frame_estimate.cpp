@@ -6,9 +6,9 @@
 namespace aleph {
 
 Image<Rgb> estimate_scene(const Shot& shot, const FrameScene& scene, const SampleHits& centers,
-                          const EstimateNodes* nodes, RayCounts& counts, Image<float>* indirect_luminance) {
+                          const EstimateNodes* nodes, RayCounts& counts) {
     return compute_estimate(scene.lighting(), scene.posed().view, centers,
-                            {shot.settings.guide.estimate, nodes, shot.exposure}, counts, indirect_luminance);
+                            {shot.settings.guide.estimate, nodes, shot.exposure}, counts);
 }
 
 void EstimateLight::gather_around(std::int64_t frame, std::int64_t but, RayCounts& counts) {

@@ -13,10 +13,9 @@
 namespace aleph {
 
 /// The quick estimate of a scene that is prepared, not sanitized.
-/// @param nodes               of its indirect light; null: without it
-/// @param indirect_luminance  set; may be null
+/// @param nodes  of its indirect light; null: without it
 Image<Rgb> estimate_scene(const Shot& shot, const FrameScene& scene, const SampleHits& centers,
-                          const EstimateNodes* nodes, RayCounts& counts, Image<float>* indirect_luminance = nullptr);
+                          const EstimateNodes* nodes, RayCounts& counts);
 
 /// Indirect light of the quick estimates of frames. That of lighting keyframes is kept, and other frames begin with it.
 class EstimateLight {

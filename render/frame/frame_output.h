@@ -67,11 +67,9 @@ struct FrameOutput {
     bool motion_from_picture = false;  ///< as another program wrote it, not computed
     Image<float> velocity;             ///< deg/s
     PerceptionMaps perception;
-    Image<float> indirect_luminance;  ///< of the estimate (compute_estimate); may be empty
-    Image<float> tolerance;           ///< relative error of indirect light that is not seen (compute_tolerance)
-    Image<float> alpha;               ///< ambient accuracy
-    Image<float> threshold;           ///< cd/m2, of an error that lasts
-    Image<float> threshold_noise;     ///< cd/m2, standard deviation of noise of single pixels (NoiseVisibility)
+    Image<float> alpha;            ///< ambient accuracy
+    Image<float> threshold;        ///< cd/m2, of an error that lasts
+    Image<float> threshold_noise;  ///< cd/m2, standard deviation of noise of single pixels (NoiseVisibility)
     Image<Rgb> albedo;                ///< base of what is reflected; 0 for background. Filled if `maps` of a scene
     Image<Rgb> effects;               ///< make_effect_picture. Filled if `maps`
     Image<float> depth;               ///< planar, m; 1e30 for background. Filled if `maps`

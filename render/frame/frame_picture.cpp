@@ -81,10 +81,8 @@ void shade_prepared(SequenceState& s, std::int64_t frame, PreparedFrame& prepare
                                out.threshold_noise,
                                out.perception.aleph,
                                out.alpha,
-                               out.indirect_luminance,
                                outlines,
-                               s.shot.scene.viewing,
-                               prepared.plan.effects.left_out_thresholds()};
+                               s.shot.scene.viewing};
     if (!out.threshold.empty()) options.limits = &limits;
     std::optional<KeyframeRisk> risk;
     if (carried != nullptr) risk = find_risk(s, frame);

@@ -12,10 +12,6 @@ void note_estimate(FrameOutput& out, const SanitizeCounts& sanitized, const View
     out.statistics.estimate.median_luminance = median_luminance(out.estimate, viewing);
 }
 
-bool needs_indirect_luminance(const RenderSettings& settings, bool maps) {
-    return maps || settings.guide.adapter == Adapter::threshold || settings.sampling.rule == Sampling::threshold;
-}
-
 void compute_frame_vision(FrameOutput& out, const Scene& shot, const RenderSettings& settings, const NoiseVisibility& noise,
                           bool maps, StageClock& clock) {
     StageSeconds& seconds = out.statistics.seconds;
@@ -29,11 +25,7 @@ void compute_frame_vision(FrameOutput& out, const Scene& shot, const RenderSetti
     out.threshold = compute_threshold(out.perception.aleph, adaptation, *settings.perception.vision);
     out.threshold_noise =
         compute_noise_threshold(noise, adaptation, out.perception.retinal_velocity, out.velocity);
-    if (needs_indirect_luminance(settings, maps)) {
-        if (out.indirect_luminance.empty()) out.indirect_luminance = luminance_image(out.estimate);
-        out.tolerance = compute_tolerance(out.threshold, out.indirect_luminance, shot.viewing);
-    }
-    out.alpha = compute_accuracy_map(out.perception.aleph, out.tolerance, settings);
+    out.alpha = compute_accuracy_map(out.perception.aleph, settings);
     clock.add_to(seconds.perception);
 }
 

@@ -20,7 +20,4 @@ void note_estimate(FrameOutput& out, const SanitizeCounts& sanitized, const View
 void compute_frame_vision(FrameOutput& out, const Scene& shot, const RenderSettings& settings, const NoiseVisibility& noise,
                           bool maps, StageClock& clock);
 
-/// Returns whether the tolerance of indirect light is computed, which needs its luminance in the estimate.
-bool needs_indirect_luminance(const RenderSettings& settings, bool maps);
-
 }  // namespace aleph

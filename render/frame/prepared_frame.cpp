@@ -19,9 +19,7 @@ void perceive(Preparation& kept, const FrameScene& here, const FrameWork& work, 
     if (shot.estimates_indirect_light(plan.settings.light.bounces))
         nodes = kept.estimate_light.find_nodes(work.frame, here, frame.centers, counts);
     const EstimateNodes* indirect = nodes ? &*nodes : nullptr;
-    const bool tolerance = needs_indirect_luminance(shot.settings, work.maps);
-    out.estimate =
-        estimate_scene(shot, here, frame.centers, indirect, counts, tolerance ? &out.indirect_luminance : nullptr);
+    out.estimate = estimate_scene(shot, here, frame.centers, indirect, counts);
     note_estimate(out, sanitize_estimate(out.estimate), shot.scene.viewing);
     clock.add_to(out.statistics.seconds.estimate);
     kept.motion.compute(work, here, kept.estimate_light, clock, frame);

@@ -132,7 +132,7 @@ PartTimes Sequence::time_part(std::int64_t frame, const PicturePart& part, std::
     for (const RenderSettings& chosen : settings) {
         prepared.plan.settings = chosen;
         prepared.plan.settings.light.bounces = bounces;
-        if (s.shot.needs_perception()) out.alpha = compute_accuracy_map(out.perception.aleph, out.tolerance, chosen);
+        if (s.shot.needs_perception()) out.alpha = compute_accuracy_map(out.perception.aleph, chosen);
         out.statistics.counts = {};
         SampleOptions options = find_sample_options(s, times.frame, prepared.plan);
         options.part = &part;

@@ -19,32 +19,15 @@ double scale_add_accuracy(double accuracy, double aleph, double k) {
     return std::min(1.0, accuracy + n / k);
 }
 
-double threshold_accuracy(double accuracy, double tolerance) {
-    constexpr double least = 0.02;
-    if (!(accuracy > 0.0)) return 0.0;
-    return std::min(1.0, std::max(least, accuracy * tolerance / error_per_accuracy));  // in this order, `least` for NaN
-}
-
-Image<float> compute_tolerance(const Image<float>& threshold, const Image<float>& indirect,
-                               const ViewingConditions& viewing) {
-    Image<float> tolerance(threshold.width, threshold.height);
-    const float white = static_cast<float>(viewing.display_white);
-    for (std::size_t i = 0; i < tolerance.size(); ++i) {
-        const float light = white * indirect.pixels[i];
-        tolerance.pixels[i] = light > 0.0f ? threshold.pixels[i] / light : std::numeric_limits<float>::infinity();
-    }
-    return tolerance;
-}
-
 namespace {
 
-double adapt(double aleph, double /*tolerance*/, const RenderSettings& settings) {
+double adapt(double aleph, const RenderSettings& settings) {
     switch (settings.guide.adapter) {
         case Adapter::compress:
             return compress_accuracy(settings.cache.accuracy, aleph);
         case Adapter::scale_add:
             return scale_add_accuracy(settings.cache.accuracy, aleph, settings.guide.adapter_k);
-        case Adapter::threshold:
+        case Adapter::none:
             break;
     }
     return settings.cache.accuracy;
@@ -52,14 +35,11 @@ double adapt(double aleph, double /*tolerance*/, const RenderSettings& settings)
 
 }  // namespace
 
-Image<float> compute_accuracy_map(const Image<float>& aleph, const Image<float>& tolerance,
-                                  const RenderSettings& settings) {
+Image<float> compute_accuracy_map(const Image<float>& aleph, const RenderSettings& settings) {
     Image<float> alpha(aleph.width, aleph.height, static_cast<float>(settings.cache.accuracy));
     if (settings.perception.guide == Guide::none) return alpha;
-    for (std::size_t i = 0; i < alpha.size(); ++i) {
-        const double tolerated = tolerance.empty() ? 0.0 : tolerance.pixels[i];
-        alpha.pixels[i] = static_cast<float>(adapt(aleph.pixels[i], tolerated, settings));
-    }
+    for (std::size_t i = 0; i < alpha.size(); ++i)
+        alpha.pixels[i] = static_cast<float>(adapt(aleph.pixels[i], settings));
     return alpha;
 }
 

@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "engine/base/parallel.h"
 #include "render/guide/accuracy_map.h"
+#include "render/guide/stopping_rule.h"
 
 namespace aleph {
 
@@ -60,9 +60,11 @@ CauseErrors find_causes(const ErrorInput& input, int x, int y) {
     return errors;
 }
 
-/// Share of a normal distribution that is farther from its mean than `limit`.
+/// Share of a mean of eight squares of normal numbers that is beyond limit^2: of chi-square of 8 degrees of freedom.
 double share_beyond(double deviation, double limit) {
-    return deviation > 0.0 ? std::erfc(limit / (std::numbers::sqrt2 * deviation)) : 0.0;
+    if (!(deviation > 0.0)) return 0.0;
+    const double half = 4.0 * (limit / deviation) * (limit / deviation);
+    return half > 700.0 ? 0.0 : std::exp(-half) * (1.0 + half * (1.0 + half / 2.0 * (1.0 + half / 3.0)));
 }
 
 }  // namespace
@@ -80,15 +82,16 @@ ErrorMaps estimate_errors(const ErrorInput& input) {
     parallel_rows(height, 4, [&](int begin, int end) {
         for (int y = begin; y < end; ++y) {
             for (int x = 0; x < width; ++x) {
-                const double threshold = input.threshold(x, y);
-                const double scale = threshold > 0.0 ? input.luminance_scale / threshold : 0.0;
                 const CauseErrors errors = find_causes(input, x, y);
                 double total = 0.0;
                 for (std::size_t i = 0; i < errors.size(); ++i) {
-                    total += errors[i];
-                    maps.by_cause[i](x, y) = static_cast<float>(std::sqrt(errors[i]) * scale);
+                    const bool cached = i == static_cast<std::size_t>(ErrorCause::indirect);
+                    const double limit = cached ? input.threshold(x, y) : fine_grain * input.noise(x, y);
+                    const double units = limit > 0.0 ? std::sqrt(errors[i]) * input.luminance_scale / limit : 0.0;
+                    total += units * units;
+                    maps.by_cause[i](x, y) = static_cast<float>(units);
                 }
-                maps.total(x, y) = static_cast<float>(std::sqrt(total) * scale);
+                maps.total(x, y) = static_cast<float>(std::sqrt(total));
             }
         }
     });

@@ -20,6 +20,7 @@ const std::array<std::string, cause_count>& cause_names();
 struct ErrorInput {
     const Image<PixelSamples>& pixels;
     const Image<float>& threshold;  ///< cd/m2
+    const Image<float>& noise;      ///< cd/m2 (NoiseVisibility)
     const Image<float>& accuracy;   ///< alpha
     const Image<Outline>& outlines;
     double luminance_scale = 1.0;  ///< cd/m2 for a luminance of 1 of the samples: exposure times display white
@@ -27,11 +28,12 @@ struct ErrorInput {
 };
 
 /// From the halves of the samples of a pixel and the eight around it (PixelSamples), and from the accuracy of cached
-/// light: irradiance that is interpolated at accuracy alpha errs by about a tenth of alpha (standard deviation).
+/// light: irradiance that is interpolated at accuracy alpha errs by about a tenth of alpha (standard deviation). In just
+/// visible differences: those of samples over fine_grain times `noise`, those of cached light over `threshold`.
 ErrorMaps estimate_errors(const ErrorInput& input);
 
-/// If errors are normally distributed.
-/// @param asked  thresholds, above 0
+/// Shares of pixels with an energy of the error beyond asked^2, if it is distributed as error_deviations says.
+/// @param asked  just visible differences, above 0
 ErrorShares count_errors(const ErrorMaps& maps, double asked);
 
 }  // namespace aleph

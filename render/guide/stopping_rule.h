@@ -8,10 +8,14 @@
 
 namespace aleph {
 
-/// Standard errors that a tolerance has to hold. At the limit, 5 % of a normal distribution would lie beyond. But few
-/// pixels are at the limit: numbers of samples double, and halves overrate the error of even samples. In pictures, less
-/// than half a percent of the pixels is beyond (scenes/studies/README.md).
-inline constexpr double error_deviations = 2.0;
+/// What is seen is the error's energy around a pixel, a sum of some eight independent parts. It is within this many times
+/// its own root mean square at 99 % of the pixels (chi-square of 8 degrees of freedom).
+inline constexpr double error_deviations = 1.585;
+
+/// How much more error of samples goes unseen than of noise that is independent from pixel to pixel: pixel_sequence.h
+/// spreads samples evenly over neighbouring pixels, so that most of their error is fine grain. Measured in pool and
+/// art-gallery with the instrument of compare/visible_difference.h (scenes/studies/README.md).
+inline constexpr double fine_grain = 2.4;
 
 /// The mean of a pixel's samples, as its neighbours tell it. A pixel's own samples never decide when it stops: a pixel
 /// whose first samples happen to agree would stop early, more often at a value that is too low than at one that is too

@@ -83,7 +83,7 @@ std::vector<Setting> vision_settings() {
             "how accuracy follows the Aleph map: thesis (6.7) (compress), (6.8) (scale-add), or the visible threshold "
             "itself (threshold)",
             at(&S::guide, &G::adapter),
-            {{"compress", Adapter::compress}, {"scale-add", Adapter::scale_add}, {"threshold", Adapter::threshold}})),
+            {{"compress", Adapter::compress}, {"scale-add", Adapter::scale_add}, {"none", Adapter::none}})),
         rarely_set(without_scene(
             number_setting("adapter_k", "K of the adapter scale-add", at(&S::guide, &G::adapter_k), 1e-6, 1e12))),
     };

@@ -12,12 +12,12 @@
 namespace aleph {
 
 void follow_error(RenderSettings& settings, double error) {
-    constexpr double accuracy_per_threshold = 0.3;  // interpolated light then errs by a tenth of what is asked for
+    constexpr double accuracy_per_difference = 0.2;
     constexpr int most_samples = 4096;
     settings.error = error;
     settings.sampling.rule = Sampling::threshold;
-    settings.guide.adapter = Adapter::threshold;
-    settings.cache.accuracy = std::min(1.0, accuracy_per_threshold * error);
+    settings.guide.adapter = Adapter::none;  // light that follows the map flickers
+    settings.cache.accuracy = std::min(1.0, accuracy_per_difference * error);
     settings.cache.gather = 256;
     settings.sampling.spp = most_samples;
 }

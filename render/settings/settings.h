@@ -33,7 +33,7 @@ enum class MotionSource {
 enum class Adapter {
     compress,   ///< (6.7)
     scale_add,  ///< (6.8)
-    threshold,  ///< the visible threshold itself (threshold_accuracy)
+    none,       ///< the accuracy that is set, everywhere
 };
 
 /// How a pixel's light is computed.

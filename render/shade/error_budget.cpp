@@ -36,16 +36,16 @@ std::optional<SystematicTolerance> compute_systematic_tolerance(const VisibleLim
 
 Image<float> compute_sampling_tolerance(const VisibleLimits& limits, const RenderSettings& settings, double exposure) {
     if (settings.sampling.rule == Sampling::uniform || settings.sampling.rule == Sampling::protocol) return {};
-    const double error = settings.error > 0.0 ? settings.error : 1.0;
-    const double white = limits.viewing.display_white;
+    const bool by_noise = settings.sampling.rule == Sampling::threshold;
+    const Image<float>& limit = by_noise ? limits.noise : limits.threshold;
+    const double error = (settings.error > 0.0 ? settings.error : 1.0) * (by_noise ? fine_grain : 1.0);
+    const double factor = error / (limits.viewing.display_white * exposure);
     Image<float> tolerance(limits.threshold.width, limits.threshold.height);
     for (int y = 0; y < tolerance.height; ++y) {
         for (int x = 0; x < tolerance.width; ++x) {
             const bool moves = limits.outlines(x, y) == Outline::moving;
-            const Image<float>& limit = settings.sampling.rule == Sampling::threshold ? limits.noise : limits.threshold;
             const float threshold = moves ? strictest_around(limit, x, y) : limit(x, y);
-            const double left = error * threshold / white;
-            tolerance(x, y) = static_cast<float>(left / exposure);
+            tolerance(x, y) = static_cast<float>(factor * threshold);
         }
     }
     return tolerance;

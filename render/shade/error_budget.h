@@ -18,10 +18,8 @@ struct VisibleLimits {
     const Image<float>& noise;               ///< cd/m2 (NoiseVisibility)
     const Image<float>& aleph;               ///< elevation of the threshold
     const Image<float>& accuracy;            ///< alpha, of cached light
-    const Image<float>& indirect_luminance;  ///< of the quick estimate, exposure applied; empty: none is cached
     const Image<Outline>& outlines;
     ViewingConditions viewing;
-    double left_out = 0.0;  ///< visible thresholds that what the effects plan leaves out may add up to
 };
 
 /// Shares of the error that is asked for, for errors that samples do not lower: a bound of what lights that are left
@@ -33,10 +31,8 @@ std::optional<SystematicTolerance> compute_systematic_tolerance(const VisibleLim
                                                                 const RenderSettings& settings, double exposure);
 
 /// The luminance that samples may err by, as they have it (before exposure).
-/// threshold: RenderSettings::error times the threshold, less the systematic errors and error_deviations times the
-/// expected error of cached light; at least a third of it remains. The sum of all is then within what was
-/// asked for.
-/// consecutive, variance: RenderSettings::error times the threshold: they know nothing of other errors.
+/// threshold: RenderSettings::error times fine_grain times what noise of single pixels goes unseen.
+/// consecutive, variance: RenderSettings::error times the threshold.
 /// The Aleph map is that of pixel centres. Beside the outline of a moving object, a pixel's samples may belong to
 /// another surface than its centre, which moves less and is seen better. So a pixel there keeps to the strictest
 /// threshold of the nine around it.

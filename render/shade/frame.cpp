@@ -176,6 +176,7 @@ class FrameShading {
         const RenderSettings& settings = context_.settings;
         out_.errors = estimate_errors({.pixels = pixels_,
                                        .threshold = options_.limits->threshold,
+                                       .noise = options_.limits->noise,
                                        .accuracy = options_.limits->accuracy,
                                        .outlines = options_.limits->outlines,
                                        .luminance_scale = exposure * options_.limits->viewing.display_white,
