@@ -124,21 +124,4 @@ FillPlaces make_fill_places(const ShadingScene& shading, const BouncePlaces& pla
     return fill;
 }
 
-std::vector<PixelSurface> choose_next_surfaces(const ShadingScene& shading, const BouncePlaces& places) {
-    constexpr int stride = 23;  // has no divisor in common with a row
-    std::vector<PixelSurface> next;
-    const int width = places.hits.width;
-    for (int y = 0; y < places.hits.height; ++y) {
-        for (int i = 0; i < width; ++i) {
-            const int x = (y + i) * stride % width;
-            if (places.hits(x, y).instance == no_index) continue;
-            const PixelSurface surface = make_bounce_surface(shading, places, x, y);
-            if (!surface.material.has_diffuse()) continue;
-            next.push_back(surface);
-            break;
-        }
-    }
-    return next;
-}
-
 }  // namespace aleph

@@ -30,7 +30,4 @@ PixelSurface make_bounce_surface(const ShadingScene& shading, const BouncePlaces
 /// The places to fill a cache at. They refer to `shading` and `places`.
 FillPlaces make_fill_places(const ShadingScene& shading, const BouncePlaces& places);
 
-/// One of each row, for the rays of the next bounce.
-std::vector<PixelSurface> choose_next_surfaces(const ShadingScene& shading, const BouncePlaces& places);
-
 }  // namespace aleph

@@ -30,6 +30,7 @@ struct Candidate {
 struct Gathered {
     std::optional<IrradianceRecord> record;
     std::vector<DirectSample> direct;
+    GatheredRays rays;  ///< of FillPlaces::gathered
 };
 
 /// Corners of the tiles of this size that larger tiles do not share, where light is needed.
@@ -119,6 +120,7 @@ std::vector<Gathered> gather_records(const IndirectContext& context, const FillP
                 gather_at(context, task, surface, scratch, candidate.rays, &records[i].direct);
             records[i].record = make_record(candidate.query.position, candidate.query.normal, candidate.query.accuracy,
                                             value, candidate.bounds);
+            if (places.gathered != nullptr) records[i].rays = scratch;
         }
         const std::lock_guard lock(counts_mutex);
         counts += task.counts;
@@ -134,12 +136,13 @@ std::size_t fill_tiles(IrradianceCache& cache, const IndirectContext& context, c
         std::vector<Candidate> waiting = find_uncovered(cache, context, places.points, tiles, tally.counts);
         if (waiting.empty()) break;
         const std::vector<Candidate> accepted = accept_candidates(cache, context, waiting);
-        const auto records = gather_records(context, places, accepted, tally.counts.rays);
+        auto records = gather_records(context, places, accepted, tally.counts.rays);
         for (std::size_t i = 0; i < accepted.size(); ++i) {
             tally.records(accepted[i].x, accepted[i].y) += 1.0f;
             if (context.direct != nullptr) context.direct->insert(records[i].direct);
             if (records[i].record) {
                 cache.insert(*records[i].record);
+                if (places.gathered != nullptr) places.gathered->push_back(std::move(records[i].rays));
             } else {
                 tally.invalid_samples(accepted[i].x, accepted[i].y) += 1.0f;
                 ++tally.counts.invalid_samples;

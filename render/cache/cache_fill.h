@@ -30,6 +30,8 @@ struct FillPlaces {
     /// Tiles start large; otherwise every point is looked at once.
     bool coarse_first = true;
     int finest = 1;  ///< the last tiles' size, a power of 2
+    /// If given, what the gather of every record found is added, in the order of the records.
+    std::vector<GatheredRays>* gathered = nullptr;
 };
 
 /// Adds records until every place is covered. A gather that is not finite makes no record: it is counted as invalid,

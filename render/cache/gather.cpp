@@ -14,6 +14,11 @@ namespace {
 
 constexpr float min_ray_cosine = 0.05f;  // limits the solid angle of cells at the horizon
 
+/// Keeps the random numbers of rays that go on from a hit apart from those of gathers at the same place.
+constexpr std::uint32_t further_seed_mask = 0x66757274u;
+
+constexpr float place_cells = 256.0f;  // along each side of a triangle, for random numbers
+
 /// One gather while its hits are lit.
 struct Lighting {
     const LightingContext& context;
@@ -23,6 +28,7 @@ struct Lighting {
     const CellNumbers& numbers;
     const glm::vec3& normal;  ///< of the hemisphere
     RandomStream& random;
+    std::uint32_t further_seed;
     GatherScratch& scratch;
 
     /// sr, that a ray represents. Cells towards the horizon are 1 / cosine larger.
@@ -35,15 +41,45 @@ struct Lighting {
         const auto& [cell, row, column, share] = scratch.places[ray];
         return {numbers.light(row, column), numbers.light_point(row, column)};
     }
-    /// Irradiance of further bounces at a surface that a ray hit.
+    /// Irradiance of further bounces at a surface that a ray hit; none if it is noted.
     Rgb find_multi_bounce(const SurfacePlace& met) const {
+        if (options.multi_bounce.noted) return Rgb(0.0f);
         return find_multi_bounce_irradiance(context, task, met, options.multi_bounce, options.depth, random);
     }
+    bool notes_further() const { return options.multi_bounce.noted && options.multi_bounce.bounces > 0; }
+    void note_further(std::size_t ray, const Rgb& weight, const SurfacePlace& met, const Hit& hit) const {
+        scratch.further.push_back({static_cast<int>(ray), weight, met, make_place_key(further_seed, hit)});
+    }
+};
+
+/// Light of further bounces at surfaces that paths from a hit meet.
+class FurtherOnPath final : public KnownIrradiance {
+  public:
+    FurtherOnPath(const Lighting& lighting, std::size_t ray)
+        : KnownIrradiance(lighting.options.multi_bounce.bounces), lighting_(lighting), ray_(ray) {}
+
+    bool is_known() const {
+        const MultiBounceLight& light = lighting_.options.multi_bounce;
+        return light.bounces > 0 && (light.noted || light.cache != nullptr);
+    }
+
+    std::optional<Rgb> find(const ViewedSurface& surface, const Hit& hit, float, const Rgb& weight,
+                            RayTask& task) const override {
+        if (!lighting_.options.multi_bounce.noted) {
+            return find_cached_irradiance(task, surface.point, lighting_.options.multi_bounce);
+        }
+        lighting_.note_further(ray_, weight, surface.point, hit);
+        return Rgb(0.0f);
+    }
+
+  private:
+    const Lighting& lighting_;
+    const std::size_t ray_;
 };
 
 /// Light that comes back along a path which leaves a hit by another lobe than the Lambert layer's. Lamps that it sees
 /// straight through sheets of glass are direct light, which is computed elsewhere.
-Rgb follow_lobes(const Lighting& lighting, const LitSurface& lit, const LobeShares& shares) {
+Rgb follow_lobes(const Lighting& lighting, std::size_t ray, const LitSurface& lit, const LobeShares& shares) {
     RandomStream& random = lighting.random;
     const ScatterSample sample = sample_scatter(lit, shares, random.next(), random.next_2d(), random.next());
     if (sample.lobe == Lobe::diffuse) return Rgb(0.0f);
@@ -51,6 +87,8 @@ Rgb follow_lobes(const Lighting& lighting, const LitSurface& lit, const LobeShar
     state.left = {lighting.options.multi_bounce.bounces, lighting.options.depth};
     state.turned = true;
     state.emission = EmissionWeight::none;
+    const FurtherOnPath further(lighting, ray);
+    if (further.is_known()) state.known = &further;
     return follow_sample(lighting.context, lighting.task, lit, sample, state, random);
 }
 
@@ -82,13 +120,13 @@ void light_hit(const Lighting& lighting, std::size_t i) {
     LobeShares shares{};
     if (lighting.options.depth > 0 && surface.material.has_specular()) {
         shares = share_lobes(lit, LobeSet::all);
-        scratch.light[i] = follow_lobes(lighting, lit, shares);
+        scratch.light[i] = follow_lobes(lighting, i, lit, shares);
         shares[static_cast<int>(Lobe::diffuse)] = 0.0f;
     }
     if (lighting.options.multi_bounce.bounces > 0 && surface.material.has_diffuse()) {
-        const Rgb multi_bounce =
-            diffuse_radiance(surface.material, lit.cos_view, lighting.find_multi_bounce(surface.point));
-        scratch.light[i] += multi_bounce * lit.below_sheen;
+        const Rgb weight = diffuse_radiance(surface.material, lit.cos_view, Rgb(1.0f)) * lit.below_sheen;
+        if (lighting.notes_further()) lighting.note_further(i, weight, surface.point, scratch.hits[i]);
+        scratch.light[i] += weight * lighting.find_multi_bounce(surface.point);
     }
     const ScatteredLight scattered = choose_light(lighting.context, lit, shares, lighting.light_numbers(i));
     if (scattered.radiance == Rgb(0.0f)) return;
@@ -103,6 +141,9 @@ void note_plain_hit(const Lighting& lighting, std::size_t i) {
     const float solid_angle = lighting.solid_angle(i);
     const LambertHit met = make_lambert_hit(shading, scratch.rays[i], hit, scratch.normals[i], solid_angle);
     if (met.albedo == Rgb(0.0f)) return;
+    if (lighting.notes_further()) {
+        lighting.note_further(i, met.albedo / pi, make_surface_place(shading, hit, scratch.rays[i].direction), hit);
+    }
     std::uint64_t grid = 0;
     if (lighting.options.grid != nullptr) {
         const glm::vec3 from_origin = met.position - shading.instances[hit.instance].translation;
@@ -168,6 +209,7 @@ void light_hits(const Lighting& lighting) {
     scratch.shadow_rays.clear();
     scratch.shadow_samples.clear();
     scratch.plain_hits.clear();
+    scratch.further.clear();
     for (std::size_t i = 0; i < scratch.rays.size(); ++i) {
         const Hit& hit = scratch.hits[i];
         if (hit.instance == no_index) continue;
@@ -212,26 +254,35 @@ void merge_rays(const HemisphereStrata& strata, GatherScratch& scratch) {
 
 }  // namespace
 
-IrradianceSample gather_irradiance(const LightingContext& context, RayTask& task, const SurfacePoint& point,
+RandomKey make_place_key(std::uint32_t seed, const Hit& hit) {
+    const auto cell = [](float at) { return static_cast<std::uint32_t>(std::max(at, 0.0f) * place_cells); };
+    return {seed, static_cast<std::uint32_t>(hit.instance), static_cast<std::uint32_t>(hit.primitive),
+            cell(hit.u) << 16 | cell(hit.v)};
+}
+
+IrradianceSample gather_irradiance(const LightingContext& context, RayTask& task, const SurfacePlace& point,
                                    const HemisphereStrata& strata, const RandomKey& key, GatherScratch& scratch,
                                    const GatherOptions& options) {
     RandomStream random(key);
-    const Basis basis = make_basis(point.normal);
     const CellNumbers numbers(random);
-    const int ray_count = divide_cells(strata, options.divided, scratch);
-    place_rays(strata, basis, point, numbers, ray_count, scratch);
+    const int most = divide_cells(strata, options.divided, scratch);
+    place_rays(strata, make_basis(point.normal), point, numbers, most, scratch);
+    scratch.strata = strata;
     task.tracer.intersect(scratch.rays, scratch.hits, true, scratch.normals);
     task.counts.gather += scratch.rays.size();
-    light_hits({context, task, options, strata, numbers, point.normal, random, scratch});
+    light_hits({context, task, options, strata, numbers, point.normal, random, key.seed ^ further_seed_mask, scratch});
     add_unshadowed(context, task, options, scratch);
-    merge_rays(strata, scratch);
+    return add_up_rays(strata, point.normal, scratch);
+}
 
+IrradianceSample add_up_rays(const HemisphereStrata& strata, const glm::vec3& normal, GatherScratch& scratch) {
+    merge_rays(strata, scratch);
     IrradianceSample out;
-    out.rays = ray_count;
+    for (const std::uint8_t side : scratch.sides) out.rays += side * side;
     glm::dvec3 sum(0.0);
     for (const Rgb& radiance : scratch.radiance) sum += glm::dvec3(radiance);
     out.irradiance = Rgb(sum * (std::numbers::pi / strata.count()));
-    summarize_hemisphere(strata, basis, scratch, out);
+    summarize_hemisphere(strata, make_basis(normal), scratch, out);
     return out;
 }
 

@@ -28,13 +28,16 @@ Rgb sample_irradiance(const LightingContext& context, RayTask& task, const Surfa
 
 }  // namespace
 
+std::optional<Rgb> find_cached_irradiance(RayTask& task, const SurfacePlace& point,
+                                          const MultiBounceLight& multi_bounce) {
+    if (multi_bounce.cache == nullptr) return std::nullopt;
+    return multi_bounce.cache->interpolate({point.position, point.normal, multi_bounce.accuracy, &task});
+}
+
 Rgb find_multi_bounce_irradiance(const LightingContext& context, RayTask& task, const SurfacePlace& point,
                                  const MultiBounceLight& multi_bounce, int depth, RandomStream& random) {
     if (multi_bounce.bounces <= 0) return Rgb(0.0f);
-    if (multi_bounce.cache != nullptr) {
-        const CacheQuery query{point.position, point.normal, multi_bounce.accuracy, &task};
-        if (const std::optional<Rgb> found = multi_bounce.cache->interpolate(query)) return *found;
-    }
+    if (const std::optional<Rgb> found = find_cached_irradiance(task, point, multi_bounce)) return *found;
     return sample_irradiance(context, task, point, {multi_bounce.bounces - 1, depth}, random);
 }
 

@@ -1,6 +1,6 @@
 // Direct light and gloss by samples, indirect light from the irradiance cache.
 
-#include "render/cache/bounce_levels.h"
+#include "render/cache/further_bounces.h"
 #include "render/cache/bounce_places.h"
 #include "render/cache/cache_fill.h"
 #include "render/cache/mirror_places.h"
@@ -89,7 +89,7 @@ class CacheIntegrator final : public LightIntegrator {
         if (context_.multi_bounce.bounces == 0) return;
         std::vector<PixelSurface> seen;
         add_seen_surfaces(context_, first, seen, input_.out.counts.rays);
-        fewer_bounces_ = fill_levels(context_, seen, input_.out.counts);
+        fewer_bounces_ = solve_further_bounces(context_, seen, input_.out.counts);
         if (fewer_bounces_) context_.multi_bounce = make_multi_bounce_light(context_.settings, &*fewer_bounces_);
     }
 

@@ -1,6 +1,6 @@
 #include "render/shade/sample_shading.h"
 
-#include "render/cache/bounce_levels.h"
+#include "render/cache/further_bounces.h"
 #include "render/cache/gather_at.h"
 #include "render/path/glossy_light.h"
 

@@ -27,7 +27,7 @@ Scene make_glowing_box() {
 struct ConstantIrradiance : KnownIrradiance {
     using KnownIrradiance::KnownIrradiance;
 
-    std::optional<Rgb> find(const ViewedSurface&, const Hit& hit, float accuracy, RayTask&) const override {
+    std::optional<Rgb> find(const ViewedSurface&, const Hit& hit, float accuracy, const Rgb&, RayTask&) const override {
         EXPECT_NE(hit.instance, no_index);
         ++lookups;
         least = std::min(least, accuracy);

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "render/cache/bounce_levels.h"
+#include "render/cache/further_bounces.h"
 #include "tests/support/frame_bytes.h"
 #include "tests/support/pixel_mean.h"
 #include "tests/support/shot_scenes.h"
