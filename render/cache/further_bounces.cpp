@@ -52,6 +52,7 @@ std::optional<IrradianceCache> solve_further_bounces(const IndirectContext& cont
     std::vector<GatheredRays> gathered;
     FillPlaces fill = make_fill_places(context.lighting.shading, places);
     fill.gathered = &gathered;
+    if (env("ONCE", 1)) fill.coarse_first = false;
     IrradianceCache cache = make_cache(context.lighting.shading);
     fill_places(cache, coarse, fill, tally);
     if (bounces > 1) cache.restore(add_bounces(coarse, cache, std::move(gathered), bounces, tally.counts.rays));

@@ -96,7 +96,9 @@ Rgb follow_lobes(const Lighting& lighting, std::size_t ray, const LitSurface& li
 void add_arrived(const ShadowSample& sample, const Rgb& passed, const GatherOptions& options, GatherScratch& scratch) {
     const Rgb arrives = sample.multi_bounce + (passed == Rgb(0.0f) ? passed : sample.unshadowed * passed);
     scratch.light[sample.ray] += sample.scale * arrives;
-    if (sample.grid != 0 && options.found != nullptr) options.found->push_back({sample.grid, arrives});
+    if (sample.grid == 0 || options.found == nullptr) return;
+    options.found->push_back({sample.grid, arrives});
+    if (sample.looked_up) options.found->back().multi_bounce = sample.multi_bounce;
 }
 
 /// Adds light, or its shadow ray to those that are to be cast.
@@ -151,7 +153,7 @@ void note_plain_hit(const Lighting& lighting, std::size_t i) {
                                              hit.distance * std::sqrt(solid_angle));
         lighting.options.grid->prefetch(grid);
     }
-    scratch.plain_hits.push_back({met.albedo, static_cast<int>(i), grid});
+    scratch.plain_hits.push_back({met.albedo, static_cast<int>(i), grid, std::nullopt});
 }
 
 /// Direct light from the grid. Hits in cells of too few samples are left: each will take one more, which counts with
@@ -163,7 +165,7 @@ void find_known_light(const DirectGrid& grid, GatherScratch& scratch) {
         const bool enough = known.count >= DirectGrid::enough;
         const Rgb scale = hit.scale / static_cast<float>(enough ? known.count : known.count + 1);
         scratch.light[hit.ray] = scale * known.sum;
-        scratch.plain_hits[left] = {scale, hit.ray, hit.grid};
+        scratch.plain_hits[left] = {scale, hit.ray, hit.grid, known.multi_bounce()};
         left += enough ? 0 : 1;
     }
     scratch.plain_hits.resize(left);
@@ -175,16 +177,19 @@ void light_plain_hit(const Lighting& lighting, const PlainHit& noted) {
     const LightingContext& context = lighting.context;
     const SurfacePlace place =
         make_surface_place(context.shading, scratch.hits[noted.ray], scratch.rays[noted.ray].direction);
-    const Rgb multi_bounce = lighting.find_multi_bounce(place) / pi;
-    const ScatteredLight scattered = choose_lambert_light(context, place, lighting.light_numbers(noted.ray));
-    if (scattered.radiance == Rgb(0.0f)) {
-        scratch.light[noted.ray] += noted.scale * multi_bounce;
-        if (noted.grid != 0 && lighting.options.found != nullptr) {
-            lighting.options.found->push_back({noted.grid, multi_bounce});
-        }
-        return;
+    ShadowSample sample{Rgb(0.0f), noted.scale, Rgb(0.0f), noted.ray, noted.grid};
+    if (noted.multi_bounce) {
+        sample.multi_bounce = *noted.multi_bounce;
+    } else if (const auto found = find_cached_irradiance(lighting.task, place, lighting.options.multi_bounce)) {
+        sample.multi_bounce = *found / pi;
+        sample.looked_up = true;
+    } else {
+        sample.multi_bounce = lighting.find_multi_bounce(place) / pi;
     }
-    add_scattered(lighting, scattered, {scattered.radiance, noted.scale, multi_bounce, noted.ray, noted.grid});
+    const ScatteredLight scattered = choose_lambert_light(context, place, lighting.light_numbers(noted.ray));
+    if (scattered.radiance == Rgb(0.0f)) return add_arrived(sample, Rgb(0.0f), lighting.options, scratch);
+    sample.unshadowed = scattered.radiance;
+    add_scattered(lighting, scattered, sample);
 }
 
 /// All plain hits. What is read of the meshes is fetched ahead.

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <glm/vec3.hpp>
 #include <limits>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -79,13 +80,15 @@ struct ShadowSample {
     Rgb multi_bounce{0.0f};  ///< light of further bounces, which arrives in any case
     int ray = 0;             ///< that hit the surface
     std::uint64_t grid = 0;  ///< cell of the direct grid that the light is a sample of; 0: none
+    bool looked_up = false;  ///< multi_bounce, in the cache: the cell keeps it
 };
 
 /// A hit of a plain Lambert surface, until its direct light is known.
 struct PlainHit {
     Rgb scale{0.0f};  ///< of the light that a white surface would scatter
     int ray = 0;
-    std::uint64_t grid = 0;  ///< its cell of the direct grid; 0: none
+    std::uint64_t grid = 0;           ///< its cell of the direct grid; 0: none
+    std::optional<Rgb> multi_bounce;  ///< that a white surface would scatter, if the cell has it
 };
 
 /// Angles of a row of strata, measured from the normal.
