@@ -197,7 +197,7 @@ void IrradianceCache::restore(std::vector<IrradianceRecord> records) {
 bool IrradianceCache::covers(const CacheQuery& query) const {
     const float accuracy = std::min(query.accuracy, 1.0f);
     bool found = false;
-    index_.visit_near(query.position, accuracy, 0.0f, [&](int i) {
+    index_.visit_reaching(query.position, accuracy, [&](int i) {
         const IrradianceRecord& record = records_[i];
         if (record.accuracy > max_looser * accuracy) return true;
         found = is_usable(record, query, interpolation_error(record, query.position, query.normal), accuracy);

@@ -67,7 +67,7 @@ class IrradianceCache {
     template <class Visit>
     void visit_usable(const CacheQuery& query, const Visit& visit) const {
         const float accuracy = std::min(query.accuracy, 1.0f);
-        index_.visit_near(query.position, accuracy, 0.0f, [&](int i) {
+        index_.visit_reaching(query.position, accuracy, [&](int i) {
             if (const float weight = weigh(records_[i], query, accuracy); weight > 0.0f) visit(i, weight);
             return true;
         });
