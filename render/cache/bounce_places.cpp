@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <mutex>
 #include <numbers>
 #include <optional>
@@ -14,9 +13,9 @@ namespace aleph {
 
 namespace {
 
-const double seen_surfaces = getenv("SEEN")?atof(getenv("SEEN")):300.0;  // per view, about
-const int rays_per_surface = getenv("RPS")?atoi(getenv("RPS")):64;
-const float filling_rays = getenv("FR")?atof(getenv("FR")):1024.0f;  // of the gather whose ray has the footprint that bounds radii
+constexpr double seen_surfaces = 300.0;  // per view, about
+constexpr int rays_per_surface = 16;
+constexpr float filling_rays = 1024.0f;  // of the gather whose ray has the footprint that bounds radii
 
 /// Keeps the directions apart from those of gathers at the same places.
 constexpr std::uint32_t places_seed_mask = 0x626f756eu;

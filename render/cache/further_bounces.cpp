@@ -1,7 +1,6 @@
 #include "render/cache/further_bounces.h"
 
 #include <algorithm>
-#include <cstdlib>
 
 #include "render/cache/bounce_places.h"
 #include "render/cache/light_transport.h"
@@ -10,14 +9,29 @@ namespace aleph {
 
 namespace {
 
-double env(const char* name, double otherwise) {
-    const char* text = std::getenv(name);
-    return text ? std::atof(text) : otherwise;
-}
+/// alpha of the records, over the picture's; but for pictures of great accuracy it is the loosest one.
+constexpr double looser = 7.0, loosest_record = 0.7;
 
-/// alpha of the records.
-float coarse_accuracy(const RenderSettings& settings) {
-    return static_cast<float>(std::clamp(env("LOOSER", 4.0) * settings.cache.accuracy, settings.cache.accuracy, env("MOST", 1.0)));
+/// A scene where fewer records suffice takes more, with a smaller alpha: they cost little.
+constexpr std::size_t many_records = 500;
+constexpr float stricter = 0.7f;
+
+constexpr int most_record_rays = 128;
+
+/// Adds records where gathers of the picture arrive. @return alpha of the last ones
+float fill_coarsely(IrradianceCache& cache, const IndirectContext& context, const FillPlaces& places,
+                    FrameTally& tally) {
+    const double picture = context.settings.cache.accuracy;
+    float alpha = static_cast<float>(std::max(picture, std::min(looser * picture, loosest_record)));
+    const auto fill = [&] {
+        const Image<float> accuracy(places.points.width, places.points.height, alpha);
+        fill_places(cache, make_places_context(context, accuracy), places, tally);
+    };
+    fill();
+    if (cache.records().size() >= many_records || stricter * alpha < picture) return alpha;
+    alpha *= stricter;
+    fill();
+    return alpha;
 }
 
 }  // namespace
@@ -26,42 +40,43 @@ int count_bounces(const RenderSettings& settings) {
     return std::min(settings.light.bounces, settings.light.path_depth - 1);
 }
 
-MultiBounceLight make_multi_bounce_light(const RenderSettings& settings, const IrradianceCache* cache) {
-    const double reach = std::min(1.0, shade_reach * coarse_accuracy(settings));
-    return {std::max(0, count_bounces(settings) - 1), cache, static_cast<float>(reach)};
+MultiBounceLight make_multi_bounce_light(const RenderSettings& settings, const FurtherBounces* known) {
+    MultiBounceLight light{.bounces = std::max(0, count_bounces(settings) - 1)};
+    if (known == nullptr) return light;
+    light.cache = &known->cache;
+    light.accuracy = static_cast<float>(shade_reach) * known->accuracy;
+    return light;
 }
 
-std::optional<IrradianceCache> solve_further_bounces(const IndirectContext& context,
-                                                     const std::vector<PixelSurface>& seen, FrameCounts& counts) {
-    MultiBounceLight further = make_multi_bounce_light(context.settings, nullptr);
-    const int bounces = further.bounces;
-    if (bounces == 0 || seen.empty()) return std::nullopt;
-    RayCounts rays;
-    const BouncePlaces places = cast_bounce_places(context.lighting, seen, context.settings.seed, rays);
-    const int width = places.hits.width, height = places.hits.height;
-    const Image<float> accuracy(width, height, coarse_accuracy(context.settings));
-    DirectGrid direct(context.max_radius);
-    IndirectContext coarse = make_places_context(context, accuracy);
-    coarse.direct = &direct;
-    further.bounces = bounces - 1;
-    further.noted = true;
-    coarse.multi_bounce = further;
-    coarse.bounces_before = 1;
+std::optional<FurtherBounces> solve_further_bounces(const IndirectContext& context,
+                                                    const std::vector<PixelSurface>& seen, FrameCounts& counts) {
+    const int bounces = count_bounces(context.settings) - 1;
+    if (bounces <= 0 || seen.empty()) return std::nullopt;
     FrameTally tally;
-    tally.records = tally.invalid_samples = Image<float>(width, height);
+    const BouncePlaces places = cast_bounce_places(context.lighting, seen, context.settings.seed, tally.counts.rays);
+    tally.records = tally.invalid_samples = Image<float>(places.hits.width, places.hits.height);
     std::vector<GatheredRays> gathered;
     FillPlaces fill = make_fill_places(context.lighting.shading, places);
+    fill.coarse_first = false;
+    fill.most_rays = most_record_rays;
     fill.gathered = &gathered;
-    if (env("ONCE", 1)) fill.coarse_first = false;
-    IrradianceCache cache = make_cache(context.lighting.shading);
-    fill_places(cache, coarse, fill, tally);
-    if (bounces > 1) cache.restore(add_bounces(coarse, cache, std::move(gathered), bounces, tally.counts.rays));
-    cache.finish();
-    rays += tally.counts.rays;
-    counts.rays += rays;
-    counts.multi_bounce_rays += rays.total();
+    DirectGrid direct(context.max_radius);
+    const Image<float> accuracy;
+    IndirectContext coarse = make_places_context(context, accuracy);
+    coarse.direct = &direct;
+    coarse.multi_bounce = {.bounces = bounces - 1, .noted = true};
+    coarse.bounces_before = 1;
+    FurtherBounces known{make_cache(context.lighting.shading)};
+    known.accuracy = fill_coarsely(known.cache, coarse, fill, tally);
+    if (bounces > 1) {
+        const float reach = static_cast<float>(shade_reach) * known.accuracy;
+        known.cache.restore(add_bounces(coarse, known.cache, reach, std::move(gathered), bounces, tally.counts.rays));
+    }
+    known.cache.finish();
+    counts.rays += tally.counts.rays;
+    counts.multi_bounce_rays += tally.counts.rays.total();
     counts.multi_bounce_records += tally.counts.records;
-    return cache;
+    return known;
 }
 
 }  // namespace aleph

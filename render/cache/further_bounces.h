@@ -17,16 +17,22 @@ namespace aleph {
 /// Bounces of the picture's indirect light: the last surface of a path scatters direct light only.
 int count_bounces(const RenderSettings& settings);
 
-/// Makes the light that gathers for the picture find at their hits beside direct light.
-/// @param cache  from solve_further_bounces; null: random paths only, without bias
-MultiBounceLight make_multi_bounce_light(const RenderSettings& settings, const IrradianceCache* cache);
+/// Irradiance of one bounce fewer than the picture's.
+struct FurtherBounces {
+    IrradianceCache cache;
+    float accuracy = 0.0f;  ///< alpha of its records
+};
 
-/// A cache of one bounce fewer than the picture's, for the gathers that fill its cache.
+/// Makes the light that gathers for the picture find at their hits beside direct light.
+/// @param known  null: random paths only, without bias
+MultiBounceLight make_multi_bounce_light(const RenderSettings& settings, const FurtherBounces* known);
+
+/// Computes it where the gathers that fill the picture's cache need it.
 /// @param context  of the picture
 /// @param seen     surfaces of the picture whose light will be gathered (add_seen_surfaces)
 /// @param counts   increased
 /// @return nothing if the picture has one bounce, or `seen` is empty
-std::optional<IrradianceCache> solve_further_bounces(const IndirectContext& context,
-                                                     const std::vector<PixelSurface>& seen, FrameCounts& counts);
+std::optional<FurtherBounces> solve_further_bounces(const IndirectContext& context,
+                                                    const std::vector<PixelSurface>& seen, FrameCounts& counts);
 
 }  // namespace aleph

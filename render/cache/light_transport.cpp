@@ -27,10 +27,13 @@ struct Link {
 struct LinkedLight {
     Rgb weight{0.0f};  ///< of a unit of the irradiance there
     std::array<Link, most_links> links{};
+
+    bool is_linked() const { return links != std::array<Link, most_links>{}; }
 };
 
 /// A record, or a hit without records around: then it has one ray.
 struct Place {
+    RandomKey key;  ///< of a hit
     GatheredRays found;
     Rgb direct{0.0f};  ///< irradiance of one bounce
     std::vector<LinkedLight> linked;
@@ -38,9 +41,9 @@ struct Place {
 
 class LightTransport {
   public:
-    LightTransport(const IndirectContext& context, const IrradianceCache& cache, std::vector<GatheredRays> gathered,
-                   int bounces, RayCounts& counts)
-        : context_(context), cache_(cache), counts_(counts) {
+    LightTransport(const IndirectContext& context, const IrradianceCache& cache, float accuracy,
+                   std::vector<GatheredRays> gathered, int bounces, RayCounts& counts)
+        : context_(context), cache_(cache), accuracy_(accuracy), counts_(counts) {
         places_.resize(gathered.size());
         for (std::size_t i = 0; i < places_.size(); ++i) {
             places_[i].found = std::move(gathered[i]);
@@ -102,7 +105,7 @@ class LightTransport {
     /// The records of most weight; none where there is no record.
     std::array<Link, most_links> find_links(const SurfacePlace& at, RayTask& task) const {
         std::array<Link, most_links> links{};
-        cache_.visit_usable({at.position, at.normal, context_.multi_bounce.accuracy, &task}, [&](int i, float weight) {
+        cache_.visit_usable({at.position, at.normal, accuracy_, &task}, [&](int i, float weight) {
             Link& least = *std::ranges::min_element(links, {}, &Link::weight);
             if (weight > least.weight) least = {i, weight};
         });
@@ -114,14 +117,35 @@ class LightTransport {
         return links;
     }
 
+    /// What of a place was not linked. Of a place with one ray, one part stands for all or for nothing, by Russian
+    /// roulette: else their number could grow from ray to ray.
+    std::vector<std::size_t> choose_unlinked(std::size_t i) {
+        Place& place = places_[i];
+        std::vector<std::size_t> unlinked;
+        float total = 0.0f;
+        for (std::size_t f = 0; f < place.linked.size(); ++f) {
+            if (place.linked[f].is_linked()) continue;
+            unlinked.push_back(f);
+            total += luminance(place.linked[f].weight);
+        }
+        if (i < cache_.records().size() || unlinked.empty()) return unlinked;
+        float left = RandomStream(place.key).next() * std::max(total, 1.0f);
+        for (const std::size_t f : unlinked) {
+            const float weight = luminance(place.linked[f].weight);
+            left -= weight;
+            if (!(left < 0.0f)) continue;
+            place.linked[f].weight *= std::max(total, 1.0f) / weight;
+            return {f};
+        }
+        return {};
+    }
+
     /// Adds a place for everything that was not linked.
     void add_random_places(std::size_t first) {
         std::vector<const FurtherLight*> lit;
         for (std::size_t i = first, end = places_.size(); i < end; ++i) {
-            for (std::size_t f = 0; f < places_[i].linked.size(); ++f) {
-                Link& link = places_[i].linked[f].links[0];
-                if (places_[i].linked[f].links != std::array<Link, most_links>{}) continue;
-                link = {static_cast<int>(end + lit.size()), 1.0f};
+            for (const std::size_t f : choose_unlinked(i)) {
+                places_[i].linked[f].links[0] = {static_cast<int>(end + lit.size()), 1.0f};
                 lit.push_back(&places_[i].found.further[f]);
             }
         }
@@ -137,6 +161,8 @@ class LightTransport {
                 added[i].direct = gather_irradiance(context_.lighting, task, lit[i]->place, {}, lit[i]->key, scratch,
                                                     options).irradiance;
                 if (!is_finite(added[i].direct)) added[i].direct = Rgb(0.0f);
+                added[i].key = lit[i]->key;
+                ++added[i].key.seed;
                 added[i].found = scratch;
             }
             const std::lock_guard lock(mutex);
@@ -179,6 +205,7 @@ class LightTransport {
 
     const IndirectContext& context_;
     const IrradianceCache& cache_;
+    const float accuracy_;
     RayCounts& counts_;
     std::vector<Place> places_;    ///< records first
     std::vector<Rgb> irradiance_;  ///< of places
@@ -186,9 +213,9 @@ class LightTransport {
 
 }  // namespace
 
-std::vector<IrradianceRecord> add_bounces(const IndirectContext& context, const IrradianceCache& cache,
+std::vector<IrradianceRecord> add_bounces(const IndirectContext& context, const IrradianceCache& cache, float accuracy,
                                           std::vector<GatheredRays> gathered, int bounces, RayCounts& counts) {
-    return LightTransport(context, cache, std::move(gathered), bounces, counts).make_records();
+    return LightTransport(context, cache, accuracy, std::move(gathered), bounces, counts).make_records();
 }
 
 }  // namespace aleph

@@ -14,11 +14,12 @@ namespace aleph {
 
 /// Irradiance of `bounces` bounces in place of that of one.
 /// @param context   of the records' gathers, which noted light of further bounces (MultiBounceLight::noted)
+/// @param accuracy  alpha of look-ups
 /// @param gathered  of each record (FillPlaces::gathered)
 /// @param bounces   at least 2
 /// @param counts    increased by the rays cast
 /// @return the records of the cache with this irradiance and its gradients
-std::vector<IrradianceRecord> add_bounces(const IndirectContext& context, const IrradianceCache& cache,
+std::vector<IrradianceRecord> add_bounces(const IndirectContext& context, const IrradianceCache& cache, float accuracy,
                                           std::vector<GatheredRays> gathered, int bounces, RayCounts& counts);
 
 }  // namespace aleph

@@ -58,7 +58,7 @@ std::vector<IrradianceRecord> compute_records(const KeyframeInput& input, FrameC
         if (count_bounces(input.settings) == 1) continue;
         add_seen_surfaces(contexts.back(), first_samples.back(), seen, tally.counts.rays);
     }
-    const std::optional<IrradianceCache> fewer_bounces = solve_further_bounces(contexts.front(), seen, tally.counts);
+    const std::optional<FurtherBounces> fewer_bounces = solve_further_bounces(contexts.front(), seen, tally.counts);
     for (std::size_t v = 0; v < contexts.size(); ++v) {
         contexts[v].multi_bounce = make_multi_bounce_light(input.settings, fewer_bounces ? &*fewer_bounces : nullptr);
         fill_cache(cache, contexts[v], first_samples[v], tally, contexts[v].seen == nullptr ? 1 : finest_tiles);
