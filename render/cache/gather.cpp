@@ -41,10 +41,32 @@ struct Lighting {
         const auto& [cell, row, column, share] = scratch.places[ray];
         return {numbers.light(row, column), numbers.light_point(row, column)};
     }
-    /// Irradiance of further bounces at a surface that a ray hit; none if it is noted.
-    Rgb find_multi_bounce(const SurfacePlace& met) const {
-        if (options.multi_bounce.noted) return Rgb(0.0f);
-        return find_multi_bounce_irradiance(context, task, met, options.multi_bounce, options.depth, random);
+    /// Cell of the direct grid; 0: there is no grid.
+    std::uint64_t find_cell(std::size_t ray, const Hit& hit, const glm::vec3& position,
+                            const glm::vec3& geometric) const {
+        if (options.grid == nullptr) return 0;
+        return options.grid->key_of(hit.instance, position - context.shading.instances[hit.instance].translation,
+                                    geometric, hit.distance * std::sqrt(solid_angle(ray)));
+    }
+    bool is_plain(const Hit& hit) const {
+        return context.shading.materials[context.shading.instances[hit.instance].material].plain_lambert;
+    }
+    /// Irradiance of further bounces at a surface that the ray or a path from there met, if a cache knows it. The grid
+    /// keeps it; where it keeps direct light too, light_plain_hit adds both.
+    std::optional<Rgb> look_up(std::size_t ray, const SurfacePlace& met, const Hit& hit) const {
+        if (options.multi_bounce.cache == nullptr) return std::nullopt;
+        const std::uint64_t cell = find_cell(ray, hit, met.position, met.geometric);
+        if (cell != 0) {
+            if (const std::optional<Rgb> kept = options.grid->find(cell).multi_bounce()) return *kept * pi;
+        }
+        const std::optional<Rgb> found = find_cached_irradiance(task, met, options.multi_bounce);
+        if (found && cell != 0 && options.found != nullptr && !is_plain(hit)) {
+            options.found->push_back({cell, Rgb(0.0f), *found / pi});
+        }
+        return found;
+    }
+    Rgb sample_multi_bounce(const SurfacePlace& met) const {
+        return sample_multi_bounce_irradiance(context, task, met, options.multi_bounce.bounces, options.depth, random);
     }
     bool notes_further() const { return options.multi_bounce.noted && options.multi_bounce.bounces > 0; }
     void note_further(std::size_t ray, const Rgb& weight, const SurfacePlace& met, const Hit& hit) const {
@@ -64,10 +86,8 @@ class FurtherOnPath final : public KnownIrradiance {
     }
 
     std::optional<Rgb> find(const ViewedSurface& surface, const Hit& hit, float, const Rgb& weight,
-                            RayTask& task) const override {
-        if (!lighting_.options.multi_bounce.noted) {
-            return find_cached_irradiance(task, surface.point, lighting_.options.multi_bounce);
-        }
+                            RayTask&) const override {
+        if (!lighting_.options.multi_bounce.noted) return lighting_.look_up(ray_, surface.point, hit);
         lighting_.note_further(ray_, weight, surface.point, hit);
         return Rgb(0.0f);
     }
@@ -127,8 +147,13 @@ void light_hit(const Lighting& lighting, std::size_t i) {
     }
     if (lighting.options.multi_bounce.bounces > 0 && surface.material.has_diffuse()) {
         const Rgb weight = diffuse_radiance(surface.material, lit.cos_view, Rgb(1.0f)) * lit.below_sheen;
-        if (lighting.notes_further()) lighting.note_further(i, weight, surface.point, scratch.hits[i]);
-        scratch.light[i] += weight * lighting.find_multi_bounce(surface.point);
+        if (lighting.options.multi_bounce.noted) {
+            lighting.note_further(i, weight, surface.point, scratch.hits[i]);
+        } else if (const auto known = lighting.look_up(i, surface.point, scratch.hits[i])) {
+            scratch.light[i] += weight * *known;
+        } else {
+            scratch.light[i] += weight * lighting.sample_multi_bounce(surface.point);
+        }
     }
     const ScatteredLight scattered = choose_light(lighting.context, lit, shares, lighting.light_numbers(i));
     if (scattered.radiance == Rgb(0.0f)) return;
@@ -146,13 +171,8 @@ void note_plain_hit(const Lighting& lighting, std::size_t i) {
     if (lighting.notes_further()) {
         lighting.note_further(i, met.albedo / pi, make_surface_place(shading, hit, scratch.rays[i].direction), hit);
     }
-    std::uint64_t grid = 0;
-    if (lighting.options.grid != nullptr) {
-        const glm::vec3 from_origin = met.position - shading.instances[hit.instance].translation;
-        grid = lighting.options.grid->key_of(hit.instance, from_origin, met.geometric,
-                                             hit.distance * std::sqrt(solid_angle));
-        lighting.options.grid->prefetch(grid);
-    }
+    const std::uint64_t grid = lighting.find_cell(i, hit, met.position, met.geometric);
+    if (grid != 0) lighting.options.grid->prefetch(grid);
     scratch.plain_hits.push_back({met.albedo, static_cast<int>(i), grid, std::nullopt});
 }
 
@@ -183,8 +203,8 @@ void light_plain_hit(const Lighting& lighting, const PlainHit& noted) {
     } else if (const auto found = find_cached_irradiance(lighting.task, place, lighting.options.multi_bounce)) {
         sample.multi_bounce = *found / pi;
         sample.looked_up = true;
-    } else {
-        sample.multi_bounce = lighting.find_multi_bounce(place) / pi;
+    } else if (!lighting.options.multi_bounce.noted) {
+        sample.multi_bounce = lighting.sample_multi_bounce(place) / pi;
     }
     const ScatteredLight scattered = choose_lambert_light(context, place, lighting.light_numbers(noted.ray));
     if (scattered.radiance == Rgb(0.0f)) return add_arrived(sample, Rgb(0.0f), lighting.options, scratch);
@@ -209,7 +229,6 @@ void light_plain_hits(const Lighting& lighting) {
 /// Fills in light that is known, and for all other hits unshadowed light with its shadow rays.
 void light_hits(const Lighting& lighting) {
     GatherScratch& scratch = lighting.scratch;
-    const ShadingScene& shading = lighting.context.shading;
     scratch.light.assign(scratch.rays.size(), Rgb(0.0f));
     scratch.shadow_rays.clear();
     scratch.shadow_samples.clear();
@@ -218,7 +237,7 @@ void light_hits(const Lighting& lighting) {
     for (std::size_t i = 0; i < scratch.rays.size(); ++i) {
         const Hit& hit = scratch.hits[i];
         if (hit.instance == no_index) continue;
-        if (shading.materials[shading.instances[hit.instance].material].plain_lambert) {
+        if (lighting.is_plain(hit)) {
             note_plain_hit(lighting, i);
         } else {
             light_hit(lighting, i);

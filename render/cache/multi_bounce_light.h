@@ -24,10 +24,10 @@ struct MultiBounceLight {
 std::optional<Rgb> find_cached_irradiance(RayTask& task, const SurfacePlace& point,
                                           const MultiBounceLight& multi_bounce);
 
-/// Indirect irradiance at a surface point: from the cache, or without bias from one random path where it has no record.
-/// The path's first ray is counted as RayCounts::multi_bounce.
-/// @param depth  surfaces that may scatter on the path
-Rgb find_multi_bounce_irradiance(const LightingContext& context, RayTask& task, const SurfacePlace& point,
-                                 const MultiBounceLight& multi_bounce, int depth, RandomStream& random);
+/// The same without bias from one random path, whose first ray is counted as RayCounts::multi_bounce.
+/// @param bounces  0: there is none
+/// @param depth    surfaces that may scatter on the path
+Rgb sample_multi_bounce_irradiance(const LightingContext& context, RayTask& task, const SurfacePlace& point,
+                                   int bounces, int depth, RandomStream& random);
 
 }  // namespace aleph
