@@ -66,7 +66,7 @@ struct Lighting {
         return found;
     }
     Rgb sample_multi_bounce(const SurfacePlace& met) const {
-        return sample_multi_bounce_irradiance(context, task, met, options.multi_bounce.bounces, options.depth, random);
+        return sample_multi_bounce_irradiance(context, task, met, options.multi_bounce, options.depth, random);
     }
     bool notes_further() const { return options.multi_bounce.noted && options.multi_bounce.bounces > 0; }
     void note_further(std::size_t ray, const Rgb& weight, const SurfacePlace& met, const Hit& hit) const {

@@ -15,8 +15,8 @@ std::optional<Rgb> find_cached_irradiance(RayTask& task, const SurfacePlace& poi
 
 /// Lamps that the ray meets, or sees straight through sheets of glass, are direct light of the point.
 Rgb sample_multi_bounce_irradiance(const LightingContext& context, RayTask& task, const SurfacePlace& point,
-                                   int bounces, int depth, RandomStream& random) {
-    if (bounces <= 0) return Rgb(0.0f);
+                                   const MultiBounceLight& multi_bounce, int depth, RandomStream& random) {
+    if (multi_bounce.bounces <= 0) return Rgb(0.0f);
     const glm::vec3 direction = make_basis(point.normal).to_world(sample_cosine_hemisphere(random.next_2d()));
     if (!(glm::dot(direction, point.geometric) > 0.0f)) return Rgb(0.0f);
     ++task.counts.multi_bounce;
@@ -24,7 +24,9 @@ Rgb sample_multi_bounce_irradiance(const LightingContext& context, RayTask& task
     if (hit.instance == no_index) return Rgb(0.0f);
     const SurfacePoint met = make_surface_point(context.shading, hit, direction);
     PathState state;
-    state.left = {bounces - 1, depth};
+    state.left = {multi_bounce.bounces - 1, depth};
+    // Where a cache knows most of this light, long paths would cost more than all the rest.
+    if (multi_bounce.cache != nullptr) state.roulette_after = 0;
     state.turned = true;
     state.emission = EmissionWeight::none;
     return std::numbers::pi_v<float> *

@@ -25,9 +25,8 @@ std::optional<Rgb> find_cached_irradiance(RayTask& task, const SurfacePlace& poi
                                           const MultiBounceLight& multi_bounce);
 
 /// The same without bias from one random path, whose first ray is counted as RayCounts::multi_bounce.
-/// @param bounces  0: there is none
-/// @param depth    surfaces that may scatter on the path
+/// @param depth  surfaces that may scatter on the path
 Rgb sample_multi_bounce_irradiance(const LightingContext& context, RayTask& task, const SurfacePlace& point,
-                                   int bounces, int depth, RandomStream& random);
+                                   const MultiBounceLight& multi_bounce, int depth, RandomStream& random);
 
 }  // namespace aleph

@@ -71,7 +71,7 @@ Rgb sample_path(const SampleShading& shading, const SampleScene& scene, ShadingT
                 const PixelSurface& surface) {
     const RenderSettings& settings = shading.context.settings;
     RandomStream random = path_stream(shading, surface, irradiance_seed_mask);
-    return sample_multi_bounce_irradiance(scene.lighting, task, surface.point, settings.light.bounces,
+    return sample_multi_bounce_irradiance(scene.lighting, task, surface.point, {settings.light.bounces},
                                           settings.light.path_depth - 1, random);
 }
 
