@@ -1,5 +1,5 @@
 #pragma once
-// Surfaces where light of fewer bounces is needed: those that gather rays hit, in the picture or not.
+// Surfaces where light of further bounces is needed: those that gather rays hit, in the picture or not.
 
 #include <vector>
 

@@ -30,7 +30,7 @@ struct FillPlaces {
     std::function<PixelSurface(int x, int y)> surface_at;
     /// Tiles start large; otherwise every point is looked at once.
     bool coarse_first = true;
-    int finest = 1;  ///< the last tiles' size, a power of 2
+    int finest = 1;                                   ///< the last tiles' size, a power of 2
     int most_rays = std::numeric_limits<int>::max();  ///< of a gather
     /// If given, what the gather of every record found is added, in the order of the records.
     std::vector<GatheredRays>* gathered = nullptr;

@@ -98,8 +98,8 @@ struct StrataRow {
     float tangent;            ///< of its middle
 };
 
-/// Light of further bounces that was not looked up: it comes from a surface that a ray of the gather met, or a path that
-/// went on from there.
+/// Light of further bounces that was not looked up: it comes from a surface that a ray of the gather met, or a path
+/// that went on from there.
 struct FurtherLight {
     int ray = 0;
     Rgb weight{0.0f};  ///< radiance that the ray brings of a unit of the place's irradiance

@@ -11,9 +11,9 @@ namespace aleph {
 
 namespace {
 
-constexpr int most_links = 4;        // records that the irradiance of a hit is interpolated from
-constexpr int most_random_rays = 16;  // one after the other, until one hits a place with records around
-constexpr float negligible_change = 1e-4f;  // of any place's irradiance, by one bounce more
+constexpr int most_links = 4;               // records that the irradiance of a hit is interpolated from
+constexpr int most_random_rays = 16;        // one after the other, until one hits a place with records around
+constexpr float negligible_change = 1e-5f;  // of any place's irradiance, by one bounce more
 
 /// A share of the irradiance of a place.
 struct Link {
@@ -53,7 +53,7 @@ class LightTransport {
         for (int left = std::min(bounces - 1, most_random_rays); left > 0 && done < places_.size(); --left) {
             const std::size_t end = places_.size();
             link_places(done);
-            if (left > 1) add_random_places(done);
+            add_random_places(done);
             done = end;
         }
         for (const Place& place : places_) irradiance_.push_back(place.direct);
@@ -97,6 +97,8 @@ class LightTransport {
         const float per_share = pi / static_cast<float>(found.strata.count());
         for (const FurtherLight& further : found.further) {
             LinkedLight& light = place.linked.emplace_back();
+            // One that is not finite would spoil all places.
+            if (!is_finite(further.weight)) continue;
             light.weight = further.weight * (found.places[further.ray].share * per_share);
             light.links = find_links(further.place, task);
         }
@@ -158,8 +160,9 @@ class LightTransport {
                 .depth = std::max(0, context_.settings.light.path_depth - 2 - context_.bounces_before),
                 .multi_bounce = context_.multi_bounce};
             for (std::size_t i = begin; i < end; ++i) {
-                added[i].direct = gather_irradiance(context_.lighting, task, lit[i]->place, {}, lit[i]->key, scratch,
-                                                    options).irradiance;
+                added[i].direct =
+                    gather_irradiance(context_.lighting, task, lit[i]->place, {}, lit[i]->key, scratch, options)
+                        .irradiance;
                 if (!is_finite(added[i].direct)) added[i].direct = Rgb(0.0f);
                 added[i].key = lit[i]->key;
                 ++added[i].key.seed;

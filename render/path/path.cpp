@@ -139,8 +139,7 @@ class Path {
         const LitSurface lit(surface);
         const Rgb weight =
             state_.throughput * diffuse_radiance(surface.material, lit.cos_view, Rgb(1.0f)) * lit.below_sheen;
-        const std::optional<Rgb> irradiance =
-            state_.known->find(surface, hit_, loosen_accuracy(state_), weight, task_);
+        const std::optional<Rgb> irradiance = state_.known->find(surface, hit_, loosen_accuracy(state_), weight, task_);
         if (irradiance) light_ += weight * *irradiance;
         return irradiance.has_value();
     }

@@ -1,8 +1,8 @@
 // Direct light and gloss by samples, indirect light from the irradiance cache.
 
-#include "render/cache/further_bounces.h"
 #include "render/cache/bounce_places.h"
 #include "render/cache/cache_fill.h"
+#include "render/cache/further_bounces.h"
 #include "render/cache/mirror_places.h"
 #include "render/shade/frame_irradiance.h"
 #include "render/shade/integrator.h"
@@ -72,7 +72,7 @@ class CacheIntegrator final : public LightIntegrator {
     }
 
     void fill_waiting(const std::vector<PendingSample>& waiting) override {
-        if (!waiting.empty() && !fewer_bounces_) solve_fewer_bounces();
+        if (!waiting.empty() && !further_bounces_) add_further_bounces();
         fill_pending(cache_, context_, waiting, input_.out);
     }
 
@@ -94,12 +94,12 @@ class CacheIntegrator final : public LightIntegrator {
         add_seen_surfaces(all, first, seen_, input_.out.counts.rays);
         std::vector<PixelSurface> unknown;
         add_seen_surfaces(context_, first, unknown, input_.out.counts.rays);
-        if (!unknown.empty()) solve_fewer_bounces();
+        if (!unknown.empty()) add_further_bounces();
     }
 
-    void solve_fewer_bounces() {
-        fewer_bounces_ = solve_further_bounces(context_, seen_, input_.out.counts);
-        if (fewer_bounces_) context_.multi_bounce = make_multi_bounce_light(context_.settings, &*fewer_bounces_);
+    void add_further_bounces() {
+        further_bounces_ = solve_further_bounces(context_, seen_, input_.out.counts);
+        if (further_bounces_) context_.multi_bounce = make_multi_bounce_light(context_.settings, &*further_bounces_);
     }
 
     const IntegratorInput input_;
@@ -108,8 +108,8 @@ class CacheIntegrator final : public LightIntegrator {
     IrradianceCache cache_;
     std::optional<CheckedLight> checked_;
     FrameIrradiance known_;
-    std::vector<PixelSurface> seen_;  ///< for fewer_bounces_, which is solved once a record is needed
-    std::optional<FurtherBounces> fewer_bounces_;
+    std::vector<PixelSurface> seen_;  ///< for further_bounces_, which is solved once a record is needed
+    std::optional<FurtherBounces> further_bounces_;
     DirectGrid direct_;
     Image<RecordUse> uses_;  ///< empty: not asked for
     std::optional<ShutterLight> shutter_;
