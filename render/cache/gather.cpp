@@ -17,6 +17,9 @@ constexpr float min_ray_cosine = 0.05f;  // limits the solid angle of cells at t
 /// Keeps the random numbers of rays that go on from a hit apart from those of gathers at the same place.
 constexpr std::uint32_t further_seed_mask = 0x66757274u;
 
+/// Light of further bounces changes slowly: its cells are wider than those of direct light.
+constexpr float multi_bounce_widths = 4.0f;
+
 constexpr float place_cells = 256.0f;  // along each side of a triangle, for random numbers
 
 /// One gather while its hits are lit.
@@ -42,11 +45,12 @@ struct Lighting {
         return {numbers.light(row, column), numbers.light_point(row, column)};
     }
     /// Cell of the direct grid; 0: there is no grid.
-    std::uint64_t find_cell(std::size_t ray, const Hit& hit, const glm::vec3& position,
-                            const glm::vec3& geometric) const {
+    /// @param widths  of what the ray represents, in the cell
+    std::uint64_t find_cell(std::size_t ray, const Hit& hit, const glm::vec3& position, const glm::vec3& geometric,
+                            float widths = 1.0f) const {
         if (options.grid == nullptr) return 0;
         return options.grid->key_of(hit.instance, position - context.shading.instances[hit.instance].translation,
-                                    geometric, hit.distance * std::sqrt(solid_angle(ray)));
+                                    geometric, widths * hit.distance * std::sqrt(solid_angle(ray)));
     }
     bool is_plain(const Hit& hit) const {
         return context.shading.materials[context.shading.instances[hit.instance].material].plain_lambert;
@@ -55,7 +59,7 @@ struct Lighting {
     /// keeps it; where it keeps direct light too, light_plain_hit adds both.
     std::optional<Rgb> look_up(std::size_t ray, const SurfacePlace& met, const Hit& hit) const {
         if (options.multi_bounce.cache == nullptr) return std::nullopt;
-        const std::uint64_t cell = find_cell(ray, hit, met.position, met.geometric);
+        const std::uint64_t cell = find_cell(ray, hit, met.position, met.geometric, multi_bounce_widths);
         if (cell != 0) {
             if (const std::optional<Rgb> kept = options.grid->find(cell).multi_bounce()) return *kept * pi;
         }
