@@ -137,10 +137,12 @@ class Path {
         if (state_.known == nullptr || hit_.instance == no_index || !surface.material.has_diffuse()) return false;
         if (std::min(state_.left.bounces, state_.left.depth - 1) != state_.known->bounces) return false;
         const LitSurface lit(surface);
-        const Rgb weight =
-            state_.throughput * diffuse_radiance(surface.material, lit.cos_view, Rgb(1.0f)) * lit.below_sheen;
-        const std::optional<Rgb> irradiance = state_.known->find(surface, hit_, loosen_accuracy(state_), weight, task_);
-        if (irradiance) light_ += weight * *irradiance;
+        const auto scattered = [&](const Rgb& irradiance) {
+            return state_.throughput * diffuse_radiance(surface.material, lit.cos_view, irradiance) * lit.below_sheen;
+        };
+        const std::optional<Rgb> irradiance =
+            state_.known->find(surface, hit_, loosen_accuracy(state_), scattered(Rgb(1.0f)), task_);
+        if (irradiance) light_ += scattered(*irradiance);
         return irradiance.has_value();
     }
 
