@@ -7,7 +7,7 @@ namespace {
 
 bool same_projection(const CameraView& a, const CameraView& b) {
     return a.width == b.width && a.height == b.height && a.orthographic == b.orthographic &&
-           a.pixels_per_unit == b.pixels_per_unit && a.axis_offset == b.axis_offset && a.near_plane == b.near_plane;
+           a.pixels_per_unit == b.pixels_per_unit && a.axis_offset == b.axis_offset;
 }
 
 }  // namespace

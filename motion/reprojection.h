@@ -37,13 +37,9 @@ inline CameraFromObject make_background_map(const CameraView& now, const CameraV
 
 /// Barycentric coordinates of a hit, clamped to the triangle: rounding may have moved them outside. NaN becomes 0.
 inline glm::dvec2 clamp_barycentrics(const Hit& hit) {
-    double u = hit.u > 0.0f ? std::min(static_cast<double>(hit.u), 1.0) : 0.0;
-    double v = hit.v > 0.0f ? std::min(static_cast<double>(hit.v), 1.0) : 0.0;
-    if (const double sum = u + v; sum > 1.0) {
-        u /= sum;
-        v /= sum;
-    }
-    return {u, v};
+    const double u = std::min(std::max(0.0, static_cast<double>(hit.u)), 1.0);
+    const double v = std::min(std::max(0.0, static_cast<double>(hit.v)), 1.0);
+    return glm::dvec2(u, v) / std::max(1.0, u + v);
 }
 
 /// A point of a triangle. `triangle` holds indices into `points`, which may have any precision.

@@ -33,7 +33,7 @@ glm::dquat rotation_of(const glm::dmat4& matrix) {
     const glm::dvec3 y = glm::normalize(axes[1] - glm::dot(axes[1], x) * x);
     const glm::dquat rotation = glm::quat_cast(glm::dmat3(x, y, glm::cross(x, y)));
     const double length = glm::length(rotation);
-    return std::isfinite(length) && length > 0.0 ? rotation / length : glm::dquat(1.0, 0.0, 0.0, 0.0);
+    return std::isfinite(length) ? rotation / length : glm::dquat(1.0, 0.0, 0.0, 0.0);
 }
 
 double turn_between(const glm::dmat4& a, const glm::dmat4& b) {

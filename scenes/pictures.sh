@@ -48,6 +48,9 @@ picture() {
     pool-still) shot pool-still 400x300 2 9,13,30,89 ;;
     art-gallery) shot art-gallery 400x300 2 70,205,395,620 ;;
     antique-room) shot antique-room 400x300 2 15,100 ;;  # a quarter of an hour or more
+    boomerang)
+      build/aleph render scenes/boomerang/scene.json --frames 78 --size 384x288 --error 1 --vision castle --light-step 0 -q \
+        -o scenes/boomerang/boomerang.png ;;
     cornell) shot cornell 320x320 3 0,15,30 ;;
     room) shot room 512x512 1 0 ;;
     hard) folder hard 6 --size 160x120 ;;
@@ -57,5 +60,5 @@ picture() {
   esac
 }
 
-[ $# -gt 0 ] || set -- pool pool-still art-gallery cornell room hard materials furnace
+[ $# -gt 0 ] || set -- pool pool-still art-gallery boomerang cornell room hard materials furnace
 for name in "$@"; do picture "$name"; done

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "engine/base/sampling.h"
+#include "render/cache/gather.h"
 
 namespace aleph {
 
@@ -76,7 +77,7 @@ void DirectGrid::grow() {
 
 void DirectGrid::insert(std::span<const DirectSample> samples) {
     for (const DirectSample& sample : samples) {
-        if (!std::isfinite(sample.light.x + sample.light.y + sample.light.z)) continue;
+        if (!is_finite(sample.light)) continue;
         if (2 * (used_ + 1) > cells_.size()) grow();
         Cell& cell = place_of(sample.cell);
         if (cell.key == 0) ++used_;

@@ -289,16 +289,17 @@ RandomKey make_place_key(std::uint32_t seed, const Hit& hit) {
 }
 
 IrradianceSample gather_irradiance(const LightingContext& context, RayTask& task, const SurfacePlace& point,
-                                   const HemisphereStrata& strata, const RandomKey& key, GatherScratch& scratch,
-                                   const GatherOptions& options) {
-    RandomStream random(key);
+                                   const GatherPattern& pattern, GatherScratch& scratch, const GatherOptions& options) {
+    const HemisphereStrata& strata = pattern.strata;
+    RandomStream random(pattern.key);
     const CellNumbers numbers(random);
     const int most = divide_cells(strata, options.divided, scratch);
     place_rays(strata, make_basis(point.normal), point, numbers, most, scratch);
     scratch.strata = strata;
     task.tracer.intersect(scratch.rays, scratch.hits, true, scratch.normals);
     task.counts.gather += scratch.rays.size();
-    light_hits({context, task, options, strata, numbers, point.normal, random, key.seed ^ further_seed_mask, scratch});
+    light_hits(
+        {context, task, options, strata, numbers, point.normal, random, pattern.key.seed ^ further_seed_mask, scratch});
     add_unshadowed(context, task, options, scratch);
     return add_up_rays(strata, point.normal, scratch);
 }

@@ -149,14 +149,19 @@ struct GatherOptions {
     std::span<const DividedCell> divided{};
 };
 
+/// Where the rays of a gather go.
+struct GatherPattern {
+    HemisphereStrata strata;
+    RandomKey key{};  ///< all random numbers depend on it
+};
+
 /// Gathers the light that other surfaces scatter to a point: their direct light, and that of further bounces. The
 /// hemisphere lies about the shading normal. Directions below the true surface count as black and infinitely far, and
 /// no rays are cast there. At each hit one light is chosen in proportion to its unshadowed contribution, and one shadow
 /// ray is cast towards it. Where the surface that is hit reflects or passes light by more than its Lambert layer, a
 /// path goes on with that share as its probability.
-/// @param key    all random numbers depend on it
 IrradianceSample gather_irradiance(const LightingContext& context, RayTask& task, const SurfacePlace& point,
-                                   const HemisphereStrata& strata, const RandomKey& key, GatherScratch& scratch,
+                                   const GatherPattern& pattern, GatherScratch& scratch,
                                    const GatherOptions& options = {});
 
 /// The irradiance and its summary from what the rays found.

@@ -42,7 +42,7 @@ int choose_rays(const RenderSettings& settings, float accuracy, const std::optio
 IrradianceSample gather_at(const IndirectContext& context, RayTask& task, const PixelSurface& surface,
                            GatherScratch& scratch, int rays, std::vector<DirectSample>* found) {
     const RandomKey key = choose_key(context, surface);
-    return gather_irradiance(context.lighting, task, surface.point, choose_strata(rays), key, scratch,
+    return gather_irradiance(context.lighting, task, surface.point, {choose_strata(rays), key}, scratch,
                              {std::max(0, context.settings.light.path_depth - 2 - context.bounces_before),
                               context.direct, found, context.multi_bounce});
 }

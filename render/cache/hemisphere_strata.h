@@ -1,6 +1,8 @@
 #pragma once
 // Division of a hemisphere into cells, and one direction in each.
 
+#include <algorithm>
+#include <array>
 #include <glm/vec2.hpp>
 #include <span>
 
@@ -25,7 +27,7 @@ HemisphereStrata choose_strata(int samples);
 /// in each column by column.
 template <class Visit>
 void visit_blocks(const HemisphereStrata& strata, const Visit& visit) {
-    const int bands = (strata.rows + 2) / 4 > 0 ? (strata.rows + 2) / 4 : 1;
+    const int bands = std::max(1, (strata.rows + 2) / 4);
     for (int band = 0; band < bands; ++band) {
         const int begin = band * strata.rows / bands, end = (band + 1) * strata.rows / bands;
         for (int column = 0; column < strata.columns; ++column) {

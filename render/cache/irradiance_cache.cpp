@@ -46,9 +46,9 @@ bool is_usable(const IrradianceRecord& record, const CacheQuery& query, float er
     return query.task != nullptr && is_in_sight(*query.task, record, query);
 }
 
-/// S_i, m.
+/// S_i, m; infinite where no difference was found.
 float spread_of(const IrradianceRecord& record) {
-    return record.growth > 0.0f ? 1.0f / std::sqrt(record.growth) : std::numeric_limits<float>::infinity();
+    return 1.0f / std::sqrt(record.growth);
 }
 
 /// Returns whether a record's value can be compared with another's, moved to its place.

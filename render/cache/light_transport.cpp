@@ -161,7 +161,7 @@ class LightTransport {
                 .multi_bounce = context_.multi_bounce};
             for (std::size_t i = begin; i < end; ++i) {
                 added[i].direct =
-                    gather_irradiance(context_.lighting, task, lit[i]->place, {}, lit[i]->key, scratch, options)
+                    gather_irradiance(context_.lighting, task, lit[i]->place, {{}, lit[i]->key}, scratch, options)
                         .irradiance;
                 if (!is_finite(added[i].direct)) added[i].direct = Rgb(0.0f);
                 added[i].key = lit[i]->key;

@@ -171,8 +171,7 @@ EstimateNodes gather_estimate(const LightingContext& context, const CameraView& 
                 EstimateNodes::Node& node = nodes.node(p.x, p.y);
                 const std::optional<Rgb> found = carried != nullptr ? carried->find(surface) : std::nullopt;
                 node.irradiance =
-                    found ? *found
-                          : gather_irradiance(context, task, surface.point, strata, RandomKey{}, scratch).irradiance;
+                    found ? *found : gather_irradiance(context, task, surface.point, {strata}, scratch).irradiance;
                 node.known = is_finite(node.irradiance);
             }
             const std::lock_guard lock(counts_mutex);

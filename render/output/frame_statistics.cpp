@@ -22,8 +22,8 @@ Json keyframes_json(const std::vector<KeyframeStatistics>& keyframes) {
     for (const KeyframeStatistics& m : keyframes) {
         list.push_back({{"frame", m.frame},
                         {"records", m.counts.records},
-                        {"deeper_records", m.counts.multi_bounce_records},
-                        {"deeper_rays", m.counts.multi_bounce_rays},
+                        {"multi_bounce_records", m.counts.multi_bounce_records},
+                        {"multi_bounce_rays", m.counts.multi_bounce_rays},
                         {"rays",
                          {{"primary", m.counts.rays.primary},
                           {"shadow", m.counts.rays.shadow},
@@ -69,14 +69,14 @@ Json frame_json(const FrameStatistics& f) {
               {"glossy", f.counts.rays.glossy},
               {"specular", f.counts.rays.specular},
               {"path", f.counts.rays.path},
-              {"deeper", f.counts.rays.multi_bounce},
+              {"multi_bounce", f.counts.rays.multi_bounce},
               {"total", f.counts.rays.total()},
               {"traced", f.traced.all},
               {"invalid", f.traced.invalid}}},
             {"cache",
              {{"records", f.counts.records},
-              {"deeper_records", f.counts.multi_bounce_records},
-              {"deeper_rays", f.counts.multi_bounce_rays},
+              {"multi_bounce_records", f.counts.multi_bounce_records},
+              {"multi_bounce_rays", f.counts.multi_bounce_rays},
               {"lookups", f.counts.cache.lookups},
               {"hits", f.counts.cache.hits},
               {"rounds", f.counts.cache.rounds}}},
@@ -133,7 +133,7 @@ std::string format_statistics(const std::vector<FrameStatistics>& frames, const 
 std::string format_statistics(std::string_view frames, const Scene& scene, const RenderSettings& settings,
                               double exposure, const std::optional<BudgetStatistics>& budget) {
     Json json;
-    json["schema_version"] = 1;
+    json["schema_version"] = 2;
     json["scene"] = scene.file;
     json["frames"] = Json::array();
     for (const Setting& setting : setting_table()) json["settings"][setting.key] = setting_json(setting, settings);

@@ -46,7 +46,7 @@ FrameResult summarize_frame(const std::string& scene, const std::vector<Measured
         values["wall_seconds"].push_back(frame.wall_seconds);
         if (run.errors.empty()) continue;  // a repeat counts the same
         values["rays"].push_back(1e-6 * total(frame.rays));
-        values["gather_rays"].push_back(1e-6 * (part(frame.rays, "gather") + part(frame.rays, "deeper")));
+        values["gather_rays"].push_back(1e-6 * (part(frame.rays, "gather") + part(frame.rays, "multi_bounce")));
         values["samples"].push_back(frame.samples);
         values["records"].push_back(frame.records);
         for (const auto& [name, value] : run.errors.at(i)) values[name].push_back(value);

@@ -16,9 +16,13 @@ namespace {
 
 std::vector<std::pair<std::string, double>> list_rays(const RayCounts& rays) {
     const auto number = [](std::uint64_t count) { return static_cast<double>(count); };
-    return {{"primary", number(rays.primary)}, {"shadow", number(rays.shadow)},     {"gather", number(rays.gather)},
-            {"glossy", number(rays.glossy)},   {"specular", number(rays.specular)}, {"path", number(rays.path)},
-            {"deeper", number(rays.multi_bounce)}};
+    return {{"primary", number(rays.primary)},
+            {"shadow", number(rays.shadow)},
+            {"gather", number(rays.gather)},
+            {"glossy", number(rays.glossy)},
+            {"specular", number(rays.specular)},
+            {"path", number(rays.path)},
+            {"multi_bounce", number(rays.multi_bounce)}};
 }
 
 /// A copied frame has the counts of the frame that it is a copy of, and took none of that.

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Runs the studies whose results README.md and THESIS.md have, in out/studies, and makes their pictures.
+# Runs the studies and benchmarks whose results README.md and THESIS.md have, in out/studies, and makes their pictures.
 #   bash scenes/studies/report.sh [study ...]     pool takes minutes, all of them hours
 set -euo pipefail
 cd "$(dirname "$0")/../.."
@@ -20,6 +20,13 @@ both() {
   study "$1" "$1-castle" --set vision=castle --set viewing.persistence=1 --viewers castle,thesis
 }
 
+# benchmark NAME: its table alone, printed and in out/studies/NAME.txt.
+benchmark() {
+  ninja -C build --quiet "bench_$1"
+  mkdir -p out/studies
+  "build/bench_$1" | sed -n '/ one thread/,$p' | tee "out/studies/$1.txt"
+}
+
 run() {
   case $1 in
     demo)
@@ -37,9 +44,10 @@ run() {
     motion)
       build/study_motion scenes/boomerang/scene.json --frame 24 --set spp=8 --set gather=256 --set light_step=0 --markdown \
         -o scenes/boomerang/motion.jpg ;;
+    stages | update) benchmark "$1" ;;
     *) echo "report.sh: there is no study $1" >&2; exit 2 ;;
   esac
 }
 
-[ $# -gt 0 ] || set -- demo motion pool thesis-pool thesis-gallery thesis-antique-room scenes choices effects antique-room
+[ $# -gt 0 ] || set -- demo motion pool thesis-pool thesis-gallery thesis-antique-room scenes choices effects antique-room stages update
 for name in "$@"; do run "$name"; done

@@ -20,6 +20,7 @@
 #include "render/pixels/pixel_surfaces.h"
 #include "render/settings/settings.h"
 #include "tests/benchmarks/recorded_rays.h"
+#include "tests/benchmarks/thread_seconds.h"
 
 namespace aleph {
 namespace {
@@ -27,12 +28,6 @@ namespace {
 constexpr int rounds = 5;
 constexpr int across = 24, down = 18;       // points over the frame
 constexpr std::size_t points_at_once = 64;  // between two insertions into the direct grid
-
-double seconds_now(clockid_t clock) {
-    timespec time;
-    clock_gettime(clock, &time);
-    return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
-}
 
 /// The least time of several runs, s.
 class Best {
@@ -83,7 +78,7 @@ struct Frame {
                 GatherOptions options{depth, nullptr, nullptr};
                 if (with_grid) options = {depth, &grid, &found[i]};
                 const RandomKey key{seed, 0, static_cast<std::uint32_t>(first + i), 0};
-                gather_irradiance(lighting, task, points[first + i], strata, key, scratch, options);
+                gather_irradiance(lighting, task, points[first + i], {strata, key}, scratch, options);
                 counts[first + i] = task.counts;
             });
             for (std::size_t i = 0; i < count; ++i) grid.insert(found[i]);

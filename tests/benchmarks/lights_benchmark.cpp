@@ -13,6 +13,7 @@
 #include "engine/base/parallel.h"
 #include "render/frame/sequence.h"
 #include "render/path/direct_light.h"
+#include "tests/benchmarks/thread_seconds.h"
 #include "tests/support/render_scenes.h"
 
 namespace aleph {
@@ -42,12 +43,6 @@ Scene make_hall(int lights, bool lamps) {
         add_mesh(scene, make_quad(1.2, 0.8, grey), at + glm::dvec3(0.8, 2.0, 0.5), z_to_up);
     }
     return scene;
-}
-
-double seconds_now() {
-    timespec time;
-    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
-    return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
 }
 
 struct Cost {

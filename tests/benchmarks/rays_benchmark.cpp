@@ -23,20 +23,16 @@
 #include "engine/pose/posed_view.h"
 #include "engine/rays/state.h"
 #include "tests/benchmarks/raw_embree.h"
+#include "tests/benchmarks/thread_seconds.h"
 
 namespace aleph {
 namespace {
 
 /// Processor time of this thread.
 double seconds_of(const std::function<void()>& run) {
-    const auto now = [] {
-        timespec time;
-        clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
-        return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
-    };
-    const double start = now();
+    const double start = seconds_now();
     run();
-    return now() - start;
+    return seconds_now() - start;
 }
 
 bool count_bytes(void* sum, ssize_t bytes, bool) {

@@ -110,8 +110,8 @@ TEST(ImageMotion, EqualsTheSlowReadingOfTheModel) {
     const struct {
         int width, height;
         double shift_x, shift_y;
-    } cases[] = {{67, 45, 3.0, -2.0}, {48, 64, -9.5, 6.25}, {33, 32, 1.0, 0.0},
-                 {31, 40, 4.0, 4.0},  {16, 17, -2.0, 1.0},  {9, 5, 1.0, 1.0}};
+    } cases[] = {{67, 45, 3.0, -2.0}, {48, 64, -9.5, 6.25}, {33, 32, 1.0, 0.0}, {31, 40, 4.0, 4.0},
+                 {16, 17, -2.0, 1.0}, {9, 5, 1.0, 1.0},     {40, 33, 8.0, 0.0}, {33, 40, 0.0, -8.0}};
     for (const auto& c : cases) {
         SCOPED_TRACE(testing::Message() << c.width << "x" << c.height);
         const Image<Rgb> now = make_scene_picture(c.width, c.height, 0.0, 0.0, 1);

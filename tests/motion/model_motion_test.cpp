@@ -10,6 +10,7 @@
 #include <ostream>
 
 #include "engine/base/parallel.h"
+#include "tests/support/child_node.h"
 #include "tests/support/motion_scenes.h"
 #include "tests/support/motion_truth.h"
 
@@ -27,13 +28,6 @@ void PrintTo(const Moving& moving, std::ostream* out) {
     *out << moving.name;
 }
 
-Node make_node(int parent, const glm::dvec3& translation) {
-    Node node;
-    node.parent = parent;
-    node.translation = translation;
-    return node;
-}
-
 Node with_spin(Node node, const glm::dvec3& axis, double from_degrees, double degrees_per_frame) {
     node.axis_rotation = AxisRotation{
         glm::normalize(axis), ramp(from_degrees * degrees, (from_degrees + 30.0 * degrees_per_frame) * degrees)};
@@ -46,19 +40,19 @@ int add_object(Scene& scene, Node node) {
 }
 
 int translating(Scene& scene, int root) {
-    Node node = make_node(root, {});
+    Node node = child_of(root, {});
     node.translation = ramp(glm::dvec3(-1.0, 0.3, -8.0), glm::dvec3(5.0, -2.0, -11.0));
     add_object(scene, node);
     return add_camera(scene, root);
 }
 
 int spinning(Scene& scene, int root) {
-    add_object(scene, with_spin(make_node(root, {0.2, 0.1, -9.0}), {1.0, 2.0, -0.5}, 13.0, 170.0));
+    add_object(scene, with_spin(child_of(root, {0.2, 0.1, -9.0}), {1.0, 2.0, -0.5}, 13.0, 170.0));
     return add_camera(scene, root);
 }
 
 int turning_by_quaternions(Scene& scene, int root) {
-    Node node = make_node(root, {0.4, -0.3, -7.0});
+    Node node = child_of(root, {0.4, -0.3, -7.0});
     node.rotation = ramp(glm::normalize(glm::dquat(0.9, 0.1, -0.4, 0.2)),
                          glm::normalize(glm::dquat(-0.2, 0.7, 0.6, -0.3)), 0.0, 0.9);
     add_object(scene, node);
@@ -67,9 +61,9 @@ int turning_by_quaternions(Scene& scene, int root) {
 
 /// Nine levels with non-uniform and mirroring scales, matrices and spins between, and objects on three of them.
 int deep(Scene& scene, int root) {
-    int parent = add_node(scene, make_node(root, {0.0, 0.0, -12.0}));
+    int parent = add_node(scene, child_of(root, {0.0, 0.0, -12.0}));
     for (int level = 0; level < 9; ++level) {
-        Node node = with_spin(make_node(parent, {0.2 - 0.05 * level, 0.1, 0.07 * level}),
+        Node node = with_spin(child_of(parent, {0.2 - 0.05 * level, 0.1, 0.07 * level}),
                               {0.3, 1.0 - 0.2 * level, 0.1 * level}, 10.0 * level, 4.0 - level);
         const double mirror = level % 3 == 1 ? -1.0 : 1.0;
         node.scale = ramp(glm::dvec3(1.1 * mirror, 0.8, 1.3), glm::dvec3(0.9 * mirror, 1.2, 1.0));
@@ -83,14 +77,14 @@ int deep(Scene& scene, int root) {
 }
 
 int camera_in_place(Scene& scene, int root, Node camera_mount) {
-    add_object(scene, make_node(root, {0.5, 0.2, -6.0}));
-    add_object(scene, with_spin(make_node(root, {-2.0, 1.0, -15.0}), {0.0, 1.0, 0.0}, 30.0, 0.0));
+    add_object(scene, child_of(root, {0.5, 0.2, -6.0}));
+    add_object(scene, with_spin(child_of(root, {-2.0, 1.0, -15.0}), {0.0, 1.0, 0.0}, 30.0, 0.0));
     camera_mount.parent = root;
     return add_camera(scene, add_node(scene, std::move(camera_mount)));
 }
 
 int panning(Scene& scene, int root) {
-    return camera_in_place(scene, root, with_spin(make_node(root, {0.1, 0.2, 1.0}), {0.1, 1.0, 0.0}, -1.0, 2.0));
+    return camera_in_place(scene, root, with_spin(child_of(root, {0.1, 0.2, 1.0}), {0.1, 1.0, 0.0}, -1.0, 2.0));
 }
 int dollying(Scene& scene, int root) {
     Node mount;
@@ -98,10 +92,10 @@ int dollying(Scene& scene, int root) {
     return camera_in_place(scene, root, mount);
 }
 int rolling(Scene& scene, int root) {
-    return camera_in_place(scene, root, with_spin(make_node(root, {0.1, 0.2, 1.0}), {0.0, 0.0, 1.0}, 5.0, 9.0));
+    return camera_in_place(scene, root, with_spin(child_of(root, {0.1, 0.2, 1.0}), {0.0, 0.0, 1.0}, 5.0, 9.0));
 }
 int zooming(Scene& scene, int root) {
-    const int camera = camera_in_place(scene, root, make_node(root, {0.0, 0.0, 1.0}));
+    const int camera = camera_in_place(scene, root, child_of(root, {0.0, 0.0, 1.0}));
     scene.cameras.back().fov = ramp(0.5, 1.5);
     return camera;
 }
@@ -118,9 +112,9 @@ int everything(Scene& scene, int root) {
     spinning(scene, root);
     scene.cameras.clear();
     for (Node& node : scene.nodes) node.camera = no_index;
-    Node crane = with_spin(make_node(root, {0.0, 0.5, 2.0}), {0.0, 1.0, 0.2}, 0.0, 1.5);
+    Node crane = with_spin(child_of(root, {0.0, 0.5, 2.0}), {0.0, 1.0, 0.2}, 0.0, 1.5);
     crane.scale = glm::dvec3(2.0);
-    Node head = with_spin(make_node(add_node(scene, crane), {0.1, 0.0, 0.2}), {0.2, 0.1, 1.0}, 0.0, -3.0);
+    Node head = with_spin(child_of(add_node(scene, crane), {0.1, 0.0, 0.2}), {0.2, 0.1, 1.0}, 0.0, -3.0);
     return add_camera(scene, add_node(scene, head));
 }
 
@@ -129,7 +123,7 @@ class MotionTruth : public testing::TestWithParam<std::tuple<Moving, double>> {
     MotionTruth() {
         const auto& [moving, distance] = GetParam();
         // Exactly representable, along every axis.
-        const int root = add_node(scene_, make_node(no_index, glm::dvec3(distance, -distance, distance)));
+        const int root = add_node(scene_, child_of(no_index, glm::dvec3(distance, -distance, distance)));
         camera_ = moving.build(scene_, root);
     }
     Scene scene_;
@@ -207,8 +201,8 @@ INSTANTIATE_TEST_SUITE_P(
 /// Other objects move, so that the frame as a whole is not skipped.
 TEST(ModelMotion, StaticObjectsBesideMovingOnesAreExactlyStill) {
     Scene scene;
-    const int root = add_node(scene, make_node(no_index, {0.3, -0.1, 0.7}));
-    Node still = with_spin(make_node(root, {0.3, 0.2, -7.0}), {0.3, 0.5, 1.0}, 33.0, 0.0);
+    const int root = add_node(scene, child_of(no_index, {0.3, -0.1, 0.7}));
+    Node still = with_spin(child_of(root, {0.3, 0.2, -7.0}), {0.3, 0.5, 1.0}, 33.0, 0.0);
     still.scale = glm::dvec3(1.1, -0.7, 0.3);
     add_object(scene, still);
     translating(scene, root);
@@ -227,7 +221,7 @@ TEST(ModelMotion, StaticObjectsBesideMovingOnesAreExactlyStill) {
 /// A zoom changes only the projection: neither object nor camera moves, but the picture does.
 TEST(ModelMotion, ZoomMovesObjectsAndBackground) {
     Scene scene;
-    Node node = make_node(no_index, {});
+    Node node = child_of(no_index, {});
     node.meshes = {add_point(scene, {1.0f, 0.5f, -10.0f})};
     add_node(scene, node);
     add_camera(scene);
@@ -247,7 +241,7 @@ TEST(ModelMotion, ZoomMovesObjectsAndBackground) {
 TEST(ModelMotion, FilmOffsetSlidesThePicture) {
     for (const bool orthographic : {false, true}) {
         Scene scene;
-        add_object(scene, make_node(no_index, {0.3, 0.2, -7.0}));
+        add_object(scene, child_of(no_index, {0.3, 0.2, -7.0}));
         add_camera(scene);
         scene.cameras[0].orthographic = orthographic;
         scene.cameras[0].shift_x = ramp(0.1, 0.35);
@@ -269,7 +263,7 @@ TEST(ModelMotion, FilmOffsetSlidesThePicture) {
 
 TEST(ModelMotion, PathIsTheDisplacementsLengthWhereNothingTurnsFar) {
     Scene scene;
-    dollying(scene, add_node(scene, make_node(no_index, {})));
+    dollying(scene, add_node(scene, child_of(no_index, {})));
     const TwoViews views(scene, 0.0, 1.0 / 30.0, width, height);
     const Image<Hit> hits = make_random_hits(scene, views.now.pose, width, height);
     const MotionField field = compute_model_motion(scene, views.now, views.other, hits);

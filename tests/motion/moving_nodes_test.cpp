@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "motion/model_motion.h"
+#include "tests/support/child_node.h"
 #include "tests/support/deforming_scenes.h"
 #include "tests/support/motion_scenes.h"
 
@@ -12,13 +13,6 @@ namespace aleph {
 namespace {
 
 constexpr int picture_width = 96, picture_height = 72;
-
-Node make_child(int parent, const glm::dvec3& translation) {
-    Node node;
-    node.parent = parent;
-    node.translation = translation;
-    return node;
-}
 
 Node spinning(Node node, double degrees_per_second) {
     node.axis_rotation = AxisRotation{{0.0, 0.6, 0.8}, ramp(0.1, 0.1 + degrees_per_second * degrees)};
@@ -33,18 +27,18 @@ int add_soup(Scene& scene, Node node) {
 /// Objects in front of a camera: some still, some turning fast, some below a turning node, one of them not inheriting.
 Scene make_scene(double object_turn, double camera_turn) {
     Scene scene = make_skin_scene();  // its joints turn, its own node does not
-    for (int i = 0; i < 5; ++i) add_soup(scene, make_child(no_index, {i - 2.0, 0.5, -9.0}));
-    const int arm = add_node(scene, spinning(make_child(no_index, {0.0, 1.0, -8.0}), object_turn));
-    add_soup(scene, make_child(arm, {1.0, 0.0, 0.0}));
-    add_soup(scene, spinning(make_child(arm, {-1.0, 0.0, 0.0}), -2.0 * object_turn));
-    Node let_go = make_child(arm, {0.0, 0.0, -12.0});
+    for (int i = 0; i < 5; ++i) add_soup(scene, child_of(no_index, {i - 2.0, 0.5, -9.0}));
+    const int arm = add_node(scene, spinning(child_of(no_index, {0.0, 1.0, -8.0}), object_turn));
+    add_soup(scene, child_of(arm, {1.0, 0.0, 0.0}));
+    add_soup(scene, spinning(child_of(arm, {-1.0, 0.0, 0.0}), -2.0 * object_turn));
+    Node let_go = child_of(arm, {0.0, 0.0, -12.0});
     let_go.inherits = 0.0;
     add_soup(scene, let_go);
-    const int still = add_soup(scene, make_child(no_index, {0.3, -2.0, -7.0}));
-    add_soup(scene, spinning(make_child(still, {0.0, -1.0, 0.0}), 40.0));
+    const int still = add_soup(scene, child_of(no_index, {0.3, -2.0, -7.0}));
+    add_soup(scene, spinning(child_of(still, {0.0, -1.0, 0.0}), 40.0));
     // A turntable carries the camera and one object.
-    const int table = add_node(scene, spinning(make_child(no_index, {0.0, 0.0, 3.0}), camera_turn));
-    add_soup(scene, make_child(table, {0.2, 0.1, -6.0}));
+    const int table = add_node(scene, spinning(child_of(no_index, {0.0, 0.0, 3.0}), camera_turn));
+    add_soup(scene, child_of(table, {0.2, 0.1, -6.0}));
     add_camera(scene, table);
     return scene;
 }

@@ -177,6 +177,7 @@ Scene make_card(bool orthographic, double distance_from_origin) {
     Scene scene;
     Node root;
     root.translation = glm::dvec3(distance_from_origin, -distance_from_origin, distance_from_origin);
+    root.axis_rotation = AxisRotation{glm::normalize(glm::dvec3(1.0, -2.0, 0.5)), 0.8};
     add_node(scene, root);
     Node wall;
     wall.parent = 0;

@@ -120,6 +120,15 @@ TEST(Reprojection, RP05_NoNearPlane) {
     }
 }
 
+TEST(Reprojection, RP05_LengthsWhoseSquareOverflows) {
+    Scene scene = make_point_scene({3.0f, -4.0f, -2.0f});
+    scene.nodes[0].scale = glm::dvec3(1e200, 1e200, 1.0);
+    scene.nodes[0].translation = ramp(glm::dvec3(0.0), glm::dvec3(0.0, 0.0, 1.0));
+    const PointMotion motion = motion_of_point(scene);
+    EXPECT_NEAR(motion.displacement.x, 0.6 * 1000.0 * std::sqrt(2.0), 1e-9);
+    EXPECT_NEAR(motion.displacement.y, 0.8 * 1000.0 * std::sqrt(2.0), 1e-9);
+}
+
 TEST(Reprojection, RP06_ApproachingSurface) {
     // x = .075 at z = -2 and at z = -.1: f x (1/.1 - 1/2) = 712.5 px, kept although it leaves the screen.
     Scene scene = make_point_scene({0.075f, 0.0f, -2.0f});
@@ -144,15 +153,20 @@ Scene make_empty_scene() {
 
 TEST(Reprojection, RP09_BackgroundFollowsRotationAlone) {
     Scene scene = make_empty_scene();
-    scene.nodes[0].axis_rotation = AxisRotation{{0.0, 1.0, 0.0}, ramp(0.0, 1.0 * degrees)};
-    const MotionField panned = background_motion(scene);
-    for (const int x : {0, 57, 100, 199}) {
-        // Seen at atan(x/f) right of the axis; the camera turns left by a degree, so it goes right.
-        const double column = x + 0.5 - 100.0;
-        const double seen = std::atan2(column, 100.0);
-        EXPECT_NEAR(panned.displacement(x, 50).x, 100.0 * std::tan(seen + 1.0 * degrees) - column, 1e-4) << x;
-        EXPECT_EQ(panned.validity(x, 50), MotionValidity::background);
-        EXPECT_DOUBLE_EQ(panned.path_length(x, 50), glm::length(panned.displacement(x, 50)));
+    for (const double from : {0.0, 30.0}) {
+        scene.nodes[0].axis_rotation = AxisRotation{{0.0, 1.0, 0.0}, ramp(from * degrees, (from + 1.0) * degrees)};
+        const MotionField panned = background_motion(scene);
+        for (const int x : {0, 57, 100, 199}) {
+            for (const int y : {3, 50}) {
+                // Seen at atan(x/f) right of the axis; the camera turns left by a degree, so it goes right.
+                const double column = x + 0.5 - 100.0, row = y + 0.5 - 50.0;
+                const double seen = std::atan2(column, 100.0), next = seen + 1.0 * degrees;
+                EXPECT_NEAR(panned.displacement(x, y).x, 100.0 * std::tan(next) - column, 1e-4) << x;
+                EXPECT_NEAR(panned.displacement(x, y).y, row * std::cos(seen) / std::cos(next) - row, 1e-4) << x;
+                EXPECT_EQ(panned.validity(x, y), MotionValidity::background);
+                EXPECT_DOUBLE_EQ(panned.path_length(x, y), glm::length(panned.displacement(x, y)));
+            }
+        }
     }
     scene.nodes[0].axis_rotation.reset();
     scene.nodes[0].translation = ramp(glm::dvec3(0.0), glm::dvec3(1.0, -2.0, 3.0));

@@ -27,7 +27,9 @@ PROGRAMS = {
 }
 OPERATOR = re.compile(r"(?<=[\w)\]}]) (<=|>=|==|!=|<|>|\+|-|\*|/)(?= |$)")
 # Where an operator is no expression of values: preprocessor, templates, declarations of operators, static assertions.
-SKIPPED = re.compile(r"^\s*(#|//|\*|template|using|requires|static_assert|case )|operator|\bconcept\b|<=>|sizeof\.\.\.")
+# Constants of the compiler too: they cannot change when a program starts.
+SKIPPED = re.compile(r"^\s*(#|//|\*|template|using|requires|static_assert|case )|operator|\bconcept\b|<=>|sizeof\.\.\.|"
+                     r"\bconstexpr [^()]*=|if constexpr|std::array<[^>]* [-+*/] [^>]*>")
 
 
 def code_of(line):

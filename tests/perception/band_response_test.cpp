@@ -69,9 +69,7 @@ TEST(BandResponse, SummaryIsTheSameForAnyNumberOfThreads) {
         const ThreadLimit limit(threads);
         return summarize({image.width, image.height}, rows);
     };
-    double sum = 0.0;
-    for (const float v : image.pixels) sum += v;
-    EXPECT_FLOAT_EQ(summarize_with(1).mean, static_cast<float>(sum / static_cast<double>(image.size())));
+    EXPECT_FLOAT_EQ(summarize_with(1).mean, static_cast<float>(mean_of(image)));
     EXPECT_EQ(summarize_with(1).maximum, *std::max_element(image.pixels.begin(), image.pixels.end()));
     EXPECT_EQ(summarize_with(3).mean, summarize_with(1).mean);
 }

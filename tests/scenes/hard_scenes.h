@@ -13,6 +13,7 @@
 #include "render/frame/sequence.h"
 #include "tests/support/paths.h"
 #include "tests/support/quick_settings.h"
+#include "tests/support/warnings.h"
 
 namespace aleph {
 
@@ -64,11 +65,6 @@ inline double longest_motion(const FrameOutput& output) {
     double longest = 0.0;
     for (const glm::dvec2& d : output.motion.displacement.pixels) longest = std::max(longest, glm::length(d));
     return longest;
-}
-
-inline bool warns(const Scene& scene, const std::string& words) {
-    return std::ranges::any_of(scene.warnings,
-                               [&](const std::string& warning) { return warning.find(words) != std::string::npos; });
 }
 
 }  // namespace aleph

@@ -25,7 +25,7 @@ TEST(HardScenes, KF03_HalfTurnGoesOneWay) {
 TEST(HardScenes, KF04_KeysOfAnyLengthAreRotations) {
     const HardScene hard("unequal_quaternions");
     for (const double frame : {0.0, 0.7, 1.0, 2.0}) expect_rotation(hard.world("thing", frame));
-    EXPECT_TRUE(warns(hard.scene, "length 0.5"));
+    EXPECT_TRUE(has_warning(hard.scene, "length 0.5"));
 }
 TEST(HardScenes, KF08_SplineThroughZeroHolds) {
     const HardScene hard("spline_through_zero");

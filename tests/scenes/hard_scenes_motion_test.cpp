@@ -48,7 +48,7 @@ TEST(HardScenes, RP07_SpinHasTheLengthOfItsArc) {
     EXPECT_GT(longest_path, 15.0 * chord);  // an arc of 350 degrees, a chord of 10
 }
 TEST(HardScenes, RP08_LongTurnsGiveAWarning) {
-    EXPECT_TRUE(warns(HardScene("long_way_round").scene, "270 degrees apart"));
+    EXPECT_TRUE(has_warning(HardScene("long_way_round").scene, "270 degrees apart"));
 }
 TEST(HardScenes, RP09_SkyMovesByRotationAlone) {
     HardScene hard("sky");

@@ -4,12 +4,12 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <fstream>
 #include <numbers>
 
 #include "engine/load/framing_camera.h"
 #include "engine/rays/ray_scene.h"
 #include "tests/scenes/hard_scenes.h"
+#include "tests/support/read_bytes.h"
 
 namespace aleph {
 namespace {
@@ -52,15 +52,14 @@ INSTANTIATE_TEST_SUITE_P(All, EveryHardScene, testing::ValuesIn(scene_names()),
                          [](const auto& parameter) { return parameter.param; });
 
 TEST(HardScenes, AreListedInTheReadme) {
-    std::ifstream file(hard_scenes_folder() / "README.md");
-    const std::string text{std::istreambuf_iterator<char>(file), {}};
+    const std::string text = read_bytes(hard_scenes_folder() / "README.md");
     for (const std::string& name : scene_names()) EXPECT_NE(text.find("| `" + name + "` |"), std::string::npos) << name;
 }
 
 TEST(HardScenes, RC02_FlattenedObjectsAreSaid) {
-    EXPECT_TRUE(warns(HardScene("flattened").scene, "node \"thing\" and 1 more: the scale is 0"));
-    EXPECT_FALSE(warns(HardScene("scale_through_zero").scene, "the scale is 0"));
-    EXPECT_FALSE(warns(HardScene("tiny_scale").scene, "the scale is 0"));
+    EXPECT_TRUE(has_warning(HardScene("flattened").scene, "node \"thing\" and 1 more: the scale is 0"));
+    EXPECT_FALSE(has_warning(HardScene("scale_through_zero").scene, "the scale is 0"));
+    EXPECT_FALSE(has_warning(HardScene("tiny_scale").scene, "the scale is 0"));
 }
 TEST(HardScenes, RC05_MillimetreWorldIsThePictureInMetres) {
     HardScene tiny("millimetre_world");
@@ -123,8 +122,8 @@ TEST(HardScenes, RC10_WithoutSurfacesOrCameraTheEnvironmentShows) {
             if (environment.x > 0.0f) scene.environment = Track<glm::dvec3>(glm::dvec3(environment));
             scene.exposure = 1.0;
             add_framing_camera(scene);
-            EXPECT_TRUE(warns(scene, "there is no camera"));
-            EXPECT_EQ(warns(scene, "nothing to see"),
+            EXPECT_TRUE(has_warning(scene, "there is no camera"));
+            EXPECT_EQ(has_warning(scene, "nothing to see"),
                       meshes.empty() || (meshes.size() == 1 && meshes[0].positions.empty()));
             const CameraValues camera = pose(scene, 0.0).cameras.at(0);
             for (int k = 0; k < 3; ++k) {

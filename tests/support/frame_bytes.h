@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <string>
+#include <vector>
 
 #include "engine/load/load_scene.h"
 #include "render/frame/sequence.h"
@@ -11,6 +12,7 @@
 #include "tests/support/quick_settings.h"
 #include "tests/support/read_bytes.h"
 #include "tests/support/scratch_folder.h"
+#include "tests/support/with_threads.h"
 
 namespace aleph {
 
@@ -37,6 +39,17 @@ inline std::string frame_bytes(Sequence& sequence, const Scene& scene, const Ren
     const FrameOutput output = sequence.render(frame, {.frame = true, .maps = true, .progress = {}});
     write_exr(folder / "frame.exr", make_frame_image(output, true, scene, settings, sequence.exposure()));
     return read_bytes(folder / "frame.exr");
+}
+
+/// The files of these frames, rendered one after the other by so many threads.
+inline std::vector<std::string> frame_bytes(int threads, const Scene& scene, const RenderSettings& settings,
+                                            const std::vector<std::int64_t>& frames) {
+    return with_threads(threads, [&] {
+        Sequence sequence(scene, settings);
+        std::vector<std::string> files;
+        for (const std::int64_t frame : frames) files.push_back(frame_bytes(sequence, scene, settings, frame));
+        return files;
+    });
 }
 
 }  // namespace aleph

@@ -28,7 +28,7 @@ inline Rgb gather_indirect(const Stage& stage, const PixelSurface& surface, int 
     GatherScratch scratch;
     const RandomKey key{0x72656665u, 0, surface.pixel, 0};
     const Rgb irradiance =
-        gather_irradiance(stage.lighting(), task, surface.point, choose_strata(strata), key, scratch).irradiance;
+        gather_irradiance(stage.lighting(), task, surface.point, {choose_strata(strata), key}, scratch).irradiance;
     return surface.material.diffuse * irradiance / std::numbers::pi_v<float>;
 }
 

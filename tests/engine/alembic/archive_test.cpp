@@ -8,12 +8,13 @@
 #include "engine/alembic/archive.h"
 #include "engine/base/errors.h"
 #include "tests/support/files/alembic_truth.h"
+#include "tests/support/read_bytes.h"
 
 namespace aleph {
 namespace {
 
 AlembicArchive open(const std::string& name) {
-    return {file_bytes(archive_path(name)), archive_path(name).string()};
+    return {read_numbers(archive_path(name)), archive_path(name).string()};
 }
 
 int find_object(const AlembicArchive& archive, const std::string& path) {

@@ -8,6 +8,7 @@
 #include "tests/engine/alembic/verdict.h"
 #include "tests/support/files/alembic_truth.h"
 #include "tests/support/paths.h"
+#include "tests/support/read_bytes.h"
 
 namespace aleph {
 namespace {
@@ -43,7 +44,7 @@ TEST(AlembicBadFile, WhatIsNoFinishedOgawaArchive) {
 TEST(AlembicBadFile, TruncatedEverywhere) {
     const ScratchFolder folder;
     for (const std::string& name : own_archives) {
-        const DraftBytes whole = file_bytes(archive_path(name));
+        const DraftBytes whole = read_numbers(archive_path(name));
         for (std::size_t i = 0; i < 60; ++i) {
             const DraftBytes cut(whole.begin(), whole.begin() + static_cast<std::ptrdiff_t>(whole.size() * i / 60));
             EXPECT_NE(verdict(write_draft(folder / "cut.abc", cut)), "") << name << " cut to " << cut.size();
@@ -56,7 +57,7 @@ TEST(AlembicBadFile, OneByteDamaged) {
     const ScratchFolder folder;
     int refused = 0, loaded = 0;
     for (const std::string& name : own_archives) {
-        const DraftBytes whole = file_bytes(archive_path(name));
+        const DraftBytes whole = read_numbers(archive_path(name));
         for (std::size_t i = 0; i < 250; ++i) {
             DraftBytes damaged = whole;
             const std::size_t at = (i * 2654435761u + 97 * i) % whole.size();

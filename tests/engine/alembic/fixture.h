@@ -9,6 +9,7 @@
 #include "tests/support/files/alembic_draft.h"
 #include "tests/support/files/alembic_truth.h"
 #include "tests/support/scratch_folder.h"
+#include "tests/support/warnings.h"
 
 namespace aleph {
 
@@ -31,17 +32,6 @@ inline const Node& node_named(const Scene& scene, const std::string& name) {
 
 inline const Mesh& mesh_of(const Scene& scene, const std::string& node, std::size_t i = 0) {
     return scene.meshes[node_named(scene, node).meshes.at(i)];
-}
-
-inline bool has_warning(const Scene& scene, const std::string& word) {
-    return std::ranges::any_of(scene.warnings,
-                               [&](const std::string& text) { return text.find(word) != std::string::npos; });
-}
-
-inline const json& object_of(const json& truth, const std::string& path) {
-    for (const json& object : truth["objects"])
-        if (object["path"] == path) return object;
-    throw std::out_of_range("no object " + path);
 }
 
 inline const json& property_of(const json& object, const std::string& name) {

@@ -11,6 +11,7 @@
 #include "engine/scene/operations.h"
 #include "engine/scene/points.h"
 #include "tests/support/files/alembic_truth.h"
+#include "tests/support/warnings.h"
 
 namespace aleph {
 namespace {
@@ -199,12 +200,6 @@ TEST(AlembicVisibility, ExplicitOnesShowBelowAHiddenParent) {
     EXPECT_EQ(evaluate(hand, 10.0 / 24.0), 1.0);  // stored -1
 }
 
-const json& object_of(const json& truth, const std::string& path) {
-    for (const json& object : truth["objects"])
-        if (object["path"] == path) return object;
-    throw std::out_of_range("no object " + path);
-}
-
 /// All 16 numbers interpolate in the archive; the camera of the scene follows from them.
 TEST(AlembicCameras, FieldOfViewAndShiftAtEveryQueryTime) {
     const Scene scene = load_archive("camera_anim");
@@ -241,8 +236,7 @@ TEST(AlembicCameras, FieldOfViewAndShiftAtEveryQueryTime) {
             EXPECT_NEAR(window.right, expected[3], 1e-12);
         }
     }
-    EXPECT_TRUE(std::ranges::any_of(scene.warnings,
-                                    [](const std::string& text) { return text.find("f-stop") != std::string::npos; }));
+    EXPECT_TRUE(has_warning(scene, "f-stop"));
 }
 
 TEST(AlembicCameras, FilmBackOperationsCompose) {

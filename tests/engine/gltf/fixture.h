@@ -8,6 +8,7 @@
 #include "engine/gltf/gltf.h"
 #include "tests/support/files/gltf_draft.h"
 #include "tests/support/scratch_folder.h"
+#include "tests/support/warnings.h"
 
 namespace aleph {
 
@@ -22,13 +23,6 @@ class GltfFixture : public testing::Test {
         append_gltf(folder_ / name, scene, no_index, 0);
         return scene;
     }
-    static std::size_t count_warnings(const Scene& scene, const std::string& text) {
-        std::size_t count = 0;
-        for (const std::string& warning : scene.warnings) count += warning.find(text) != std::string::npos ? 1 : 0;
-        return count;
-    }
-    static bool warns(const Scene& scene, const std::string& text) { return count_warnings(scene, text) > 0; }
-
     ScratchFolder folder_;
 };
 

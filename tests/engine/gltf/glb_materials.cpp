@@ -2,11 +2,10 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <utility>
 
 #include "tests/engine/gltf/glb_parts.h"
+#include "tests/support/read_bytes.h"
 
 namespace aleph {
 
@@ -14,8 +13,7 @@ void GlbWriter::add_images() {
     for (const SceneImage& source : scene_.images) {
         if (source.path.empty()) refuse("embedded images");
         const auto path = std::filesystem::path(scene_.file).parent_path() / source.path;
-        std::ifstream stream(path, std::ios::binary);
-        const std::string bytes{std::istreambuf_iterator<char>(stream), {}};
+        const std::string bytes = read_bytes(path);
         if (bytes.substr(1, 3) != "PNG") refuse(path.string());
         gltf::Image image;
         image.name = source.name;

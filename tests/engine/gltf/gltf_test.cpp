@@ -103,7 +103,7 @@ TEST_F(Gltf, OnlyTheDefaultSceneIsRead) {
     const Scene scene = load(draft);
     ASSERT_EQ(scene.nodes.size(), 1u);
     EXPECT_EQ(scene.nodes[0].name, "b");
-    EXPECT_TRUE(warns(scene, "only the default one is read"));
+    EXPECT_TRUE(has_warning(scene, "only the default one is read"));
 
     draft.json.erase("scene");
     draft.json.erase("scenes");
@@ -292,7 +292,7 @@ TEST_F(Gltf, UnknownOptionalExtensionIsAWarning) {
     draft.json["extensionsUsed"] = {"VENDOR_thing"};
     draft.json["nodes"][0]["extensions"] = {{"VENDOR_thing", {{"deep", {1, 2, 3}}}}};
     draft.json["nodes"][0]["extras"] = {{"extensions", {{"KHR_texture_transform", 1}}}};  // not glTF's business
-    EXPECT_TRUE(warns(load(draft), "VENDOR_thing is ignored"));
+    EXPECT_TRUE(has_warning(load(draft), "VENDOR_thing is ignored"));
 }
 
 }  // namespace

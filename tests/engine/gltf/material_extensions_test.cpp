@@ -112,7 +112,7 @@ TEST_F(GltfMaterialExtensions, DefaultsAreThoseOfTheSpecifications) {
 TEST_F(GltfMaterialExtensions, S13_8_FactorsOutOfRangeAreClampedWithAWarning) {
     const auto expect_clamped = [&](const char* extension, const Json& members, const char* warning) {
         const Scene scene = load(draft_with(extensions(extension, members)));
-        EXPECT_EQ(count_warnings(scene, std::string("/materials/0: ") + warning), 1u) << warning;
+        EXPECT_EQ(count_warnings(scene, std::string("/materials/0: ") + warning), 1) << warning;
         EXPECT_EQ(scene.warnings.size(), 1u) << warning;
         return scene.materials[0];
     };
@@ -158,13 +158,13 @@ TEST_F(GltfMaterialExtensions, WhatIsMissingIsSaidOncePerFile) {
         draft.json["extensions"][name] = Json::object();
         const Scene scene = load(draft);
         EXPECT_EQ(scene.warnings.size(), 1u) << name;
-        EXPECT_TRUE(warns(scene, std::string("the extension ") + name + " is not supported: ")) << name;
-        EXPECT_FALSE(warns(scene, ": : ")) << "the warning is of the whole file";
-        EXPECT_TRUE(warns(scene, words)) << name;
+        EXPECT_TRUE(has_warning(scene, std::string("the extension ") + name + " is not supported: ")) << name;
+        EXPECT_FALSE(has_warning(scene, ": : ")) << "the warning is of the whole file";
+        EXPECT_TRUE(has_warning(scene, words)) << name;
         draft.json["extensionsRequired"] = {name};
         EXPECT_THROW(load(draft), InputError) << name;
     }
-    EXPECT_TRUE(warns(load(draft_with(extensions("VENDOR_glow", Json::object()))), "VENDOR_glow is ignored"));
+    EXPECT_TRUE(has_warning(load(draft_with(extensions("VENDOR_glow", Json::object()))), "VENDOR_glow is ignored"));
 }
 
 }  // namespace

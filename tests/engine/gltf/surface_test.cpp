@@ -43,7 +43,7 @@ TEST_F(GltfSurface, ColoursInAllTheirForms) {
     const Scene clamped = load(wild);
     EXPECT_EQ(clamped.meshes[0].colors[0], glm::vec4(1, 0, 0, 1));
     EXPECT_EQ(clamped.meshes[0].colors[1], glm::vec4(0, 0, 0, 1));
-    EXPECT_EQ(count_warnings(clamped, "COLOR_0"), 1u);
+    EXPECT_EQ(count_warnings(clamped, "COLOR_0"), 1);
 }
 
 TEST_F(GltfSurface, ColourBytesOfThreeComponentsPaddedToFour) {
@@ -96,7 +96,7 @@ TEST_F(GltfSurface, NormalOfLengthZeroMakesTheMeshFlat) {
     draft.primitive()["attributes"]["NORMAL"] = draft.add_accessor<float>({0, 0, 1, 0, 0, 0, 0, 0, 1}, "VEC3", 3);
     const Scene scene = load(draft);
     EXPECT_TRUE(scene.meshes[0].normals.empty());
-    EXPECT_EQ(count_warnings(scene, "shaded flat"), 1u);
+    EXPECT_EQ(count_warnings(scene, "shaded flat"), 1);
 }
 
 TEST_F(GltfSurface, DefaultMaterialIsTheSpecifications) {
@@ -148,7 +148,7 @@ TEST_F(GltfSurface, S13_8_FactorsOutOfRangeAreClampedWithAWarning) {
     EXPECT_EQ(scene.materials[0].metallic, Track<double>(1.0));
     EXPECT_EQ(scene.materials[0].roughness, Track<double>(0.0));
     EXPECT_EQ(scene.materials[0].ior, Track<double>(1.0));
-    EXPECT_EQ(count_warnings(scene, "/materials/0: metallicFactor 1.5 is clamped to 1"), 1u);
+    EXPECT_EQ(count_warnings(scene, "/materials/0: metallicFactor 1.5 is clamped to 1"), 1);
     EXPECT_EQ(scene.warnings.size(), 3u);
 }
 
@@ -206,7 +206,7 @@ TEST_F(GltfSurface, OcclusionTexturesGiveOneWarningAndAreNotDecoded) {
     draft.json["materials"] = {material, material};
     const Scene scene = load(draft);
     EXPECT_EQ(scene.warnings.size(), 1u);
-    EXPECT_EQ(count_warnings(scene, "materials: occlusion textures (2) are not used"), 1u);
+    EXPECT_EQ(count_warnings(scene, "materials: occlusion textures (2) are not used"), 1);
     EXPECT_TRUE(scene.images.empty());
 }
 
@@ -273,7 +273,7 @@ TEST_F(GltfSurface, UnlitTransmissionAndIor) {
     EXPECT_FALSE(scene.materials[1].unlit);
     EXPECT_EQ(scene.materials[1].transmission, Track<double>(1.0));
     EXPECT_EQ(scene.materials[1].ior, Track<double>(0.0));  // allowed: reflects everything
-    EXPECT_EQ(count_warnings(scene, "transmissionFactor 2 is clamped to 1"), 1u);
+    EXPECT_EQ(count_warnings(scene, "transmissionFactor 2 is clamped to 1"), 1);
     EXPECT_EQ(scene.warnings.size(), 1u);
 }
 

@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "engine/base/errors.h"
-#include "tests/engine/image/file_bytes.h"
+#include "tests/support/read_bytes.h"
 #include "tests/support/refusal.h"
 #include "tests/support/scratch_folder.h"
 
@@ -79,7 +79,7 @@ TEST(ImageIo, CopyingAFilesMetadataIsStable) {
     image.metadata = {{"software", std::string("aleph")}, {"framesPerSecond", std::array{24, 1}}};
     write_exr(folder / "a.exr", image);
     write_exr(folder / "b.exr", read_image(folder / "a.exr"));
-    EXPECT_EQ(bytes_of(folder / "a.exr"), bytes_of(folder / "b.exr"));
+    EXPECT_EQ(read_numbers(folder / "a.exr"), read_numbers(folder / "b.exr"));
 }
 
 TEST(ImageIo, PngComesBackAsEncoded) {
@@ -107,13 +107,13 @@ TEST(ImageIo, TexturesKeepTheirPrecision) {
     const ScratchFolder folder;
     Image<Rgb> image(2, 1, Rgb(0.5f));
     write_png(folder / "a.png", image);
-    const DecodedTexture png = decode_texture(bytes_of(folder / "a.png"), "a.png");
+    const DecodedTexture png = decode_texture(read_numbers(folder / "a.png"), "a.png");
     EXPECT_TRUE(png.floats.empty());
     ASSERT_EQ(png.bytes.size(), 2u);
     EXPECT_EQ(png.bytes(1, 0), (std::array<std::uint8_t, 4>{188, 188, 188, 255}));
 
     write_exr(folder / "a.exr", small_image());
-    const DecodedTexture exr = decode_texture(bytes_of(folder / "a.exr"), "a.exr");
+    const DecodedTexture exr = decode_texture(read_numbers(folder / "a.exr"), "a.exr");
     EXPECT_TRUE(exr.bytes.empty());
     ASSERT_EQ(exr.floats.width, 7);
     EXPECT_EQ(exr.floats(1, 0)[0], 0.37f - 3.0f);
@@ -121,7 +121,7 @@ TEST(ImageIo, TexturesKeepTheirPrecision) {
 
     ChannelImage grey{{{"Y", Image<float>(1, 1, 7.0f)}}, {}};
     write_exr(folder / "grey.exr", grey);
-    EXPECT_EQ(decode_texture(bytes_of(folder / "grey.exr"), "g").floats(0, 0),
+    EXPECT_EQ(decode_texture(read_numbers(folder / "grey.exr"), "g").floats(0, 0),
               (std::array<float, 4>{7.0f, 7.0f, 7.0f, 1.0f}));
 }
 
@@ -142,7 +142,7 @@ TEST(ImageIo, RefusesACutFileAtEveryLength) {
     write_exr(folder / "a.exr", small_image());
     write_png(folder / "a.png", Image<Rgb>(9, 4, Rgb(0.3f)));
     for (const char* name : {"a.exr", "a.png"}) {
-        const auto whole = bytes_of(folder / name);
+        const auto whole = read_numbers(folder / name);
         for (std::size_t length = 0; length < whole.size(); ++length) {
             const std::vector<std::uint8_t> cut(whole.begin(), whole.begin() + static_cast<std::ptrdiff_t>(length));
             EXPECT_THROW(decode_texture(cut, name), InputError) << name << " cut to " << length;
@@ -156,7 +156,7 @@ TEST(ImageIo, DamagedBytesNeverCrash) {
     write_png(folder / "a.png", Image<Rgb>(9, 4, Rgb(0.3f)));
     int refused = 0;
     for (const char* name : {"a.exr", "a.png"}) {
-        const auto whole = bytes_of(folder / name);
+        const auto whole = read_numbers(folder / name);
         for (std::size_t at = 0; at < whole.size(); ++at) {
             for (const std::uint8_t flip : {0x01, 0x80, 0xff}) {
                 auto damaged = whole;
@@ -171,7 +171,7 @@ TEST(ImageIo, DamagedBytesNeverCrash) {
 TEST(ImageIo, DamagedPngIsOneClearError) {
     const ScratchFolder folder;
     write_png(folder / "a.png", Image<Rgb>(9, 4, Rgb(0.3f)));
-    auto bytes = bytes_of(folder / "a.png");
+    auto bytes = read_numbers(folder / "a.png");
     const std::string type = "IDAT";
     const auto data = std::search(bytes.begin(), bytes.end(), type.begin(), type.end());
     ASSERT_NE(data, bytes.end());
@@ -185,7 +185,7 @@ TEST(ImageIo, DamagedPngIsOneClearError) {
 TEST(ImageIo, RefusesHugePicturesFromTheHeader) {
     const ScratchFolder folder;
     write_png(folder / "a.png", Image<Rgb>(9, 4, Rgb(0.3f)));
-    auto bytes = bytes_of(folder / "a.png");
+    auto bytes = read_numbers(folder / "a.png");
     bytes[16] = bytes[20] = 0x40;  // the high bytes of width and height in IHDR
     save_bytes(folder / "huge.png", bytes);
     EXPECT_NE(input_error(folder / "huge.png").find("too large"), std::string::npos);
@@ -197,7 +197,7 @@ TEST(ImageIo, RefusesHugePicturesFromTheHeader) {
 TEST(ImageIo, RefusesDeepAndMultiPartExr) {
     const ScratchFolder folder;
     write_exr(folder / "a.exr", small_image());
-    auto bytes = bytes_of(folder / "a.exr");
+    auto bytes = read_numbers(folder / "a.exr");
     bytes[5] |= 0x10;
     save_bytes(folder / "multi.exr", bytes);
     EXPECT_NE(input_error(folder / "multi.exr").find("multi-part"), std::string::npos);

@@ -12,7 +12,7 @@
 
 #include "engine/base/errors.h"
 #include "engine/image/image_file.h"
-#include "tests/engine/image/file_bytes.h"
+#include "tests/support/read_bytes.h"
 #include "tests/support/refusal.h"
 #include "tests/support/scratch_folder.h"
 
@@ -36,7 +36,7 @@ void save_codes(const fs::path& path, int width, int height, int channels, const
 TEST(ImageIo, AlphaStaysStraightAndGreyBecomesColour) {
     const ScratchFolder folder;
     save_codes(folder / "rgba.png", 2, 1, 4, {200, 100, 50, 128, 10, 20, 30, 0});
-    const DecodedTexture texture = decode_texture(bytes_of(folder / "rgba.png"), "rgba.png");
+    const DecodedTexture texture = decode_texture(read_numbers(folder / "rgba.png"), "rgba.png");
     EXPECT_EQ(texture.bytes(0, 0), (std::array<std::uint8_t, 4>{200, 100, 50, 128}));
     EXPECT_EQ(texture.bytes(1, 0), (std::array<std::uint8_t, 4>{10, 20, 30, 0}));
     const ChannelImage image = read_image(folder / "rgba.png");
@@ -45,11 +45,11 @@ TEST(ImageIo, AlphaStaysStraightAndGreyBecomesColour) {
     EXPECT_NEAR((*image.find("R"))(0, 0), 200.0f / 255.0f, 1e-6f);
 
     save_codes(folder / "grey.png", 1, 1, 1, {77});
-    EXPECT_EQ(decode_texture(bytes_of(folder / "grey.png"), "g").bytes(0, 0),
+    EXPECT_EQ(decode_texture(read_numbers(folder / "grey.png"), "g").bytes(0, 0),
               (std::array<std::uint8_t, 4>{77, 77, 77, 255}));
     EXPECT_EQ(read_image(folder / "grey.png").channels.size(), 3u);
     save_codes(folder / "grey_alpha.png", 1, 1, 2, {77, 5});
-    EXPECT_EQ(decode_texture(bytes_of(folder / "grey_alpha.png"), "g").bytes(0, 0),
+    EXPECT_EQ(decode_texture(read_numbers(folder / "grey_alpha.png"), "g").bytes(0, 0),
               (std::array<std::uint8_t, 4>{77, 77, 77, 5}));
 }
 
@@ -57,7 +57,7 @@ std::vector<std::uint8_t> flat_jpeg(const ScratchFolder& folder) {
     std::vector<std::uint8_t> codes;
     for (int i = 0; i < 64; ++i) codes.insert(codes.end(), {180, 90, 30});
     save_codes(folder / "a.jpg", 8, 8, 3, codes);
-    return bytes_of(folder / "a.jpg");
+    return read_numbers(folder / "a.jpg");
 }
 
 TEST(ImageIo, ReadsJpeg) {

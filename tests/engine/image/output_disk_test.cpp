@@ -22,6 +22,7 @@
 #include "engine/base/sampling.h"
 #include "engine/image/image_file.h"
 #include "tests/engine/image/output_files.h"
+#include "tests/support/read_bytes.h"
 #include "tests/support/scratch_folder.h"
 
 namespace aleph {
@@ -77,12 +78,12 @@ TEST(Output, OU05_FullDiskIsAnErrorThatNamesTheFile) {
 TEST(Output, OU05_FailedWriteKeepsTheFileThatWasThere) {
     const ScratchFolder folder;
     write_exr(folder / "a.exr", noise_image(4, 4));
-    const std::string before = text_of(folder / "a.exr");
+    const std::string before = read_bytes(folder / "a.exr");
     {
         const FileSizeLimit full(100'000);
         EXPECT_THROW(write_exr(folder / "a.exr", noise_image(300, 200)), OutputError);
     }
-    EXPECT_EQ(text_of(folder / "a.exr"), before);
+    EXPECT_EQ(read_bytes(folder / "a.exr"), before);
     EXPECT_EQ(entries_in(folder.path()), 1u);
 }
 
@@ -131,7 +132,7 @@ TEST(Output, OU06_ReadOnlyFolderAndFile) {
     EXPECT_EQ(in_sealed,
               (folder / "sealed/new.exr").string() + ": cannot create a file in this folder: Permission denied");
     EXPECT_EQ(over_kept, (folder / "kept.exr").string() + ": cannot replace the existing file: Permission denied");
-    EXPECT_EQ(text_of(folder / "kept.exr"), "old");
+    EXPECT_EQ(read_bytes(folder / "kept.exr"), "old");
     ::chmod((folder / "sealed").c_str(), 0755);
 }
 
@@ -139,11 +140,11 @@ TEST(Output, OU06_ExistingFileIsReplacedAndLinksAreFollowed) {
     const ScratchFolder folder;
     write_file(folder / "a.txt", "one");
     write_file(folder / "a.txt", "two");
-    EXPECT_EQ(text_of(folder / "a.txt"), "two");
+    EXPECT_EQ(read_bytes(folder / "a.txt"), "two");
     fs::create_symlink("a.txt", folder / "link.txt");
     write_file(folder / "link.txt", "three");
     EXPECT_TRUE(fs::is_symlink(folder / "link.txt"));
-    EXPECT_EQ(text_of(folder / "a.txt"), "three");
+    EXPECT_EQ(read_bytes(folder / "a.txt"), "three");
 }
 
 constexpr std::size_t big = std::size_t{16} << 20;
@@ -181,7 +182,7 @@ TEST(Output, OU07_KilledWhileWritingLeavesAWholeFile) {
         ::kill(child, SIGCONT);
         ::waitpid(child, &status, 0);
         ASSERT_TRUE(WIFSIGNALED(status));
-        const std::string content = text_of(target);
+        const std::string content = read_bytes(target);
         ASSERT_EQ(content.size(), big);
         EXPECT_EQ(content.find_first_not_of(content[0]), std::string::npos) << "two writes are mixed";
         for (const auto& entry : fs::directory_iterator(folder.path())) {

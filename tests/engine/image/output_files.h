@@ -2,7 +2,6 @@
 // A picture to write, and what a write leaves: the file, the folder, the error.
 
 #include <filesystem>
-#include <fstream>
 #include <functional>
 #include <iterator>
 #include <string>
@@ -13,11 +12,6 @@
 #include "engine/image/image_file.h"
 
 namespace aleph {
-
-inline std::string text_of(const std::filesystem::path& path) {
-    std::ifstream file(path, std::ios::binary);
-    return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
-}
 
 /// How many files and folders are in it.
 inline std::size_t entries_in(const std::filesystem::path& folder) {

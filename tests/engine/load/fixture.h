@@ -11,6 +11,7 @@
 #include "engine/load/load_scene.h"
 #include "tests/support/refusal.h"
 #include "tests/support/scratch_folder.h"
+#include "tests/support/warnings.h"
 
 namespace aleph {
 
@@ -33,12 +34,5 @@ class LoadScene : public testing::Test {
     const ScratchFolder scratch_;
     const fs::path folder_ = scratch_.path();
 };
-
-inline bool has_warning(const Scene& scene, const std::string& word) {
-    for (const std::string& warning : scene.warnings) {
-        if (warning.find(word) != std::string::npos) return true;
-    }
-    return false;
-}
 
 }  // namespace aleph

@@ -154,6 +154,32 @@ TEST(CageLevel, WhatIsNotInViewKeepsItsLevel) {
     EXPECT_GE(level_of(make_sheet(0.12)), 5);
 }
 
+TEST(CageLevel, ViewsEndAtThePicturesSidesAndTheNearPlane) {
+    // At 10 m the picture reaches up to 4.14 and sideways to 6.63 m, the orthographic one to 3 and 4.8; the sheet's
+    // half side is 2 m.
+    for (const bool orthographic : {false, true}) {
+        Scene scene = make_sheet(10.0);
+        scene.cameras[0].orthographic = orthographic;
+        scene.cameras[0].half_height = 3.0;
+        const double top = orthographic ? 3.0 : 10.0 * std::tan(std::numbers::pi / 8.0), right = 1.6 * top;
+        for (const double side : {-1.0, 1.0}) {
+            const auto level_at = [&](double x, double y) {
+                scene.nodes[0].translation = glm::dvec3(side * x, side * y, 0.0);
+                return level_of(scene);
+            };
+            EXPECT_GT(level_at(right + 1.6, 0.0), 0) << orthographic << side;
+            EXPECT_EQ(level_at(right + 2.4, 0.0), 0) << orthographic << side;
+            EXPECT_GT(level_at(0.0, top + 1.6), 0) << orthographic << side;
+            EXPECT_EQ(level_at(0.0, top + 2.4), 0) << orthographic << side;
+        }
+        scene.nodes[0].translation = glm::dvec3(0.0);
+        scene.cameras[0].near_plane = 9.0;
+        EXPECT_GT(level_of(scene), 0) << orthographic;
+        scene.cameras[0].near_plane = 11.0;
+        EXPECT_EQ(level_of(scene), 0) << orthographic;
+    }
+}
+
 TEST(CageLevel, StaysWithinTheCagesAndTheScenesLimits) {
     Scene scene = make_sheet(1.0);
     scene.cages[0].max_level = 3;

@@ -131,6 +131,24 @@ TEST(Deform, NormalsFollowTheTrianglesAndEdgesStaySharp) {
     EXPECT_TRUE(pose(scene, 1.0).meshes[0].normals.empty());  // flat stays flat
 }
 
+TEST(Deform, NormalsAreWeightedByAngleHoweverFacesAreCut) {
+    // Three sides of a box of 2 x 3 x 1 m around a corner; one is cut through the corner, the others across it.
+    Scene scene;
+    scene.nodes.resize(1);
+    scene.nodes[0].meshes = {0};
+    Mesh mesh;
+    for (const glm::vec3& to : {glm::vec3(0), {2, 0, 0}, {0, 3, 0}, {0, 0, 1}, {2, 3, 0}, {0, 3, 1}, {2, 0, 1}})
+        mesh.positions.push_back(glm::vec3(5.0f, 6.0f, 7.0f) - to);
+    mesh.triangles = {{0, 1, 4}, {0, 4, 2}, {0, 2, 3}, {2, 5, 3}, {0, 3, 1}, {3, 6, 1}, {0, 0, 1}};
+    mesh.normals.assign(7, glm::vec3(0.0f, 0.0f, 1.0f));
+    scene.meshes = {mesh};
+    add_cache(scene, 0, {0.0, 1.0},
+              [](const glm::vec3& p, std::size_t s) { return p + glm::vec3(static_cast<float>(s)); });
+    const ScenePose frame = pose(scene, 1.0);
+    const glm::dvec3 expected[] = {{1, 1, 1}, {0, 1, 1}, {1, 0, 1}, {1, 1, 0}, {0, 0, 1}, {1, 0, 0}, {0, 1, 0}};
+    for (std::size_t v = 0; v < 7; ++v) expect_near(frame.meshes[0].normals[v], glm::normalize(expected[v]), 1e-6);
+}
+
 TEST(Deform, NormalSamplesAreTakenWhereGiven) {
     Scene scene = make_sheet_scene();
     add_cache(scene, 0, {0.0, 1.0}, [](const glm::vec3& p, std::size_t) { return p; });
@@ -170,6 +188,17 @@ TEST(Deform, SkinFollowsItsJointsWhateverItsOwnNodeDoes) {
     scene.nodes[0].scale = glm::dvec3(1.0, 0.0, 1.0);
     const ScenePose flat = pose(scene, 0.0);
     for (const glm::dvec3& p : flat.meshes[0].positions) EXPECT_TRUE(std::isfinite(p.x + p.y + p.z));
+}
+
+TEST(Deform, VerticesWithoutWeightsStayAtRest) {
+    Scene scene = make_skin_scene();
+    Mesh& mesh = scene.meshes[0];
+    mesh.normals.assign(mesh.positions.size(), glm::vec3(0.0f, 0.0f, 1.0f));
+    mesh.joint_weights[0].weight = mesh.joint_weights[1].weight = 0.0f;
+    const PosedMesh posed = pose(scene, 0.0).meshes[0];
+    EXPECT_EQ(posed.positions[0], glm::dvec3(mesh.positions[0]));
+    EXPECT_EQ(posed.normals[0], mesh.normals[0]);
+    EXPECT_NE(posed.positions[1], glm::dvec3(mesh.positions[1]));
 }
 
 void expect_same(const ScenePose& a, const ScenePose& b) {

@@ -9,6 +9,7 @@
 
 #include "engine/base/errors.h"
 #include "engine/pose/plan.h"
+#include "tests/support/child_node.h"
 #include "tests/support/expect_near.h"
 #include "tests/support/keyed_track.h"
 #include "tests/support/numbers.h"
@@ -16,13 +17,6 @@
 
 namespace aleph {
 namespace {
-
-Node child_of(int parent, const glm::dvec3& translation = glm::dvec3(0.0)) {
-    Node node;
-    node.parent = parent;
-    node.translation = translation;
-    return node;
-}
 
 TEST(Pose, LocalTransformIsTranslationRotationScale) {
     Scene scene;

@@ -144,6 +144,34 @@ TEST(RayScene, RC01_RangesWithoutLengthAreMisses) {
     EXPECT_FALSE(tracer.occluded({-anchor, to_sphere, -0.5f}));
 }
 
+TEST(RayScene, RangesAreKeptInScaledInstances) {
+    // Spheres of one mesh, whose nearest points are 1 m away.
+    for (const double scale : {0.01, 1.0, 40.0}) {
+        Scene scene;
+        const Mesh sphere = make_faceted_sphere(1.0, 64, add_lambert(scene, glm::dvec3(0.5)));
+        const int node = add_mesh(scene, sphere, {0.0, 0.0, -1.0 - scale});
+        scene.nodes.push_back(scene.nodes[static_cast<std::size_t>(node)]);
+        scene.nodes.back().translation = glm::dvec3(500.0, 0.0, 0.0);
+        for (Node& each : scene.nodes) each.scale = glm::dvec3(scale);
+        const Stage stage(std::move(scene));
+        Tracer tracer(stage.rays);
+        const glm::vec3 origin(-stage.shading.anchor);
+        for (const float length : {0.1f, 1.0f, 30.0f}) {
+            const glm::vec3 direction(0.0f, 0.0f, -length);
+            const auto hit = [&](float near, float far) {
+                const Hit met = tracer.intersect({origin, direction, near / length, far / length});
+                EXPECT_EQ(tracer.occluded({origin, direction, near / length, far / length}), met.instance != no_index);
+                return met.instance == no_index ? 0.0f : met.distance * length;
+            };
+            const float inner = static_cast<float>(1.0 + 2.0 * scale);
+            EXPECT_NEAR(hit(0.0f, 1e6f), 1.0f, 2e-3f * inner) << scale;
+            EXPECT_NEAR(hit(0.9f, inner), 1.0f, 2e-3f * inner) << scale;
+            EXPECT_EQ(hit(0.0f, 0.9f), 0.0f) << scale;
+            EXPECT_EQ(hit(1.05f * inner, 1e6f), 0.0f) << scale;
+        }
+    }
+}
+
 TEST(RayScene, EmptySceneIsAllMisses) {
     const Stage stage(Scene{}, 8, 6);
     std::uint64_t cast = 0;

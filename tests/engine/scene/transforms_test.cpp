@@ -130,6 +130,28 @@ TEST(Transforms, KF27_LookAtStraightDownAndAtItself) {
     EXPECT_EQ(glm::dvec3(side[1]), y);
 }
 
+TEST(Transforms, KF17_WhatGrowsFromNothingDoesNotTurn) {
+    const glm::dmat4 m = turning(90, {1, 2, 3}) * scaling(1, 2, 3), none = scaling(0, 0, 0);
+    EXPECT_LT(distance(interpolate_matrix(none, m, 0.5), glm::dmat4(0.5 * glm::dmat3(m))), 1e-15);
+    EXPECT_LT(distance(interpolate_matrix(m, none, 0.25), glm::dmat4(0.75 * glm::dmat3(m))), 1e-15);
+}
+
+TEST(Transforms, UnitQuaternionsKeepTheirBits) {
+    std::mt19937 random(3);
+    std::normal_distribution<double> number;
+    for (int i = 0; i < 1000; ++i) {
+        const double w = number(random), x = number(random), y = number(random), z = number(random);
+        const glm::dquat q = safe_normalize(glm::dquat(w, x, y, z));
+        EXPECT_NEAR(glm::length(q), 1.0, 4.0 * double_unit);
+        const glm::dquat nearly = q * (1.0 + 2.0 * double_unit);
+        if (std::abs(glm::dot(nearly, nearly) - 1.0) <= 4.0 * std::numeric_limits<double>::epsilon()) {
+            EXPECT_EQ(safe_normalize(nearly), nearly);
+        }
+        EXPECT_NEAR(glm::length(safe_normalize(q * (1.0 + 1e-14))), 1.0, 4.0 * double_unit);
+        EXPECT_NEAR(glm::length(safe_normalize(q * (1.0 - 1e-14))), 1.0, 4.0 * double_unit);
+    }
+}
+
 TEST(Transforms, KF28_NormalizeAnyLength) {
     const glm::dvec3 direction = glm::normalize(glm::dvec3(1.0, -2.0, 0.5));
     for (const double length : {1e-300, 1e-38, 1e-30, 1e-3, 1.0, 1e20, 1e38, 1e300})

@@ -9,6 +9,7 @@
 #include <numbers>
 
 #include "engine/base/errors.h"
+#include "engine/surface/revolved.h"
 #include "tests/engine/surface/shape_cases.h"
 
 namespace aleph {
@@ -91,6 +92,43 @@ TEST(Shapes, SmoothLatheFollowsACircle) {
         EXPECT_NEAR(glm::length(mesh.positions[i]), 1.0, 2e-3);
         EXPECT_GT(glm::dot(glm::normalize(mesh.positions[i]), mesh.normals[i]), 0.9995) << i;
         EXPECT_NEAR(mesh.uv[0][i].y, std::acos(std::clamp(mesh.positions[i].y, -1.0f, 1.0f)) / std::numbers::pi, 5e-3);
+    }
+}
+
+TEST(Shapes, FreeEndsOfALatheDoNotBend) {
+    // Distances of 1: the tangent at the middle point is the mean of both chords. The second derivative is 0 at the
+    // ends.
+    const auto outline = make_outline(make_lathe({{1.0, 0.0}, {1.0, 1.0}, {2.0, 1.0}}, true));
+    ASSERT_EQ(outline.size(), 1u);
+    const OutlineStrip& strip = outline[0];
+    ASSERT_EQ(strip.size(), 17u);  // turns by 56 degrees in each half, of 360 in 48
+    const glm::dvec2 middle(0.5, 0.5), first(-0.25, 1.25), last(1.25, -0.25);
+    double length = 0.0;
+    for (std::size_t i = 0; i <= 16; ++i) {
+        const double s = static_cast<double>(i % 8) / 8.0, r = 1.0 - s;
+        const glm::dvec2 from = i < 8 ? glm::dvec2(1.0, 0.0) : glm::dvec2(1.0, 1.0);
+        const glm::dvec2 to = i < 8 ? glm::dvec2(1.0, 1.0) : glm::dvec2(2.0, 1.0);
+        const glm::dvec2 from_tangent = i < 8 ? first : middle, to_tangent = i < 8 ? middle : last;
+        glm::dvec2 point = from * (r * r * (1.0 + 2.0 * s)) + to * (s * s * (3.0 - 2.0 * s)) +
+                           from_tangent * (s * r * r) - to_tangent * (s * s * r);
+        glm::dvec2 slope =
+            6.0 * s * r * (to - from) + (1.0 - s) * (1.0 - 3.0 * s) * from_tangent + s * (3.0 * s - 2.0) * to_tangent;
+        if (i == 16) {
+            point = {2.0, 1.0};
+            slope = last;
+        }
+        const bool same_way = strip[0].position == glm::dvec2(1.0, 0.0);
+        const std::size_t k = same_way ? i : 16 - i;
+        const double side = same_way ? 1.0 : -1.0;
+        EXPECT_LT(glm::distance(strip[k].position, point), 1e-12) << i;
+        const glm::dvec2 outwards = side * glm::normalize(glm::dvec2(-slope.y, slope.x));
+        EXPECT_LT(glm::distance(strip[k].normal, outwards), 1e-12) << i;
+    }
+    for (std::size_t k = 1; k <= 16; ++k) length += glm::distance(strip[k - 1].position, strip[k].position);
+    double way = 0.0;
+    for (std::size_t k = 0; k <= 16; ++k) {
+        if (k > 0) way += glm::distance(strip[k - 1].position, strip[k].position);
+        EXPECT_NEAR(strip[k].v, way / length, 1e-12);
     }
 }
 

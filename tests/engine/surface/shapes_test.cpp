@@ -3,11 +3,13 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <limits>
 #include <map>
 #include <numbers>
+#include <set>
 #include <tuple>
 
 #include "engine/base/errors.h"
@@ -29,6 +31,21 @@ TEST(Shapes, ArraysAgreeAndNothingIsDegenerate) {
         EXPECT_TRUE(mesh.uv[1].empty());
         for (const glm::uvec3& triangle : mesh.triangles)
             EXPECT_GT(glm::length(area_vector(corners(mesh, triangle))), 1e-5);
+    }
+}
+
+TEST(Shapes, EveryVertexIsUsedAndNoneIsThereTwice) {
+    for (const Shape& shape : all_shapes()) {
+        const Mesh mesh = make_shape_mesh(shape);
+        std::set<std::uint32_t> used;
+        for (const glm::uvec3& triangle : mesh.triangles) used.insert({triangle.x, triangle.y, triangle.z});
+        EXPECT_EQ(used.size(), mesh.positions.size());
+        std::set<std::array<float, 8>> different;
+        for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
+            const glm::vec3 p = mesh.positions[i], n = mesh.normals[i];
+            different.insert({p.x, p.y, p.z, n.x, n.y, n.z, mesh.uv[0][i].x, mesh.uv[0][i].y});
+        }
+        EXPECT_EQ(different.size(), mesh.positions.size()) << "segments " << shape.segments;
     }
 }
 

@@ -171,9 +171,12 @@ TEST(SubdivisionHard, TessellationRefusesPointsThatAreNotThere) {
     EXPECT_EQ(reason(), "it has no points");
     scene.cages[0].points = 3;
     EXPECT_EQ(reason(), "it has no points");
-    scene.cages[0].points = 0;
     scene.point_caches.resize(1);
-    EXPECT_EQ(reason(), "it has no points");
+    for (const int points : {0, 1}) {  // empty ones, and just beyond the last
+        scene.cages[0].points = points;
+        EXPECT_EQ(reason(), "it has no points");
+    }
+    scene.cages[0].points = 0;
     PointCache& cache = scene.point_caches[0];
     cache.positions.assign(2, std::vector<glm::vec3>(8, glm::vec3(1.0f)));
     EXPECT_EQ(reason(), "none");

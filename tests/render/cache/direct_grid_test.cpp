@@ -4,6 +4,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <iterator>
+#include <numbers>
+#include <set>
+
 #include "tests/support/cluttered_room.h"
 #include "tests/support/directions.h"
 
@@ -41,6 +46,102 @@ TEST(DirectGrid, CellsBelongToOneInstanceAndOneSide) {
     EXPECT_EQ(std::unique(keys.begin(), keys.end()), keys.end());
 }
 
+TEST(DirectGrid, EveryCellHasAKeyOfItsOwn) {
+    const DirectGrid grid;
+    std::set<std::uint64_t> keys;
+    for (const int instance : {0, 5}) {
+        for (int facing = 0; facing < 6; ++facing) {
+            glm::vec3 normal(0.1f);
+            normal[facing / 2] = facing % 2 == 0 ? 0.9f : -0.9f;
+            for (const float width : {0.5f, 1.0f}) {
+                for (int i = 0; i < 24 * 24 * 24; ++i) {
+                    const glm::vec3 cell(i % 24 - 4, i / 24 % 24 - 4, i / 576 - 4);
+                    keys.insert(grid.key_of(instance, width * (cell + 0.5f), normal, width));
+                }
+            }
+        }
+    }
+    EXPECT_EQ(keys.size(), 24u * 24u * 24u * 2u * 6u * 2u);
+}
+
+TEST(DirectGrid, BlocksOfEightByEightLieInTheSurfacesPlane) {
+    const DirectGrid grid;
+    for (int axis = 0; axis < 3; ++axis) {
+        const int across = axis == 0 ? 1 : 0, along = axis == 2 ? 1 : 2;
+        glm::vec3 normal(0.3f);
+        normal[axis] = -0.8f;
+        std::set<std::uint64_t> blocks;
+        for (int a = 8; a < 16; ++a) {
+            for (int b = -8; b < 0; ++b) {
+                glm::vec3 place(0.5f);
+                place[across] = static_cast<float>(a) + 0.5f;
+                place[along] = static_cast<float>(b) + 0.5f;
+                const std::uint64_t key = grid.key_of(3, place, normal, 1.0f);
+                EXPECT_EQ(key & 63, static_cast<std::uint64_t>((a - 8) + 8 * (b + 8))) << axis;
+                blocks.insert(key >> 6);
+            }
+        }
+        EXPECT_EQ(blocks.size(), 1u) << axis;
+        // Along the normal, cells begin at .63.
+        glm::vec3 place(8.5f);
+        const auto at = [&](float height) {
+            place[axis] = height;
+            return grid.key_of(3, place, normal, 1.0f);
+        };
+        EXPECT_EQ(at(0.64f), at(1.62f)) << axis;
+        EXPECT_NE(at(0.64f), at(0.62f)) << axis;
+        EXPECT_NE(at(1.64f), at(1.62f)) << axis;
+    }
+    // Between axes the first counts.
+    const auto key = [&](const glm::vec3& normal) { return grid.key_of(0, {1.5f, 2.5f, 3.5f}, normal, 1.0f); };
+    EXPECT_EQ(key({0.6f, 0.6f, 0.1f}), key({1.0f, 0.0f, 0.0f}));
+    EXPECT_EQ(key({0.6f, 0.1f, -0.6f}), key({1.0f, 0.0f, 0.0f}));
+    EXPECT_EQ(key({0.1f, 0.6f, 0.6f}), key({0.0f, 1.0f, 0.0f}));
+}
+
+TEST(DirectGrid, CellsScaleWithTheUnit) {
+    const DirectGrid one, eight(8.0f);
+    const glm::vec3 place(0.3f, -0.7f, 1.9f);
+    for (const float width : {0.01f, 0.3f, 2.0f}) {
+        EXPECT_EQ(one.key_of(1, place, up, width), eight.key_of(1, 8.0f * place, up, 8.0f * width)) << width;
+        EXPECT_NE(one.key_of(1, place, up, width), eight.key_of(1, place, up, width)) << width;
+    }
+}
+
+/// The cells of what a gather under a ceiling meets are as wide as its rays' shares of the hemisphere.
+TEST(DirectGrid, GathersNoteTheCellsOfTheirHits) {
+    Scene scene;
+    add_mesh(scene, make_quad(400.0, 400.0, add_lambert(scene, glm::dvec3(0.5))), {0.0, 2.0, 0.0}, z_to_down);
+    add_light(scene, Light::Kind::directional, glm::dvec3(1.0), glm::dvec3(0.0), z_to_up);
+    const Stage stage(std::move(scene));
+    RayTask task(stage.rays);
+    GatherScratch scratch;
+    const DirectGrid grid;
+    std::vector<DirectSample> found;
+    const DividedCell divided[] = {{20, 3}};
+    const HemisphereStrata strata{6, 16};
+    GatherOptions options{.grid = &grid, .found = &found, .divided = divided};
+    gather_irradiance(stage.lighting(), task, make_point(glm::vec3(0.0f) - glm::vec3(stage.shading.anchor), up),
+                      {strata, {1, 2, 3, 4}}, scratch, options);
+    std::multiset<std::uint64_t> expected, noted;
+    for (std::size_t i = 0; i < scratch.rays.size(); ++i) {
+        const Hit& hit = scratch.hits[i];
+        if (hit.instance == no_index) continue;
+        const glm::vec3 direction = scratch.rays[i].direction;
+        const float share = scratch.places[i].cell == 20 ? 1.0f / 9.0f : 1.0f;
+        const double solid_angle = std::numbers::pi * share / (96.0 * std::max(direction.y, 0.05f));
+        const glm::vec3 place(direction.x * hit.distance, 0.0f, direction.z * hit.distance);  // the quad's origin
+        expected.insert(
+            grid.key_of(hit.instance, place, -up, hit.distance * static_cast<float>(std::sqrt(solid_angle))));
+    }
+    for (const DirectSample& sample : found) noted.insert(sample.cell);
+    EXPECT_GT(noted.size(), 90u);
+    EXPECT_EQ(noted.size(), expected.size());
+    std::vector<std::uint64_t> common;
+    std::ranges::set_intersection(noted, expected, std::back_inserter(common));
+    EXPECT_GE(common.size() + 4, expected.size());  // a few hits lie on borders, up to rounding
+}
+
 TEST(DirectGrid, SamplesAddUp) {
     DirectGrid grid;
     constexpr std::uint64_t cells = 50'000;  // it grows
@@ -58,6 +159,11 @@ TEST(DirectGrid, SamplesAddUp) {
         ASSERT_EQ(cell.sum, Rgb(1.0f + static_cast<float>(i)));
     }
     EXPECT_EQ(grid.find(7).count, 0u);
+    DirectGrid single;
+    const DirectSample one[] = {{5, Rgb(1.0f)}};
+    single.insert(one);
+    EXPECT_EQ(single.size(), 1u);
+    EXPECT_EQ(single.samples(), 1u);
 }
 
 /// Gathers all over the floor and a wall, with a grid that they fill or without one.
@@ -79,7 +185,7 @@ struct Gathers {
             GatherOptions options;
             if (with_grid) options = {0, &grid, &found};
             const RandomKey key{seed, 0, static_cast<std::uint32_t>(i), 0};
-            light.push_back(gather_irradiance(stage.lighting(), task, point, choose_strata(96), key, scratch, options)
+            light.push_back(gather_irradiance(stage.lighting(), task, point, {choose_strata(96), key}, scratch, options)
                                 .irradiance.y);
             if (i % 16 == 15) {
                 grid.insert(found);
@@ -121,19 +227,20 @@ TEST(DirectGrid, AGridOfItsOwnSamplesNeedsNoShadowRays) {
     const SurfacePoint point = make_point({-0.2f, -1.499f, -0.2f}, up);
     DirectGrid grid;
     const auto gather = [&](std::vector<DirectSample>* found) {
-        return gather_irradiance(stage.lighting(), task, point, choose_strata(256), {1, 2, 3, 4}, scratch,
+        return gather_irradiance(stage.lighting(), task, point, {choose_strata(256), {1, 2, 3, 4}}, scratch,
                                  {0, &grid, found});
     };
     std::vector<DirectSample> found;
     const IrradianceSample first = gather(&found);
     // An empty grid changes nothing.
     const IrradianceSample alone =
-        gather_irradiance(stage.lighting(), task, point, choose_strata(256), {1, 2, 3, 4}, scratch);
+        gather_irradiance(stage.lighting(), task, point, {choose_strata(256), {1, 2, 3, 4}}, scratch);
     EXPECT_NEAR(first.irradiance.y, alone.irradiance.y, 1e-5f * alone.irradiance.y);
     EXPECT_FALSE(found.empty());
     for (std::uint32_t i = 0; i < DirectGrid::enough; ++i) grid.insert(found);
     const std::uint64_t shadow = task.counts.shadow;
-    EXPECT_GT(gather(nullptr).irradiance.y, 0.0f);
+    // Each ray has the mean of its cell: the sum is that of the samples.
+    EXPECT_NEAR(gather(nullptr).irradiance.y, first.irradiance.y, 1e-4f * first.irradiance.y);
     EXPECT_EQ(task.counts.shadow, shadow);
 }
 

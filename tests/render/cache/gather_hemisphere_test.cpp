@@ -40,7 +40,7 @@ struct BallInRoom {
         double inverse = 0.0;
         for (std::uint32_t seed = 0; seed < count; ++seed) {
             const IrradianceSample sample =
-                gather_irradiance(stage.lighting(), task, point, choose_strata(512), {seed, 0, 0, 0}, scratch);
+                gather_irradiance(stage.lighting(), task, point, {choose_strata(512), {seed, 0, 0, 0}}, scratch);
             mean.irradiance += sample.irradiance / static_cast<float>(count);
             mean.nearest_distance = std::min(mean.nearest_distance, sample.nearest_distance);
             mean.headroom = std::min(mean.headroom, sample.headroom);
@@ -88,7 +88,7 @@ TEST(GatherHemisphere, IC17_NoRaysBelowTheTrueSurface) {
     GatherScratch scratch;
     SurfacePoint point = make_point(glm::vec3(0.0f), {0.0f, 1.0f, 0.0f});
     point.normal = glm::normalize(glm::vec3(1.0f, 1.0f, 0.0f));
-    const IrradianceSample sample = gather_irradiance(stage.lighting(), task, point, choose_strata(1024), {}, scratch);
+    const IrradianceSample sample = gather_irradiance(stage.lighting(), task, point, {choose_strata(1024)}, scratch);
     // At 45 degrees, (1 + cos) / 2 of the cosine-weighted hemisphere is above the surface.
     EXPECT_NEAR(static_cast<double>(task.counts.gather), 1024 * 0.5 * (1.0 + std::sqrt(0.5)), 16.0);
     for (const Ray& ray : scratch.rays) EXPECT_GT(ray.direction.y, 0.0f);
@@ -121,7 +121,7 @@ TEST(Gather, MC29_PointsOnTheEdgeWhereTwoWallsMeet) {
     const auto gather = [&](int wall, int triangle, float u, float v) {
         const SurfacePoint point = make_surface_point(stage.shading, Hit{wall, triangle, u, v, 1.0f}, true);
         return luminance(
-            gather_irradiance(stage.lighting(), task, point, choose_strata(256), {1, 2, 3, 4}, scratch).irradiance);
+            gather_irradiance(stage.lighting(), task, point, {choose_strata(256), {1, 2, 3, 4}}, scratch).irradiance);
     };
     for (int wall = 0; wall < 5; ++wall) {
         for (int triangle = 0; triangle < 2; ++triangle) {

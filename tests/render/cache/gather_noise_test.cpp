@@ -22,8 +22,8 @@ TEST(GatherNoise, TheEstimateIsTheSpreadOverSeeds) {
         for (const SurfacePoint& point : points) {
             Mean light, variance;
             for (std::uint32_t seed = 0; seed < 64; ++seed) {
-                const IrradianceSample sample =
-                    gather_irradiance(stage.lighting(), task, point, choose_strata(samples), {seed, 7, 0, 0}, scratch);
+                const IrradianceSample sample = gather_irradiance(stage.lighting(), task, point,
+                                                                  {choose_strata(samples), {seed, 7, 0, 0}}, scratch);
                 light.add(luminance(sample.irradiance));
                 variance.add(static_cast<double>(sample.relative_error) * sample.relative_error);
             }
@@ -47,12 +47,12 @@ TEST(GatherNoise, DividedCellsKeepTheMeanAndTheEstimate) {
         const std::uint32_t runs = trial.times(256u);
         Mean light, variance, plain;
         for (std::uint32_t seed = trial.seed; seed < trial.seed + runs; ++seed) {
-            const IrradianceSample sample = gather_irradiance(stage.lighting(), task, point, strata, {seed, 7, 0, 0},
+            const IrradianceSample sample = gather_irradiance(stage.lighting(), task, point, {strata, {seed, 7, 0, 0}},
                                                               scratch, {.divided = divided});
             light.add(luminance(sample.irradiance));
             variance.add(static_cast<double>(sample.relative_error) * sample.relative_error);
             plain.add(luminance(
-                gather_irradiance(stage.lighting(), task, point, strata, {seed, 8, 0, 0}, scratch).irradiance));
+                gather_irradiance(stage.lighting(), task, point, {strata, {seed, 8, 0, 0}}, scratch).irradiance));
             EXPECT_GT(sample.rays, 3 * strata.count() / 2);
         }
         trial.near(light, plain);
@@ -67,7 +67,7 @@ TEST(GatherNoise, EdgesOfTheEstimate) {
     GatherScratch scratch;
     const SurfacePoint point = make_point({-0.2f, -1.499f, -0.2f}, {0.0f, 1.0f, 0.0f});
     const auto error_of = [&](int samples) {
-        return gather_irradiance(stage.lighting(), task, point, choose_strata(samples), {}, scratch).relative_error;
+        return gather_irradiance(stage.lighting(), task, point, {choose_strata(samples)}, scratch).relative_error;
     };
     EXPECT_TRUE(std::isinf(error_of(1)));
     EXPECT_TRUE(std::isinf(error_of(2)));
@@ -80,7 +80,7 @@ TEST(GatherNoise, EdgesOfTheEstimate) {
     const Stage unlit(std::move(dark));
     RayTask unlit_task(unlit.rays);
     EXPECT_EQ(gather_irradiance(unlit.lighting(), unlit_task, make_point(glm::vec3(0.0f), {0.0f, 1.0f, 0.0f}),
-                                choose_strata(64), {}, scratch)
+                                {choose_strata(64)}, scratch)
                   .relative_error,
               0.0f);
 }

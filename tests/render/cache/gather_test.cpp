@@ -29,8 +29,8 @@ Scene make_lit_ceiling(Mesh (*make_ceiling)(int material), const glm::dvec3& pos
 struct Gathering {
     explicit Gathering(Scene scene) : stage(std::move(scene)), task(stage.rays) {}
     IrradianceSample at(const glm::vec3& position, const glm::vec3& normal, int samples, std::uint32_t seed = 0) {
-        return gather_irradiance(stage.lighting(), task, make_point(position, normal), choose_strata(samples),
-                                 {seed, 0, 0, 0}, scratch);
+        return gather_irradiance(stage.lighting(), task, make_point(position, normal),
+                                 {choose_strata(samples), {seed, 0, 0, 0}}, scratch);
     }
     Stage stage;
     RayTask task;

@@ -54,7 +54,7 @@ TEST(IrradianceCache, IC06_ARecordInTheOpenDoesNotCoverTheNextObject) {
     const glm::vec3 up(0.0f, 1.0f, 0.0f), anchor(stage.shading.anchor);
     const glm::vec3 first = glm::vec3(-0.4f, 0.0f, 0.0f) - anchor, second = glm::vec3(10.3f, 0.0f, 0.0f) - anchor;
     const auto gather = [&](const glm::vec3& p) {
-        return gather_irradiance(stage.lighting(), task, make_point(p, up), choose_strata(1024), {}, scratch);
+        return gather_irradiance(stage.lighting(), task, make_point(p, up), {choose_strata(1024)}, scratch);
     };
     const float largest = scene_radius(stage.shading);
     IrradianceCache cache = make_cache(stage.shading);

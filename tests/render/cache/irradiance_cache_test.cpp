@@ -125,7 +125,7 @@ TEST(IrradianceCache, IC05_SelfHitsDoNotShrinkTheRadius) {
         RayTask task(stage.rays);
         GatherScratch scratch;
         return gather_irradiance(stage.lighting(), task, make_point(glm::vec3(0.0f), {0.0f, 1.0f, 0.0f}, 1e-5f),
-                                 choose_strata(2048), {1, 2, 3, 4}, scratch);
+                                 {choose_strata(2048), {1, 2, 3, 4}}, scratch);
     };
     const IrradianceSample clean = mean_distance(false), disturbed = mean_distance(true);
     EXPECT_EQ(clean.ignored_distances, 0);
@@ -145,8 +145,8 @@ TEST(IrradianceCache, IC07_GradientsNextToAWallStayBounded) {
         RayTask task(stage.rays);
         GatherScratch scratch;
         const glm::vec3 up(0.0f, 1.0f, 0.0f);
-        const IrradianceSample sample = gather_irradiance(stage.lighting(), task, make_point(glm::vec3(0.0f), up),
-                                                          choose_strata(1024), {}, scratch);
+        const IrradianceSample sample =
+            gather_irradiance(stage.lighting(), task, make_point(glm::vec3(0.0f), up), {choose_strata(1024)}, scratch);
         ASSERT_GT(sample.irradiance.x, 0.0f) << distance;
         const IrradianceRecord record = make_record(glm::vec3(0.0f), up, 1.0f, sample, any_radius).value();
         for (std::size_t c = 0; c < 3; ++c) {

@@ -9,13 +9,13 @@
 #include <fstream>
 #include <limits>
 #include <nlohmann/json.hpp>
-#include <sstream>
 
 #include "engine/base/sampling.h"
 #include "engine/image/image_file.h"
 #include "render/cli/options.h"
 #include "tests/support/german_locale.h"
 #include "tests/support/paths.h"
+#include "tests/support/read_bytes.h"
 #include "tests/support/scratch_folder.h"
 
 namespace aleph {
@@ -25,11 +25,6 @@ struct Outcome {
     int code = -1;  ///< -1 if a signal ended it
     std::string out, err;
 };
-
-std::string text_of(const std::filesystem::path& path) {
-    std::ifstream file(path, std::ios::binary);
-    return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
-}
 
 /// Runs the program. @param file_limit  largest size of a file it may write, bytes
 Outcome run_aleph(std::vector<std::string> arguments, rlim_t file_limit = RLIM_INFINITY) {
@@ -52,7 +47,7 @@ Outcome run_aleph(std::vector<std::string> arguments, rlim_t file_limit = RLIM_I
     }
     int status = 0;
     ::waitpid(child, &status, 0);
-    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, text_of(out), text_of(err)};
+    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, read_bytes(out), read_bytes(err)};
 }
 
 ChannelImage grey_image(int width, int height, float value) {

@@ -7,7 +7,6 @@
 #include <cmath>
 #include <fstream>
 #include <nlohmann/json.hpp>
-#include <sstream>
 #include <string>
 #include <variant>
 #include <vector>
@@ -16,6 +15,7 @@
 #include "motion/image_motion.h"
 #include "render/images/image_sequence.h"
 #include "tests/render/cli/maps_images.h"
+#include "tests/support/read_bytes.h"
 #include "tests/support/scratch_folder.h"
 
 namespace aleph {
@@ -181,10 +181,7 @@ TEST(MapsImages, SameBytesForAnyThreadsOrderAndCompany) {
         std::vector<std::string> arguments = {"--images", frames.pattern(), "-o", frames.out()};
         arguments.insert(arguments.end(), more.begin(), more.end());
         EXPECT_EQ(run_maps(arguments).code, 0);
-        std::ifstream stream(frames.folder.path() / "out" / "f-maps.0002.exr", std::ios::binary);
-        std::ostringstream text;
-        text << stream.rdbuf();
-        return text.str();
+        return read_bytes(frames.folder.path() / "out" / "f-maps.0002.exr");
     };
     const std::string alone = bytes_of_frame_2({"--frames", "2", "-t", "1"});
     EXPECT_EQ(alone, bytes_of_frame_2({"-t", "2"}));

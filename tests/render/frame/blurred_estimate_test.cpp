@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "render/frame/sequence.h"
+#include "tests/support/flat_view.h"
 #include "tests/support/keyed_track.h"
 #include "tests/support/quick_settings.h"
 #include "tests/support/render_scenes.h"
@@ -20,8 +21,6 @@ const FrameRequest maps_only{.frame = false, .maps = true, .progress = {}};
 /// A bright square of 1 m (node 0) whose middle is at these places in frames 0, 1, ..., before a dim wall.
 Scene make_moving_square(const std::vector<double>& places, const glm::dvec2& shutter) {
     Scene scene;
-    scene.exposure = 1.0;
-    scene.range = FrameRange{0, 100};
     add_mesh(scene, make_quad(1.0, 1.0, add_lambert(scene, glm::dvec3(0.0), glm::dvec3(0.8))));
     std::vector<double> times;
     std::vector<glm::dvec3> at;
@@ -31,10 +30,7 @@ Scene make_moving_square(const std::vector<double>& places, const glm::dvec2& sh
     }
     scene.nodes[0].translation = keyed<glm::dvec3>(times, at);
     add_mesh(scene, make_quad(20.0, 20.0, add_lambert(scene, glm::dvec3(0.0), glm::dvec3(0.1))), {0.0, 0.0, -1.0});
-    add_camera(scene, {0.0, 0.0, 5.0}, glm::dvec3(0.0));
-    scene.cameras[0].orthographic = true;
-    scene.cameras[0].half_height = 0.5 * height / pixels_per_metre;
-    scene.cameras[0].shutter = shutter;
+    add_flat_view(scene, 0.5 * height / pixels_per_metre, shutter);
     return scene;
 }
 

@@ -157,8 +157,8 @@ TEST(GlossyLight, TheErrorInARoomIsAboutWhatIsTold) {
             if (hits.hits(p % width, p / width).instance == no_index) continue;
             const PixelSurface surface = make_pixel_surface(stage.shading, stage.view, hits, p % width, p / width);
             const IrradianceSample gathered =
-                gather_irradiance(stage.lighting(), task, surface.point, choose_strata(1024),
-                                  {1, 2, 3, static_cast<std::uint32_t>(p)}, scratch, {30});
+                gather_irradiance(stage.lighting(), task, surface.point,
+                                  {choose_strata(1024), {1, 2, 3, static_cast<std::uint32_t>(p)}}, scratch, {30});
             const LobeLight light = compare_lobe(surface, material, gathered.irradiance, scratch);
             errors += light.error * light.error;
             told += light.told * light.told;

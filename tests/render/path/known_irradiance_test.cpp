@@ -202,8 +202,9 @@ TEST(KnownIrradianceTest, AMirrorShowsWhatTheCacheHolds) {
         if (!light) continue;
         ++found;
         if (i % 7 != 0) continue;
-        const IrradianceSample truth = gather_irradiance(lighting, task, place.point, choose_strata(1024),
-                                                         {9, 9, 9, static_cast<std::uint32_t>(i)}, scratch, {30});
+        const IrradianceSample truth =
+            gather_irradiance(lighting, task, place.point,
+                              {choose_strata(1024), {9, 9, 9, static_cast<std::uint32_t>(i)}}, scratch, {30});
         total += luminance(truth.irradiance);
         difference += luminance(*light) - luminance(truth.irradiance);
         squares += std::pow(luminance(*light) - luminance(truth.irradiance), 2.0);

@@ -53,15 +53,11 @@ TEST(Determinism, TheseTestsReallyUseSeveralThreads) {
 TEST(Determinism, DT01_FilesAreEqualForAnyNumberOfThreads) {
     const Scene& scene = pool_scene();
     const RenderSettings settings = small_settings();
-    const auto render = [&](int threads) {
-        return with_threads(threads, [&] {
-            Sequence sequence(scene, settings);
-            return frame_bytes(sequence, scene, settings, 12);
-        });
-    };
-    const std::string one = render(1);
-    ASSERT_GT(one.size(), 160u * 120u);
-    for (const int threads : {2, 3, 4, 8}) EXPECT_TRUE(render(threads) == one) << threads << " threads";
+    const auto one = frame_bytes(1, scene, settings, {12});
+    ASSERT_GT(one[0].size(), 160u * 120u);
+    for (const int threads : {2, 3, 4, 8}) {
+        EXPECT_TRUE(frame_bytes(threads, scene, settings, {12}) == one) << threads << " threads";
+    }
 }
 
 TEST(Determinism, DT01_UnguidedAndDenseFilesToo) {
@@ -73,13 +69,8 @@ TEST(Determinism, DT01_UnguidedAndDenseFilesToo) {
         settings.picture.width = 80;
         settings.picture.height = 60;
         settings.cache.gather = 16;
-        const auto render = [&](int threads) {
-            return with_threads(threads, [&] {
-                Sequence sequence(scene, settings);
-                return frame_bytes(sequence, scene, settings, 40);
-            });
-        };
-        EXPECT_TRUE(render(1) == render(4)) << "accuracy " << accuracy;
+        EXPECT_TRUE(frame_bytes(1, scene, settings, {40}) == frame_bytes(4, scene, settings, {40}))
+            << "accuracy " << accuracy;
     }
 }
 
@@ -92,16 +83,9 @@ TEST(Determinism, DT01_DT04_EveryRuleOfStopping) {
         settings.sampling.spp = 32;
         settings.picture.width = 40;
         settings.picture.height = 30;
-        const auto render = [&](int threads, int before) {
-            return with_threads(threads, [&] {
-                Sequence sequence(scene, settings);
-                for (int frame = 21 - before; frame < 21; ++frame) sequence.render(frame);
-                return frame_bytes(sequence, scene, settings, 21);
-            });
-        };
-        const std::string one = render(1, 0);
-        EXPECT_TRUE(render(3, 0) == one) << static_cast<int>(rule);
-        EXPECT_TRUE(render(2, 1) == one) << static_cast<int>(rule);
+        const std::string one = frame_bytes(1, scene, settings, {21}).back();
+        EXPECT_TRUE(frame_bytes(3, scene, settings, {21}).back() == one) << static_cast<int>(rule);
+        EXPECT_TRUE(frame_bytes(2, scene, settings, {20, 21}).back() == one) << static_cast<int>(rule);
     }
 }
 

@@ -4,6 +4,7 @@
 
 #include "engine/load/load_scene.h"
 #include "render/frame/sequence.h"
+#include "tests/support/flat_view.h"
 #include "tests/support/keyed_track.h"
 #include "tests/support/paths.h"
 #include "tests/support/render_scenes.h"
@@ -27,13 +28,8 @@ RenderSettings blur_settings(std::uint32_t seed) {
 /// A square of radiance 2 before black, seen along parallel rays. Node 0 is the square.
 Scene make_square_scene(const glm::dvec2& shutter) {
     Scene scene;
-    scene.exposure = 1.0;
-    scene.range = FrameRange{0, 100};
     add_mesh(scene, make_quad(2.0, 1.0, add_lambert(scene, glm::dvec3(0.0), glm::dvec3(2.0), true)));
-    add_camera(scene, {0.0, 0.0, 5.0}, glm::dvec3(0.0));
-    scene.cameras[0].orthographic = true;
-    scene.cameras[0].half_height = 0.5 * height / pixels_per_metre;
-    scene.cameras[0].shutter = shutter;
+    add_flat_view(scene, 0.5 * height / pixels_per_metre, shutter);
     return scene;
 }
 

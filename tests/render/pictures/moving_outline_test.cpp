@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "render/frame/sequence.h"
+#include "tests/support/flat_view.h"
 #include "tests/support/keyed_track.h"
 #include "tests/support/render_scenes.h"
 
@@ -15,8 +16,6 @@ constexpr double outline_pixel = 0.125;  // m
 /// Bars of a few pixels that shine, and a plate 1.5 m wide before them that moves by 12 pixels a frame.
 Scene make_wall(bool plate) {
     Scene scene;
-    scene.exposure = 1.0;
-    scene.range = FrameRange{0, 10};
     const int bright = add_lambert(scene, glm::dvec3(0.0), glm::dvec3(0.30)),
               dark = add_lambert(scene, glm::dvec3(0.0), glm::dvec3(0.22)),
               moving = add_lambert(scene, glm::dvec3(0.0), glm::dvec3(0.38));
@@ -27,9 +26,7 @@ Scene make_wall(bool plate) {
         const int node = add_mesh(scene, make_quad(1.5, 2.2, moving));
         scene.nodes[node].translation = keyed<glm::dvec3>({0.0, 10.0 / 30.0}, {{-1.2, 0.1, 1.0}, {13.8, 0.1, 1.0}});
     }
-    add_camera(scene, {0.0, 0.0, 5.0}, glm::dvec3(0.0));
-    scene.cameras[0].orthographic = true;
-    scene.cameras[0].half_height = 0.5 * outline_height * outline_pixel;
+    add_flat_view(scene, 0.5 * outline_height * outline_pixel);
     return scene;
 }
 

@@ -21,14 +21,7 @@ RenderSettings tiny_settings() {
 TEST(Races, DT08_EveryStageOfAFrameWithItsCache) {
     const Scene& scene = pool_scene();
     const RenderSettings settings = tiny_settings();
-    const auto render = [&](int threads) {
-        return with_threads(threads, [&] {
-            Sequence sequence(scene, settings);
-            std::string files = frame_bytes(sequence, scene, settings, 20);
-            return files + frame_bytes(sequence, scene, settings, 21);
-        });
-    };
-    EXPECT_TRUE(render(4) == render(1));
+    EXPECT_TRUE(frame_bytes(4, scene, settings, {20, 21}) == frame_bytes(1, scene, settings, {20, 21}));
 }
 
 /// Light of lighting keyframes, of two bounces, read while the shutter is open: by the cache, and by paths.
@@ -42,14 +35,7 @@ TEST(Races, DT08_KeyMomentsAndAnOpenShutter) {
     settings.light.bounces = 2;
     for (const Integrator integrator : {Integrator::cache, Integrator::path}) {
         settings.light.integrator = integrator;
-        const auto render = [&](int threads) {
-            return with_threads(threads, [&] {
-                Sequence sequence(scene, settings);
-                std::string files = frame_bytes(sequence, scene, settings, 3);
-                return files + frame_bytes(sequence, scene, settings, 7);
-            });
-        };
-        EXPECT_TRUE(render(4) == render(1));
+        EXPECT_TRUE(frame_bytes(4, scene, settings, {3, 7}) == frame_bytes(1, scene, settings, {3, 7}));
     }
 }
 

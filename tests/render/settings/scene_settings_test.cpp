@@ -12,6 +12,7 @@
 #include "engine/scene_file/schema.h"
 #include "render/settings/setting_table.h"
 #include "tests/support/paths.h"
+#include "tests/support/read_bytes.h"
 
 namespace aleph {
 namespace {
@@ -119,8 +120,7 @@ TEST(SceneSettings, TheSchemaHasTheTableOfSettings) {
 }
 
 TEST(SceneSettings, AuthoringHasTheTableOfSettings) {
-    std::ifstream file(source_folder() / "scenes" / "AUTHORING.md");
-    const std::string page{std::istreambuf_iterator<char>(file), {}};
+    const std::string page = read_bytes(source_folder() / "scenes" / "AUTHORING.md");
     const std::string expected = table_on_page();
     EXPECT_NE(page.find("\n" + expected + "\n"), std::string::npos)
         << "the table of settings in scenes/AUTHORING.md has to be\n"

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "render/cache/irradiance_cache.h"
+#include "tests/support/perception_scene.h"
 #include "tests/support/shot_scenes.h"
 
 namespace aleph {
@@ -33,20 +34,14 @@ TEST(RecordMaps, LookUpsCountTheRecordsTheyUse) {
     EXPECT_FLOAT_EQ(used.reaches, 1.0f * 1.0f + 0.75f * 2.0f);
 }
 
-double mean(const Image<float>& image) {
-    double sum = 0.0;
-    for (const float v : image.pixels) sum += v;
-    return sum / static_cast<double>(image.size());
-}
-
 TEST(RecordMaps, RecordsOfKeyMomentsCountToo) {
     RenderSettings settings = shot_settings(10);
     settings.sampling.spp = 2;
     Sequence sequence(make_shot_with_mover(), settings);
     const ShadedFrame moment = sequence.render(0, everything).shaded, between = sequence.render(3, everything).shaded;
-    EXPECT_GT(mean(moment.cache_count), 1.0);
-    EXPECT_NEAR(mean(between.cache_count) / mean(moment.cache_count), 2.0, 0.3) << "of two moments";
-    EXPECT_NEAR(mean(between.cache_radius) / mean(moment.cache_radius), 1.0, 0.05);
+    EXPECT_GT(mean_of(moment.cache_count), 1.0);
+    EXPECT_NEAR(mean_of(between.cache_count) / mean_of(moment.cache_count), 2.0, 0.3) << "of two moments";
+    EXPECT_NEAR(mean_of(between.cache_radius) / mean_of(moment.cache_radius), 1.0, 0.05);
     for (std::size_t i = 0; i < moment.cache_count.size(); ++i) {
         const bool is_used = moment.cache_count.pixels[i] > 0.0f;
         EXPECT_EQ(moment.cache_radius.pixels[i] > 0.0f, is_used);

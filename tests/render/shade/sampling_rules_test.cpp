@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "render/frame/sequence.h"
+#include "tests/support/flat_view.h"
 #include "tests/support/keyed_track.h"
 #include "tests/support/penumbra.h"
 #include "tests/support/trial.h"
@@ -33,11 +34,7 @@ RenderSettings settings_of(Sampling rule, int width, int height) {
 
 Scene make_scene_seen_along_z(double half_height) {
     Scene scene;
-    scene.exposure = 1.0;
-    scene.range = FrameRange{0, 100};
-    add_camera(scene, {0.0, 0.0, 5.0}, glm::dvec3(0.0));
-    scene.cameras[0].orthographic = true;
-    scene.cameras[0].half_height = half_height;
+    add_flat_view(scene, half_height);
     return scene;
 }
 

@@ -53,10 +53,7 @@ void expect_any_order(const Scene& scene) {
         EXPECT_TRUE(frame_bytes(jumping, scene, settings, frame) == expected[frame]) << frame;
     }
     for (const int threads : {1, 3}) {
-        with_threads(threads, [&] {
-            Sequence alone(scene, settings);
-            EXPECT_TRUE(frame_bytes(alone, scene, settings, 6) == expected[6]) << threads << " threads";
-        });
+        EXPECT_TRUE(frame_bytes(threads, scene, settings, {6})[0] == expected[6]) << threads << " threads";
     }
 }
 
@@ -65,19 +62,31 @@ TEST(LightingKeyframes, IC14_AFrameAloneInASequenceInAnyOrderOnAnyThreads) {
     expect_any_order(make_shot_with_moving_camera());
 }
 
+/// Relative errors of frame 5, with a fill of its own and with lighting keyframes.
+struct FrameErrors {
+    double own, keyframes;
+};
+
+FrameErrors find_errors(const Scene& scene) {
+    RenderSettings dense = shot_settings(0);
+    dense.cache.accuracy = 0.0;
+    dense.cache.gather = 1024;
+    const Image<Rgb> truth = render_alone(scene, dense, 5);
+    const auto error_of = [&](int light_step) {
+        return relative_rms(render_alone(scene, shot_settings(light_step), 5), truth);
+    };
+    const FrameErrors errors{error_of(0), error_of(10)};
+    std::printf("relative error: own fill %.4f, lighting keyframes %.4f\n", errors.own, errors.keyframes);
+    return errors;
+}
+
 /// Light is computed in the frame where something moves fast or near: lighting keyframes err hardly more than a fill of
 /// the frame's own.
 TEST(LightingKeyframes, IC14_LightOfAnotherTimeIsNotUsed) {
     Scene scene = make_shot();
     const int board = add_mesh(scene, make_box({1.5, 1.5, 0.05}, 1));
     scene.nodes[board].translation = move_between({-2.0, 0.8, -1.5}, {2.5, 0.8, 0.5});
-    RenderSettings dense = shot_settings(0);
-    dense.cache.accuracy = 0.0;
-    dense.cache.gather = 1024;
-    const Image<Rgb> truth = render_alone(scene, dense, 5);
-    const double own = relative_rms(render_alone(scene, shot_settings(0), 5), truth);
-    const double keyframes = relative_rms(render_alone(scene, shot_settings(10), 5), truth);
-    std::printf("relative error: own fill %.4f, lighting keyframes %.4f\n", own, keyframes);
+    const auto [own, keyframes] = find_errors(scene);
     EXPECT_LT(keyframes, own + 0.01);
     EXPECT_LT(keyframes, 0.03);
 }
@@ -172,13 +181,7 @@ void expect_as_own_fill(const Track<glm::dvec3>& place) {
     Scene scene = make_shot();
     const int box = add_mesh(scene, make_box(glm::dvec3(0.9), add_lambert(scene, {0.2, 0.3, 0.7})));
     scene.nodes[box].translation = place;
-    RenderSettings dense = shot_settings(0);
-    dense.cache.accuracy = 0.0;
-    dense.cache.gather = 1024;
-    const Image<Rgb> truth = render_alone(scene, dense, 5);
-    const double own = relative_rms(render_alone(scene, shot_settings(0), 5), truth);
-    const double keyframes = relative_rms(render_alone(scene, shot_settings(10), 5), truth);
-    std::printf("relative error: own fill %.4f, lighting keyframes %.4f\n", own, keyframes);
+    const auto [own, keyframes] = find_errors(scene);
     EXPECT_LT(keyframes, 1.3 * own);
     EXPECT_LT(keyframes, 0.03);
 }

@@ -7,7 +7,6 @@
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
@@ -35,9 +34,10 @@ inline json truth_of(const std::string& name) {
     return json::parse(stream);
 }
 
-inline std::vector<std::uint8_t> file_bytes(const std::filesystem::path& path) {
-    std::ifstream stream(path, std::ios::binary);
-    return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+inline const json& object_of(const json& truth, const std::string& path) {
+    for (const json& object : truth["objects"])
+        if (object["path"] == path) return object;
+    throw std::out_of_range("no object " + path);
 }
 
 /// Tests with a parameter: the name of an archive.

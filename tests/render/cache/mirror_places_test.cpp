@@ -1,0 +1,151 @@
+// Places that mirrors show: a mirror faces a wall behind the camera.
+
+#include "render/cache/mirror_places.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+
+#include "tests/support/expect_near.h"
+#include "tests/support/render_scenes.h"
+
+namespace aleph {
+namespace {
+
+constexpr int width = 16, height = 12;
+
+struct Mirror {
+    double reflectance = 0.36, roughness = 0.25, anisotropy = 0.0;
+    float accuracy = 0.1f;
+    int path_depth = 4;
+    const CarriedLight* carried = nullptr;
+
+    /// The camera is 4 m before the mirror and 3 m before the wall.
+    Scene make_scene() const {
+        Scene scene;
+        const int white = add_lambert(scene, glm::dvec3(0.5));
+        Material metal;
+        metal.base_color = glm::dvec3(reflectance);
+        metal.roughness = roughness;
+        metal.anisotropy = anisotropy;
+        scene.materials.push_back(metal);
+        add_mesh(scene, make_quad(40.0, 40.0, 1), {0.0, 0.0, -4.0});
+        add_mesh(scene, make_quad(400.0, 400.0, white), {0.0, 0.0, 3.0},
+                 glm::angleAxis(std::numbers::pi, glm::dvec3(0.0, 1.0, 0.0)));
+        add_camera(scene, glm::dvec3(0.0), {0.0, 0.0, -1.0});
+        return scene;
+    }
+
+    void expect(const std::function<void(const Stage&, const MirrorPlaces&, const RayCounts&)>& check) const {
+        const Stage stage(make_scene(), width, height);
+        RenderSettings settings = plain_settings(0.1, 64);
+        settings.light.bounces = 1;
+        settings.light.path_depth = path_depth;
+        const Image<float> alpha(width, height, accuracy);
+        const LightingContext lighting = stage.lighting();
+        const IndirectContext context{.lighting = lighting,
+                                      .view = stage.view,
+                                      .settings = settings,
+                                      .accuracy = alpha,
+                                      .progress = {},
+                                      .carried = carried};
+        RayCounts counts;
+        check(stage, cast_mirror_places(context, cast_centers(stage.rays, stage.view, nullptr), counts), counts);
+    }
+
+    /// Whether places are found, and their accuracy in the middle of the picture.
+    void expect_accuracy(double expected) const {
+        expect([&](const Stage&, const MirrorPlaces& found, const RayCounts&) {
+            EXPECT_EQ(found.any, expected > 0.0);
+            EXPECT_EQ(found.places.hits(width / 2, height / 2).instance != no_index, expected > 0.0);
+            if (expected > 0.0) {
+                EXPECT_NEAR(found.accuracy(width / 2, height / 2), expected, 1e-3 * expected);
+            }
+        });
+    }
+};
+
+TEST(MirrorPlaces, PathsArriveAtTheWall) {
+    Mirror().expect([](const Stage& stage, const MirrorPlaces& found, const RayCounts& counts) {
+        EXPECT_TRUE(found.any);
+        EXPECT_EQ(counts.specular, static_cast<std::uint64_t>(width * height));
+        EXPECT_NEAR(found.places.solid_angle, std::pow(stage.view.pixels_per_unit, -2.0), 1e-9);
+        for (int y = 0; y < height; ++y) {
+            for (int x = 0; x < width; ++x) {
+                const glm::dvec3 ray = make_camera_ray(stage.view, x + 0.5, y + 0.5).direction;
+                expect_near(found.places.directions(x, y), {ray.x, ray.y, -ray.z}, 1e-6);
+                const double distance = 11.0 / std::abs(ray.z);
+                ASSERT_EQ(found.places.hits(x, y).instance, 1);
+                EXPECT_NEAR(found.places.hits(x, y).distance, distance, 1e-5 * distance);
+            }
+        }
+    });
+}
+
+TEST(MirrorPlaces, LobesUpToARoughnessOfAQuarterAreMirrors) {
+    Mirror{.roughness = 0.0}.expect_accuracy(0.1 / 0.6);
+    Mirror{.roughness = 0.25}.expect_accuracy(0.1 / 0.6);
+    Mirror{.roughness = 0.26}.expect_accuracy(0.0);
+    Mirror{.roughness = 0.25, .anisotropy = 0.5}.expect_accuracy(0.0);
+}
+
+TEST(MirrorPlaces, AccuracyFollowsTheShareOfLight) {
+    Mirror{.reflectance = 1.0}.expect_accuracy(0.1);
+    Mirror{.reflectance = 0.11}.expect_accuracy(0.1 / std::sqrt(0.11));
+    Mirror{.reflectance = 0.09}.expect_accuracy(0.0);  // less than a tenth
+    Mirror{.accuracy = 0.4f}.expect_accuracy(0.5);     // the loosest
+    Mirror{.accuracy = 0.7f}.expect_accuracy(0.7);     // but where the pixel's own is looser
+}
+
+TEST(MirrorPlaces, TurnsEndWithThePath) {
+    Mirror{.path_depth = 3}.expect_accuracy(0.1 / 0.6);
+    Mirror{.path_depth = 2}.expect_accuracy(0.0);
+}
+
+TEST(MirrorPlaces, GlassIsLookedThrough) {
+    Scene scene;
+    const int white = add_lambert(scene, glm::dvec3(0.5));
+    Material glass;
+    glass.metallic = glass.roughness = 0.0;
+    glass.transmission = 1.0;
+    scene.materials.push_back(glass);
+    add_mesh(scene, make_quad(40.0, 40.0, 1), {0.0, 0.0, -4.0});
+    add_mesh(scene, make_quad(400.0, 400.0, white), {0.0, 0.0, -9.0});
+    add_camera(scene, glm::dvec3(0.0), {0.0, 0.0, -1.0});
+    const Stage stage(std::move(scene), width, height);
+    const RenderSettings settings = plain_settings(0.1, 64);
+    const Image<float> alpha(width, height, 0.1f);
+    const LightingContext lighting = stage.lighting();
+    const IndirectContext context{
+        .lighting = lighting, .view = stage.view, .settings = settings, .accuracy = alpha, .progress = {}};
+    RayCounts counts;
+    const MirrorPlaces found = cast_mirror_places(context, cast_centers(stage.rays, stage.view, nullptr), counts);
+    for (int y = 0; y < height; ++y) {
+        for (int x = 0; x < width; ++x) {
+            const glm::dvec3 ray = make_camera_ray(stage.view, x + 0.5, y + 0.5).direction;
+            ASSERT_EQ(found.places.hits(x, y).instance, 1);
+            expect_near(found.places.directions(x, y), ray, 1e-6);
+            EXPECT_NEAR(found.places.hits(x, y).distance, 9.0 / std::abs(ray.z), 1e-4);
+        }
+    }
+}
+
+/// Knows all light up to some accuracy.
+struct Known : CarriedLight {
+    float finest = 0.0f;
+    std::optional<Rgb> find(const PixelSurface&, float accuracy, RayTask&, RecordUse*) const override {
+        return accuracy >= finest ? std::optional<Rgb>(Rgb(1.0f)) : std::nullopt;
+    }
+};
+
+TEST(MirrorPlaces, WhatIsKnownIsLeftOut) {
+    Known known;
+    known.finest = 0.15f;
+    Mirror{.carried = &known}.expect_accuracy(0.0);
+    known.finest = 0.2f;
+    Mirror{.carried = &known}.expect_accuracy(0.1 / 0.6);
+}
+
+}  // namespace
+}  // namespace aleph

@@ -1,0 +1,14 @@
+#pragma once
+
+#include "engine/scene/scene.h"
+
+namespace aleph {
+
+inline Node child_of(int parent, const glm::dvec3& translation = glm::dvec3(0.0)) {
+    Node node;
+    node.parent = parent;
+    node.translation = translation;
+    return node;
+}
+
+}  // namespace aleph
