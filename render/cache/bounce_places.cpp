@@ -14,7 +14,7 @@ namespace aleph {
 namespace {
 
 constexpr double seen_surfaces = 300.0;  // per view, about
-constexpr int rays_per_surface = 64;
+constexpr int rays_per_surface = 16;
 constexpr float filling_rays = 1024.0f;  // of the gather whose ray has the footprint that bounds radii
 
 /// Keeps the directions apart from those of gathers at the same places.
@@ -122,23 +122,6 @@ FillPlaces make_fill_places(const ShadingScene& shading, const BouncePlaces& pla
         }
     });
     return fill;
-}
-
-std::vector<PixelSurface> choose_next_surfaces(const ShadingScene& shading, const BouncePlaces& places) {
-    constexpr int stride = 23;  // has no divisor in common with a row
-    std::vector<PixelSurface> next;
-    const int width = places.hits.width;
-    for (int y = 0; y < places.hits.height; ++y) {
-        for (int i = 0; i < width; ++i) {
-            const int x = (y + i) * stride % width;
-            if (places.hits(x, y).instance == no_index) continue;
-            const PixelSurface surface = make_bounce_surface(shading, places, x, y);
-            if (!surface.material.has_diffuse()) continue;
-            next.push_back(surface);
-            break;
-        }
-    }
-    return next;
 }
 
 }  // namespace aleph

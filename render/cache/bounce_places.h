@@ -1,5 +1,5 @@
 #pragma once
-// Surfaces where light of fewer bounces is needed: those that gather rays hit, in the picture or not.
+// Surfaces where light of further bounces is needed: those that gather rays hit, in the picture or not.
 
 #include <vector>
 
@@ -29,8 +29,5 @@ PixelSurface make_bounce_surface(const ShadingScene& shading, const BouncePlaces
 
 /// The places to fill a cache at. They refer to `shading` and `places`.
 FillPlaces make_fill_places(const ShadingScene& shading, const BouncePlaces& places);
-
-/// One of each row, for the rays of the next bounce.
-std::vector<PixelSurface> choose_next_surfaces(const ShadingScene& shading, const BouncePlaces& places);
 
 }  // namespace aleph

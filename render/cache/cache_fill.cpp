@@ -30,6 +30,7 @@ struct Candidate {
 struct Gathered {
     std::optional<IrradianceRecord> record;
     std::vector<DirectSample> direct;
+    GatheredRays rays;  ///< of FillPlaces::gathered
 };
 
 /// Corners of the tiles of this size that larger tiles do not share, where light is needed.
@@ -77,7 +78,7 @@ std::vector<Candidate> find_uncovered(const IrradianceCache& cache, const Indire
 /// Takes those candidates out of `waiting` whose records are computed in this round. The others wait, because the
 /// record of an accepted candidate may cover them. A record's radius is not known before its gather: the bound that
 /// neighbour clamping sets is expected.
-std::vector<Candidate> accept_candidates(const IrradianceCache& cache, const IndirectContext& context,
+std::vector<Candidate> accept_candidates(const IrradianceCache& cache, const IndirectContext& context, int most_rays,
                                          std::vector<Candidate>& waiting) {
     IrradianceCache expected = make_cache(context.lighting.shading);
     std::vector<Candidate> accepted, later;
@@ -96,8 +97,8 @@ std::vector<Candidate> accept_candidates(const IrradianceCache& cache, const Ind
         record.radius =
             std::max(cache.radius_bound(record.position, record.normal, context.max_radius), record.min_radius);
         expected.insert(record);
-        candidate.rays =
-            choose_rays(context.settings, candidate.query.accuracy, cache.expected_ray_variance(candidate.query));
+        const std::optional<float> ray_variance = cache.expected_ray_variance(candidate.query);
+        candidate.rays = std::min(most_rays, choose_rays(context.settings, candidate.query.accuracy, ray_variance));
         accepted.push_back(candidate);
     }
     waiting = std::move(later);
@@ -119,6 +120,7 @@ std::vector<Gathered> gather_records(const IndirectContext& context, const FillP
                 gather_at(context, task, surface, scratch, candidate.rays, &records[i].direct);
             records[i].record = make_record(candidate.query.position, candidate.query.normal, candidate.query.accuracy,
                                             value, candidate.bounds);
+            if (places.gathered != nullptr) records[i].rays = scratch;
         }
         const std::lock_guard lock(counts_mutex);
         counts += task.counts;
@@ -133,13 +135,14 @@ std::size_t fill_tiles(IrradianceCache& cache, const IndirectContext& context, c
     while (!tiles.empty()) {
         std::vector<Candidate> waiting = find_uncovered(cache, context, places.points, tiles, tally.counts);
         if (waiting.empty()) break;
-        const std::vector<Candidate> accepted = accept_candidates(cache, context, waiting);
-        const auto records = gather_records(context, places, accepted, tally.counts.rays);
+        const std::vector<Candidate> accepted = accept_candidates(cache, context, places.most_rays, waiting);
+        auto records = gather_records(context, places, accepted, tally.counts.rays);
         for (std::size_t i = 0; i < accepted.size(); ++i) {
             tally.records(accepted[i].x, accepted[i].y) += 1.0f;
             if (context.direct != nullptr) context.direct->insert(records[i].direct);
             if (records[i].record) {
                 cache.insert(*records[i].record);
+                if (places.gathered != nullptr) places.gathered->push_back(std::move(records[i].rays));
             } else {
                 tally.invalid_samples(accepted[i].x, accepted[i].y) += 1.0f;
                 ++tally.counts.invalid_samples;

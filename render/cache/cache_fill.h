@@ -14,6 +14,7 @@
 // sequential fill, where each record is inserted before the next pixel is looked at.
 
 #include <functional>
+#include <limits>
 
 #include "render/cache/fill_points.h"
 #include "render/cache/indirect_context.h"
@@ -29,7 +30,10 @@ struct FillPlaces {
     std::function<PixelSurface(int x, int y)> surface_at;
     /// Tiles start large; otherwise every point is looked at once.
     bool coarse_first = true;
-    int finest = 1;  ///< the last tiles' size, a power of 2
+    int finest = 1;                                   ///< the last tiles' size, a power of 2
+    int most_rays = std::numeric_limits<int>::max();  ///< of a gather
+    /// If given, what the gather of every record found is added, in the order of the records.
+    std::vector<GatheredRays>* gathered = nullptr;
 };
 
 /// Adds records until every place is covered. A gather that is not finite makes no record: it is counted as invalid,

@@ -84,6 +84,10 @@ void DirectGrid::insert(std::span<const DirectSample> samples) {
         cell.key = sample.cell;
         cell.sum += sample.light;
         ++cell.count;
+        if (sample.multi_bounce) {
+            cell.multi_bounce_sum += *sample.multi_bounce;
+            ++cell.multi_bounce_count;
+        }
         ++samples_;
     }
 }

@@ -12,6 +12,7 @@
 
 #include <cstdint>
 #include <glm/vec3.hpp>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -23,6 +24,8 @@ namespace aleph {
 struct DirectSample {
     std::uint64_t cell = 0;
     Rgb light{0.0f};  ///< radiance that a white Lambert surface scatters
+    /// The same of further bounces, which is part of `light`; nothing if it is not known without noise.
+    std::optional<Rgb> multi_bounce{};
 };
 
 class DirectGrid {
@@ -36,6 +39,14 @@ class DirectGrid {
         std::uint64_t key = 0;  ///< 0: none
         Rgb sum{0.0f};          ///< of DirectSample::light
         std::uint32_t count = 0;
+        std::uint32_t multi_bounce_count = 0;
+        Rgb multi_bounce_sum{0.0f};  ///< of DirectSample::multi_bounce
+
+        /// That of further samples need not be looked up.
+        std::optional<Rgb> multi_bounce() const {
+            if (multi_bounce_count == 0) return std::nullopt;
+            return multi_bounce_sum / static_cast<float>(multi_bounce_count);
+        }
     };
 
     /// @param unit  m, such as the scene's size: cells are as wide as it times a power of two, so that a scene of

@@ -14,6 +14,14 @@ namespace {
 
 constexpr float min_ray_cosine = 0.05f;  // limits the solid angle of cells at the horizon
 
+/// Keeps the random numbers of rays that go on from a hit apart from those of gathers at the same place.
+constexpr std::uint32_t further_seed_mask = 0x66757274u;
+
+/// Light of further bounces changes slowly: its cells are wider than those of direct light.
+constexpr float multi_bounce_widths = 4.0f;
+
+constexpr float place_cells = 256.0f;  // along each side of a triangle, for random numbers
+
 /// One gather while its hits are lit.
 struct Lighting {
     const LightingContext& context;
@@ -23,6 +31,7 @@ struct Lighting {
     const CellNumbers& numbers;
     const glm::vec3& normal;  ///< of the hemisphere
     RandomStream& random;
+    std::uint32_t further_seed;
     GatherScratch& scratch;
 
     /// sr, that a ray represents. Cells towards the horizon are 1 / cosine larger.
@@ -35,15 +44,66 @@ struct Lighting {
         const auto& [cell, row, column, share] = scratch.places[ray];
         return {numbers.light(row, column), numbers.light_point(row, column)};
     }
-    /// Irradiance of further bounces at a surface that a ray hit.
-    Rgb find_multi_bounce(const SurfacePlace& met) const {
-        return find_multi_bounce_irradiance(context, task, met, options.multi_bounce, options.depth, random);
+    /// Cell of the direct grid; 0: there is no grid.
+    /// @param widths  of what the ray represents, in the cell
+    std::uint64_t find_cell(std::size_t ray, const Hit& hit, const glm::vec3& position, const glm::vec3& geometric,
+                            float widths = 1.0f) const {
+        if (options.grid == nullptr) return 0;
+        return options.grid->key_of(hit.instance, position - context.shading.instances[hit.instance].translation,
+                                    geometric, widths * hit.distance * std::sqrt(solid_angle(ray)));
     }
+    bool is_plain(const Hit& hit) const {
+        return context.shading.materials[context.shading.instances[hit.instance].material].plain_lambert;
+    }
+    /// Irradiance of further bounces at a surface that the ray or a path from there met, if a cache knows it. The grid
+    /// keeps it; where it keeps direct light too, light_plain_hit adds both.
+    std::optional<Rgb> look_up(std::size_t ray, const SurfacePlace& met, const Hit& hit) const {
+        if (options.multi_bounce.cache == nullptr) return std::nullopt;
+        const std::uint64_t cell = find_cell(ray, hit, met.position, met.geometric, multi_bounce_widths);
+        if (cell != 0) {
+            if (const std::optional<Rgb> kept = options.grid->find(cell).multi_bounce()) return *kept * pi;
+        }
+        const std::optional<Rgb> found = find_cached_irradiance(task, met, options.multi_bounce);
+        if (found && cell != 0 && options.found != nullptr && !is_plain(hit)) {
+            options.found->push_back({cell, Rgb(0.0f), *found / pi});
+        }
+        return found;
+    }
+    Rgb sample_multi_bounce(const SurfacePlace& met) const {
+        return sample_multi_bounce_irradiance(context, task, met, options.multi_bounce, options.depth, random);
+    }
+    bool notes_further() const { return options.multi_bounce.noted && options.multi_bounce.bounces > 0; }
+    void note_further(std::size_t ray, const Rgb& weight, const SurfacePlace& met, const Hit& hit) const {
+        scratch.further.push_back({static_cast<int>(ray), weight, met, make_place_key(further_seed, hit)});
+    }
+};
+
+/// Light of further bounces at surfaces that paths from a hit meet.
+class FurtherOnPath final : public KnownIrradiance {
+  public:
+    FurtherOnPath(const Lighting& lighting, std::size_t ray)
+        : KnownIrradiance(lighting.options.multi_bounce.bounces), lighting_(lighting), ray_(ray) {}
+
+    bool is_known() const {
+        const MultiBounceLight& light = lighting_.options.multi_bounce;
+        return light.bounces > 0 && (light.noted || light.cache != nullptr);
+    }
+
+    std::optional<Rgb> find(const ViewedSurface& surface, const Hit& hit, float, const Rgb& weight,
+                            RayTask&) const override {
+        if (!lighting_.options.multi_bounce.noted) return lighting_.look_up(ray_, surface.point, hit);
+        lighting_.note_further(ray_, weight, surface.point, hit);
+        return Rgb(0.0f);
+    }
+
+  private:
+    const Lighting& lighting_;
+    const std::size_t ray_;
 };
 
 /// Light that comes back along a path which leaves a hit by another lobe than the Lambert layer's. Lamps that it sees
 /// straight through sheets of glass are direct light, which is computed elsewhere.
-Rgb follow_lobes(const Lighting& lighting, const LitSurface& lit, const LobeShares& shares) {
+Rgb follow_lobes(const Lighting& lighting, std::size_t ray, const LitSurface& lit, const LobeShares& shares) {
     RandomStream& random = lighting.random;
     const ScatterSample sample = sample_scatter(lit, shares, random.next(), random.next_2d(), random.next());
     if (sample.lobe == Lobe::diffuse) return Rgb(0.0f);
@@ -51,6 +111,8 @@ Rgb follow_lobes(const Lighting& lighting, const LitSurface& lit, const LobeShar
     state.left = {lighting.options.multi_bounce.bounces, lighting.options.depth};
     state.turned = true;
     state.emission = EmissionWeight::none;
+    const FurtherOnPath further(lighting, ray);
+    if (further.is_known()) state.known = &further;
     return follow_sample(lighting.context, lighting.task, lit, sample, state, random);
 }
 
@@ -58,7 +120,9 @@ Rgb follow_lobes(const Lighting& lighting, const LitSurface& lit, const LobeShar
 void add_arrived(const ShadowSample& sample, const Rgb& passed, const GatherOptions& options, GatherScratch& scratch) {
     const Rgb arrives = sample.multi_bounce + (passed == Rgb(0.0f) ? passed : sample.unshadowed * passed);
     scratch.light[sample.ray] += sample.scale * arrives;
-    if (sample.grid != 0 && options.found != nullptr) options.found->push_back({sample.grid, arrives});
+    if (sample.grid == 0 || options.found == nullptr) return;
+    options.found->push_back({sample.grid, arrives});
+    if (sample.looked_up) options.found->back().multi_bounce = sample.multi_bounce;
 }
 
 /// Adds light, or its shadow ray to those that are to be cast.
@@ -82,13 +146,18 @@ void light_hit(const Lighting& lighting, std::size_t i) {
     LobeShares shares{};
     if (lighting.options.depth > 0 && surface.material.has_specular()) {
         shares = share_lobes(lit, LobeSet::all);
-        scratch.light[i] = follow_lobes(lighting, lit, shares);
+        scratch.light[i] = follow_lobes(lighting, i, lit, shares);
         shares[static_cast<int>(Lobe::diffuse)] = 0.0f;
     }
     if (lighting.options.multi_bounce.bounces > 0 && surface.material.has_diffuse()) {
-        const Rgb multi_bounce =
-            diffuse_radiance(surface.material, lit.cos_view, lighting.find_multi_bounce(surface.point));
-        scratch.light[i] += multi_bounce * lit.below_sheen;
+        const Rgb weight = diffuse_radiance(surface.material, lit.cos_view, Rgb(1.0f)) * lit.below_sheen;
+        if (lighting.options.multi_bounce.noted) {
+            lighting.note_further(i, weight, surface.point, scratch.hits[i]);
+        } else if (const auto known = lighting.look_up(i, surface.point, scratch.hits[i])) {
+            scratch.light[i] += weight * *known;
+        } else {
+            scratch.light[i] += weight * lighting.sample_multi_bounce(surface.point);
+        }
     }
     const ScatteredLight scattered = choose_light(lighting.context, lit, shares, lighting.light_numbers(i));
     if (scattered.radiance == Rgb(0.0f)) return;
@@ -103,14 +172,12 @@ void note_plain_hit(const Lighting& lighting, std::size_t i) {
     const float solid_angle = lighting.solid_angle(i);
     const LambertHit met = make_lambert_hit(shading, scratch.rays[i], hit, scratch.normals[i], solid_angle);
     if (met.albedo == Rgb(0.0f)) return;
-    std::uint64_t grid = 0;
-    if (lighting.options.grid != nullptr) {
-        const glm::vec3 from_origin = met.position - shading.instances[hit.instance].translation;
-        grid = lighting.options.grid->key_of(hit.instance, from_origin, met.geometric,
-                                             hit.distance * std::sqrt(solid_angle));
-        lighting.options.grid->prefetch(grid);
+    if (lighting.notes_further()) {
+        lighting.note_further(i, met.albedo / pi, make_surface_place(shading, hit, scratch.rays[i].direction), hit);
     }
-    scratch.plain_hits.push_back({met.albedo, static_cast<int>(i), grid});
+    const std::uint64_t grid = lighting.find_cell(i, hit, met.position, met.geometric);
+    if (grid != 0) lighting.options.grid->prefetch(grid);
+    scratch.plain_hits.push_back({met.albedo, static_cast<int>(i), grid, std::nullopt});
 }
 
 /// Direct light from the grid. Hits in cells of too few samples are left: each will take one more, which counts with
@@ -122,7 +189,7 @@ void find_known_light(const DirectGrid& grid, GatherScratch& scratch) {
         const bool enough = known.count >= DirectGrid::enough;
         const Rgb scale = hit.scale / static_cast<float>(enough ? known.count : known.count + 1);
         scratch.light[hit.ray] = scale * known.sum;
-        scratch.plain_hits[left] = {scale, hit.ray, hit.grid};
+        scratch.plain_hits[left] = {scale, hit.ray, hit.grid, known.multi_bounce()};
         left += enough ? 0 : 1;
     }
     scratch.plain_hits.resize(left);
@@ -134,16 +201,19 @@ void light_plain_hit(const Lighting& lighting, const PlainHit& noted) {
     const LightingContext& context = lighting.context;
     const SurfacePlace place =
         make_surface_place(context.shading, scratch.hits[noted.ray], scratch.rays[noted.ray].direction);
-    const Rgb multi_bounce = lighting.find_multi_bounce(place) / pi;
-    const ScatteredLight scattered = choose_lambert_light(context, place, lighting.light_numbers(noted.ray));
-    if (scattered.radiance == Rgb(0.0f)) {
-        scratch.light[noted.ray] += noted.scale * multi_bounce;
-        if (noted.grid != 0 && lighting.options.found != nullptr) {
-            lighting.options.found->push_back({noted.grid, multi_bounce});
-        }
-        return;
+    ShadowSample sample{Rgb(0.0f), noted.scale, Rgb(0.0f), noted.ray, noted.grid};
+    if (noted.multi_bounce) {
+        sample.multi_bounce = *noted.multi_bounce;
+    } else if (const auto found = find_cached_irradiance(lighting.task, place, lighting.options.multi_bounce)) {
+        sample.multi_bounce = *found / pi;
+        sample.looked_up = true;
+    } else if (!lighting.options.multi_bounce.noted) {
+        sample.multi_bounce = lighting.sample_multi_bounce(place) / pi;
     }
-    add_scattered(lighting, scattered, {scattered.radiance, noted.scale, multi_bounce, noted.ray, noted.grid});
+    const ScatteredLight scattered = choose_lambert_light(context, place, lighting.light_numbers(noted.ray));
+    if (scattered.radiance == Rgb(0.0f)) return add_arrived(sample, Rgb(0.0f), lighting.options, scratch);
+    sample.unshadowed = scattered.radiance;
+    add_scattered(lighting, scattered, sample);
 }
 
 /// All plain hits. What is read of the meshes is fetched ahead.
@@ -163,15 +233,15 @@ void light_plain_hits(const Lighting& lighting) {
 /// Fills in light that is known, and for all other hits unshadowed light with its shadow rays.
 void light_hits(const Lighting& lighting) {
     GatherScratch& scratch = lighting.scratch;
-    const ShadingScene& shading = lighting.context.shading;
     scratch.light.assign(scratch.rays.size(), Rgb(0.0f));
     scratch.shadow_rays.clear();
     scratch.shadow_samples.clear();
     scratch.plain_hits.clear();
+    scratch.further.clear();
     for (std::size_t i = 0; i < scratch.rays.size(); ++i) {
         const Hit& hit = scratch.hits[i];
         if (hit.instance == no_index) continue;
-        if (shading.materials[shading.instances[hit.instance].material].plain_lambert) {
+        if (lighting.is_plain(hit)) {
             note_plain_hit(lighting, i);
         } else {
             light_hit(lighting, i);
@@ -212,26 +282,36 @@ void merge_rays(const HemisphereStrata& strata, GatherScratch& scratch) {
 
 }  // namespace
 
-IrradianceSample gather_irradiance(const LightingContext& context, RayTask& task, const SurfacePoint& point,
+RandomKey make_place_key(std::uint32_t seed, const Hit& hit) {
+    const auto cell = [](float at) { return static_cast<std::uint32_t>(std::max(at, 0.0f) * place_cells); };
+    return {seed, static_cast<std::uint32_t>(hit.instance), static_cast<std::uint32_t>(hit.primitive),
+            cell(hit.u) << 16 | cell(hit.v)};
+}
+
+IrradianceSample gather_irradiance(const LightingContext& context, RayTask& task, const SurfacePlace& point,
                                    const GatherPattern& pattern, GatherScratch& scratch, const GatherOptions& options) {
     const HemisphereStrata& strata = pattern.strata;
     RandomStream random(pattern.key);
-    const Basis basis = make_basis(point.normal);
     const CellNumbers numbers(random);
-    const int ray_count = divide_cells(strata, options.divided, scratch);
-    place_rays(strata, basis, point, numbers, ray_count, scratch);
+    const int most = divide_cells(strata, options.divided, scratch);
+    place_rays(strata, make_basis(point.normal), point, numbers, most, scratch);
+    scratch.strata = strata;
     task.tracer.intersect(scratch.rays, scratch.hits, true, scratch.normals);
     task.counts.gather += scratch.rays.size();
-    light_hits({context, task, options, strata, numbers, point.normal, random, scratch});
+    light_hits(
+        {context, task, options, strata, numbers, point.normal, random, pattern.key.seed ^ further_seed_mask, scratch});
     add_unshadowed(context, task, options, scratch);
-    merge_rays(strata, scratch);
+    return add_up_rays(strata, point.normal, scratch);
+}
 
+IrradianceSample add_up_rays(const HemisphereStrata& strata, const glm::vec3& normal, GatherScratch& scratch) {
+    merge_rays(strata, scratch);
     IrradianceSample out;
-    out.rays = ray_count;
+    for (const std::uint8_t side : scratch.sides) out.rays += side * side;
     glm::dvec3 sum(0.0);
     for (const Rgb& radiance : scratch.radiance) sum += glm::dvec3(radiance);
     out.irradiance = Rgb(sum * (std::numbers::pi / strata.count()));
-    summarize_hemisphere(strata, basis, scratch, out);
+    summarize_hemisphere(strata, make_basis(normal), scratch, out);
     return out;
 }
 

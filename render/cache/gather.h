@@ -6,6 +6,7 @@
 #include <cmath>
 #include <glm/vec3.hpp>
 #include <limits>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -79,13 +80,15 @@ struct ShadowSample {
     Rgb multi_bounce{0.0f};  ///< light of further bounces, which arrives in any case
     int ray = 0;             ///< that hit the surface
     std::uint64_t grid = 0;  ///< cell of the direct grid that the light is a sample of; 0: none
+    bool looked_up = false;  ///< multi_bounce, in the cache: the cell keeps it
 };
 
 /// A hit of a plain Lambert surface, until its direct light is known.
 struct PlainHit {
     Rgb scale{0.0f};  ///< of the light that a white surface would scatter
     int ray = 0;
-    std::uint64_t grid = 0;  ///< its cell of the direct grid; 0: none
+    std::uint64_t grid = 0;           ///< its cell of the direct grid; 0: none
+    std::optional<Rgb> multi_bounce;  ///< that a white surface would scatter, if the cell has it
 };
 
 /// Angles of a row of strata, measured from the normal.
@@ -95,19 +98,35 @@ struct StrataRow {
     float tangent;            ///< of its middle
 };
 
-/// Buffers that a thread reuses, so that only its first gathers allocate.
-struct GatherScratch {
+/// Light of further bounces that was not looked up: it comes from a surface that a ray of the gather met, or a path
+/// that went on from there.
+struct FurtherLight {
+    int ray = 0;
+    Rgb weight{0.0f};  ///< radiance that the ray brings of a unit of the place's irradiance
+    SurfacePlace place;
+    RandomKey key;  ///< of the place
+};
+
+/// What the rays of a gather found.
+struct GatheredRays {
+    HemisphereStrata strata;
     // One for every ray that is cast, in the order of visit_blocks.
     std::vector<Ray> rays;
     std::vector<Hit> hits;
-    std::vector<glm::vec3> normals;  ///< of the hits (Tracer::intersect)
     std::vector<RayPlace> places;
     std::vector<Rgb> light;  ///< radiance that the ray finds
     // One for every cell.
-    std::vector<Rgb> radiance;        ///< mean over its rays; those below the true surface are black
-    std::vector<float> distances;     ///< m, the shortest of its rays; infinite where nothing is met
-    std::vector<std::uint8_t> sides;  ///< of DividedCell; 1: one ray
-    std::vector<std::uint8_t> below;  ///< no ray is cast: all directions are below the true surface
+    std::vector<std::uint8_t> sides;    ///< of DividedCell; 1: one ray
+    std::vector<std::uint8_t> below;    ///< no ray is cast: all directions are below the true surface
+    std::vector<FurtherLight> further;  ///< not in `light`; of MultiBounceLight::noted
+};
+
+/// Buffers that a thread reuses, so that only its first gathers allocate.
+struct GatherScratch : GatheredRays {
+    std::vector<glm::vec3> normals;  ///< of the hits (Tracer::intersect)
+    // One for every cell.
+    std::vector<Rgb> radiance;     ///< mean over its rays; those below the true surface are black
+    std::vector<float> distances;  ///< m, the shortest of its rays; infinite where nothing is met
     // One for every shadow ray.
     std::vector<Ray> shadow_rays;
     std::vector<ShadowSample> shadow_samples;
@@ -141,8 +160,14 @@ struct GatherPattern {
 /// no rays are cast there. At each hit one light is chosen in proportion to its unshadowed contribution, and one shadow
 /// ray is cast towards it. Where the surface that is hit reflects or passes light by more than its Lambert layer, a
 /// path goes on with that share as its probability.
-IrradianceSample gather_irradiance(const LightingContext& context, RayTask& task, const SurfacePoint& point,
+IrradianceSample gather_irradiance(const LightingContext& context, RayTask& task, const SurfacePlace& point,
                                    const GatherPattern& pattern, GatherScratch& scratch,
                                    const GatherOptions& options = {});
+
+/// The irradiance and its summary from what the rays found.
+IrradianceSample add_up_rays(const HemisphereStrata& strata, const glm::vec3& normal, GatherScratch& scratch);
+
+/// Random numbers of a place on a surface: a cell of the triangle, so that the last bits of the hit hardly ever matter.
+RandomKey make_place_key(std::uint32_t seed, const Hit& hit);
 
 }  // namespace aleph

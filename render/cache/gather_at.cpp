@@ -14,8 +14,6 @@ constexpr double noise_per_accuracy = 0.2;  // standard error of a record, over 
 /// constant but 0 would do.
 constexpr std::uint32_t gather_seed_mask = 0x67617468u;
 
-constexpr float place_cells = 256.0f;  // along each side of a triangle, for random numbers
-
 /// Keeps those of caches of different numbers of bounces apart.
 constexpr std::uint32_t turn_seed_step = 0x9e3779b9u;
 
@@ -31,12 +29,6 @@ RandomKey choose_key(const IndirectContext& context, const PixelSurface& surface
 }
 
 }  // namespace
-
-RandomKey make_place_key(std::uint32_t seed, const Hit& hit) {
-    const auto cell = [](float at) { return static_cast<std::uint32_t>(std::max(at, 0.0f) * place_cells); };
-    return {seed, static_cast<std::uint32_t>(hit.instance), static_cast<std::uint32_t>(hit.primitive),
-            cell(hit.u) << 16 | cell(hit.v)};
-}
 
 int choose_rays(const RenderSettings& settings, float accuracy, const std::optional<float>& ray_variance) {
     const double most = settings.cache.gather > 0 ? settings.cache.gather : most_rays;

@@ -14,9 +14,6 @@ namespace aleph {
 /// @param ray_variance  relative, of one ray; nothing where it is not known
 int choose_rays(const RenderSettings& settings, float accuracy, const std::optional<float>& ray_variance);
 
-/// Random numbers of a place on a surface: a cell of the triangle, so that the last bits of the hit hardly ever matter.
-RandomKey make_place_key(std::uint32_t seed, const Hit& hit);
-
 /// Gathers the irradiance at one pixel sample.
 /// @param found  samples of direct light for the grid of the context; null: they are dropped
 IrradianceSample gather_at(const IndirectContext& context, RayTask& task, const PixelSurface& surface,

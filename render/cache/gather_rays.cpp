@@ -85,7 +85,7 @@ int divide_cells(const HemisphereStrata& strata, std::span<const DividedCell> di
     return rays;
 }
 
-void place_rays(const HemisphereStrata& strata, const Basis& basis, const SurfacePoint& point,
+void place_rays(const HemisphereStrata& strata, const Basis& basis, const SurfacePlace& point,
                 const CellNumbers& numbers, int most, GatherScratch& scratch) {
     scratch.below.assign(static_cast<std::size_t>(strata.count()), 1);
     const std::size_t room = static_cast<std::size_t>(most) + 1;  // one more is written after the last that counts

@@ -14,7 +14,7 @@ int divide_cells(const HemisphereStrata& strata, std::span<const DividedCell> di
 /// Sets the rays of all cells, as far as they are above the true surface, their places, and which cells are below it.
 /// @param basis  of the hemisphere
 /// @param most   rays of all cells (divide_cells)
-void place_rays(const HemisphereStrata& strata, const Basis& basis, const SurfacePoint& point,
+void place_rays(const HemisphereStrata& strata, const Basis& basis, const SurfacePlace& point,
                 const CellNumbers& numbers, int most, GatherScratch& scratch);
 
 }  // namespace aleph

@@ -55,7 +55,8 @@ inline IndirectContext make_places_context(const IndirectContext& frame, const I
             .max_radius = frame.max_radius,
             .progress = {},
             .direct = frame.direct,
-            .multi_bounce = frame.multi_bounce};
+            .multi_bounce = frame.multi_bounce,
+            .bounces_before = frame.bounces_before};
 }
 
 }  // namespace aleph

@@ -197,7 +197,7 @@ void IrradianceCache::restore(std::vector<IrradianceRecord> records) {
 bool IrradianceCache::covers(const CacheQuery& query) const {
     const float accuracy = std::min(query.accuracy, 1.0f);
     bool found = false;
-    index_.visit_near(query.position, accuracy, 0.0f, [&](int i) {
+    index_.visit_reaching(query.position, accuracy, [&](int i) {
         const IrradianceRecord& record = records_[i];
         if (record.accuracy > max_looser * accuracy) return true;
         found = is_usable(record, query, interpolation_error(record, query.position, query.normal), accuracy);
@@ -206,23 +206,25 @@ bool IrradianceCache::covers(const CacheQuery& query) const {
     return found;
 }
 
+/// 0 where the record must not be used.
+float IrradianceCache::weigh(const IrradianceRecord& record, const CacheQuery& query, float accuracy) {
+    const float error = interpolation_error(record, query.position, query.normal);
+    if (!is_usable(record, query, error, accuracy)) return 0.0f;
+    const float looser = std::max(1.0f, record.accuracy / accuracy);
+    return (1.0f - error / accuracy) / (looser * looser);
+}
+
 std::optional<Rgb> IrradianceCache::interpolate(const CacheQuery& query) const {
     const float accuracy = std::min(query.accuracy, 1.0f);
     Rgb sum(0.0f);
     float total = 0.0f;
-    index_.visit_near(query.position, accuracy, 0.0f, [&](int i) {
+    visit_usable(query, [&](int i, float weight) {
         const IrradianceRecord& record = records_[i];
-        const float error = interpolation_error(record, query.position, query.normal);
-        if (is_usable(record, query, error, accuracy)) {
-            const float looser = std::max(1.0f, record.accuracy / accuracy);
-            const float weight = (1.0f - error / accuracy) / (looser * looser);
-            sum += extrapolate(record, query.position, query.normal) * weight;
-            total += weight;
-            if (query.used != nullptr) {
-                query.used->add(weight, RecordReach{record.radius, spread_of(record)}.at(accuracy));
-            }
+        sum += extrapolate(record, query.position, query.normal) * weight;
+        total += weight;
+        if (query.used != nullptr) {
+            query.used->add(weight, RecordReach{record.radius, spread_of(record)}.at(accuracy));
         }
-        return true;
     });
     if (!(total > 0.0f)) return std::nullopt;
     return sum / total;

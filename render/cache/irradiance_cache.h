@@ -63,6 +63,16 @@ class IrradianceCache {
     /// True if at least one record has an error below the query's accuracy, and was computed for about that accuracy.
     bool covers(const CacheQuery& query) const;
 
+    /// Calls visit(number, weight) for all records whose error is below the query's accuracy.
+    template <class Visit>
+    void visit_usable(const CacheQuery& query, const Visit& visit) const {
+        const float accuracy = std::min(query.accuracy, 1.0f);
+        index_.visit_reaching(query.position, accuracy, [&](int i) {
+            if (const float weight = weigh(records_[i], query, accuracy); weight > 0.0f) visit(i, weight);
+            return true;
+        });
+    }
+
     /// The weighted mean of all records whose error is below the query's accuracy, or nothing if there is none.
     std::optional<Rgb> interpolate(const CacheQuery& query) const;
 
@@ -84,6 +94,7 @@ class IrradianceCache {
     const std::vector<IrradianceRecord>& records() const { return records_; }
 
   private:
+    static float weigh(const IrradianceRecord& record, const CacheQuery& query, float accuracy);
     void clamp_to_neighbours(IrradianceRecord& record);
     void compare_with_neighbours(IrradianceRecord& record);
     IrradianceRecord smoothed(const IrradianceRecord& record) const;

@@ -5,7 +5,7 @@
 #include <mutex>
 
 #include "engine/base/parallel.h"
-#include "render/cache/bounce_levels.h"
+#include "render/cache/further_bounces.h"
 #include "render/surface/media.h"
 #include "render/surface/scatter.h"
 

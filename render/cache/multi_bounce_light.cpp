@@ -7,11 +7,16 @@
 
 namespace aleph {
 
-namespace {
+std::optional<Rgb> find_cached_irradiance(RayTask& task, const SurfacePlace& point,
+                                          const MultiBounceLight& multi_bounce) {
+    if (multi_bounce.cache == nullptr) return std::nullopt;
+    return multi_bounce.cache->interpolate({point.position, point.normal, multi_bounce.accuracy, &task});
+}
 
 /// Lamps that the ray meets, or sees straight through sheets of glass, are direct light of the point.
-Rgb sample_irradiance(const LightingContext& context, RayTask& task, const SurfacePlace& point, const PathLimits& left,
-                      RandomStream& random) {
+Rgb sample_multi_bounce_irradiance(const LightingContext& context, RayTask& task, const SurfacePlace& point,
+                                   const MultiBounceLight& multi_bounce, int depth, RandomStream& random) {
+    if (multi_bounce.bounces <= 0) return Rgb(0.0f);
     const glm::vec3 direction = make_basis(point.normal).to_world(sample_cosine_hemisphere(random.next_2d()));
     if (!(glm::dot(direction, point.geometric) > 0.0f)) return Rgb(0.0f);
     ++task.counts.multi_bounce;
@@ -19,23 +24,13 @@ Rgb sample_irradiance(const LightingContext& context, RayTask& task, const Surfa
     if (hit.instance == no_index) return Rgb(0.0f);
     const SurfacePoint met = make_surface_point(context.shading, hit, direction);
     PathState state;
-    state.left = left;
+    state.left = {multi_bounce.bounces - 1, depth};
+    // Where a cache knows most of this light, long paths would cost more than all the rest.
+    if (multi_bounce.cache != nullptr) state.roulette_after = 0;
     state.turned = true;
     state.emission = EmissionWeight::none;
     return std::numbers::pi_v<float> *
            scatter_light(context, task, view_surface(context.shading, met, -direction, {}), state, random);
-}
-
-}  // namespace
-
-Rgb find_multi_bounce_irradiance(const LightingContext& context, RayTask& task, const SurfacePlace& point,
-                                 const MultiBounceLight& multi_bounce, int depth, RandomStream& random) {
-    if (multi_bounce.bounces <= 0) return Rgb(0.0f);
-    if (multi_bounce.cache != nullptr) {
-        const CacheQuery query{point.position, point.normal, multi_bounce.accuracy, &task};
-        if (const std::optional<Rgb> found = multi_bounce.cache->interpolate(query)) return *found;
-    }
-    return sample_irradiance(context, task, point, {multi_bounce.bounces - 1, depth}, random);
 }
 
 }  // namespace aleph

@@ -2,6 +2,8 @@
 // Light of several bounces, as a gather sees it: what a surface that a gather ray hit scatters of its own indirect
 // irradiance. It comes from a cache of exactly the bounces that are left, or from one random path.
 
+#include <optional>
+
 #include "render/light/light_choice.h"
 
 namespace aleph {
@@ -14,12 +16,17 @@ struct MultiBounceLight {
     /// Cache of exactly so many bounces; null: every irradiance comes from a random path.
     const IrradianceCache* cache = nullptr;
     float accuracy = 0.0f;  ///< alpha of look-ups
+    /// It is not looked up: gathers note where it comes from (FurtherLight).
+    bool noted = false;
 };
 
-/// Indirect irradiance at a surface point: from the cache, or without bias from one random path where it has no record.
-/// The path's first ray is counted as RayCounts::multi_bounce.
+/// Indirect irradiance at a surface point from the cache; nothing where it has no record.
+std::optional<Rgb> find_cached_irradiance(RayTask& task, const SurfacePlace& point,
+                                          const MultiBounceLight& multi_bounce);
+
+/// The same without bias from one random path, whose first ray is counted as RayCounts::multi_bounce.
 /// @param depth  surfaces that may scatter on the path
-Rgb find_multi_bounce_irradiance(const LightingContext& context, RayTask& task, const SurfacePlace& point,
-                                 const MultiBounceLight& multi_bounce, int depth, RandomStream& random);
+Rgb sample_multi_bounce_irradiance(const LightingContext& context, RayTask& task, const SurfacePlace& point,
+                                   const MultiBounceLight& multi_bounce, int depth, RandomStream& random);
 
 }  // namespace aleph

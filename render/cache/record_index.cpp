@@ -43,8 +43,8 @@ void RecordIndex::add(const glm::vec3& position, const RecordReach& reach, float
         const int child = here.children[octant];
         cell = child >= 0 ? child : add_child(cell, octant);
     }
-    next_.push_back(cells_[cell].first_record);
-    cells_[cell].first_record = static_cast<int>(next_.size()) - 1;
+    members_.push_back({position, reach, cells_[cell].first_record});
+    cells_[cell].first_record = static_cast<int>(members_.size()) - 1;
 }
 
 void RecordIndex::lower_radius(const glm::vec3& position, float radius) {
@@ -62,7 +62,7 @@ RecordIndex RecordIndex::emptied() const {
 
 std::vector<int> RecordIndex::ordered() const {
     std::vector<int> order;
-    order.reserve(next_.size());
+    order.reserve(members_.size());
     visit([](const Cell&) { return true; },
           [&](int record) {
               order.push_back(record);

@@ -62,7 +62,7 @@ class RecordIndex {
         stack[top++] = 0;
         while (top > 0) {
             const Cell& cell = cells_[stack[--top]];
-            for (int record = cell.first_record; record >= 0; record = next_[record]) {
+            for (int record = cell.first_record; record >= 0; record = members_[record].next) {
                 if (!visit_record(record)) return;
             }
             for (const int child : cell.children) {
@@ -86,13 +86,32 @@ class RecordIndex {
             visit_record);
     }
 
+    /// The same for the records whose reach holds the position, and hardly any other.
+    template <class VisitRecord>
+    void visit_reaching(const glm::vec3& position, float accuracy, const VisitRecord& visit_record) const {
+        constexpr float rounding = 1.0f + 1e-5f;
+        visit_near(position, accuracy, 0.0f, [&](int record) {
+            const Member& member = members_[record];
+            const glm::vec3 off = position - member.position;
+            const float reach = member.most.at(accuracy);
+            return glm::dot(off, off) > rounding * reach * reach || visit_record(record);
+        });
+    }
+
   private:
     static constexpr int max_level = 24;
 
     int add_child(int cell, int octant);
 
+    /// What decides about most records, closer together in memory than the records.
+    struct Member {
+        glm::vec3 position{0.0f};
+        RecordReach most;  ///< not lowered when the record shrinks
+        int next = -1;     ///< in the same cell
+    };
+
     std::vector<Cell> cells_;
-    std::vector<int> next_;
+    std::vector<Member> members_;
 };
 
 }  // namespace aleph

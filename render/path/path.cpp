@@ -136,11 +136,14 @@ class Path {
     bool add_known(const ViewedSurface& surface) {
         if (state_.known == nullptr || hit_.instance == no_index || !surface.material.has_diffuse()) return false;
         if (std::min(state_.left.bounces, state_.left.depth - 1) != state_.known->bounces) return false;
-        const std::optional<Rgb> irradiance = state_.known->find(surface, hit_, loosen_accuracy(state_), task_);
-        if (!irradiance) return false;
         const LitSurface lit(surface);
-        light_ += state_.throughput * diffuse_radiance(surface.material, lit.cos_view, *irradiance) * lit.below_sheen;
-        return true;
+        const auto scattered = [&](const Rgb& irradiance) {
+            return state_.throughput * diffuse_radiance(surface.material, lit.cos_view, irradiance) * lit.below_sheen;
+        };
+        const std::optional<Rgb> irradiance =
+            state_.known->find(surface, hit_, loosen_accuracy(state_), scattered(Rgb(1.0f)), task_);
+        if (irradiance) light_ += scattered(*irradiance);
+        return irradiance.has_value();
     }
 
     void add_direct(const LitSurface& lit, const LobeShares& shares) {

@@ -47,8 +47,8 @@ struct FrameCounts {
     FillStatistics cache;
     std::uint64_t samples = 0;               ///< pixel samples
     std::uint64_t records = 0;               ///< irradiance values computed
-    std::uint64_t multi_bounce_records = 0;  ///< not among them: those of caches of fewer bounces
-    std::uint64_t multi_bounce_rays = 0;     ///< of all rays, those that filled these caches
+    std::uint64_t multi_bounce_records = 0;  ///< not among them: those of the coarse cache of further bounces
+    std::uint64_t multi_bounce_rays = 0;     ///< of all rays, those that filled this cache
     std::uint64_t invalid_samples = 0;       ///< pixel samples and irradiance values dropped for a NaN or infinity
 };
 

@@ -1,8 +1,8 @@
 // Direct light and gloss by samples, indirect light from the irradiance cache.
 
-#include "render/cache/bounce_levels.h"
 #include "render/cache/bounce_places.h"
 #include "render/cache/cache_fill.h"
+#include "render/cache/further_bounces.h"
 #include "render/cache/mirror_places.h"
 #include "render/shade/frame_irradiance.h"
 #include "render/shade/integrator.h"
@@ -33,7 +33,7 @@ class CacheIntegrator final : public LightIntegrator {
 
     void fill(const SampleHits& first) override {
         if (input_.options.risk != nullptr) context_.carried = &checked_.emplace(context_, *input_.options.risk, first);
-        fill_fewer_bounces(first);
+        find_seen_surfaces(first);
         if (checked_) checked_->check(cache_, context_, input_.out);
         fill_cache(cache_, context_, first, input_.out);
         fill_mirror_places(cache_, context_, first, input_.out);
@@ -72,6 +72,7 @@ class CacheIntegrator final : public LightIntegrator {
     }
 
     void fill_waiting(const std::vector<PendingSample>& waiting) override {
+        if (!waiting.empty() && !further_bounces_) add_further_bounces();
         fill_pending(cache_, context_, waiting, input_.out);
     }
 
@@ -85,12 +86,20 @@ class CacheIntegrator final : public LightIntegrator {
     }
 
   private:
-    void fill_fewer_bounces(const SampleHits& first) {
+    /// Where the light of some pixels is known, gathers at others still find light of all surfaces.
+    void find_seen_surfaces(const SampleHits& first) {
         if (context_.multi_bounce.bounces == 0) return;
-        std::vector<PixelSurface> seen;
-        add_seen_surfaces(context_, first, seen, input_.out.counts.rays);
-        fewer_bounces_ = fill_levels(context_, seen, input_.out.counts);
-        if (fewer_bounces_) context_.multi_bounce = make_multi_bounce_light(context_.settings, &*fewer_bounces_);
+        IndirectContext all = context_;
+        all.carried = nullptr;
+        add_seen_surfaces(all, first, seen_, input_.out.counts.rays);
+        std::vector<PixelSurface> unknown;
+        add_seen_surfaces(context_, first, unknown, input_.out.counts.rays);
+        if (!unknown.empty()) add_further_bounces();
+    }
+
+    void add_further_bounces() {
+        further_bounces_ = solve_further_bounces(context_, seen_, input_.out.counts);
+        if (further_bounces_) context_.multi_bounce = make_multi_bounce_light(context_.settings, &*further_bounces_);
     }
 
     const IntegratorInput input_;
@@ -99,7 +108,8 @@ class CacheIntegrator final : public LightIntegrator {
     IrradianceCache cache_;
     std::optional<CheckedLight> checked_;
     FrameIrradiance known_;
-    std::optional<IrradianceCache> fewer_bounces_;
+    std::vector<PixelSurface> seen_;  ///< for further_bounces_, which is solved once a record is needed
+    std::optional<FurtherBounces> further_bounces_;
     DirectGrid direct_;
     Image<RecordUse> uses_;  ///< empty: not asked for
     std::optional<ShutterLight> shutter_;

@@ -1,13 +1,13 @@
 #include "render/shade/frame_irradiance.h"
 
-#include "render/cache/bounce_levels.h"
+#include "render/cache/further_bounces.h"
 
 namespace aleph {
 
 FrameIrradiance::FrameIrradiance(const IndirectContext& context, const IrradianceCache* cache)
     : KnownIrradiance(count_bounces(context.settings)), context_(context), cache_(cache) {}
 
-std::optional<Rgb> FrameIrradiance::find(const ViewedSurface& surface, const Hit& hit, float accuracy,
+std::optional<Rgb> FrameIrradiance::find(const ViewedSurface& surface, const Hit& hit, float accuracy, const Rgb&,
                                          RayTask& task) const {
     if (context_.carried != nullptr) {
         PixelSurface place{surface};

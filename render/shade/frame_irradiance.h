@@ -14,7 +14,8 @@ class FrameIrradiance final : public KnownIrradiance {
     /// @param cache    of the frame, filled; null: none
     FrameIrradiance(const IndirectContext& context, const IrradianceCache* cache);
 
-    std::optional<Rgb> find(const ViewedSurface& surface, const Hit& hit, float accuracy, RayTask& task) const override;
+    std::optional<Rgb> find(const ViewedSurface& surface, const Hit& hit, float accuracy, const Rgb& weight,
+                            RayTask& task) const override;
 
   private:
     const IndirectContext& context_;

@@ -1,6 +1,6 @@
 #include "render/shade/sample_shading.h"
 
-#include "render/cache/bounce_levels.h"
+#include "render/cache/further_bounces.h"
 #include "render/cache/gather_at.h"
 #include "render/path/glossy_light.h"
 
@@ -71,8 +71,8 @@ Rgb sample_path(const SampleShading& shading, const SampleScene& scene, ShadingT
                 const PixelSurface& surface) {
     const RenderSettings& settings = shading.context.settings;
     RandomStream random = path_stream(shading, surface, irradiance_seed_mask);
-    return find_multi_bounce_irradiance(scene.lighting, task, surface.point, {settings.light.bounces},
-                                        settings.light.path_depth - 1, random);
+    return sample_multi_bounce_irradiance(scene.lighting, task, surface.point, {settings.light.bounces},
+                                          settings.light.path_depth - 1, random);
 }
 
 /// Adds what the surface reflects of its irradiance.

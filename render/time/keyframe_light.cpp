@@ -2,8 +2,8 @@
 
 #include <cmath>
 
-#include "render/cache/bounce_levels.h"
 #include "render/cache/bounce_places.h"
+#include "render/cache/further_bounces.h"
 #include "render/cache/mirror_places.h"
 #include "render/surface/carried_point.h"
 
@@ -58,9 +58,10 @@ std::vector<IrradianceRecord> compute_records(const KeyframeInput& input, FrameC
         if (count_bounces(input.settings) == 1) continue;
         add_seen_surfaces(contexts.back(), first_samples.back(), seen, tally.counts.rays);
     }
-    const std::optional<IrradianceCache> fewer_bounces = fill_levels(contexts.front(), seen, tally.counts);
+    const std::optional<FurtherBounces> further_bounces = solve_further_bounces(contexts.front(), seen, tally.counts);
     for (std::size_t v = 0; v < contexts.size(); ++v) {
-        contexts[v].multi_bounce = make_multi_bounce_light(input.settings, fewer_bounces ? &*fewer_bounces : nullptr);
+        contexts[v].multi_bounce =
+            make_multi_bounce_light(input.settings, further_bounces ? &*further_bounces : nullptr);
         fill_cache(cache, contexts[v], first_samples[v], tally, contexts[v].seen == nullptr ? 1 : finest_tiles);
         // Other views were cast in another pose, where mirrors may show other things.
         if (contexts[v].seen == nullptr) fill_mirror_places(cache, contexts[v], first_samples[v], tally);

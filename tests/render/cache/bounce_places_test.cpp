@@ -6,7 +6,7 @@
 
 #include <cmath>
 
-#include "render/cache/bounce_levels.h"
+#include "render/cache/further_bounces.h"
 #include "render/cache/gather_at.h"
 #include "tests/support/directions.h"
 #include "tests/support/expect_near.h"
@@ -109,20 +109,20 @@ TEST(BouncePlaces, RaysLieInTheStrataOfEachSurface) {
     surfaces.resize(20);
     RayCounts counts;
     const BouncePlaces places = cast_bounce_places(rooms.lighting, surfaces, 7, counts);
-    ASSERT_EQ(places.hits.width, 64);
+    ASSERT_EQ(places.hits.width, 16);
     ASSERT_EQ(places.hits.height, 20);
     EXPECT_FLOAT_EQ(places.solid_angle, static_cast<float>(pi / 1024.0));
-    EXPECT_EQ(counts.gather, 64u * 20u);
+    EXPECT_EQ(counts.gather, 16u * 20u);
     for (int y = 0; y < 20; ++y) {
         const SurfacePoint& from = surfaces[static_cast<std::size_t>(y)].point;
         const Basis basis = make_basis(from.normal);
         RandomStream random(make_place_key(7 ^ 0x626f756eu, surfaces[static_cast<std::size_t>(y)].hit));
         const CellNumbers numbers(random);
-        for (int x = 0; x < 64; ++x) {
-            const int row = x / 16, column = x % 16;
+        for (int x = 0; x < 16; ++x) {
+            const int row = x / 8, column = x % 8;
             const glm::vec3 direction = places.directions(x, y);
-            const double elevation = (row + static_cast<double>(numbers.place(row, column).x)) / 4.0;
-            const double azimuth = 2.0 * pi * (column + static_cast<double>(numbers.place(row, column).y)) / 16.0;
+            const double elevation = (row + static_cast<double>(numbers.place(row, column).x)) / 2.0;
+            const double azimuth = 2.0 * pi * (column + static_cast<double>(numbers.place(row, column).y)) / 8.0;
             const double radius = std::sqrt(elevation);
             expect_near(basis.to_local(direction),
                         {radius * std::cos(azimuth), radius * std::sin(azimuth), std::sqrt(1.0 - elevation)}, 1e-6);
@@ -134,7 +134,7 @@ TEST(BouncePlaces, RaysLieInTheStrataOfEachSurface) {
             EXPECT_EQ(met.view, -direction);
             EXPECT_NEAR(met.footprint, distance * std::sqrt(pi / 1024.0), 1e-4 * distance);
             EXPECT_EQ(met.distance, places.hits(x, y).distance);
-            EXPECT_EQ(met.pixel, static_cast<std::uint32_t>(64 * y + x));
+            EXPECT_EQ(met.pixel, static_cast<std::uint32_t>(16 * y + x));
             EXPECT_EQ(met.x, x);
             EXPECT_EQ(met.y, y);
         }
@@ -149,27 +149,27 @@ TEST(BouncePlaces, DirectionsBelowTheTrueSurfaceMeetNothing) {
     RayCounts counts;
     const BouncePlaces places = cast_bounce_places(rooms.lighting, surfaces, 7, counts);
     std::uint64_t above = 0;
-    for (int x = 0; x < 64; ++x) {
+    for (int x = 0; x < 16; ++x) {
         const bool up_there = places.directions(x, 0).y > 0.0f;
         above += up_there ? 1 : 0;
         EXPECT_EQ(places.hits(x, 0).instance, up_there ? 1 : no_index);
     }
     EXPECT_EQ(counts.gather, above);
-    EXPECT_LT(above, 64u);
+    EXPECT_LT(above, 16u);
 }
 
-TEST(BouncePlaces, PlacesToFillAndTheNextSurfaces) {
+TEST(BouncePlaces, PlacesToFill) {
     Rooms rooms(20, 20);
     std::vector<PixelSurface> surfaces = rooms.seen();
     surfaces.resize(10);
     RayCounts counts;
     BouncePlaces places = cast_bounce_places(rooms.lighting, surfaces, 7, counts);
     places.hits(0, 0) = places.hits(46, 3) = Hit{};  // of the second and of the last try
-    places.hits(23 * 3 % 64, 3) = Hit{};
-    for (int x = 0; x < 64; ++x) places.hits(x, 5) = Hit{};
+    places.hits(5, 3) = Hit{};
+    for (int x = 0; x < 16; ++x) places.hits(x, 5) = Hit{};
     const FillPlaces fill = make_fill_places(rooms.stage.shading, places);
     for (int y = 0; y < 10; ++y) {
-        for (int x = 0; x < 64; ++x) {
+        for (int x = 0; x < 16; ++x) {
             if (places.hits(x, y).instance == no_index) {
                 EXPECT_LT(fill.points(x, y).footprint, 0.0f);
                 continue;
@@ -180,34 +180,25 @@ TEST(BouncePlaces, PlacesToFillAndTheNextSurfaces) {
             EXPECT_EQ(fill.points(x, y).normal, met.point.normal);
         }
     }
-    const std::vector<PixelSurface> next = choose_next_surfaces(rooms.stage.shading, places);
-    ASSERT_EQ(next.size(), 9u);
-    for (int i = 0, y = 0; y < 10; ++y) {
-        if (y == 5) continue;
-        const int tried = y == 0 || y == 3 ? y + 1 : y;
-        EXPECT_EQ(next[static_cast<std::size_t>(i)].y, y);
-        EXPECT_EQ(next[static_cast<std::size_t>(i++)].x, tried * 23 % 64);
-    }
 }
 
-TEST(BounceLevels, LightOfFewerBouncesIsLooser) {
+TEST(FurtherBounces, OneFewerThanThePictureHas) {
     RenderSettings settings = plain_settings(0.1, 64);
-    const auto light = [&](double accuracy) {
-        settings.cache.accuracy = accuracy;
-        return make_multi_bounce_light(settings, nullptr);
-    };
+    const Rooms rooms(3, 2);
+    const FurtherBounces known{make_cache(rooms.stage.shading), 0.5f};
+    const auto light = [&] { return make_multi_bounce_light(settings, &known); };
     settings.light.bounces = 4;
     settings.light.path_depth = 9;
     EXPECT_EQ(count_bounces(settings), 4);
-    EXPECT_EQ(light(0.1).bounces, 3);
-    EXPECT_NEAR(light(0.1).accuracy, 1.4 * 0.2, 1e-6);  // twice as loose, and as far as shading reaches
-    EXPECT_NEAR(light(0.3).accuracy, 1.4 * 0.5, 1e-6);
-    EXPECT_NEAR(light(0.8).accuracy, 1.4 * 0.8, 1e-6);
+    EXPECT_EQ(light().bounces, 3);
+    EXPECT_EQ(light().cache, &known.cache);
+    EXPECT_NEAR(light().accuracy, 1.4 * 0.5, 1e-6);  // as far as shading reaches
+    EXPECT_EQ(make_multi_bounce_light(settings, nullptr).cache, nullptr);
     settings.light.path_depth = 3;
     EXPECT_EQ(count_bounces(settings), 2);
-    EXPECT_EQ(light(0.1).bounces, 1);
+    EXPECT_EQ(light().bounces, 1);
     settings.light.bounces = 0;
-    EXPECT_EQ(light(0.1).bounces, 0);
+    EXPECT_EQ(light().bounces, 0);
 }
 
 TEST(CacheBounds, RadiiFollowPixelsAndAccuracy) {

@@ -121,8 +121,8 @@ TEST(DirectGrid, GathersNoteTheCellsOfTheirHits) {
     const DividedCell divided[] = {{20, 3}};
     const HemisphereStrata strata{6, 16};
     GatherOptions options{.grid = &grid, .found = &found, .divided = divided};
-    gather_irradiance(stage.lighting(), task, make_point(glm::vec3(0.0f) - glm::vec3(stage.shading.anchor), up), strata,
-                      {1, 2, 3, 4}, scratch, options);
+    gather_irradiance(stage.lighting(), task, make_point(glm::vec3(0.0f) - glm::vec3(stage.shading.anchor), up),
+                      {strata, {1, 2, 3, 4}}, scratch, options);
     std::multiset<std::uint64_t> expected, noted;
     for (std::size_t i = 0; i < scratch.rays.size(); ++i) {
         const Hit& hit = scratch.hits[i];

@@ -27,7 +27,7 @@ Scene make_glowing_box() {
 struct ConstantIrradiance : KnownIrradiance {
     using KnownIrradiance::KnownIrradiance;
 
-    std::optional<Rgb> find(const ViewedSurface&, const Hit& hit, float accuracy, RayTask&) const override {
+    std::optional<Rgb> find(const ViewedSurface&, const Hit& hit, float accuracy, const Rgb&, RayTask&) const override {
         EXPECT_NE(hit.instance, no_index);
         ++lookups;
         least = std::min(least, accuracy);
@@ -198,7 +198,7 @@ TEST(KnownIrradianceTest, AMirrorShowsWhatTheCacheHolds) {
         ++seen;
         const PixelSurface place = make_bounce_surface(stage.shading, mirrors.places, x, y);
         EXPECT_GT(place.distance, 2.0f);
-        const std::optional<Rgb> light = known.find(place, place.hit, 0.2f, task);
+        const std::optional<Rgb> light = known.find(place, place.hit, 0.2f, Rgb(1.0f), task);
         if (!light) continue;
         ++found;
         if (i % 7 != 0) continue;

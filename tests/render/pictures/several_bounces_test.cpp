@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
-#include "render/cache/bounce_levels.h"
+#include "render/cache/cache_fill.h"
+#include "render/cache/further_bounces.h"
+#include "render/cache/light_transport.h"
 #include "tests/support/frame_bytes.h"
 #include "tests/support/pixel_mean.h"
 #include "tests/support/shot_scenes.h"
@@ -60,11 +62,54 @@ TEST(SeveralBounces, IC23_EachAddsItsTermOnce) {
     }
 }
 
-TEST(SeveralBounces, IC23_MoreThanHaveCaches) {
+TEST(SeveralBounces, IC23_AllTogetherAreAGeometricSeries) {
     const Stage stage(make_lit_sphere(), 12, 9);
-    const RenderSettings settings = cache_settings(30, 0.5, 64);
     const double expected = direct_of(stage) / (1.0 - albedo);
-    EXPECT_NEAR(mean_of_pixels(shade(stage, settings)).mean(), expected, 0.006 * expected);
+    for (const int bounces : {30, 1000}) {
+        RenderSettings settings = cache_settings(bounces, 0.5, 64);
+        settings.light.path_depth = bounces + 1;
+        EXPECT_NEAR(mean_of_pixels(shade(stage, settings)).mean(), expected, 0.006 * expected) << bounces;
+    }
+}
+
+/// Records that reach nowhere: all light between them goes along random rays.
+TEST(SeveralBounces, IC23_EachCountsWithoutRecordsAround) {
+    const Stage stage(make_lit_sphere(), 12, 9);
+    const RenderSettings settings = cache_settings(8, 0.3, 64);
+    const Image<float> accuracy;
+    const LightingContext lighting = stage.lighting();
+    RayTask task(stage.rays);
+    GatherScratch scratch;
+    for (const int bounces : {2, 3, 6}) {
+        const IndirectContext context{.lighting = lighting,
+                                      .view = stage.view,
+                                      .settings = settings,
+                                      .accuracy = accuracy,
+                                      .progress = {},
+                                      .multi_bounce = {.bounces = bounces - 1, .noted = true},
+                                      .bounces_before = 1};
+        const GatherOptions options{.depth = 8, .multi_bounce = context.multi_bounce};
+        IrradianceCache cache = make_cache(stage.shading);
+        std::vector<GatheredRays> gathered;
+        for (std::uint32_t i = 0; i < 64; ++i) {
+            const float turn = 2.4f * static_cast<float>(i), z = (static_cast<float>(i) - 31.5f) / 32.0f;
+            const glm::vec3 normal(std::sqrt(1.0f - z * z) * glm::vec2(std::cos(turn), std::sin(turn)), z);
+            const SurfacePoint point = make_point(-1.9f * normal - glm::vec3(stage.shading.anchor), normal);
+            const IrradianceSample sample =
+                gather_irradiance(lighting, task, point, {choose_strata(64), {i, 1, 2, 3}}, scratch, options);
+            cache.insert(*make_record(point.position, normal, 0.3f, sample, {1e-6f, 1e-6f, 1e-6f}));
+            gathered.push_back(scratch);
+        }
+        RayCounts counts;
+        Mean irradiance;
+        for (const IrradianceRecord& record : add_bounces(context, cache, 0.3f, std::move(gathered), bounces, counts)) {
+            irradiance.add(luminance(record.irradiance));
+        }
+        const double expected = std::numbers::pi * direct_of(stage) * sum_of_powers(bounces - 1);
+        EXPECT_NEAR(irradiance.mean(), expected, 0.02 * expected) << bounces;
+        EXPECT_LT(irradiance.error(), 0.01 * expected) << bounces;
+        EXPECT_GT(counts.gather, 0u);
+    }
 }
 
 TEST(SeveralBounces, IC23_NoSurfaceBeyondThePathsDepthScatters) {
@@ -106,7 +151,7 @@ TEST(SeveralBounces, IC23_ALampBehindGlassIsNotFoundAgain) {
     RandomStream random({1, 2, 3, 4});
     const SurfacePoint floor = make_point(glm::vec3(0.0f), {0.0f, 1.0f, 0.0f});
     for (int i = 0; i < 200; ++i) {
-        ASSERT_EQ(find_multi_bounce_irradiance(stage.lighting(), task, floor, {.bounces = 2}, 8, random), Rgb(0.0f));
+        ASSERT_EQ(sample_multi_bounce_irradiance(stage.lighting(), task, floor, {.bounces = 2}, 8, random), Rgb(0.0f));
     }
     EXPECT_GT(task.counts.specular, 100u);
 }
@@ -136,7 +181,7 @@ TEST(SeveralBounces, IC23_AFurnaceGainsNoLight) {
     }
 }
 
-TEST(SeveralBounces, IC23_FewerBouncesCostLessThanThePicture) {
+TEST(SeveralBounces, IC23_TheyCostLessThanThePictureHoweverMany) {
     const Stage stage(make_shot(), 96, 72);
     const auto counts = [&](int bounces) { return shade(stage, cache_settings(bounces, 0.1, 128)).counts; };
     const FrameCounts one = counts(1), two = counts(2), three = counts(3);
@@ -144,6 +189,9 @@ TEST(SeveralBounces, IC23_FewerBouncesCostLessThanThePicture) {
     EXPECT_GT(two.multi_bounce_records, 0u);
     EXPECT_LT(two.multi_bounce_rays, one.rays.total());
     EXPECT_LT(three.multi_bounce_rays, 2 * two.multi_bounce_rays);
+    const FrameCounts many = counts(16);
+    EXPECT_LT(many.multi_bounce_rays, 1.3 * three.multi_bounce_rays);
+    EXPECT_LT(many.rays.total(), 1.3 * three.rays.total());
 }
 
 TEST(SeveralBounces, IC23_FilesAreEqualForAnyThreadsAloneAndInASequence) {

@@ -1,0 +1,82 @@
+#include "render/cache/further_bounces.h"
+
+#include <algorithm>
+
+#include "render/cache/bounce_places.h"
+#include "render/cache/light_transport.h"
+
+namespace aleph {
+
+namespace {
+
+/// alpha of the records, over the picture's; but for pictures of great accuracy it is the loosest one.
+constexpr double looser = 7.0, loosest_record = 0.7;
+
+/// A scene where fewer records suffice takes more, with a smaller alpha: they cost little.
+constexpr std::size_t many_records = 500;
+constexpr float stricter = 0.7f;
+
+constexpr int most_record_rays = 128;
+
+/// Adds records where gathers of the picture arrive. @return alpha of the last ones
+float fill_coarsely(IrradianceCache& cache, const IndirectContext& context, const FillPlaces& places,
+                    FrameTally& tally) {
+    const double picture = context.settings.cache.accuracy;
+    float alpha = static_cast<float>(std::max(picture, std::min(looser * picture, loosest_record)));
+    const auto fill = [&] {
+        const Image<float> accuracy(places.points.width, places.points.height, alpha);
+        fill_places(cache, make_places_context(context, accuracy), places, tally);
+    };
+    fill();
+    if (cache.records().size() >= many_records || stricter * alpha < picture) return alpha;
+    alpha *= stricter;
+    fill();
+    return alpha;
+}
+
+}  // namespace
+
+int count_bounces(const RenderSettings& settings) {
+    return std::min(settings.light.bounces, settings.light.path_depth - 1);
+}
+
+MultiBounceLight make_multi_bounce_light(const RenderSettings& settings, const FurtherBounces* known) {
+    MultiBounceLight light{.bounces = std::max(0, count_bounces(settings) - 1)};
+    if (known == nullptr) return light;
+    light.cache = &known->cache;
+    light.accuracy = static_cast<float>(shade_reach) * known->accuracy;
+    return light;
+}
+
+std::optional<FurtherBounces> solve_further_bounces(const IndirectContext& context,
+                                                    const std::vector<PixelSurface>& seen, FrameCounts& counts) {
+    const int bounces = count_bounces(context.settings) - 1;
+    if (bounces <= 0 || seen.empty()) return std::nullopt;
+    FrameTally tally;
+    const BouncePlaces places = cast_bounce_places(context.lighting, seen, context.settings.seed, tally.counts.rays);
+    tally.records = tally.invalid_samples = Image<float>(places.hits.width, places.hits.height);
+    std::vector<GatheredRays> gathered;
+    FillPlaces fill = make_fill_places(context.lighting.shading, places);
+    fill.coarse_first = false;
+    fill.most_rays = most_record_rays;
+    fill.gathered = &gathered;
+    DirectGrid direct(context.max_radius);
+    const Image<float> accuracy;
+    IndirectContext coarse = make_places_context(context, accuracy);
+    coarse.direct = &direct;
+    coarse.multi_bounce = {.bounces = bounces - 1, .noted = true};
+    coarse.bounces_before = 1;
+    FurtherBounces known{make_cache(context.lighting.shading)};
+    known.accuracy = fill_coarsely(known.cache, coarse, fill, tally);
+    if (bounces > 1) {
+        const float reach = static_cast<float>(shade_reach) * known.accuracy;
+        known.cache.restore(add_bounces(coarse, known.cache, reach, std::move(gathered), bounces, tally.counts.rays));
+    }
+    known.cache.finish();
+    counts.rays += tally.counts.rays;
+    counts.multi_bounce_rays += tally.counts.rays.total();
+    counts.multi_bounce_records += tally.counts.records;
+    return known;
+}
+
+}  // namespace aleph

@@ -1,0 +1,38 @@
+#pragma once
+// One coarse irradiance cache for the light of the second and all further bounces.
+//
+// Irradiance of n bounces is a gather of direct light and of what hits scatter of E_(n-1), their irradiance of n - 1
+// bounces. E_(n-1) changes slowly, and reaches the picture averaged over a hemisphere and times the albedo: few records
+// with few rays hold it. They lie where gather rays from the picture arrive. Each record casts its rays once, and keeps
+// for each the direct light that it found and the records from which the irradiance of the hit is interpolated
+// (light_transport.h). Going from E_1 to E_2 and so on then takes no more rays: work does not grow with the bounces.
+
+#include <optional>
+#include <vector>
+
+#include "render/cache/indirect_context.h"
+
+namespace aleph {
+
+/// Bounces of the picture's indirect light: the last surface of a path scatters direct light only.
+int count_bounces(const RenderSettings& settings);
+
+/// Irradiance of one bounce fewer than the picture's.
+struct FurtherBounces {
+    IrradianceCache cache;
+    float accuracy = 0.0f;  ///< alpha of its records
+};
+
+/// Makes the light that gathers for the picture find at their hits beside direct light.
+/// @param known  null: random paths only, without bias
+MultiBounceLight make_multi_bounce_light(const RenderSettings& settings, const FurtherBounces* known);
+
+/// Computes it where the gathers that fill the picture's cache need it.
+/// @param context  of the picture
+/// @param seen     surfaces of the picture whose light will be gathered (add_seen_surfaces)
+/// @param counts   increased
+/// @return nothing if the picture has one bounce, or `seen` is empty
+std::optional<FurtherBounces> solve_further_bounces(const IndirectContext& context,
+                                                    const std::vector<PixelSurface>& seen, FrameCounts& counts);
+
+}  // namespace aleph

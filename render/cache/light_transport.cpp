@@ -1,0 +1,224 @@
+#include "render/cache/light_transport.h"
+
+#include <algorithm>
+#include <array>
+#include <mutex>
+
+#include "engine/base/parallel.h"
+#include "render/settings/numbers.h"
+
+namespace aleph {
+
+namespace {
+
+constexpr int most_links = 4;               // records that the irradiance of a hit is interpolated from
+constexpr int most_random_rays = 16;        // one after the other, until one hits a place with records around
+constexpr float negligible_change = 1e-5f;  // of any place's irradiance, by one bounce more
+
+/// A share of the irradiance of a place.
+struct Link {
+    int place = 0;
+    float weight = 0.0f;
+
+    bool operator==(const Link&) const = default;
+};
+
+/// Irradiance that arrives at a place of what one FurtherLight asks for.
+struct LinkedLight {
+    Rgb weight{0.0f};  ///< of a unit of the irradiance there
+    std::array<Link, most_links> links{};
+
+    bool is_linked() const { return links != std::array<Link, most_links>{}; }
+};
+
+/// A record, or a hit without records around: then it has one ray.
+struct Place {
+    RandomKey key;  ///< of a hit
+    GatheredRays found;
+    Rgb direct{0.0f};  ///< irradiance of one bounce
+    std::vector<LinkedLight> linked;
+};
+
+class LightTransport {
+  public:
+    LightTransport(const IndirectContext& context, const IrradianceCache& cache, float accuracy,
+                   std::vector<GatheredRays> gathered, int bounces, RayCounts& counts)
+        : context_(context), cache_(cache), accuracy_(accuracy), counts_(counts) {
+        places_.resize(gathered.size());
+        for (std::size_t i = 0; i < places_.size(); ++i) {
+            places_[i].found = std::move(gathered[i]);
+            places_[i].direct = cache.records()[i].irradiance;
+        }
+        std::size_t done = 0;
+        for (int left = std::min(bounces - 1, most_random_rays); left > 0 && done < places_.size(); --left) {
+            const std::size_t end = places_.size();
+            link_places(done);
+            add_random_places(done);
+            done = end;
+        }
+        for (const Place& place : places_) irradiance_.push_back(place.direct);
+        for (int bounce = 2; bounce < bounces; ++bounce) {
+            if (!add_bounce()) break;
+        }
+    }
+
+    /// The last bounce, with the gradients of all.
+    std::vector<IrradianceRecord> make_records() {
+        std::vector<IrradianceRecord> records = cache_.records();
+        parallel_for(records.size(), 16, [&](std::size_t begin, std::size_t end) {
+            thread_local GatherScratch scratch;
+            for (std::size_t i = begin; i < end; ++i) {
+                static_cast<GatheredRays&>(scratch) = std::move(places_[i].found);
+                const float per_share = pi / static_cast<float>(scratch.strata.count());
+                for (std::size_t f = 0; f < scratch.further.size(); ++f) {
+                    const int ray = scratch.further[f].ray;
+                    scratch.light[ray] += arrive(places_[i].linked[f]) / (per_share * scratch.places[ray].share);
+                }
+                set_light(add_up_rays(scratch.strata, records[i].normal, scratch), records[i]);
+            }
+        });
+        return records;
+    }
+
+  private:
+    /// Links what the rays of these places found to records.
+    void link_places(std::size_t first) {
+        std::mutex mutex;
+        parallel_for(places_.size() - first, 16, [&](std::size_t begin, std::size_t end) {
+            RayTask task(context_.lighting.rays);
+            for (std::size_t i = first + begin; i < first + end; ++i) link_place(places_[i], task);
+            const std::lock_guard lock(mutex);
+            counts_ += task.counts;
+        });
+    }
+
+    void link_place(Place& place, RayTask& task) const {
+        const GatheredRays& found = place.found;
+        const float per_share = pi / static_cast<float>(found.strata.count());
+        for (const FurtherLight& further : found.further) {
+            LinkedLight& light = place.linked.emplace_back();
+            // One that is not finite would spoil all places.
+            if (!is_finite(further.weight)) continue;
+            light.weight = further.weight * (found.places[further.ray].share * per_share);
+            light.links = find_links(further.place, task);
+        }
+    }
+
+    /// The records of most weight; none where there is no record.
+    std::array<Link, most_links> find_links(const SurfacePlace& at, RayTask& task) const {
+        std::array<Link, most_links> links{};
+        cache_.visit_usable({at.position, at.normal, accuracy_, &task}, [&](int i, float weight) {
+            Link& least = *std::ranges::min_element(links, {}, &Link::weight);
+            if (weight > least.weight) least = {i, weight};
+        });
+        float total = 0.0f;
+        for (const Link& link : links) total += link.weight;
+        if (total > 0.0f) {
+            for (Link& link : links) link.weight /= total;
+        }
+        return links;
+    }
+
+    /// What of a place was not linked. Of a place with one ray, one part stands for all or for nothing, by Russian
+    /// roulette: else their number could grow from ray to ray.
+    std::vector<std::size_t> choose_unlinked(std::size_t i) {
+        Place& place = places_[i];
+        std::vector<std::size_t> unlinked;
+        float total = 0.0f;
+        for (std::size_t f = 0; f < place.linked.size(); ++f) {
+            if (place.linked[f].is_linked()) continue;
+            unlinked.push_back(f);
+            total += luminance(place.linked[f].weight);
+        }
+        if (i < cache_.records().size() || unlinked.empty()) return unlinked;
+        float left = RandomStream(place.key).next() * std::max(total, 1.0f);
+        for (const std::size_t f : unlinked) {
+            const float weight = luminance(place.linked[f].weight);
+            left -= weight;
+            if (!(left < 0.0f)) continue;
+            place.linked[f].weight *= std::max(total, 1.0f) / weight;
+            return {f};
+        }
+        return {};
+    }
+
+    /// Adds a place for everything that was not linked.
+    void add_random_places(std::size_t first) {
+        std::vector<const FurtherLight*> lit;
+        for (std::size_t i = first, end = places_.size(); i < end; ++i) {
+            for (const std::size_t f : choose_unlinked(i)) {
+                places_[i].linked[f].links[0] = {static_cast<int>(end + lit.size()), 1.0f};
+                lit.push_back(&places_[i].found.further[f]);
+            }
+        }
+        std::vector<Place> added(lit.size());
+        std::mutex mutex;
+        parallel_for(added.size(), 64, [&](std::size_t begin, std::size_t end) {
+            thread_local GatherScratch scratch;
+            RayTask task(context_.lighting.rays);
+            const GatherOptions options{
+                .depth = std::max(0, context_.settings.light.path_depth - 2 - context_.bounces_before),
+                .multi_bounce = context_.multi_bounce};
+            for (std::size_t i = begin; i < end; ++i) {
+                added[i].direct =
+                    gather_irradiance(context_.lighting, task, lit[i]->place, {{}, lit[i]->key}, scratch, options)
+                        .irradiance;
+                if (!is_finite(added[i].direct)) added[i].direct = Rgb(0.0f);
+                added[i].key = lit[i]->key;
+                ++added[i].key.seed;
+                added[i].found = scratch;
+            }
+            const std::lock_guard lock(mutex);
+            counts_ += task.counts;
+        });
+        std::ranges::move(added, std::back_inserter(places_));
+    }
+
+    Rgb arrive(const LinkedLight& light) const {
+        Rgb irradiance(0.0f);
+        for (const Link& link : light.links) irradiance += irradiance_[link.place] * link.weight;
+        return light.weight * irradiance;
+    }
+
+    /// Returns whether the light of the bounce matters.
+    bool add_bounce() {
+        std::vector<Rgb> next(places_.size());
+        parallel_for(places_.size(), 64, [&](std::size_t begin, std::size_t end) {
+            for (std::size_t i = begin; i < end; ++i) {
+                next[i] = places_[i].direct;
+                for (const LinkedLight& light : places_[i].linked) next[i] += arrive(light);
+            }
+        });
+        next.swap(irradiance_);
+        return !std::ranges::equal(next, irradiance_, [](const Rgb& before, const Rgb& after) {
+            return luminance(after) - luminance(before) <= negligible_change * luminance(after);
+        });
+    }
+
+    /// Keeps how far the record is used.
+    void set_light(const IrradianceSample& sample, IrradianceRecord& record) const {
+        const RadiusBounds bounds{record.min_radius, context_.max_radius, 1.0f / std::sqrt(record.max_growth)};
+        const auto lit = make_record(record.position, record.normal, record.accuracy, sample, bounds);
+        if (!lit) return;
+        record.irradiance = lit->irradiance;
+        record.rotation_gradient = lit->rotation_gradient;
+        record.translation_gradient = lit->translation_gradient;
+        record.relative_error = lit->relative_error;
+    }
+
+    const IndirectContext& context_;
+    const IrradianceCache& cache_;
+    const float accuracy_;
+    RayCounts& counts_;
+    std::vector<Place> places_;    ///< records first
+    std::vector<Rgb> irradiance_;  ///< of places
+};
+
+}  // namespace
+
+std::vector<IrradianceRecord> add_bounces(const IndirectContext& context, const IrradianceCache& cache, float accuracy,
+                                          std::vector<GatheredRays> gathered, int bounces, RayCounts& counts) {
+    return LightTransport(context, cache, accuracy, std::move(gathered), bounces, counts).make_records();
+}
+
+}  // namespace aleph
