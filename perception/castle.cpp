@@ -138,23 +138,4 @@ double castle_threshold(double luminance) {
     return clamp_luminance(luminance, max_luminance) / castle_peak(luminance);
 }
 
-double castle_flicker_sensitivity(double luminance, const FrameRate& frame_rate) {
-    constexpr int steps = 64;
-    // The channel's shape over frequency is the same at every luminance.
-    static const double shape_peak = find_maximum([](double rho) { return castle_transient(rho, 1.0); });
-    const double highest = 0.5 * frame_rate.per_second();
-    double energy = 0.0;
-    for (int i = 0; i < steps; ++i) {  // omega = highest s^2: the response changes fastest near 0
-        const double s = (i + 0.5) / steps;
-        const double response = castle_transient_response(highest * s * s, luminance);
-        energy += response * response * 2.0 * s / steps;
-    }
-    const double gain = transient_gain(clamp_luminance(luminance)) / transient_gain(1.0);
-    return std::max(1.0, gain * shape_peak * std::sqrt(energy));
-}
-
-double castle_flicker_threshold(double luminance, const FrameRate& frame_rate) {
-    return clamp_luminance(luminance, max_luminance) / castle_flicker_sensitivity(luminance, frame_rate);
-}
-
 }  // namespace aleph

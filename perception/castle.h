@@ -8,8 +8,6 @@
 // as 1e30; luminance is clamped to the fit's range of 1e-3 to 1e4 cd/m2, NaN counts as 1e-3; an area that is NaN or
 // negative counts as 0, where sensitivity is 0.
 
-#include "engine/base/frame_rate.h"
-
 namespace aleph {
 
 inline constexpr double castle_min_luminance = 1e-3, castle_max_luminance = 1e4;  ///< cd/m2
@@ -43,14 +41,5 @@ double castle_peak(double luminance);
 /// The least visible luminance difference of a pattern at rest, cd/m2: luminance / castle_peak. In proportion to
 /// luminance from 1e4 cd/m2 up, to 1e12.
 double castle_threshold(double luminance);
-
-/// Sensitivity to an error that is new in every frame: its spectrum over time is flat up to half the frame rate, so
-/// this is the root mean square of the transient response there, times the transient channel's peak over frequency (.48
-/// cycles per degree: errors of interpolation are as smooth). At least 1, because no contrast exceeds 1.
-double castle_flicker_sensitivity(double luminance, const FrameRate& frame_rate);
-
-/// The least visible luminance difference that is new in every frame, cd/m2: luminance / castle_flicker_sensitivity. In
-/// proportion to luminance from 1e4 cd/m2 up, to 1e12.
-double castle_flicker_threshold(double luminance, const FrameRate& frame_rate);
 
 }  // namespace aleph

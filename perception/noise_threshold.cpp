@@ -126,12 +126,12 @@ float NoiseVisibility::threshold(float luminance, float retinal, float tracked) 
 
 Image<float> compute_noise_threshold(const NoiseVisibility& noise, const Image<float>& adaptation_luminance,
                                      const Image<float>& retinal, const Image<float>& velocity) {
-    if (!same_size(adaptation_luminance, retinal) || !same_size(retinal, velocity))
+    if (!same_size(adaptation_luminance, retinal) || !(velocity.empty() || same_size(retinal, velocity)))
         throw InputError("", "noise threshold", "adaptation luminance and velocities differ in size");
     Image<float> out(retinal.width, retinal.height);
     parallel_for(out.size(), 4096, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
-            const float moved = retinal.pixels[i], seen = velocity.pixels[i];
+            const float moved = retinal.pixels[i], seen = velocity.empty() ? 0.0f : velocity.pixels[i];
             out.pixels[i] =
                 noise.threshold(adaptation_luminance.pixels[i], moved, seen > moved ? seen - moved : 0.0f);
         }

@@ -36,7 +36,7 @@ class NoiseVisibility {
 
 /// NoiseVisibility::threshold of every pixel.
 /// @param retinal   deg/s (perception.h)
-/// @param velocity  image velocity, deg/s: what is not retinal motion is tracked
+/// @param velocity  image velocity, deg/s: what is not retinal motion is tracked; empty: nothing is
 /// @throws InputError if the sizes differ
 Image<float> compute_noise_threshold(const NoiseVisibility& noise, const Image<float>& adaptation_luminance,
                                      const Image<float>& retinal, const Image<float>& velocity);

@@ -102,20 +102,4 @@ Image<float> compute_threshold(const Image<float>& aleph, const Image<float>& ad
     return out;
 }
 
-Image<float> compute_flicker_threshold(const Image<float>& threshold, const Image<float>& adaptation_luminance,
-                                       const FrameRate& frame_rate) {
-    if (!same_size(threshold, adaptation_luminance)) throw InputError("", "threshold", "not of the luminance's size");
-    const LuminanceCurve sensitivity(
-        [&](double luminance) { return castle_flicker_sensitivity(luminance, frame_rate); });
-    Image<float> out(threshold.width, threshold.height);
-    parallel_for(out.size(), pixels_per_part, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t i = begin; i < end; ++i) {
-            const float luminance = adaptation_luminance.pixels[i], lasting = threshold.pixels[i];
-            const float flicker = clamp_threshold_luminance(luminance) / sensitivity(luminance);
-            out.pixels[i] = flicker < lasting ? flicker : lasting;
-        }
-    });
-    return out;
-}
-
 }  // namespace aleph

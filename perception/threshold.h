@@ -18,11 +18,4 @@ Image<float> compute_adaptation_luminance(const Image<Rgb>& estimate, const View
 Image<float> compute_threshold(const Image<float>& aleph, const Image<float>& adaptation_luminance,
                                const VisionModel& vision = thesis_vision());
 
-/// The luminance error that goes unseen if it is new in every frame, cd/m2: castle_flicker_threshold(adaptation
-/// luminance) for every model of vision, and never more than `threshold`.
-/// @param threshold  compute_threshold
-/// @throws InputError if the sizes differ
-Image<float> compute_flicker_threshold(const Image<float>& threshold, const Image<float>& adaptation_luminance,
-                                       const FrameRate& frame_rate);
-
 }  // namespace aleph

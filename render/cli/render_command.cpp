@@ -52,8 +52,10 @@ void add_render_command(CLI::App& app, Command& command) {
             "written after the last frame; a file of another scene, other settings or another build is refused")
         ->type_name("FILE");
     render->footer(
-        "--error is the simplest way: the largest error, in differences that a viewer just sees (1 is one of them). It "
-        "chooses accuracy, gather rays and samples; options given beside it override them. Afterwards the program "
+        "--error is the largest error, in differences that a viewer just sees; without any of --error, --accuracy, "
+        "--gather, --spp, --sampling, --light-samples and --integrator it is 1. It chooses accuracy, gather rays, "
+        "bounces "
+        "and samples; options given beside it override them. Afterwards the program "
         "prints "
         "what share of the pixels it expects to err by more; --aovs has the error of every pixel and its causes.\n"
         "--budget measures a part of up to three frames first. The error it chooses is printed and stored in the "
@@ -67,16 +69,17 @@ void add_render_command(CLI::App& app, Command& command) {
         "sequence two more for each step. --integrator path does not use them.\n"
         "The file has the channels R, G, B and A. `aleph maps --help` describes those that --aovs adds.\n\n"
         "Examples:\n"
-        "  aleph render scenes/pool/scene.json --frames 20 --error 1 -o frame.exr        no visible error\n"
+        "  aleph render scenes/pool/scene.json --frames 20 -o frame.exr                  no visible error\n"
         "  aleph render scenes/pool/scene.json --frames 20 --spp 1 -o frame.png          a quick look\n"
         "  aleph render scenes/pool/scene.json --budget 600 -o out/                      the whole shot in ten "
         "minutes\n"
         "  aleph render scenes/pool/scene.json -o out/ --stats out/stats.json            the whole shot\n"
-        "  aleph render scenes/pool/scene.json --frames 20 --guide none -o unguided.exr  the baseline\n"
+        "  aleph render scenes/pool/scene.json --frames 20 --guide none --spp 16 -o unguided.exr  the baseline\n"
         "  aleph render scenes/pool/scene.json --frames 20 --accuracy 0 --gather 4096 --spp 1 -o dense.exr");
     render->callback([options, aovs, cache, budget, &command] {
         command = [options, aovs, cache, budget] {
             const FrameRequest request{.frame = true, .maps = *aovs, .progress = {}};
+            options->keeps_to_error = !budget->has_value();
             if (budget->has_value()) {
                 render_within(**budget, *options, request, *cache);
             } else {

@@ -198,6 +198,12 @@ void warn_of_frames_outside(const std::vector<int>& frames, const FrameRange& ra
                              range.first, range.last);
 }
 
+/// Returns whether settings say how much work a picture takes.
+bool chooses_work(const SettingMap& settings) {
+    constexpr const char* keys[] = {"error", "accuracy", "gather", "spp", "sampling", "light_samples", "integrator"};
+    return std::ranges::any_of(keys, [&](const char* key) { return settings.contains(key); });
+}
+
 }  // namespace
 
 void check_threads(int threads) {
@@ -212,8 +218,9 @@ PreparedScene prepare_scene(const SceneOptions& options) {
     prepared.scene = load_scene(options.scene, options.limits);
     Scene& scene = prepared.scene;
     if (!options.fps.empty()) scene.frame_rate = parse_fps(options.fps);
-    apply_settings(prepared.settings, scene.settings, options.scene);
     SettingMap given = options.settings;
+    if (options.keeps_to_error && !chooses_work(scene.settings) && !chooses_work(given)) given["error"] = 1.0;
+    apply_settings(prepared.settings, scene.settings, options.scene);
     set_scene_numbers(scene, given, "--set");
     apply_settings(prepared.settings, given, "");
     if (!options.quiet) {

@@ -12,6 +12,15 @@ void note_estimate(FrameOutput& out, const SanitizeCounts& sanitized, const View
     out.statistics.estimate.median_luminance = median_luminance(out.estimate, viewing);
 }
 
+namespace {
+
+/// Returns whether the eye follows what moves; else all of the picture is judged as if it stood still.
+bool follows_motion(Guide guide) {
+    return guide == Guide::full || guide == Guide::saliency;
+}
+
+}  // namespace
+
 void compute_frame_vision(FrameOutput& out, const Scene& shot, const RenderSettings& settings, const NoiseVisibility& noise,
                           bool maps, StageClock& clock) {
     StageSeconds& seconds = out.statistics.seconds;
@@ -24,7 +33,8 @@ void compute_frame_vision(FrameOutput& out, const Scene& shot, const RenderSetti
     if (adaptation.empty()) adaptation = compute_adaptation_luminance(out.estimate, shot.viewing);
     out.threshold = compute_threshold(out.perception.aleph, adaptation, *settings.perception.vision);
     out.threshold_noise =
-        compute_noise_threshold(noise, adaptation, out.perception.retinal_velocity, out.velocity);
+        compute_noise_threshold(noise, adaptation, out.perception.retinal_velocity,
+                                follows_motion(settings.perception.guide) ? out.velocity : Image<float>());
     out.alpha = compute_accuracy_map(out.perception.aleph, settings);
     clock.add_to(seconds.perception);
 }

@@ -80,8 +80,7 @@ std::vector<Setting> vision_settings() {
                                                  at(&S::perception, &Perception::neutral_opponent)))),
         without_scene(choice_setting(
             "adapter",
-            "how accuracy follows the Aleph map: thesis (6.7) (compress), (6.8) (scale-add), or the visible threshold "
-            "itself (threshold)",
+            "how accuracy follows the Aleph map: thesis (6.7) (compress), (6.8) (scale-add), or not at all (none)",
             at(&S::guide, &G::adapter),
             {{"compress", Adapter::compress}, {"scale-add", Adapter::scale_add}, {"none", Adapter::none}})),
         rarely_set(without_scene(
@@ -95,10 +94,10 @@ std::vector<Setting> light_settings() {
     using L = LightSettings;
     return {
         with_unit(number_setting("error",
-                                 "largest error that is asked for; sets sampling, adapter, accuracy, gather and spp, "
+                                 "largest error that is asked for; sets sampling, adapter, accuracy, gather, bounces and spp, "
                                  "which override it when they are given beside it; 0: none is asked for",
                                  at(&S::error), 0.0, 1000.0),
-                  "visible thresholds"),
+                  "just visible differences"),
         without_scene(number_setting(
             "accuracy",
             "ambient accuracy, as RADIANCE names it: the error that irradiance caching may make where the viewer is "

@@ -9,6 +9,7 @@
 #include "perception/normalize.h"
 #include "perception/perception.h"
 #include "perception/sanitize.h"
+#include "perception/noise_threshold.h"
 #include "perception/threshold.h"
 #include "tests/support/perception_scene.h"
 
@@ -83,12 +84,13 @@ void threshold(benchmark::State& state) {
     }
 }
 
-void threshold_flicker(benchmark::State& state) {
+void threshold_noise(benchmark::State& state) {
     const ThreadLimit one(1);
     const Image<float> luminance = compute_adaptation_luminance(synthetic_frame().estimate, {});
-    for (auto _ : state) {
-        benchmark::DoNotOptimize(compute_flicker_threshold(synthetic_frame().velocity, luminance, {}).pixels.data());
-    }
+    const NoiseVisibility noise({}, {}, NoiseOverTime::fresh);
+    const Image<float>& velocity = synthetic_frame().velocity;
+    for (auto _ : state)
+        benchmark::DoNotOptimize(compute_noise_threshold(noise, luminance, velocity, velocity).pixels.data());
 }
 
 BENCHMARK_CAPTURE(run_stage, saliency_full, PerceptionSettings{})->Unit(benchmark::kMillisecond);
@@ -106,7 +108,7 @@ BENCHMARK(memory_copy)->Unit(benchmark::kMillisecond);
 BENCHMARK(sanitize)->Unit(benchmark::kMillisecond);
 BENCHMARK(adaptation)->Unit(benchmark::kMillisecond);
 BENCHMARK(threshold)->Unit(benchmark::kMillisecond);
-BENCHMARK(threshold_flicker)->Unit(benchmark::kMillisecond);
+BENCHMARK(threshold_noise)->Unit(benchmark::kMillisecond);
 
 }  // namespace
 }  // namespace aleph

@@ -30,7 +30,6 @@ TEST(CastleHard, CS15_EveryInputHasADocumentedResult) {
         EXPECT_EQ(castle_peak(x), castle_peak(luminance)) << x;
         EXPECT_EQ(castle_transient_peak(x), castle_transient_peak(luminance)) << x;
         EXPECT_EQ(castle_threshold(x), std::fmin(std::fmax(x, 1e-3), 1e12) / castle_peak(luminance)) << x;
-        EXPECT_EQ(castle_flicker_sensitivity(x, thirty), castle_flicker_sensitivity(luminance, thirty)) << x;
     }
     // A pattern without frequency or area is not seen, nor one that is infinitely fine or fast.
     for (const double none : {0.0, -0.0, -3.0, not_a_number, -infinity}) {
@@ -115,8 +114,6 @@ TEST(CastleHard, CS15_ThresholdsOfEveryLuminance) {
         const Image<float> adaptation(1, 1, static_cast<float>(x)), aleph(1, 1, 1.0f);
         const Image<float> threshold = compute_threshold(aleph, adaptation, castle_vision());
         EXPECT_NEAR(threshold(0, 0) / castle_threshold(x), 1.0, 2e-3) << x;
-        const Image<float> flicker = compute_flicker_threshold(Image<float>(1, 1, FLT_MAX), adaptation, thirty);
-        EXPECT_NEAR(flicker(0, 0) / castle_flicker_threshold(x, thirty), 1.0, 2e-3) << x;
     }
 }
 

@@ -124,48 +124,5 @@ TEST(CastleThreshold, IsLuminanceOverTheHighestSensitivity) {
     }
 }
 
-/// The root mean square of the transient channel's response below half the frame rate, by 20000 equal steps.
-double flicker_by_brute_force(double luminance, double frame_rate) {
-    constexpr int steps = 20000;
-    double energy = 0.0, peak = 0.0;
-    for (int i = 0; i < steps; ++i) {
-        const double response = castle_transient_response(0.5 * frame_rate * (i + 0.5) / steps, luminance);
-        energy += response * response / steps;
-    }
-    for (double rho = 0.1; rho < 4.0; rho *= 1.001) peak = std::max(peak, castle_transient(rho, luminance));
-    return std::max(1.0, peak * std::sqrt(energy));
-}
-
-TEST(FlickerThreshold, IsTheTransientChannelsResponseToAFlatSpectrum) {
-    for (const double luminance : {0.02, 1.0, 100.0, 5000.0}) {
-        for (const std::int64_t fps : {2, 24, 30, 120, 1000}) {
-            EXPECT_NEAR(castle_flicker_sensitivity(luminance, {fps, 1}) / flicker_by_brute_force(luminance, fps), 1.0,
-                        5e-3)
-                << luminance << " cd/m2, " << fps;
-        }
-    }
-    // At 8 Hz and below 1 cycle per degree nearly all that is seen is the transient channel's.
-    EXPECT_GT(castle_transient(0.5, 100) * castle_transient_response(8, 100), 0.9 * 77.93);
-}
-
-TEST(FlickerThreshold, NeverExceedsTheThresholdOfWhatLasts) {
-    const SyntheticFrame frame = make_synthetic_frame(96, 72);
-    const Image<float> adaptation = compute_adaptation_luminance(frame.estimate, {});
-    for (const VisionModel* const vision : {&thesis_vision(), &laird_vision(), &castle_vision()}) {
-        const PerceptionMaps maps = compute_perception(frame.estimate, frame.velocity, {}, {}, {.vision = vision});
-        const Image<float> lasting = compute_threshold(maps.aleph, adaptation, *vision);
-        for (const FrameRate& rate : {FrameRate{1, 1}, FrameRate{30, 1}, FrameRate{240, 1}}) {
-            const Image<float> flicker = compute_flicker_threshold(lasting, adaptation, rate);
-            for (std::size_t i = 0; i < flicker.size(); ++i) {
-                ASSERT_GT(flicker.pixels[i], 0.0f);
-                ASSERT_LE(flicker.pixels[i], lasting.pixels[i]);
-                const double exact = castle_flicker_threshold(adaptation.pixels[i], rate);
-                ASSERT_NEAR(flicker.pixels[i] / std::min<double>(lasting.pixels[i], exact), 1.0, 5e-3);
-            }
-        }
-    }
-    EXPECT_THROW(compute_flicker_threshold(Image<float>(2, 2), Image<float>(2, 3), thirty), InputError);
-}
-
 }  // namespace
 }  // namespace aleph

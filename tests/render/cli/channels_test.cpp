@@ -28,7 +28,7 @@ std::set<std::string> written_channels() {
                    output.shaded.records, output.shaded.invalid_samples, output.shaded.cache_count,
                    output.shaded.cache_radius, output.hits, output.estimate, output.motion.displacement,
                    output.motion.path_length, output.motion.validity, output.velocity, output.alpha, output.threshold,
-                   output.threshold_flicker, output.depth, output.normal, output.albedo, output.effects);
+                   output.threshold_noise, output.depth, output.normal, output.albedo, output.effects);
     make_one_pixel(output.shaded.errors.total);
     for (Image<float>& cause : output.shaded.errors.by_cause) make_one_pixel(cause);
     PerceptionMaps& maps = output.perception;

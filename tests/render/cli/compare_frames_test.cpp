@@ -40,7 +40,7 @@ struct Sequences {
             write_exr(b + "/old." + number + ".exr", grey(0.5f));
             write_exr(maps + "/m." + number + ".exr",
                       {{flat("forward.u", 0.0f), flat("forward.v", 0.0f), flat("motion.valid", 1.0f),
-                        flat("threshold.Y", 1.0f), flat("threshold.flicker", 0.5f)},
+                        flat("threshold.Y", 1.0f)},
                        {}});
         }
     }

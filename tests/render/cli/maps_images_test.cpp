@@ -40,7 +40,7 @@ TEST(MapsImages, WritesTheChannelsThatNeedNoGeometry) {
               (std::vector<std::string>{"aleph.Y", "alpha.acc", "conspicuity.color", "conspicuity.intensity",
                                         "conspicuity.motion", "conspicuity.orientation", "estimate.B", "estimate.G",
                                         "estimate.R", "forward.u", "forward.v", "motion.valid", "saliency.Y",
-                                        "threshold.Y", "threshold.flicker", "velocity.image", "velocity.retinal"}));
+                                        "threshold.Y", "threshold.noise", "velocity.image", "velocity.retinal"}));
     EXPECT_FALSE(maps.metadata.contains("worldToCamera"));
     EXPECT_EQ((std::get<std::array<int, 2>>(maps.metadata.at("framesPerSecond"))), (std::array<int, 2>{30, 1}));
     for (const Channel& channel : maps.channels) {

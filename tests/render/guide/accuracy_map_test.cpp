@@ -60,47 +60,29 @@ TEST(AccuracyMap, ScaleAddKnownAnswers) {
     for (const double n : {1.0, infinity, nan_value}) EXPECT_EQ(scale_add_accuracy(0.0, n, 100.0), 0.0);
 }
 
-TEST(AccuracyMap, ThresholdOverLuminance) {
-    EXPECT_DOUBLE_EQ(threshold_accuracy(0.15, 0.1), 0.15);
-    EXPECT_EQ(threshold_accuracy(0.15, infinity), 1.0);
-    for (const double t : {0.0, -1.0, nan_value, 1e-9}) EXPECT_EQ(threshold_accuracy(0.15, t), 0.02);
-    for (const double t : {1.0, infinity, nan_value}) EXPECT_EQ(threshold_accuracy(0.0, t), 0.0);
-    Image<float> threshold(3, 1, 2.0f), indirect(3, 1);
-    indirect.pixels = {0.5f, 0.0f, std::nanf("")};
-    ViewingConditions viewing;
-    viewing.display_white = 80.0;
-    const Image<float> tolerance = compute_tolerance(threshold, indirect, viewing);
-    EXPECT_FLOAT_EQ(tolerance.pixels[0], 2.0f / (0.5f * 80.0f));
-    for (int i = 1; i < 3; ++i) EXPECT_EQ(tolerance.pixels[static_cast<std::size_t>(i)], infinity);
-}
-
 TEST(AccuracyMap, MapPixelByPixel) {
     Image<float> aleph(2, 2);
     aleph.pixels = {1.0f, 10.0f, std::numeric_limits<float>::infinity(), std::nanf("")};
     RenderSettings settings;
     settings.cache.accuracy = 0.1;
     settings.perception.guide = Guide::saliency;
-    EXPECT_EQ(compute_accuracy_map(aleph, {}, settings).pixels,
+    EXPECT_EQ(compute_accuracy_map(aleph, settings).pixels,
               (std::vector<float>{0.1f, static_cast<float>(1.0 / 1.9), 1.0f, 0.1f}));
     settings.guide.adapter = Adapter::scale_add;
     settings.guide.adapter_k = 50.0;
-    EXPECT_EQ(compute_accuracy_map(aleph, {}, settings).pixels,
+    EXPECT_EQ(compute_accuracy_map(aleph, settings).pixels,
               (std::vector<float>{0.12f, static_cast<float>(0.3), 1.0f, 0.12f}));
-    settings.guide.adapter = Adapter::threshold;
-    Image<float> tolerance(2, 2);
-    tolerance.pixels = {0.05f, 0.3f, std::numeric_limits<float>::infinity(), std::nanf("")};
-    EXPECT_EQ(compute_accuracy_map(aleph, tolerance, settings).pixels,
-              (std::vector<float>{static_cast<float>(0.05f * 1.0), 0.3f, 1.0f, 0.02f}));
+    settings.guide.adapter = Adapter::none;
+    EXPECT_EQ(compute_accuracy_map(aleph, settings).pixels, std::vector<float>(4, 0.1f));
 }
 
 TEST(AccuracyMap, WithoutAGuideNoAdapterCounts) {
     RenderSettings settings;
     settings.cache.accuracy = 0.1;
     settings.perception.guide = Guide::none;
-    for (const Adapter adapter : {Adapter::compress, Adapter::scale_add, Adapter::threshold}) {
+    for (const Adapter adapter : {Adapter::compress, Adapter::scale_add, Adapter::none}) {
         settings.guide.adapter = adapter;
-        for (const float alpha :
-             compute_accuracy_map(Image<float>(3, 2, 100.0f), Image<float>(3, 2, 0.5f), settings).pixels)
+        for (const float alpha : compute_accuracy_map(Image<float>(3, 2, 100.0f), settings).pixels)
             EXPECT_EQ(alpha, 0.1f);
     }
 }

@@ -55,7 +55,7 @@ TEST(FrameFiles, HaveEveryChannel) {
                              "aleph.Y",
                              "alpha.acc",
                              "threshold.Y",
-                             "threshold.flicker",
+                             "threshold.noise",
                              "estimate.R",
                              "estimate.G",
                              "estimate.B",

@@ -86,8 +86,9 @@ TEST(Settings, AnErrorChoosesWhatCostsAndTheRestOverridesIt) {
     settings.sampling.spp = 7;
     apply_settings(settings, {{"error", 2.0}, {"gather", 100.0}}, "test");
     EXPECT_EQ(settings.sampling.rule, Sampling::threshold);
-    EXPECT_EQ(settings.guide.adapter, Adapter::threshold);
-    EXPECT_DOUBLE_EQ(settings.cache.accuracy, 0.2);
+    EXPECT_EQ(settings.guide.adapter, Adapter::none);
+    EXPECT_DOUBLE_EQ(settings.cache.accuracy, 0.4);
+    EXPECT_EQ(settings.light.bounces, 16);
     EXPECT_EQ(settings.sampling.spp, 4096);
     EXPECT_EQ(settings.cache.gather, 100);
     apply_settings(settings, {{"spp", 64.0}}, "test");  // as the command line after the scene's file

@@ -1,0 +1,91 @@
+// Noise of single pixels, against sums over its frequencies.
+
+#include "perception/noise_threshold.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "engine/base/errors.h"
+#include "perception/castle.h"
+#include "perception/display_hold.h"
+
+namespace aleph::noise_threshold_test {
+namespace {
+
+constexpr FrameRate thirty{30, 1};
+
+/// D L / sigma by a dense sum over the square of frequencies and over time.
+double sensitivity(double luminance, double retinal, double tracked, NoiseOverTime over_time) {
+    constexpr int cells = 60, times = 20;
+    const ViewingConditions viewing;
+    double energy = 0.0;
+    for (int y = 0; y < cells; ++y) {
+        for (int x = 0; x < cells; ++x) {
+            const double u = 0.5 * (x + 0.5) / cells, v = 0.5 * (y + 0.5) / cells;  // a quarter: the rest is its mirror
+            const double rho = std::hypot(u, v) * viewing.pixels_per_degree, radius = 1.5 / rho;
+            const double area = std::numbers::pi * radius * radius;
+            const double held = hold_transfer(rho, tracked, viewing.persistence, thirty);
+            const int count = over_time == NoiseOverTime::fresh ? times : 1;
+            for (int t = 0; t < count; ++t) {
+                const double omega = count == 1 ? 0.0 : 15.0 * (t + 0.5) / count;
+                for (const double sign : {-1.0, 1.0}) {
+                    const double shifted = std::abs(omega + sign * rho * retinal);
+                    energy += 0.5 * std::pow(held * castle_sensitivity(rho, shifted, luminance, area), 2.0) / count;
+                }
+            }
+        }
+    }
+    return std::sqrt(2.0 * energy / (cells * cells));
+}
+
+TEST(NoiseThreshold, IsTheSumOverTheFrequenciesOfTheNoise) {
+    for (const NoiseOverTime over_time : {NoiseOverTime::fresh, NoiseOverTime::lasts}) {
+        const NoiseVisibility noise({}, thirty, over_time);
+        for (const double luminance : {0.3, 12.0, 100.0}) {
+            for (const double retinal : {0.15, 1.3, 9.0}) {
+                for (const double tracked : {0.0, 2.0, 30.0}) {
+                    const double exact = luminance / std::max(1.0, sensitivity(luminance, retinal, tracked, over_time));
+                    const float found = noise.threshold(static_cast<float>(luminance), static_cast<float>(retinal),
+                                                        static_cast<float>(tracked));
+                    EXPECT_NEAR(found / exact, 1.0, 0.06) << luminance << " " << retinal << " " << tracked;
+                }
+            }
+        }
+    }
+}
+
+TEST(NoiseThreshold, NoiseThatLastsIsSeenBetterAtRest) {
+    const NoiseVisibility fresh({}, thirty, NoiseOverTime::fresh), lasts({}, thirty, NoiseOverTime::lasts);
+    EXPECT_LT(1.5f * lasts.threshold(50.0f, 0.15f, 0.0f), fresh.threshold(50.0f, 0.15f, 0.0f));
+}
+
+TEST(NoiseThreshold, SmallerPixelsHideMore) {
+    ViewingConditions fine;
+    fine.pixels_per_degree = 90.0;
+    const NoiseVisibility coarse({}, thirty, NoiseOverTime::fresh), small(fine, thirty, NoiseOverTime::fresh);
+    EXPECT_GT(small.threshold(50.0f, 0.15f, 0.0f), 1.5f * coarse.threshold(50.0f, 0.15f, 0.0f));
+}
+
+TEST(NoiseThreshold, EveryInputHasAPositiveResult) {
+    const NoiseVisibility noise({}, thirty, NoiseOverTime::fresh);
+    const float infinite = std::numeric_limits<float>::infinity(), nan = std::numeric_limits<float>::quiet_NaN();
+    for (const float luminance : {nan, -1.0f, 0.0f, 1e-6f, 1.0f, 1e6f, infinite}) {
+        for (const float velocity : {nan, -1.0f, 0.0f, 1e-9f, 0.1f, 100.0f, 1e9f, infinite}) {
+            const float threshold = noise.threshold(luminance, velocity, velocity);
+            EXPECT_GT(threshold, 0.0f) << luminance << " " << velocity;
+            EXPECT_TRUE(std::isfinite(threshold)) << luminance << " " << velocity;
+        }
+    }
+    const Image<float> a(3, 2, 10.0f), b(2, 3, 1.0f);
+    EXPECT_THROW(compute_noise_threshold(noise, a, b, b), InputError);
+    EXPECT_THROW(compute_noise_threshold(noise, a, a, b), InputError);
+    const Image<float> moving = compute_noise_threshold(noise, a, Image<float>(3, 2, 0.15f), a);
+    const Image<float> still = compute_noise_threshold(noise, a, Image<float>(3, 2, 0.15f), {});
+    EXPECT_GT(moving(0, 0), still(0, 0)) << "a display that holds frames blurs what is followed";
+}
+
+}  // namespace
+}  // namespace aleph::noise_threshold_test
