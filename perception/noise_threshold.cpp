@@ -15,9 +15,9 @@ namespace aleph {
 
 namespace {
 
-constexpr int luminance_nodes = 15, velocity_nodes = 25, frequency_nodes = 20, time_nodes = 8;
+constexpr int luminance_nodes = 15, velocity_nodes = 25, frequency_nodes = 28, time_nodes = 8;
 constexpr double lowest_velocity = 0.1, highest_velocity = 100.0;  // deg/s
-constexpr double lowest_frequency = 0.01;                          // cycles per pixel
+constexpr double lowest_frequency = 0.002;                         // cycles per pixel
 
 double node_luminance(int i) {
     return castle_min_luminance *

@@ -93,6 +93,7 @@ ReferencePictureOptions reference_options(const PreparedStudyScene& scene, const
     return {.passes = study.reference.passes,
             .pass_spp = study.reference.spp,
             .kind = study.reference.kind,
+            .full_light = !study.settings.contains("bounces"),
             .folder = folder,
             .name = scene.name,
             .identity = scene.identity};

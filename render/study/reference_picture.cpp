@@ -35,7 +35,7 @@ RenderSettings reference_settings(const RenderSettings& settings, const Referenc
     RenderSettings out;
     out.picture.width = settings.picture.width;
     out.picture.height = settings.picture.height;
-    out.light.bounces = std::max(settings.light.bounces, full_light_bounces);
+    out.light.bounces = std::max(settings.light.bounces, options.full_light ? full_light_bounces : 0);
     out.light.path_depth = settings.light.path_depth;
     out.picture.subdivision_level = settings.picture.subdivision_level;
     out.guide.estimate = settings.guide.estimate;  // the automatic exposure is that of the estimate

@@ -21,6 +21,7 @@ struct ReferencePictureOptions {
     /// "path": traced paths. "gather": no cache, 16 gather rays and 2 samples of every light at every pixel sample,
     /// which have the noise of paths that take several times as long. "settings": as the settings are.
     std::string kind = "path";
+    bool full_light = true;  ///< at least 16 diffuse bounces; else as many as the settings say
     std::string folder;
     std::string name;      ///< of the scene, for the name of the file
     std::string identity;  ///< of what is rendered (hash_scene): another one has another file
@@ -30,9 +31,8 @@ struct ReferencePictureOptions {
 using ReferenceProgress = std::function<void(double passes)>;
 
 /// R, G, B, `indirect.R/G/B` unless it is traced, and `variance.Y` of a frame without a guide, with random numbers of
-/// its own. It is the mean of several renderings, whose differences tell its variance. It has all of the light: 16
-/// diffuse bounces or, if the settings have more, those. Longest path, filter and levels of cages are those of the
-/// settings. Reads the file of this scene, frame and size if there is one, and
+/// its own. It is the mean of several renderings, whose differences tell its variance. Longest path,
+/// filter and levels of cages are those of the settings, and bounces but for `full_light`. Reads the file of this scene, frame and size if there is one, and
 /// adds the passes that it lacks. The file is written after every pass, so that a run can be stopped and taken up.
 /// @throws InputError if the kept file is not such a reference
 ChannelImage load_or_render_reference_picture(const Scene& scene, const RenderSettings& settings, std::int64_t frame,

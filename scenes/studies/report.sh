@@ -35,10 +35,7 @@ run() {
     pool)
       study pool pool
       bash render/report/picture.sh build out/studies/pool/report.html scenes/studies/report.jpg ;;
-    scenes)
-      study scenes scenes -t 1 --errors "error 1, thesis"
-      cp out/studies/scenes/errors.jpg scenes/studies/errors.jpg ;;
-    choices | antique-room) study "$1" "$1" -t 1 ;;
+    knob) study knob knob -t 1 ;;
     effects) study effects effects -t 1 --repeats 3 ;;
     thesis-pool | thesis-gallery | thesis-antique-room) both "$1" ;;
     motion)
@@ -49,5 +46,5 @@ run() {
   esac
 }
 
-[ $# -gt 0 ] || set -- demo motion pool thesis-pool thesis-gallery thesis-antique-room scenes choices effects antique-room stages update
+[ $# -gt 0 ] || set -- demo motion pool thesis-pool thesis-gallery thesis-antique-room knob effects stages update
 for name in "$@"; do run "$name"; done

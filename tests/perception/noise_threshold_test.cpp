@@ -19,7 +19,7 @@ constexpr FrameRate thirty{30, 1};
 
 /// D L / sigma by a dense sum over the square of frequencies and over time.
 double sensitivity(double luminance, double retinal, double tracked, NoiseOverTime over_time) {
-    constexpr int cells = 60, times = 20;
+    constexpr int cells = 150, times = 8;
     const ViewingConditions viewing;
     double energy = 0.0;
     for (int y = 0; y < cells; ++y) {
@@ -44,9 +44,9 @@ double sensitivity(double luminance, double retinal, double tracked, NoiseOverTi
 TEST(NoiseThreshold, IsTheSumOverTheFrequenciesOfTheNoise) {
     for (const NoiseOverTime over_time : {NoiseOverTime::fresh, NoiseOverTime::lasts}) {
         const NoiseVisibility noise({}, thirty, over_time);
-        for (const double luminance : {0.3, 12.0, 100.0}) {
-            for (const double retinal : {0.15, 1.3, 9.0}) {
-                for (const double tracked : {0.0, 2.0, 30.0}) {
+        for (const double luminance : {0.3, 100.0}) {
+            for (const double retinal : {0.15, 9.0}) {
+                for (const double tracked : {0.0, 30.0}) {
                     const double exact = luminance / std::max(1.0, sensitivity(luminance, retinal, tracked, over_time));
                     const float found = noise.threshold(static_cast<float>(luminance), static_cast<float>(retinal),
                                                         static_cast<float>(tracked));
