@@ -171,6 +171,9 @@ answers 2 'no variant is called nope' aleph study first.json "${study[@]}" --swe
 answers 0 'errors.jpg' aleph study first.json "${study[@]}" --sweep spp=1,2 -o swept --errors spp=2
 is [ -s swept/errors.jpg ]
 answers 0 '0 runs made, 2 found finished' aleph study first.json "${study[@]}" --sweep spp=1,2 -o swept
+answers 2 'add --search' aleph study first.json "${study[@]}" --sweep spp=1,2 --candidates 4
+answers 0 'Best fixed settings of first, of 4 candidates' aleph study first.json "${study[@]}" --sweep error=4 --search --candidates 4 -o searched
+answers 0 '0 runs made, 8 found finished' aleph study first.json "${study[@]}" --sweep error=4 --search --candidates 4 -o searched
 echo '{"scenes": [{"scene": "first.json", "frames": "0"}], "size": "16x12", "sweeps": {"spp": [1]}}' >typo.json
 answers 2 '/sweeps' aleph study typo.json
 echo '{"scenes": [{"scene": "first.json", "frames": "0-5"}], "size": "64x48", "sweep": {"spp": [4, 8, 16]}, "repeats": 2}' >long.json

@@ -12,10 +12,12 @@
 #include "render/cli/frame_pattern.h"
 #include "render/cli/progress.h"
 #include "render/cli/scene_options.h"
+#include "render/cli/search_output.h"
 #include "render/cli/study_output.h"
 #include "render/settings/setting_table.h"
 #include "render/study/error_sheet.h"
 #include "render/study/prepared_study.h"
+#include "render/study/search_study.h"
 #include "render/study/study_file.h"
 
 namespace aleph {
@@ -25,8 +27,8 @@ namespace {
 struct StudyCommandOptions {
     std::string file, frames, size, output, reference;
     std::vector<std::string> sweeps, sets, viewers, judges;
-    int passes = 0, spp = 0, repeats = 0, seeds = 0, threads = 0;
-    bool quiet = false, markdown = false;
+    int passes = 0, spp = 0, repeats = 0, seeds = 0, threads = 0, candidates = 0;
+    bool search = false, quiet = false, markdown = false;
     StudyExtras extras;
 };
 
@@ -84,13 +86,19 @@ Study make_study(const StudyCommandOptions& options) {
         study.title = fmt::format("{}: what accuracy costs in time", printable(name_scene(options.file)));
         study.settings["size"] = std::string("320x240");
         study.viewers.push_back(default_viewer());
+        if (options.search) study.settings["bounces"] = 8.0;  // about all of the light, as the reference has it
     }
     for (const std::string& text : options.sweeps) {
         StudyAxis axis = parse_sweep(text);
         std::erase_if(study.sweep, [&](const StudyAxis& other) { return other.setting == axis.setting; });
         study.sweep.push_back(std::move(axis));
     }
-    if (study.sweep.empty() && study.variants.empty()) {
+    if (options.search && !study.search) study.search = default_search();
+    if (options.candidates > 0) {
+        if (!study.search) throw InputError("", "--candidates", "nothing is searched: add --search");
+        study.search->candidates = options.candidates;
+    }
+    if (study.sweep.empty() && study.variants.empty() && !study.search) {
         throw InputError(options.file, "--sweep",
                          "nothing to compare: name the settings, such as --sweep error=.5,1,2,4 --sweep "
                          "guide=none,saliency");
@@ -108,6 +116,7 @@ void check_numbers(const StudyCommandOptions& options) {
     check("--reference-spp", options.spp, 65536);
     check("--repeats", options.repeats, 1000);
     check("--seeds", options.seeds, 1000);
+    check("--candidates", options.candidates, 10000);
 }
 
 void override_study(const StudyCommandOptions& options, Study& study) {
@@ -149,17 +158,20 @@ int run(const StudyCommandOptions& options, const std::string& command_line) {
     StudyResults results;
     {
         Progress progress("study", 1.0, progress_look(options.quiet));
-        results =
-            run_study(prepared, folder, [&](double share, const std::string& what) { progress.update(share, what); });
+        const auto show = [&](double share, const std::string& what) { progress.update(share, what); };
+        results = prepared.study.search ? search_study(prepared, folder, show) : run_study(prepared, folder, show);
     }
-    print_study(prepared, results, options.markdown, std::cout);
+    if (prepared.study.search)
+        print_search(prepared, results, options.markdown, std::cout);
+    else
+        print_study(prepared, results, options.markdown, std::cout);
     const StudyContext context{command_line, study_date(), thread_count(), folder};
     write_study(prepared, results, context, options.extras, options.quiet);
     return exit_done;
 }
 
 void add_options(CLI::App& study, StudyCommandOptions& options) {
-    study.add_option("study", options.file, "study file (.json), or a scene with --sweep")
+    study.add_option("study", options.file, "study file (.json), or a scene with --sweep or --search")
         ->required()
         ->type_name("FILE|SCENE");
     study
@@ -167,6 +179,11 @@ void add_options(CLI::App& study, StudyCommandOptions& options) {
                     "a setting and its values; every combination of several sweeps is a variant")
         ->type_name("KEY=A,B,...")
         ->allow_extra_args(false);
+    study.add_flag("--search", options.search,
+                   "also search, for each scene, the fixed settings that cost least for what a viewer sees, and tell "
+                   "what they take to show as little as each variant");
+    add_value(study, "--candidates", options.candidates,
+              "settings that the search tries in its first round; 0: the study's, or 48");
     study
         .add_option("--frames", options.frames,
                     "frames, such as 20,60; default: the study's, or the middle of the shot")
@@ -225,11 +242,16 @@ void add_study_command(CLI::App& app, Command& command) {
         "study.json and study.csv with all figures, and report.html, a page to look at error against time, the frames "
         "and their maps. Finished variants are kept there: a study that was stopped goes on.\n"
         "Seconds are of a processor. --repeats and --seeds give times and errors their uncertainty; two seeds of "
-        "consecutive frames tell how much flickers.\n\n"
+        "consecutive frames tell how much flickers.\n"
+        "--search finds what fixed settings can do at best, a fair opponent for --error: it renders combinations of "
+        "guide, adapter, accuracy, gather, spp, light_samples and light_step in small, keeps the better half by "
+        "seconds and by what is seen, and so on, and renders the last of them as large as the variants. A scene has 8 "
+        "bounces then, unless --set says otherwise. Measured seconds decide: let nothing else run.\n\n"
         "Examples:\n"
         "  aleph study scenes/pool/scene.json --frames 20 --sweep error=.5,1,2,4 --sweep guide=none,saliency\n"
         "  aleph study scenes/cornell/scene.json --sweep accuracy=.05,.15,.5 --reference path --repeats 3\n"
         "  aleph study scenes/pool/scene.json --frames 20-29 --sweep error=1,2 --seeds 2\n"
+        "  aleph study scenes/pool/scene.json --frames 18-23 --sweep error=.5,1,2 --search\n"
         "  aleph study scenes/studies/pool.json -o out/pool");
     study->callback([options, &command] { command = [options] { return run(*options, study_command_line()); }; });
 }

@@ -78,12 +78,13 @@ std::string study_command_line() {
     return line;
 }
 
-void print_study(const PreparedStudy& prepared, const StudyResults& results, bool markdown, std::ostream& out) {
+void print_table(const PreparedStudy& prepared, const std::vector<VariantResult>& variants, bool markdown,
+                 std::ostream& out) {
     std::vector<Row> rows{{"variant"}};
     for (const Metric& metric : prepared.metrics) {
         if (is_shown(metric, prepared.study)) rows.front().push_back(head_of(metric));
     }
-    for (const VariantResult& variant : results.variants) {
+    for (const VariantResult& variant : variants) {
         Row& row = rows.emplace_back();
         row.push_back(printable(variant.name, 80) + (variant.on_front ? " *" : ""));
         for (const Metric& metric : prepared.metrics) {
@@ -94,9 +95,6 @@ void print_study(const PreparedStudy& prepared, const StudyResults& results, boo
     for (const Row& row : rows) {
         for (std::size_t i = 0; i < row.size(); ++i) widths[i] = std::max(widths[i], row[i].size());
     }
-    fmt::print(out, "{}\nReference: {}.\nMeans over {} frame{}; * no other variant is faster and better.\n\n",
-               printable(prepared.study.title, 400), describe_reference(prepared, results), results.frames.size(),
-               results.frames.size() == 1 ? "" : "s");
     for (std::size_t i = 0; i < rows.size(); ++i) {
         print_row(rows[i], widths, markdown, out);
         if (i > 0 || !markdown) continue;
@@ -105,6 +103,18 @@ void print_study(const PreparedStudy& prepared, const StudyResults& results, boo
             rule.push_back(std::string(widths[c] - 1, '-') + (c == 0 ? "-" : ":"));
         print_row(rule, widths, true, out);
     }
+}
+
+void print_head(const PreparedStudy& prepared, const StudyResults& results, std::ostream& out) {
+    fmt::print(out, "{}\nReference: {}.\n", printable(prepared.study.title, 400),
+               describe_reference(prepared, results));
+}
+
+void print_study(const PreparedStudy& prepared, const StudyResults& results, bool markdown, std::ostream& out) {
+    print_head(prepared, results, out);
+    fmt::print(out, "Means over {} frame{}; * no other variant is faster and better.\n\n", results.frames.size(),
+               results.frames.size() == 1 ? "" : "s");
+    print_table(prepared, results.variants, markdown, out);
 }
 
 void write_study(const PreparedStudy& prepared, const StudyResults& results, const StudyContext& context,

@@ -17,7 +17,14 @@ std::filesystem::path study_folder(const std::filesystem::path& file);
 /// This process's command line, for the results to say how they were made.
 std::string study_command_line();
 
-/// A row per variant, with the means over its frames.
+/// The title of a study and what judges it.
+void print_head(const PreparedStudy& prepared, const StudyResults& results, std::ostream& out);
+
+/// A row per variant.
+void print_table(const PreparedStudy& prepared, const std::vector<VariantResult>& variants, bool markdown,
+                 std::ostream& out);
+
+/// The head, and a row per variant with the means over its frames.
 void print_study(const PreparedStudy& prepared, const StudyResults& results, bool markdown, std::ostream& out);
 
 /// Files that write_study writes beside the usual ones.

@@ -10,6 +10,7 @@
 #include "engine/scene/scene_hash.h"
 #include "render/settings/frame_list.h"
 #include "render/settings/scene_numbers.h"
+#include "render/study/search_candidates.h"
 
 namespace aleph {
 
@@ -50,6 +51,11 @@ void check(const PreparedStudy& prepared) {
             with_settings_of(scene, prepared.study, viewer.settings);
         with_settings_of(scene, prepared.study, prepared.study.reference.settings);
     }
+    for (const StudyVariant& candidate : prepared.candidates) {
+        with_settings_of(prepared.scenes.front(), prepared.study, candidate.settings);
+        if (std::ranges::find(prepared.variants, candidate.name, &StudyVariant::name) != prepared.variants.end())
+            throw InputError("", candidate.name, "a variant of the study has the name of a candidate of its search");
+    }
 }
 
 }  // namespace
@@ -62,6 +68,7 @@ std::string name_scene(const std::filesystem::path& file) {
 PreparedStudy prepare_study(Study study) {
     PreparedStudy prepared;
     prepared.variants = list_variants(study);
+    if (study.search) prepared.candidates = list_candidates(study);
     for (const StudyScene& scene : study.scenes) {
         prepared.scenes.push_back(prepare_scene(scene));
         const std::string& name = prepared.scenes.back().name;

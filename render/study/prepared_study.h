@@ -29,6 +29,7 @@ struct PreparedStudy {
     std::vector<StudyVariant> variants;
     std::vector<Metric> metrics;
     std::vector<PreparedStudyScene> scenes;
+    std::vector<StudyVariant> candidates{};  ///< of its search
 };
 
 /// "pool" for pool/scene.json, else the name of the file without its extension.

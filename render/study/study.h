@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -53,6 +54,13 @@ struct StudyScene {
     std::string frames;  ///< "20,60" (frame_list.h); empty: the middle of the shot
 };
 
+/// A search of the fixed settings that cost least for what a viewer sees (search_study.h).
+struct StudySearch {
+    std::vector<StudyAxis> settings;  ///< that candidates differ in, with the values that they may take
+    int candidates = 48;              ///< of the first round, for each scene
+    int rounds = 3;                   ///< the last is as the study asks
+};
+
 struct Study {
     std::string title, description;
     std::vector<StudyScene> scenes;  ///< at least one
@@ -60,6 +68,7 @@ struct Study {
     StudyReference reference;
     std::vector<StudyAxis> sweep;            ///< every combination is a variant
     std::vector<StudyVariant> variants;      ///< and these are
+    std::optional<StudySearch> search;       ///< adds the best fixed settings
     std::vector<std::string> metrics;        ///< metric_table.h; empty: the usual ones
     std::vector<StudyViewer> viewers;        ///< at least one; the first judges where one threshold is meant
     std::vector<StudyJudge> judges;          ///< beside the thresholds of the viewers
@@ -69,7 +78,7 @@ struct Study {
 
 /// The variants of the sweep, each named by its settings ("error=1,guide=none"), then the named ones. The last axis
 /// changes fastest.
-/// @throws InputError for more than 10,000, two variants of one name, or none at all
+/// @throws InputError for more than 10,000, two variants of one name, or none at all unless there is a search
 std::vector<StudyVariant> list_variants(const Study& study);
 
 /// "error=1,guide=none"

@@ -17,9 +17,9 @@ std::string field(const std::string& text) {
     return quoted + "\"";
 }
 
-std::set<std::string> list_settings(const PreparedStudy& prepared) {
+std::set<std::string> list_settings(const StudyResults& results) {
     std::set<std::string> keys;
-    for (const StudyVariant& variant : prepared.variants) {
+    for (const VariantResult& variant : results.variants) {
         for (const auto& [key, value] : variant.settings) keys.insert(key);
     }
     return keys;
@@ -28,7 +28,7 @@ std::set<std::string> list_settings(const PreparedStudy& prepared) {
 }  // namespace
 
 std::string study_csv(const PreparedStudy& prepared, const StudyResults& results) {
-    const std::set<std::string> settings = list_settings(prepared);
+    const std::set<std::string> settings = list_settings(results);
     std::string text = "scene,frame,variant";
     for (const std::string& key : settings) text += "," + field(key);
     for (const Metric& metric : prepared.metrics) text += fmt::format(",{0},{0}_error", field(metric.name));

@@ -5,6 +5,7 @@
 #include "engine/json/json_ref.h"
 #include "engine/json/schema.h"
 #include "engine/json/text.h"
+#include "render/study/search_candidates.h"
 
 namespace aleph {
 
@@ -49,17 +50,43 @@ StudyReference read_reference(const JsonRef& root) {
     return reference;
 }
 
+StudyAxis read_axis(const std::string& setting, const nlohmann::json& values) {
+    StudyAxis axis{setting, {}};
+    for (const nlohmann::json& value : values) axis.values.push_back(read_value(value));
+    return axis;
+}
+
 /// @param order  of the settings in the file
 std::vector<StudyAxis> read_sweep(const JsonRef& root, const std::vector<std::string>& order) {
     std::vector<StudyAxis> sweep;
     const auto found = root.find("sweep");
     if (!found) return sweep;
-    for (const std::string& key : order) {
-        StudyAxis axis{key, {}};
-        for (const nlohmann::json& value : found->json().at(key)) axis.values.push_back(read_value(value));
-        sweep.push_back(std::move(axis));
-    }
+    for (const std::string& key : order) sweep.push_back(read_axis(key, found->json().at(key)));
     return sweep;
+}
+
+/// Settings that the file names take its values; others have those of the default.
+std::optional<StudySearch> read_search(const JsonRef& root) {
+    const auto found = root.find("search");
+    if (!found) return std::nullopt;
+    StudySearch search = default_search();
+    if (const auto candidates = found->find_integer("candidates", 1, 10000))
+        search.candidates = static_cast<int>(*candidates);
+    if (const auto rounds = found->find_integer("rounds", 1, 10)) search.rounds = static_cast<int>(*rounds);
+    const auto settings = found->find("settings");
+    if (!settings) return search;
+    const auto refuse = [&](const char* key, const char* reason) {
+        if (const auto wrong = settings->find(key)) wrong->fail(reason);
+    };
+    refuse("error", "a search tries fixed settings: no error is asked for");
+    refuse("sampling", "a search tries fixed settings: sampling is uniform");
+    refuse("size", "pictures of a study have one size: `size` of the study");
+    refuse("seed", "the seeds of a study are its list `seeds`");
+    for (const auto& [key, values] : settings->json().items()) {
+        std::erase_if(search.settings, [&](const StudyAxis& axis) { return axis.setting == key; });
+        search.settings.push_back(read_axis(key, values));
+    }
+    return search;
 }
 
 std::vector<std::string> read_texts(const JsonRef& root, std::string_view key) {
@@ -114,6 +141,7 @@ Study parse_study(std::string_view text, const std::filesystem::path& path) {
     const auto order = json.key_order.find("sweep");
     study.sweep = read_sweep(root, order == json.key_order.end() ? std::vector<std::string>() : order->second);
     read_lists(root, path.parent_path(), study);
+    study.search = read_search(root);
     study.metrics = read_texts(root, "metrics");
     if (study.viewers.empty()) study.viewers.push_back(default_viewer());
     if (const auto repeats = root.find_integer("repeats", 1, 1000)) study.repeats = static_cast<int>(*repeats);

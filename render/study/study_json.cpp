@@ -111,6 +111,16 @@ Json frames_json(const StudyResults& results, const fs::path& folder) {
     return json;
 }
 
+Json axes_json(const std::vector<StudyAxis>& axes) {
+    Json json = Json::array();
+    for (const StudyAxis& axis : axes) {
+        Json values = Json::array();
+        for (const SettingValue& value : axis.values) values.push_back(value_json(value));
+        json.push_back({{"setting", axis.setting}, {"values", values}});
+    }
+    return json;
+}
+
 }  // namespace
 
 std::string study_date() {
@@ -158,11 +168,10 @@ Json study_json(const PreparedStudy& prepared, const StudyResults& results, cons
         json["viewers"].push_back({{"name", viewer.name}, {"settings", settings_json(viewer.settings)}});
     json["repeats"] = study.repeats;
     json["seeds"] = study.seeds;
-    json["axes"] = Json::array();
-    for (const StudyAxis& axis : study.sweep) {
-        Json values = Json::array();
-        for (const SettingValue& value : axis.values) values.push_back(value_json(value));
-        json["axes"].push_back({{"setting", axis.setting}, {"values", values}});
+    json["axes"] = axes_json(study.sweep);
+    if (study.search) {
+        json["search"] = search_json(prepared, results);
+        json["search"]["axes"] = axes_json(study.search->settings);
     }
     json["metrics"] = Json::array();
     for (const Metric& metric : prepared.metrics) json["metrics"].push_back(metric_json(metric));

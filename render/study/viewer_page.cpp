@@ -76,6 +76,7 @@ std::string make_viewer_test(std::string_view page, const PreparedStudy& prepare
         if (frame.scene == name) json["reference"]["frames"].push_back(picture_link(frame.reference));
     }
     for (const VariantResult& variant : results.variants) {
+        if (std::ranges::find(variant.frames, name, &FrameResult::scene) == variant.frames.end()) continue;
         Json& test = json["tests"].emplace_back();
         test = {{"id", variant.name}, {"level", level_of(variant, axis)}, {"frames", Json::array()}};
         for (const FrameResult& frame : variant.frames) {

@@ -1,0 +1,123 @@
+// Ranks, crowding and fronts of points made by hand.
+
+#include "render/study/pareto.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+namespace aleph {
+namespace {
+
+constexpr double infinite = std::numeric_limits<double>::infinity();
+
+TEST(Pareto, OnlyLessOfOneDominates) {
+    EXPECT_TRUE(dominates({1.0, 2.0}, {1.0, 3.0}));
+    EXPECT_TRUE(dominates({1.0, 2.0}, {2.0, 2.0}));
+    EXPECT_FALSE(dominates({1.0, 2.0}, {1.0, 2.0})) << "equal";
+    EXPECT_FALSE(dominates({1.0, 2.0}, {2.0, 1.0}));
+    EXPECT_FALSE(dominates({2.0, 1.0}, {1.0, 2.0}));
+}
+
+TEST(Pareto, RanksAreFrontsOfWhatIsLeft) {
+    const std::vector<CostPoint> points{{4.0, 4.0}, {1.0, 8.0}, {2.0, 4.0}, {8.0, 1.0},
+                                        {4.0, 8.0}, {9.0, 9.0}, {2.0, 4.0}, {3.0, 5.0}};
+    EXPECT_EQ(rank_points(points), (std::vector<int>{1, 0, 0, 0, 2, 3, 0, 1}));
+    EXPECT_TRUE(rank_points({}).empty());
+}
+
+TEST(Pareto, CrowdingIsTheExtentOfTheNeighboursInLogarithms) {
+    // Costs and errors over three decades; the last two points are of another rank.
+    const std::vector<CostPoint> points{{1000.0, 0.1}, {1.0, 100.0},  {10.0, 10.0},
+                                        {100.0, 5.0},  {10.0, 100.0}, {100.0, 50.0}};
+    const std::vector<int> ranks = rank_points(points);
+    EXPECT_EQ(ranks, (std::vector<int>{0, 0, 0, 0, 1, 1}));
+    const std::vector<double> distances = crowding_distances(points, ranks);
+    EXPECT_EQ(distances[0], infinite);
+    EXPECT_EQ(distances[1], infinite);
+    EXPECT_NEAR(distances[2], 2.0 / 3.0 + std::log10(100.0 / 5.0) / 3.0, 1e-12);
+    EXPECT_NEAR(distances[3], 2.0 / 3.0 + std::log10(10.0 / 0.1) / 3.0, 1e-12);
+    EXPECT_EQ(distances[4], infinite);
+    EXPECT_EQ(distances[5], infinite);
+}
+
+TEST(Pareto, CrowdingTakesErrorsBelowTheLeastAsEqual) {
+    const std::vector<CostPoint> points{{1.0, 0.008}, {10.0, 0.004}, {100.0, 0.0}};
+    const std::vector<double> distances = crowding_distances(points, rank_points(points));
+    EXPECT_DOUBLE_EQ(distances[1], 1.0) << "costs alone tell them apart";
+}
+
+TEST(Pareto, KeepsLowRanksThenTheEndsThenWhatStandsAlone) {
+    const std::vector<CostPoint> points{{9.0, 90.0},   // rank 1
+                                        {1.0, 80.0},   // an end
+                                        {2.0, 20.0},   // crowded by the next
+                                        {2.1, 19.0},   // crowded
+                                        {20.0, 2.0},   // alone
+                                        {40.0, 1.0}};  // an end
+    EXPECT_EQ(keep_best(points, 2), (std::vector<std::size_t>{1, 5}));
+    EXPECT_EQ(keep_best(points, 3), (std::vector<std::size_t>{1, 4, 5}));
+    EXPECT_EQ(keep_best(points, 4), (std::vector<std::size_t>{1, 3, 4, 5}));
+    EXPECT_EQ(keep_best(points, 5), (std::vector<std::size_t>{1, 2, 3, 4, 5}));
+    EXPECT_EQ(keep_best(points, 9), (std::vector<std::size_t>{0, 1, 2, 3, 4, 5}));
+}
+
+TEST(Pareto, KeepsTheFirstOfEqualPoints) {
+    const std::vector<CostPoint> points{{1.0, 1.0}, {1.0, 1.0}, {1.0, 1.0}, {1.0, 1.0}};
+    EXPECT_EQ(keep_best(points, 1), std::vector<std::size_t>{0});
+    EXPECT_EQ(list_front(points), std::vector<std::size_t>{0});
+}
+
+TEST(Pareto, HalvingKeepsTheFrontOfSyntheticCandidates) {
+    // Eight candidates on a front, and for each seven that cost more; a third of the points are kept, twice.
+    std::vector<CostPoint> points;
+    for (int i = 0; i < 8; ++i) {
+        for (int worse = 0; worse < 8; ++worse) points.push_back({std::exp2(i) * (1.0 + 0.1 * worse), std::exp2(-i)});
+    }
+    std::vector<std::size_t> left = keep_best(points, 22);
+    std::vector<CostPoint> rest;
+    for (const std::size_t i : left) rest.push_back(points[i]);
+    std::vector<std::size_t> last;
+    for (const std::size_t i : keep_best(rest, 8)) last.push_back(left[i]);
+    EXPECT_EQ(last, (std::vector<std::size_t>{0, 8, 16, 24, 32, 40, 48, 56}));
+}
+
+const std::vector<CostPoint> front{{4.0, 1.0}, {1.0, 16.0}, {5.0, 2.0}, {64.0, 0.25}};  // {5, 2} is beaten
+
+TEST(Pareto, FrontIsSortedByCost) {
+    EXPECT_EQ(list_front(front), (std::vector<std::size_t>{1, 0, 3}));
+    EXPECT_EQ(find_cheapest(front, 1.0), 0u);
+    EXPECT_EQ(find_cheapest(front, 0.9), 3u);
+    EXPECT_EQ(find_cheapest(front, 100.0), 1u);
+    EXPECT_FALSE(find_cheapest(front, 0.2).has_value());
+}
+
+void expect_cost(double error, double cost, FrontCost::Bound bound) {
+    const FrontCost found = interpolate_front(front, error);
+    EXPECT_NEAR(found.cost, cost, 1e-12 * cost) << error;
+    EXPECT_EQ(found.bound, bound) << error;
+}
+
+TEST(Pareto, CostOfAnErrorIsInterpolatedInLogarithms) {
+    using Bound = FrontCost::Bound;
+    expect_cost(16.0, 1.0, Bound::between);
+    expect_cost(4.0, 2.0, Bound::between);
+    expect_cost(1.0, 4.0, Bound::between);
+    expect_cost(0.5, 16.0, Bound::between);
+    expect_cost(0.25, 64.0, Bound::between);
+    expect_cost(17.0, 1.0, Bound::at_most);
+    expect_cost(0.2, 64.0, Bound::more);
+}
+
+TEST(Pareto, ErrorsBelowTheLeastAreEqual) {
+    const std::vector<CostPoint> points{{1.0, 1.0}, {3.0, 0.005}, {9.0, 0.0}};
+    EXPECT_EQ(interpolate_front(points, 0.0).cost, 3.0);
+    EXPECT_EQ(interpolate_front(points, 0.0).bound, FrontCost::Bound::between);
+    EXPECT_NEAR(interpolate_front(points, 0.1).cost, std::sqrt(3.0), 1e-12);
+    const std::vector<CostPoint> one{{2.0, 0.0}};
+    EXPECT_EQ(interpolate_front(one, 0.0).cost, 2.0);
+    EXPECT_EQ(interpolate_front(one, 3.0).bound, FrontCost::Bound::at_most);
+}
+
+}  // namespace
+}  // namespace aleph

@@ -1,0 +1,163 @@
+// Which settings a search tries, and how its rounds grow.
+
+#include "render/study/search_candidates.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <map>
+#include <set>
+
+#include "render/study/study_file.h"
+#include "tests/support/refusal.h"
+
+namespace aleph {
+namespace {
+
+Study searched(StudySearch search) {
+    Study study;
+    study.search = std::move(search);
+    return study;
+}
+
+const SettingValue none = std::string("none"), saliency = std::string("saliency"), as_spp = std::string("spp");
+
+TEST(SearchCandidates, DefaultsAreFixedSettingsThatDiffer) {
+    const std::vector<StudyVariant> candidates = list_candidates(searched(default_search()));
+    ASSERT_EQ(candidates.size(), 48u);
+    std::set<SettingMap> different;
+    std::map<SettingValue, int> spp;
+    for (const StudyVariant& candidate : candidates) {
+        const SettingMap& settings = candidate.settings;
+        EXPECT_TRUE(different.insert(settings).second) << candidate.name;
+        EXPECT_EQ(settings.at("sampling"), SettingValue(std::string("uniform")));
+        EXPECT_EQ(settings.at("error"), SettingValue(0.0));
+        EXPECT_EQ(settings.contains("adapter"), settings.at("guide") == saliency) << "without a guide there is none";
+        const SettingValue& light = settings.at("light_samples");
+        EXPECT_TRUE(light == settings.at("spp") || light == SettingValue(16.0));
+        ++spp[settings.at("spp")];
+    }
+    ASSERT_EQ(spp.size(), 6u);
+    for (const auto& [value, count] : spp) EXPECT_NEAR(count, 8, 3) << "dealt evenly, but for equal candidates";
+}
+
+TEST(SearchCandidates, MoreBeginWithTheSame) {
+    StudySearch search = default_search();
+    const std::vector<StudyVariant> many = list_candidates(searched(search));
+    search.candidates = 12;
+    const std::vector<StudyVariant> few = list_candidates(searched(search));
+    ASSERT_EQ(few.size(), 12u);
+    for (std::size_t i = 0; i < few.size(); ++i) {
+        EXPECT_EQ(few[i].name, many[i].name);
+        EXPECT_EQ(few[i].settings, many[i].settings);
+    }
+}
+
+TEST(SearchCandidates, AnyNumberHasAllValuesAboutEquallyOften) {
+    StudySearch search;
+    std::vector<SettingValue> values;
+    for (int i = 0; i < 100; ++i) values.emplace_back(static_cast<double>(i));
+    search.settings = {{"gather", values}, {"spp", {1.0, 2.0, 3.0}}};
+    search.candidates = 100;
+    std::map<SettingValue, int> gather, spp;
+    for (const StudyVariant& candidate : list_candidates(searched(search))) {
+        ++gather[candidate.settings.at("gather")];
+        ++spp[candidate.settings.at("spp")];
+    }
+    EXPECT_EQ(gather.size(), 100u) << "each once";
+    EXPECT_EQ(spp[1.0] + spp[2.0] + spp[3.0], 100);
+    for (const auto& [value, count] : spp) EXPECT_NEAR(count, 33.5, 0.51);
+}
+
+TEST(SearchCandidates, FewCombinationsAreAllTried) {
+    StudySearch search;
+    search.settings = {{"guide", {none, saliency}},
+                       {"adapter", {std::string("compress"), std::string("scale-add")}},
+                       {"light_samples", {as_spp, 16.0}},
+                       {"spp", {16.0, 4.0}}};
+    std::vector<std::string> names;
+    for (const StudyVariant& candidate : list_candidates(searched(search)))
+        names.push_back(candidate.name + ": " + name_settings(candidate.settings, search.settings));
+    const std::string more = ",error=0,sampling=uniform";
+    EXPECT_EQ(names, (std::vector<std::string>{
+                         "fixed 1: guide=none,light_samples=16,spp=16" + more,
+                         "fixed 2: guide=none,light_samples=4,spp=4" + more,
+                         "fixed 3: guide=none,light_samples=16,spp=4" + more,
+                         "fixed 4: guide=saliency,adapter=compress,light_samples=16,spp=16" + more,
+                         "fixed 5: guide=saliency,adapter=compress,light_samples=4,spp=4" + more,
+                         "fixed 6: guide=saliency,adapter=compress,light_samples=16,spp=4" + more,
+                         "fixed 7: guide=saliency,adapter=scale-add,light_samples=16,spp=16" + more,
+                         "fixed 8: guide=saliency,adapter=scale-add,light_samples=4,spp=4" + more,
+                         "fixed 9: guide=saliency,adapter=scale-add,light_samples=16,spp=4" + more,
+                     }));
+    Study unguided = searched({{{"adapter", {std::string("compress"), std::string("scale-add")}}}, 48, 3});
+    unguided.settings["guide"] = none;
+    EXPECT_EQ(list_candidates(unguided).size(), 1u) << "the study has no guide";
+}
+
+TEST(SearchCandidates, RoundsHalveCandidatesAndGrowPictures) {
+    std::vector<int> frames;
+    for (int i = 0; i < 12; ++i) frames.push_back(30 + i);
+    const std::vector<SearchRound> rounds = plan_rounds(3, 45, 320, 240, frames);
+    ASSERT_EQ(rounds.size(), 3u);
+    EXPECT_EQ(rounds[0].candidates, 45u);
+    EXPECT_EQ(rounds[1].candidates, 23u);
+    EXPECT_EQ(rounds[2].candidates, 12u);
+    EXPECT_EQ(rounds[0].width, 160);
+    EXPECT_EQ(rounds[0].height, 120);
+    EXPECT_EQ(rounds[1].width, 226) << "half the pixels";
+    EXPECT_EQ(rounds[1].height, 170);
+    EXPECT_EQ(rounds[2].width, 320);
+    EXPECT_EQ(rounds[2].height, 240);
+    EXPECT_EQ(rounds[0].frames, (std::vector<int>{30, 31, 32}));
+    EXPECT_EQ(rounds[1].frames, (std::vector<int>{30, 31, 32, 33, 34, 35}));
+    EXPECT_EQ(rounds[2].frames, frames);
+    const std::vector<SearchRound> one = plan_rounds(1, 7, 33, 1, {5});
+    ASSERT_EQ(one.size(), 1u);
+    EXPECT_EQ(one[0].candidates, 7u);
+    EXPECT_EQ(one[0].width, 33);
+    EXPECT_EQ(one[0].frames, std::vector<int>{5});
+    const std::vector<SearchRound> many = plan_rounds(6, 2, 33, 1, {5});
+    EXPECT_EQ(many.back().candidates, 1u) << "one is left at least";
+    EXPECT_EQ(many.front().height, 1);
+}
+
+TEST(SearchCandidates, FirstFramesFollowEachOther) {
+    EXPECT_EQ(plan_rounds(2, 4, 8, 8, {3, 9, 20, 21, 22, 40})[0].frames, (std::vector<int>{20, 21, 22}));
+    EXPECT_EQ(plan_rounds(2, 4, 8, 8, {3, 9, 20, 40})[0].frames, (std::vector<int>{3, 9, 20})) << "where they can";
+    EXPECT_EQ(plan_rounds(2, 4, 8, 8, {3, 9})[0].frames, (std::vector<int>{3, 9}));
+}
+
+TEST(SearchCandidates, StudyFilesChangeTheDefaults) {
+    const auto read = [](const std::string& search) {
+        return parse_study(R"({"scenes": [{"scene": "a.json"}], "search": )" + search + "}", "s.json");
+    };
+    const StudySearch usual = read("{}").search.value();
+    EXPECT_EQ(usual.candidates, 48);
+    EXPECT_EQ(usual.rounds, 3);
+    EXPECT_EQ(usual.settings.size(), default_search().settings.size());
+    EXPECT_TRUE(list_variants(read("{}")).empty()) << "a search needs no variants";
+    const StudySearch own =
+        read(R"({"candidates": 5, "rounds": 2, "settings": {"spp": [1, 2], "vision": ["castle"]}})").search.value();
+    EXPECT_EQ(own.candidates, 5);
+    EXPECT_EQ(own.rounds, 2);
+    EXPECT_EQ(own.settings.size(), usual.settings.size() + 1);
+    const auto spp = std::ranges::find(own.settings, "spp", &StudyAxis::setting);
+    EXPECT_EQ(spp->values, (std::vector<SettingValue>{1.0, 2.0}));
+    const auto refuse = [&](const std::string& search, const std::string& place, const std::string& words) {
+        expect_refusal([&] { read(search); }, "s.json", place, words);
+    };
+    refuse("true", "/search", "a search of fixed settings");
+    refuse(R"({"candidate": 3})", "/search/candidate", "candidates");
+    refuse(R"({"candidates": 0})", "/search/candidates", "1");
+    refuse(R"({"rounds": 11})", "/search/rounds", "10");
+    refuse(R"({"settings": {"spp": []}})", "/search/settings/spp", "");
+    refuse(R"({"settings": {"spp": 4}})", "/search/settings/spp", "a list of values");
+    refuse(R"({"settings": {"error": [1]}})", "/search/settings/error", "no error is asked for");
+    refuse(R"({"settings": {"sampling": ["variance"]}})", "/search/settings/sampling", "uniform");
+    refuse(R"({"settings": {"size": ["8x8"]}})", "/search/settings/size", "one size");
+    refuse(R"({"settings": {"seed": [1]}})", "/search/settings/seed", "seeds");
+}
+
+}  // namespace
+}  // namespace aleph
