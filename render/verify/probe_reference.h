@@ -1,0 +1,43 @@
+#pragma once
+// The frames around a probe, and the reference of its block in each of them.
+
+#include <optional>
+#include <vector>
+
+#include "render/compare/visible_difference.h"
+#include "render/frame/sequence.h"
+#include "render/verify/probe_place.h"
+
+namespace aleph {
+
+/// A frame of a probe's window.
+struct ProbeFrame {
+    std::int64_t frame = 0;
+    MotionMaps motion;       ///< of the area
+    PicturePart part;        ///< pixels that the reference is rendered for, of the whole picture
+    ChannelImage reference;  ///< of the area, a mean of passes (add_pass); not rendered beyond the part
+};
+
+/// What a probe is judged by: its frame and those that the instrument looks at beside it (filter_reach), as far as they
+/// are of its shot.
+struct ProbeWindow {
+    std::vector<ProbeFrame> frames;
+    PictureArea area;   ///< all parts and what the eye is adapted to around them, at multiples of 16 pixels
+    PictureArea block;  ///< relative to the area
+};
+
+/// Frames that the instrument looks at for one of them: within the range, without a cut between.
+std::vector<std::int64_t> list_window(std::int64_t frame, int reach, const FrameRange& range,
+                                      std::span<const std::int64_t> cuts);
+
+/// In the probe's frame the part is the block with a margin; in the others it is where its surfaces are.
+/// @param sequence  with traced_reference_settings
+ProbeWindow find_probe_window(const ProbePlace& place, Sequence& sequence);
+
+/// Adds passes until there are so many. Their random numbers are those of no other frame, pass or picture.
+void add_reference_passes(ProbeWindow& window, int passes, Sequence& sequence);
+
+/// Pictures of the area as the instrument takes them. Beyond the part their difference is continued (continue_error).
+PicturePair make_probe_pair(const ProbeFrame& frame, const PictureArea& area, const Image<Rgb>& picture);
+
+}  // namespace aleph
