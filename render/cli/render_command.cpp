@@ -68,7 +68,7 @@ void add_render_command(CLI::App& app, Command& command) {
         "what share of the pixels it expects to err by more; --aovs has the error of every pixel and its causes.\n"
         "--budget measures a part of up to three frames first. The error it chooses is printed and stored in the "
         "statistics (--stats): --error with that number makes the same bytes again. The time is an estimate.\n"
-        "--verify measures what the estimate says: blocks of 24 pixels, the same ones whenever the same frames are "
+        "--verify measures what the estimate says: blocks of 16 pixels, the same ones whenever the same frames are "
         "rendered, against path traced references, as a viewer sees the frames around them. -q does not silence it.\n"
         "--accuracy is the error that irradiance caching may make where the viewer is strictest. Elsewhere the Aleph "
         "map "

@@ -14,7 +14,7 @@ constexpr std::size_t kept_pictures = std::size_t{1} << 30;  // bytes
 constexpr std::size_t least_probes = 4;
 
 std::string percent(double share) {
-    return fmt::format("{:.2g}", 100.0 * share);
+    return share < 0.095 ? fmt::format("{:.2g}", 100.0 * share) : fmt::format("{:.0f}", 100.0 * share);
 }
 
 std::string number(std::size_t count, const char* what) {

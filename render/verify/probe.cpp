@@ -1,5 +1,6 @@
 #include "render/verify/probe.h"
 
+#include <algorithm>
 #include <set>
 
 #include "render/settings/reference_settings.h"
@@ -9,7 +10,15 @@ namespace aleph {
 
 namespace {
 
-constexpr int least_passes = 2, most_passes = 32;
+constexpr int least_samples = 64;
+constexpr int most_in_window = 12288;  // samples of a pixel, in all frames
+
+/// How many to add so that the noise settles: its mean square falls as their number does.
+int choose_samples(int samples, double noise, int most_samples) {
+    if (samples == 0) return least_samples;
+    const double needed = std::max(1.1 * noise / settled_noise, 1.25) * samples;
+    return static_cast<int>(std::min({needed, 4.0 * samples, 1.0 * most_samples})) - samples;
+}
 
 using Pairs = std::vector<PicturePair>;
 
@@ -62,15 +71,18 @@ ProbeResult Prober::measure(std::size_t number) {
     ProbeWindow window = find_probe_window(result.place, reference_);
     const Scene& scene = reference_.scene();
     const ViewingSettings viewing{scene.viewing, scene.frame_rate};
+    const int most_samples = most_in_window / static_cast<int>(window.frames.size());
     Pairs pairs;
-    for (result.passes = least_passes;; result.passes *= 2) {
-        add_reference_passes(window, result.passes, reference_);
+    for (int round = 0;; ++round) {
+        const int more = choose_samples(result.samples, result.noise, most_samples) / 2;
+        add_reference_samples(window, round, more, reference_);
+        result.samples += 2 * more;
         pairs.clear();
         for (const ProbeFrame& each : window.frames)
             pairs.push_back(make_probe_pair(each, window.area, pictures_.find(each.frame)));
         const VisibleMaps noise = judge(window, noise_alone(pairs), result.place.frame, viewing);
         result.noise = mean_square(crop(noise.seen, window.block));
-        if (result.noise <= settled_noise || result.passes >= most_passes) break;
+        if (result.noise <= settled_noise || result.samples >= most_samples - least_samples) break;
     }
     const VisibleMaps maps = judge(window, pairs, result.place.frame, viewing);
     const Image<float> seen = crop(maps.seen, window.block);

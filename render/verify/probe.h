@@ -18,13 +18,14 @@ struct ProbeResult {
     double beyond = 0.0;  ///< by more than the error asked for
     double seen = 0.0, flicker = 0.0, lasting = 0.0;  ///< by at least one just visible difference
     double noise = 0.0;      ///< of the reference: mean square, just visible differences
-    int passes = 0;          ///< of the reference
+    int samples = 0;         ///< of the reference, by pixel and frame
     std::size_t window = 0;  ///< frames it is judged over
     bool operator==(const ProbeResult&) const = default;
 };
 
-/// Largest mean square of the reference's own noise in a block, in just visible differences.
-inline constexpr double settled_noise = 0.1;
+/// Largest mean square of the reference's own noise in a block, in just visible differences. Its energy is taken off, so
+/// that what remains is scatter of differences that are barely seen or barely not.
+inline constexpr double settled_noise = 0.2;
 
 /// Measures probes. A probe is a function of scene, settings, frames and its number.
 class Prober {
@@ -36,7 +37,8 @@ class Prober {
     Prober(Scene scene, const RenderSettings& settings, const std::string& camera, std::vector<std::int64_t> frames,
            PictureKeeper& pictures);
 
-    /// Passes are doubled until the noise of the reference is settled, from 2 to 32, of 16 samples and up.
+    /// The reference takes as many samples as settle its noise: for each pixel at least 64 in each frame, at most 12,288
+    /// in all frames of the window.
     ProbeResult measure(std::size_t number);
 
   private:

@@ -7,7 +7,7 @@ namespace aleph {
 
 namespace {
 
-constexpr int most_side = 24;          // pixels, of a block
+constexpr int most_side = 16;          // pixels, of a block
 constexpr double root = 1.2207440846;  // of x^4 = x + 1
 
 /// Where the sequence is along an axis, in [0, 1).

@@ -15,7 +15,7 @@ struct ProbePlace {
     bool operator==(const ProbePlace&) const = default;
 };
 
-/// The place of a probe. The picture is divided into blocks of equal size, up to 24 pixels wide and high; frames, columns and
+/// The place of a probe. The picture is divided into blocks of equal size, up to 16 pixels wide and high; frames, columns and
 /// rows follow a sequence of low discrepancy (the additive recurrence of Roberts 2018), so that any first probes are spread
 /// evenly over all three.
 /// @param number  of the probe, from 0 on

@@ -3,8 +3,6 @@
 #include <cmath>
 
 #include "engine/base/sampling.h"
-#include "render/compare/compare_luminance.h"
-#include "render/compare/reference_passes.h"
 #include "render/verify/continued_error.h"
 
 namespace aleph {
@@ -12,11 +10,10 @@ namespace aleph {
 namespace {
 
 constexpr std::uint64_t reference_seed = 0x7665726966790000ull;  // keeps references apart from all that they judge
-constexpr int margin = 12;      // pixels around a block that its signals are filtered with
-constexpr int track_reach = 2;  // pixels around a tracked place
+constexpr int margin = 8;       // pixels around a block that its signals are filtered with
+constexpr int track_reach = 1;  // pixels around a tracked place
 constexpr int context = 40;     // pixels around all parts
 constexpr int alignment = 16;   // pixels, so that coarse levels lie as in the whole picture
-constexpr int first_samples = 16;  // of a pixel, in the first pass
 
 MotionMaps read_maps(const FrameOutput& output) {
     const MotionField& field = output.motion;
@@ -77,19 +74,16 @@ PictureArea find_area(const std::vector<ProbeFrame>& frames, int width, int heig
     return {left, top, std::min(width, right + context) - left, std::min(height, bottom + context) - top};
 }
 
-std::uint32_t pass_seed(std::int64_t frame, int pass) {
-    const auto place = static_cast<std::uint64_t>(frame) << 16 | static_cast<std::uint64_t>(pass);
+std::uint32_t half_seed(std::int64_t frame, int round, int half) {
+    const auto place = static_cast<std::uint64_t>(frame) << 16 | static_cast<std::uint64_t>(2 * round + half);
     return static_cast<std::uint32_t>(mix_bits(mix_bits(reference_seed) + place) >> 32);
 }
 
-ChannelImage as_channels(const Image<Rgb>& picture) {
-    ChannelImage image;
-    for (int c = 0; c < 3; ++c) {
-        Image<float> values(picture.width, picture.height);
-        for (std::size_t i = 0; i < values.size(); ++i) values.pixels[i] = picture.pixels[i][c];
-        image.channels.push_back({std::string(1, "RGB"[c]), std::move(values)});
-    }
-    return image;
+/// Takes a mean of `added` samples into one of `count`.
+void add_to_mean(Image<Rgb>& mean, int count, const Image<Rgb>& picture, int added) {
+    if (mean.empty()) mean = Image<Rgb>(picture.width, picture.height, Rgb(0.0f));
+    const float weight = static_cast<float>(added) / static_cast<float>(count + added);
+    for (std::size_t i = 0; i < mean.size(); ++i) mean.pixels[i] += weight * (picture.pixels[i] - mean.pixels[i]);
 }
 
 }  // namespace
@@ -97,6 +91,7 @@ ChannelImage as_channels(const Image<Rgb>& picture) {
 std::vector<std::int64_t> list_window(std::int64_t frame, int reach, const FrameRange& range,
                                       std::span<const std::int64_t> cuts) {
     const auto is_cut = [&](std::int64_t at) { return std::ranges::find(cuts, at) != cuts.end(); };
+    if (frame < range.first || frame > range.last) return {frame};
     std::int64_t first = frame, last = frame;
     while (first > frame - reach && first > range.first && !is_cut(first)) --first;
     while (last < frame + reach && last < range.last && !is_cut(last + 1)) ++last;
@@ -132,19 +127,25 @@ ProbeWindow find_probe_window(const ProbePlace& place, Sequence& sequence) {
     return window;
 }
 
-void add_reference_passes(ProbeWindow& window, int passes, Sequence& sequence) {
+void add_reference_samples(ProbeWindow& window, int round, int samples, Sequence& sequence) {
     for (ProbeFrame& each : window.frames) {
-        std::vector<PartSamples> samples;
-        // Passes with equal numbers of samples could all make the same error at an edge: reference_picture.cpp.
-        for (int pass = static_cast<int>(reference_passes(each.reference)); pass < passes; ++pass)
-            samples.push_back({pass_seed(each.frame, pass), first_samples + pass});
-        for (const Image<Rgb>& picture : sequence.render_part(each.frame, each.part, samples))
-            add_pass(each.reference, as_channels(crop(picture, window.area)));
+        // Where samples lie in a pixel may depend on their number alone. Halves of equal numbers would make the same
+        // error at an edge, which their difference does not tell.
+        const PartSamples pictures[] = {{half_seed(each.frame, round, 0), samples},
+                                        {half_seed(each.frame, round, 1), samples + 1}};
+        const std::vector<Image<Rgb>> made = sequence.render_part(each.frame, each.part, pictures);
+        for (std::size_t half = 0; half < 2; ++half)
+            add_to_mean(each.halves[half], each.samples / 2, crop(made[half], window.area), samples);
+        each.samples += 2 * samples;
     }
 }
 
 PicturePair make_probe_pair(const ProbeFrame& frame, const PictureArea& area, const Image<Rgb>& picture) {
-    PicturePair pair{crop(picture, area), linear_colour(frame.reference), read_noise(frame.reference)};
+    PicturePair pair{crop(picture, area), frame.halves[0], frame.halves[0]};
+    for (std::size_t i = 0; i < pair.reference.size(); ++i) {
+        pair.reference.pixels[i] = 0.5f * (frame.halves[0].pixels[i] + frame.halves[1].pixels[i]);
+        pair.noise.pixels[i] = 0.5f * (frame.halves[0].pixels[i] - frame.halves[1].pixels[i]);
+    }
     const PicturePart part = crop(frame.part, area);
     Image<Rgb> error(area.width, area.height);
     for (std::size_t i = 0; i < error.size(); ++i) error.pixels[i] = pair.picture.pixels[i] - pair.reference.pixels[i];

@@ -1,7 +1,7 @@
 #pragma once
 // The frames around a probe, and the reference of its block in each of them.
 
-#include <optional>
+#include <array>
 #include <vector>
 
 #include "render/compare/visible_difference.h"
@@ -15,7 +15,10 @@ struct ProbeFrame {
     std::int64_t frame = 0;
     MotionMaps motion;       ///< of the area
     PicturePart part;        ///< pixels that the reference is rendered for, of the whole picture
-    ChannelImage reference;  ///< of the area, a mean of passes (add_pass); not rendered beyond the part
+    /// Of the area, two means of as many samples, whose mean is the reference and whose difference its noise; 0 beyond
+    /// the part.
+    std::array<Image<Rgb>, 2> halves;
+    int samples = 0;  ///< of a pixel of the part, in both
 };
 
 /// What a probe is judged by: its frame and those that the instrument looks at beside it (filter_reach), as far as they
@@ -34,8 +37,10 @@ std::vector<std::int64_t> list_window(std::int64_t frame, int reach, const Frame
 /// @param sequence  with traced_reference_settings
 ProbeWindow find_probe_window(const ProbePlace& place, Sequence& sequence);
 
-/// Adds passes until there are so many. Their random numbers are those of no other frame, pass or picture.
-void add_reference_passes(ProbeWindow& window, int passes, Sequence& sequence);
+/// Adds samples to every frame's reference. Their random numbers are those of no other frame, round or picture.
+/// @param round    number of the call for this window, from 0 on
+/// @param samples  of each half, 2 or more
+void add_reference_samples(ProbeWindow& window, int round, int samples, Sequence& sequence);
 
 /// Pictures of the area as the instrument takes them. Beyond the part their difference is continued (continue_error).
 PicturePair make_probe_pair(const ProbeFrame& frame, const PictureArea& area, const Image<Rgb>& picture);
