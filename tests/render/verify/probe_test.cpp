@@ -5,6 +5,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
+#include <map>
 #include <set>
 
 #include "engine/base/parallel.h"
@@ -145,7 +147,7 @@ TEST_F(Probes, PicturesThatAreTheReferenceHaveNoErrors) {
 }
 
 TEST_F(Probes, SayOfBlocksWhatWholePicturesSay) {
-    const RenderSettings settings = traced(16);
+    const RenderSettings settings = traced(64);
     VisibleDifference difference({scene.viewing, scene.frame_rate}, 20);
     Sequence motion(scene, traced_reference_settings(settings));
     std::vector<VisibleMaps> whole;
@@ -188,7 +190,6 @@ TEST_F(Probes, SayOfBlocksWhatWholePicturesSay) {
     EXPECT_GT(compared / pixels, 0.1);
     EXPECT_LT(compared / pixels, 0.97);
     EXPECT_NEAR(probed / pixels, compared / pixels, 0.06);
-    std::fprintf(stderr, "probed %.3f compared %.3f\n", probed / pixels, compared / pixels);
 }
 
 TEST_F(Probes, AreTheSameForAnyNumberOfThreadsAndProbesBefore) {
