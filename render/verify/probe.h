@@ -25,7 +25,7 @@ struct ProbeResult {
 
 /// Largest mean square of the reference's own noise in a block, in just visible differences. Its energy is taken off, so
 /// that what remains is scatter of differences that are barely seen or barely not.
-inline constexpr double settled_noise = 0.2;
+inline constexpr double settled_noise = 0.1;
 
 /// Measures probes. A probe is a function of scene, settings, frames and its number.
 class Prober {

@@ -147,7 +147,7 @@ TEST_F(Probes, PicturesThatAreTheReferenceHaveNoErrors) {
 }
 
 TEST_F(Probes, SayOfBlocksWhatWholePicturesSay) {
-    const RenderSettings settings = traced(64);
+    const RenderSettings settings = traced(16);
     VisibleDifference difference({scene.viewing, scene.frame_rate}, 20);
     Sequence motion(scene, traced_reference_settings(settings));
     std::vector<VisibleMaps> whole;
