@@ -89,6 +89,8 @@ answers 2 'there is no command rendr; did you mean "render"?' aleph rendr first.
 answers 2 'did you mean "exposure"?' aleph render first.json --set exposre=2
 answers 2 'viewing.display_white' aleph render first.json --set white=2
 answers 2 'expected KEY=VALUE' aleph render first.json --set exposure
+answers 2 'expected seconds above 0' aleph render first.json --verify 0
+answers 2 'give one of the two' aleph render first.json --verify 5 --integrator path
 silent aleph maps first.json --frames 3 "${quick[@]}" -q -o preview.####.png
 is [ -s preview.0003.png ]
 answers 2 'expected 0 (all processors) to 4096' aleph render first.json -t -1

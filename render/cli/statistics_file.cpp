@@ -36,13 +36,18 @@ void StatisticsFile::set_budget(const BudgetStatistics& budget) {
     changed_ = !path_.empty();
 }
 
+void StatisticsFile::set_verified(const VerifiedStatistics& verified) {
+    verified_ = verified;
+    changed_ = !path_.empty();
+}
+
 void StatisticsFile::finish() {
     if (changed_) write();
 }
 
 void StatisticsFile::write() {
     StageClock writing;
-    write_file(path_, format_statistics(frames_, scene_, settings_, exposure_, budget_));
+    write_file(path_, format_statistics(frames_, scene_, settings_, exposure_, budget_, verified_));
     changed_ = false;
     took_ = since_ = 0.0;
     writing.add_to(took_);

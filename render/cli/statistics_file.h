@@ -36,6 +36,9 @@ class StatisticsFile {
     /// Says what the budget came to. `finish` then writes the file with it.
     void set_budget(const BudgetStatistics& budget);
 
+    /// Says what verification found; the same.
+    void set_verified(const VerifiedStatistics& verified);
+
     /// Writes what is not written yet.
     /// @throws OutputError
     void finish();
@@ -48,6 +51,7 @@ class StatisticsFile {
     const RenderSettings& settings_;
     double exposure_;
     std::optional<BudgetStatistics> budget_;
+    std::optional<VerifiedStatistics> verified_;
     std::string frames_;  ///< text of the frames so far
     bool changed_ = false;
     StageClock clock_;

@@ -12,6 +12,7 @@
 #include "render/cli/output_path.h"
 #include "render/cli/progress.h"
 #include "render/cli/statistics_file.h"
+#include "render/cli/verify.h"
 #include "render/output/flow_file.h"
 #include "render/output/frame_files.h"
 #include "render/output/map_preview.h"
@@ -104,6 +105,21 @@ std::size_t write_frame(const std::filesystem::path& path, const FrameJob& job, 
     return changed;
 }
 
+/// Share of the pixels of all frames that are estimated to err by more than was asked for, as far as frames tell.
+class MeanEstimate {
+  public:
+    void add(const FrameStatistics& frame) {
+        if (!frame.error) return;
+        sum_ += frame.error->beyond;
+        ++frames_;
+    }
+    std::optional<double> mean() const { return frames_ > 0 ? std::optional(sum_ / frames_) : std::nullopt; }
+
+  private:
+    double sum_ = 0.0;
+    int frames_ = 0;
+};
+
 /// Says at the end which files there are now.
 void print_files(const FrameJob& job, const SceneOptions& options) {
     const auto file = [&](int frame) { return printable(output_path(options.output, job.name, frame).string(), 400); };
@@ -138,6 +154,7 @@ void write_frames(const FrameJob& job, const SceneOptions& options, const FrameR
     StatisticsFile statistics(options.stats, job.scene, job.settings, job.exposure, budget);
     std::vector<FinishedFrame> finished;
     std::size_t changed = 0;
+    MeanEstimate estimate;
     {
         Progress progress(request.frame ? "render" : "maps", static_cast<double>(job.frames.size()),
                           progress_look(options.quiet));
@@ -152,6 +169,7 @@ void write_frames(const FrameJob& job, const SceneOptions& options, const FrameR
                                    options.importance);
             if (finished.empty() && !options.quiet) warn_of_units(output.statistics);
             statistics.add(output.statistics);
+            estimate.add(output.statistics);
             finished.push_back({frame, output.statistics.copy_of});
             if (!options.quiet && job.settings.error > 0.0) print_error(output.statistics);
             progress.update(done + 1.0, fmt::format("frame {}", frame));
@@ -163,24 +181,43 @@ void write_frames(const FrameJob& job, const SceneOptions& options, const FrameR
         statistics.set_budget(*budget);
     }
     statistics.finish();
-    if (options.quiet) return;
-    warn_of_changed_values(changed);
-    std::cerr << describe_copies(finished);
-    print_files(job, options);
-    if (budget) std::cerr << describe_budget(*budget);
+    if (!options.quiet) {
+        warn_of_changed_values(changed);
+        std::cerr << describe_copies(finished);
+        print_files(job, options);
+        if (budget) std::cerr << describe_budget(*budget);
+    }
+    if (!job.verify) return;
+    const VerifiedStatistics verified = job.verify(estimate.mean());
+    std::cout << describe_verified(verified);
+    statistics.set_verified(verified);
+    statistics.finish();
 }
 
 void render_frames(PreparedScene prepared, const SceneOptions& options, const FrameRequest& request,
-                   const std::string& cache, const std::optional<Budget>& budget) {
+                   const std::string& cache, const std::optional<Budget>& budget, double verify) {
     prepare_frames_output(prepared, options, request);
     if (!cache.empty()) try_output(cache);
     const ThreadLimit limit(options.threads);
+    std::optional<Scene> judged;
+    if (verify > 0.0) judged = prepared.scene;  // with what --forbid leaves out
     Sequence sequence(std::move(prepared.scene), prepared.settings, options.camera);
     if (!cache.empty()) sequence.load_light(cache);
-    const auto make = [&](int frame, const FrameRequest& asked) { return sequence.render(frame, asked); };
-    write_frames(
-        {sequence.scene(), prepared.settings, sequence.exposure(), prepared.frames, prepared.name, make, budget},
-        options, request);
+    PictureKeeper pictures = keep_pictures(sequence);
+    const auto make = [&](int frame, const FrameRequest& asked) {
+        FrameOutput output = sequence.render(frame, asked);
+        if (judged) pictures.keep(frame, output.shaded.color);
+        return output;
+    };
+    FrameJob job{sequence.scene(), prepared.settings, sequence.exposure(), prepared.frames, prepared.name, make, budget};
+    if (judged) {
+        judged->exposure = sequence.exposure();
+        job.verify = [&](std::optional<double> estimated) {
+            return verify_frames({std::move(*judged), prepared.settings, options.camera, prepared.frames, verify},
+                                 pictures, estimated, progress_look(options.quiet));
+        };
+    }
+    write_frames(job, options, request);
     if (!cache.empty()) sequence.save_light(cache);
 }
 

@@ -9,6 +9,7 @@
 #include "render/cli/scene_options.h"
 #include "render/frame/sequence.h"
 #include "render/output/frame_files.h"
+#include "render/output/verified_statistics.h"
 #include "render/settings/measure.h"
 
 namespace aleph {
@@ -28,6 +29,8 @@ struct FrameJob {
     const std::string& name;  ///< of the files, where --output does not say
     std::function<FrameOutput(int frame, const FrameRequest& request)> make;
     std::optional<Budget> budget = std::nullopt;
+    /// Checks the frames once they are written. @param estimated  share of the pixels that are beyond, where it is known
+    std::function<VerifiedStatistics(std::optional<double> estimated)> verify = {};
 };
 
 /// Checks and tries --output and --stats, and makes their folders; called before anything is computed.
@@ -42,7 +45,9 @@ void write_frames(const FrameJob& job, const SceneOptions& options, const FrameR
 /// Renders the frames of a scene, or their maps, and writes them. The files have the channels of what is requested.
 /// @param cache  file that keeps the light of lighting keyframes; empty: none
 /// @param budget  what they are to take; printed afterwards beside what they took
+/// @param verify  seconds to check them afterwards (verify.h); 0: not at all
 void render_frames(PreparedScene prepared, const SceneOptions& options, const FrameRequest& request,
-                   const std::string& cache = "", const std::optional<Budget>& budget = std::nullopt);
+                   const std::string& cache = "", const std::optional<Budget>& budget = std::nullopt,
+                   double verify = 0.0);
 
 }  // namespace aleph

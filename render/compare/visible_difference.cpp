@@ -143,7 +143,7 @@ std::vector<VisibleMaps> VisibleDifference::add(std::int64_t frame, const Pictur
     frames_.push_back(std::move(next));
     const auto reach = static_cast<std::size_t>(filter_reach(settings_.frame_rate));
     while (done_ + reach < frames_.size()) {
-        finished.push_back(measure(done_++));
+        measure_next(finished);
         if (done_ > reach) {
             frames_.pop_front();
             --done_;
@@ -154,12 +154,17 @@ std::vector<VisibleMaps> VisibleDifference::add(std::int64_t frame, const Pictur
 
 std::vector<VisibleMaps> VisibleDifference::finish() {
     std::vector<VisibleMaps> finished;
-    while (done_ < frames_.size()) finished.push_back(measure(done_++));
+    while (done_ < frames_.size()) measure_next(finished);
     frames_.clear();
     done_ = 0;
     shapes_.clear();
     filters_.clear();
     return finished;
+}
+
+void VisibleDifference::measure_next(std::vector<VisibleMaps>& finished) {
+    if (!only_ || frames_[done_].number == *only_) finished.push_back(measure(done_));
+    ++done_;
 }
 
 VisibleMaps VisibleDifference::measure(std::size_t index) const {

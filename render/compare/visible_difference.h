@@ -10,6 +10,7 @@
 
 #include <cstdint>
 #include <deque>
+#include <optional>
 #include <vector>
 
 #include "perception/retinal_velocity.h"
@@ -51,7 +52,9 @@ struct VisibleMaps {
 
 class VisibleDifference {
   public:
-    explicit VisibleDifference(ViewingSettings settings) : settings_(settings) {}
+    /// @param only  the frame whose maps are wanted; nothing: all
+    explicit VisibleDifference(ViewingSettings settings, std::optional<std::int64_t> only = std::nullopt)
+        : settings_(settings), only_(only) {}
 
     /// Takes the next frame. If its number does not follow the last one's, or `cut` is true, a new shot begins.
     /// @param maps  of the reference: motion to the next frame (read_motion)
@@ -74,9 +77,11 @@ class VisibleDifference {
     };
 
     void prepare(int width, int height);
+    void measure_next(std::vector<VisibleMaps>& finished);
     VisibleMaps measure(std::size_t index) const;
 
     ViewingSettings settings_;
+    std::optional<std::int64_t> only_;
     std::vector<BandShape> shapes_;
     std::vector<VisibleFilter> filters_;  ///< by channel and band
     std::deque<Frame> frames_;            ///< of this shot that are still needed

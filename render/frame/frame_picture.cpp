@@ -65,7 +65,7 @@ SampleOptions find_sample_options(SequenceState& s, std::int64_t frame, const Fr
     options.blended = s.shot.blended;
     if (!open.shutter) return options;
     options.light_lasts = !s.light_breaks.changes(open.shutter->open, open.shutter->close);
-    const double shift = RandomStream({s.shot.settings.seed ^ shutter_seed_mask, s.shot.noise_key(frame), 0, 0}).next();
+    const double shift = RandomStream({plan.settings.seed ^ shutter_seed_mask, s.shot.noise_key(frame), 0, 0}).next();
     options.at_sample = [&s, frame, shutter = *open.shutter, shift](int sample, int pixel_class) {
         const double at = place_in_shutter(shutter, sample, pixel_class, shift);
         return open_scene(s.shot, frame, at, s.here, s.preparation.shutter);

@@ -29,6 +29,7 @@ struct FrameWork {
     std::int64_t frame = 0;
     bool perceive = false;  ///< estimate, motion, and the model of vision
     bool maps = false;      ///< every map
+    bool motion_only = false;  ///< of what `perceive` says
     OtherFrame other = OtherFrame::none;
     bool edited = false;  ///< motion leads from a frame before an edit
 };

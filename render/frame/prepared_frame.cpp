@@ -47,7 +47,7 @@ PreparedFrame prepare_frame(Preparation& kept, FrameScene& here, FrameWork work)
     out.view = here.posed().view;
     frame.plan = kept.planner.begin(work, here.posed());
     clock.add_to(stats.seconds.pose);
-    if (work.perceive && shot.estimates_indirect_light(frame.plan.settings.light.bounces)) {
+    if (work.perceive && !work.motion_only && shot.estimates_indirect_light(frame.plan.settings.light.bounces)) {
         kept.estimate_light.gather_around(work.frame, work.frame, counts);
         if (work.other != OtherFrame::none && shot.settings.guide.motion == MotionSource::image)
             kept.estimate_light.gather_around(other_frame_number(work.frame, work.other), work.frame, counts);
@@ -63,6 +63,10 @@ PreparedFrame prepare_frame(Preparation& kept, FrameScene& here, FrameWork work)
 
     frame.centers = cast_centers(here.rays(), out.view, &counts.primary);
     clock.add_to(stats.seconds.first_hits);
+    if (work.motion_only) {
+        kept.motion.compute(work, here, kept.estimate_light, clock, frame);
+        return frame;
+    }
     if (work.perceive) {
         perceive(kept, here, work, clock, frame);
     } else {

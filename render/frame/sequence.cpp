@@ -162,4 +162,37 @@ LightTime Sequence::time_light(std::int64_t frame) {
     return time;
 }
 
+std::vector<Image<Rgb>> Sequence::render_part(std::int64_t frame, const PicturePart& part,
+                                              std::span<const PartSamples> pictures) {
+    SequenceState& s = state();
+    ALEPH_CHECK(s.shot.settings.light.integrator == Integrator::path && !s.shot.needs_perception(), "a part by paths");
+    const std::int64_t first = s.static_spans.find_first(frame);
+    PreparedFrame prepared = s.prepare(first, false, false);
+    s.here.leave_out(prepared.plan.effects);
+    std::vector<Image<Rgb>> made;
+    for (const PartSamples& samples : pictures) {
+        prepared.plan.settings.seed = samples.seed;
+        prepared.plan.settings.sampling.spp = samples.spp;
+        SampleOptions options = find_sample_options(s, first, prepared.plan);
+        options.part = &part;
+        options.part_picture = true;
+        shade_prepared(s, first, prepared, nullptr, options);
+        made.push_back(std::move(prepared.out.shaded.color));
+    }
+    s.rendered = true;
+    return made;
+}
+
+FrameOutput Sequence::find_motion(std::int64_t frame) {
+    SequenceState& s = state();
+    ALEPH_CHECK(s.shot.settings.guide.motion == MotionSource::model && !s.preparation.motion.is_edited(),
+                "motion of the scene's tracks");
+    PreparedFrame prepared =
+        prepare_frame(s.preparation, s.here,
+                      {.frame = s.static_spans.find_first(frame), .perceive = true, .maps = true, .motion_only = true});
+    prepared.out.hits = std::move(prepared.centers.hits);
+    s.rendered = true;
+    return std::move(prepared.out);
+}
+
 }  // namespace aleph

@@ -35,6 +35,12 @@ struct LightTime {
     double keyframes = 0.0;  ///< of the lighting keyframes that no frame before it needed
 };
 
+/// Random numbers and number of the samples of a part of a picture.
+struct PartSamples {
+    std::uint32_t seed = 0;
+    int spp = 1;
+};
+
 /// Renders frames of one scene. It keeps the ray structures between frames, so that only what moves is updated; a frame
 /// does not depend on the frames rendered before it.
 class Sequence {
@@ -61,6 +67,17 @@ class Sequence {
     /// Times the light of a frame.
     /// @throws InputError as `render`
     LightTime time_light(std::int64_t frame);
+
+    /// Pictures of a part of a frame, 0 elsewhere, one for each seed and number of samples, by paths: nothing of what
+    /// they are made from is shared between pixels. Integrator::path without a guide.
+    /// @throws InputError as `render`
+    std::vector<Image<Rgb>> render_part(std::int64_t frame, const PicturePart& part,
+                                        std::span<const PartSamples> pictures);
+
+    /// The first hits of a frame and its motion, with the hidden pixels: `hits` and `motion` of the output of `render`
+    /// with all maps. MotionSource::model, and no edit before it.
+    /// @throws InputError as `render`
+    FrameOutput find_motion(std::int64_t frame);
 
     /// The effects plan of a frame, as `render` makes it for its picture: costs as much as the stages before shading.
     /// @throws InputError as `render`

@@ -9,6 +9,7 @@
 #include "engine/image/image_file.h"
 #include "engine/scene/scene.h"
 #include "render/frame/frame_output.h"
+#include "render/output/verified_statistics.h"
 #include "render/settings/settings.h"
 
 namespace aleph {
@@ -39,7 +40,8 @@ std::string format_frame_statistics(const FrameStatistics& frame);
 /// The same text as of a vector.
 /// @param frames  what format_frame_statistics returned for each frame, joined by ",\n"
 std::string format_statistics(std::string_view frames, const Scene& scene, const RenderSettings& settings,
-                              double exposure, const std::optional<BudgetStatistics>& budget = std::nullopt);
+                              double exposure, const std::optional<BudgetStatistics>& budget = std::nullopt,
+                              const std::optional<VerifiedStatistics>& verified = std::nullopt);
 
 /// How much a pixel needs samples, for renderers that take such a picture: 1 over the Aleph map, so that 1 is where
 /// viewers are strictest and no value is 0.

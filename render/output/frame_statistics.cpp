@@ -56,6 +56,24 @@ Json budget_json(const BudgetStatistics& budget) {
             {"pilot", budget.pilot}};
 }
 
+Json share_json(const VerifiedShare& share) {
+    return {{"share", share.share}, {"low", share.low}, {"high", share.high}};
+}
+
+Json verified_json(const VerifiedStatistics& verified) {
+    return {{"error", verified.error},
+            {"beyond", share_json(verified.beyond)},
+            {"seen", share_json(verified.seen)},
+            {"flicker", share_json(verified.flicker)},
+            {"lasting", share_json(verified.lasting)},
+            {"estimated_beyond", verified.estimated ? Json(*verified.estimated) : Json(nullptr)},
+            {"blocks", verified.blocks},
+            {"frames", verified.frames},
+            {"window", verified.window},
+            {"unsettled", verified.unsettled},
+            {"seconds", verified.seconds}};
+}
+
 Json frame_json(const FrameStatistics& f) {
     Json seconds = Json::object();
     for (const auto& [stage, value] : list_stages(f.seconds)) seconds[stage] = value;
@@ -131,7 +149,8 @@ std::string format_statistics(const std::vector<FrameStatistics>& frames, const 
 }
 
 std::string format_statistics(std::string_view frames, const Scene& scene, const RenderSettings& settings,
-                              double exposure, const std::optional<BudgetStatistics>& budget) {
+                              double exposure, const std::optional<BudgetStatistics>& budget,
+                              const std::optional<VerifiedStatistics>& verified) {
     Json json;
     json["schema_version"] = 2;
     json["scene"] = scene.file;
@@ -139,6 +158,7 @@ std::string format_statistics(std::string_view frames, const Scene& scene, const
     for (const Setting& setting : setting_table()) json["settings"][setting.key] = setting_json(setting, settings);
     json["exposure"] = exposure;
     if (budget) json["budget"] = budget_json(*budget);
+    if (verified) json["verified"] = verified_json(*verified);
     json["threads"] = thread_count();
     char host[256] = "";
     if (gethostname(host, sizeof host - 1) == 0) json["host"] = host;

@@ -58,7 +58,7 @@ class FrameShading {
     }
 
     void resolve(double exposure) {
-        if (options_.part != nullptr) return count_samples(pixels_, out_);
+        if (options_.part != nullptr && !options_.part_picture) return count_samples(pixels_, out_);
         integrator_->resolve(pixels_, exposure);
         if (options_.limits != nullptr && context_.settings.sampling.spp > 1) report_errors(exposure);
     }

@@ -72,11 +72,10 @@ void take_in_turn(std::span<const PixelRange> ranges, const TakeSample& take) {
 
 void sample_by_stages(const SamplingPlan& plan, const Image<PixelSamples>& pixels, const TakeSamples& take) {
     std::vector<PixelRange> stage = first_ranges(plan, pixels);
-    while (true) {
+    while (!stage.empty()) {
         take(stage);
         if (plan.tolerance.empty()) return;
         stage = next_ranges(plan, pixels, stage);
-        if (stage.empty()) return;
     }
 }
 

@@ -8,6 +8,7 @@
 
 #include "engine/image/image_file.h"
 #include "engine/scene/scene.h"
+#include "render/compare/reference_passes.h"
 #include "render/pixels/shaded_frame.h"
 #include "render/settings/settings.h"
 
@@ -43,20 +44,9 @@ ChannelImage load_or_render_reference_picture(const Scene& scene, const RenderSe
 std::filesystem::path reference_picture_path(const RenderSettings& settings, std::int64_t frame,
                                              const ReferencePictureOptions& options);
 
-/// Renderings that a reference is the mean of.
-double reference_passes(const ChannelImage& reference);
-
-/// Adds a rendering, R, G and B, to a mean of others; variance.Y is the variance of the mean's luminance as their
-/// differences tell it, infinite of one rendering; noise.R, noise.G and noise.B are the mean with alternating signs, of
-/// an even number of renderings noise like the mean's own (read_noise).
-void add_pass(ChannelImage& mean, const ChannelImage& pass);
-
 /// Names of the channels of indirect light.
 inline constexpr std::array<const char*, 3> indirect_channels = {"indirect.R", "indirect.G", "indirect.B"};
 /// Adds them, where the frame has them: the part of the picture that surfaces reflect of their indirect irradiance.
 void add_indirect(ChannelImage& image, const ShadedFrame& shaded);
-
-/// As it would be with another factor on radiance.
-ChannelImage with_exposure(ChannelImage picture, double exposure);
 
 }  // namespace aleph

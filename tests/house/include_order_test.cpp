@@ -38,7 +38,8 @@ const std::vector<Layer>& layers() {
         // Each includes those before it.
         std::vector<Layer> rooms;
         for (const char* room : {"settings", "surface", "pixels", "guide", "light", "path", "cache", "estimate", "time",
-                                 "shade", "plan", "frame", "output", "compare", "images", "budget", "study", "cli"}) {
+                                 "shade", "plan", "frame", "output", "compare", "images", "budget", "verify", "study",
+                                 "cli"}) {
             rooms.push_back({std::string("render/") + room, stages});
             stages.push_back(rooms.back().folder);
         }

@@ -1,0 +1,87 @@
+#include "render/cli/verify.h"
+
+#include <fmt/format.h>
+
+#include "engine/base/errors.h"
+#include "render/settings/measure.h"
+#include "render/verify/probe.h"
+
+namespace aleph {
+
+namespace {
+
+constexpr std::size_t kept_pictures = std::size_t{1} << 30;  // bytes
+constexpr std::size_t least_probes = 4;
+
+std::string percent(double share) {
+    return share < 0.095 ? fmt::format("{:.2g}", 100.0 * share) : fmt::format("{:.0f}", 100.0 * share);
+}
+
+std::string number(std::size_t count, const char* what) {
+    return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
+}
+
+}  // namespace
+
+double parse_verify(const std::string& text) {
+    const double seconds = parse_value<double>(text, "--verify");
+    if (!(seconds > 0.0)) throw InputError("--verify", printable(text), "expected seconds above 0");
+    return seconds;
+}
+
+void refuse_traced(const RenderSettings& settings) {
+    if (settings.light.integrator != Integrator::path) return;
+    throw InputError("--verify", "--integrator path",
+                     "give one of the two: frames are judged by traced paths, which tell nothing of their like; "
+                     "variance.Y of the files has the noise of each pixel");
+}
+
+PictureKeeper keep_pictures(Sequence& sequence) {
+    return {[&sequence](std::int64_t frame) { return std::move(sequence.render(frame).shaded.color); }, kept_pictures};
+}
+
+VerifiedStatistics verify_frames(VerifyRequest request, PictureKeeper& pictures, std::optional<double> estimated,
+                                 const ProgressLook& look) {
+    StageClock clock;
+    double seconds = 0.0;
+    Prober prober(std::move(request.scene), request.settings, request.camera,
+                  {request.frames.begin(), request.frames.end()}, pictures);
+    std::vector<ProbeResult> probes;
+    {
+        Progress progress("verify", request.seconds, look);
+        while (probes.size() < least_probes || seconds < request.seconds) {
+            probes.push_back(prober.measure(probes.size()));
+            clock.add_to(seconds);
+            const double of_least = static_cast<double>(probes.size()) / static_cast<double>(least_probes);
+            progress.update(request.seconds * std::min(seconds / request.seconds, of_least), number(probes.size(), "block"));
+        }
+    }
+    VerifiedStatistics verified = sum_up(probes, request.settings.error > 0.0 ? request.settings.error : 1.0);
+    verified.estimated = estimated;
+    verified.seconds = seconds;
+    return verified;
+}
+
+std::string describe_verified(const VerifiedStatistics& verified) {
+    const std::string differ = verified.error == 1.0
+                                   ? "are seen to differ"
+                                   : fmt::format("differ by more than {:g} visible differences", verified.error);
+    std::string text = fmt::format("aleph: verified: {} % of the pixels {} (95 %: {} to {} %, {} in {})",
+                                   percent(verified.beyond.share), differ, percent(verified.beyond.low),
+                                   percent(verified.beyond.high), number(verified.blocks, "block"),
+                                   number(verified.frames, "frame"));
+    if (verified.estimated) text += fmt::format(", estimated: {} %", percent(*verified.estimated));
+    text += "\naleph: verified: ";
+    if (verified.error != 1.0)
+        text += fmt::format("{} % are seen to differ (95 %: {} to {} %), ", percent(verified.seen.share),
+                            percent(verified.seen.low), percent(verified.seen.high));
+    text += fmt::format("{} % flicker, {} % last; by paths of 16 bounces or more, over {}\n", percent(verified.flicker.share),
+                        percent(verified.lasting.share), number(verified.window, "frame"));
+    if (verified.unsettled > 0) {
+        text += fmt::format("aleph: verified: in {} noise of the paths was left, so that their shares are less certain\n",
+                            number(verified.unsettled, "block"));
+    }
+    return text;
+}
+
+}  // namespace aleph

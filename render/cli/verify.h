@@ -1,0 +1,43 @@
+#pragma once
+// `aleph render --verify SECONDS`: frames that were rendered are checked in random places.
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "render/cli/progress.h"
+#include "render/cli/scene_options.h"
+#include "render/frame/sequence.h"
+#include "render/output/verified_statistics.h"
+#include "render/verify/picture_keeper.h"
+
+namespace aleph {
+
+/// Reads the seconds of --verify.
+/// @throws CLI::ConversionError for what is no number, InputError (--verify) for one that is not above 0
+double parse_verify(const std::string& text);
+
+/// @throws InputError (--verify) for frames that are path traced, as the references are that would judge them
+void refuse_traced(const RenderSettings& settings);
+
+/// Pictures of a sequence; of those that were rendered, 1 GiB is kept.
+PictureKeeper keep_pictures(Sequence& sequence);
+
+/// What is checked, and for how long.
+struct VerifyRequest {
+    Scene scene;
+    const RenderSettings& settings;
+    const std::string& camera;
+    const std::vector<int>& frames;
+    double seconds;  ///< of a clock; at least four probes are measured
+};
+
+/// @param estimated  share of the pixels beyond the error, as rendering estimated it
+VerifiedStatistics verify_frames(VerifyRequest request, PictureKeeper& pictures, std::optional<double> estimated,
+                                 const ProgressLook& look);
+
+/// "verified: 0.8 % of the pixels are seen to differ (95 %: 0.3 to 1.6 %, 23 blocks in 12 frames), estimated: 0.9 %", and
+/// what was judged.
+std::string describe_verified(const VerifiedStatistics& verified);
+
+}  // namespace aleph

@@ -1,0 +1,21 @@
+#pragma once
+// References as means of renderings with random numbers of their own, whose differences tell their noise.
+
+#include "engine/image/image_file.h"
+
+namespace aleph {
+
+/// Renderings that a reference is the mean of.
+double reference_passes(const ChannelImage& reference);
+
+/// Adds a rendering, R, G and B, to a mean of others; variance.Y is the variance of the mean's luminance as their
+/// differences tell it, infinite of one rendering; noise.R, noise.G and noise.B are the mean with alternating signs, of
+/// an even number of renderings noise like the mean's own (read_noise).
+void add_pass(ChannelImage& mean, const ChannelImage& pass);
+
+/// As it would be with another factor on radiance.
+ChannelImage with_exposure(ChannelImage picture, double exposure);
+/// With the factor of another picture, if that has one.
+ChannelImage with_exposure_of(ChannelImage picture, const ChannelImage& other);
+
+}  // namespace aleph

@@ -1,0 +1,121 @@
+#include "render/verify/probe.h"
+
+#include <algorithm>
+#include <set>
+
+#include "render/settings/reference_settings.h"
+#include "render/verify/share_interval.h"
+
+namespace aleph {
+
+namespace {
+
+constexpr int least_samples = 64;
+constexpr int most_in_window = 12288;  // samples of a pixel, in all frames
+
+/// How many to add so that the noise settles: its mean square falls as their number does.
+int choose_samples(int samples, double noise, int most_samples) {
+    if (samples == 0) return least_samples;
+    const double needed = std::max(1.1 * noise / settled_noise, 1.25) * samples;
+    return static_cast<int>(std::min({needed, 4.0 * samples, 1.0 * most_samples})) - samples;
+}
+
+using Pairs = std::vector<PicturePair>;
+
+/// What is seen in the probe's frame.
+VisibleMaps judge(const ProbeWindow& window, const Pairs& pairs, std::int64_t frame, const ViewingSettings& viewing) {
+    VisibleDifference difference(viewing, frame);
+    std::vector<VisibleMaps> maps;
+    const auto take = [&](std::vector<VisibleMaps> finished) {
+        for (VisibleMaps& each : finished) maps.push_back(std::move(each));
+    };
+    for (std::size_t i = 0; i < pairs.size(); ++i)
+        take(difference.add(window.frames[i].frame, pairs[i], window.frames[i].motion));
+    take(difference.finish());
+    return std::move(maps.front());
+}
+
+/// The references, and what they would be with other noise of the same strength.
+Pairs noise_alone(Pairs pairs) {
+    for (PicturePair& pair : pairs) {
+        pair.picture = pair.reference;
+        for (std::size_t i = 0; i < pair.noise.size(); ++i) pair.picture.pixels[i] += pair.noise.pixels[i];
+        pair.noise = {};
+    }
+    return pairs;
+}
+
+double mean_square(const Image<float>& image) {
+    double sum = 0.0;
+    for (const float value : image.pixels) sum += double{value} * value;
+    return sum / static_cast<double>(image.size());
+}
+
+double count(const Image<float>& image, double least) {
+    return static_cast<double>(std::ranges::count_if(image.pixels, [&](float value) { return value >= least; }));
+}
+
+}  // namespace
+
+Prober::Prober(Scene scene, const RenderSettings& settings, const std::string& camera, std::vector<std::int64_t> frames,
+               PictureKeeper& pictures)
+    : reference_(std::move(scene), traced_reference_settings(settings), camera),
+      width_(settings.picture.width),
+      height_(settings.picture.height),
+      error_(settings.error > 0.0 ? settings.error : 1.0),
+      frames_(std::move(frames)),
+      pictures_(pictures) {}
+
+ProbeResult Prober::measure(std::size_t number) {
+    ProbeResult result{.place = place_probe(number, frames_, width_, height_)};
+    ProbeWindow window = find_probe_window(result.place, reference_);
+    const Scene& scene = reference_.scene();
+    const ViewingSettings viewing{scene.viewing, scene.frame_rate};
+    const int most_samples = most_in_window / static_cast<int>(window.frames.size());
+    Pairs pairs;
+    for (int round = 0;; ++round) {
+        const int more = choose_samples(result.samples, result.noise, most_samples) / 2;
+        add_reference_samples(window, round, more, reference_);
+        result.samples += 2 * more;
+        pairs.clear();
+        for (const ProbeFrame& each : window.frames)
+            pairs.push_back(make_probe_pair(each, window.area, pictures_.find(each.frame)));
+        const VisibleMaps noise = judge(window, noise_alone(pairs), result.place.frame, viewing);
+        result.noise = mean_square(crop(noise.seen, window.block));
+        if (result.noise <= settled_noise || result.samples >= most_samples - least_samples) break;
+    }
+    const VisibleMaps maps = judge(window, pairs, result.place.frame, viewing);
+    const Image<float> seen = crop(maps.seen, window.block);
+    result.window = window.frames.size();
+    result.pixels = static_cast<double>(seen.size());
+    result.beyond = count(seen, error_);
+    result.seen = count(seen, 1.0);
+    result.flicker = count(crop(maps.flicker, window.block), 1.0);
+    result.lasting = count(crop(maps.lasting, window.block), 1.0);
+    return result;
+}
+
+VerifiedStatistics sum_up(std::span<const ProbeResult> probes, double error) {
+    VerifiedStatistics out;
+    out.error = error;
+    const auto share = [&](double ProbeResult::*counted) {
+        std::vector<BlockCount> blocks;
+        for (const ProbeResult& probe : probes) blocks.push_back({probe.pixels, probe.*counted});
+        return estimate_share(blocks);
+    };
+    out.beyond = share(&ProbeResult::beyond);
+    out.seen = share(&ProbeResult::seen);
+    out.flicker = share(&ProbeResult::flicker);
+    out.lasting = share(&ProbeResult::lasting);
+    out.blocks = probes.size();
+    std::set<std::int64_t> frames;
+    for (const ProbeResult& probe : probes) {
+        frames.insert(probe.place.frame);
+        out.window = std::max(out.window, probe.window);
+        if (probe.noise > settled_noise) ++out.unsettled;
+    }
+    out.frames = frames.size();
+    return out;
+}
+
+}  // namespace aleph

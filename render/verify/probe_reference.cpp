@@ -1,0 +1,160 @@
+#include "render/verify/probe_reference.h"
+
+#include <cmath>
+
+#include "engine/base/sampling.h"
+#include "render/verify/continued_error.h"
+
+namespace aleph {
+
+namespace {
+
+constexpr std::uint64_t reference_seed = 0x7665726966790000ull;  // keeps references apart from all that they judge
+constexpr int margin = 8;       // pixels around a block that its signals are filtered with
+constexpr int track_reach = 1;  // pixels around a tracked place
+constexpr int context = 40;     // pixels around all parts
+constexpr int alignment = 16;   // pixels, so that coarse levels lie as in the whole picture
+
+MotionMaps read_maps(const FrameOutput& output) {
+    const MotionField& field = output.motion;
+    const int width = output.hits.width, height = output.hits.height;
+    MotionMaps maps{Image<float>(width, height), Image<float>(width, height), Image<float>(width, height),
+                    Image<float>(width, height)};
+    for (std::size_t i = 0; i < maps.u.size(); ++i) {
+        maps.u.pixels[i] = static_cast<float>(field.displacement.pixels[i].x);
+        maps.v.pixels[i] = static_cast<float>(-field.displacement.pixels[i].y);
+        maps.valid.pixels[i] = static_cast<float>(static_cast<int>(field.validity.pixels[i]));
+        maps.object.pixels[i] = static_cast<float>(static_cast<int>(output.hits.pixels[i].instance));
+    }
+    return maps;
+}
+
+MotionMaps crop_maps(const MotionMaps& maps, const PictureArea& area) {
+    return {crop(maps.u, area), crop(maps.v, area), crop(maps.valid, area), crop(maps.object, area)};
+}
+
+void mark(PicturePart& part, int x, int y, int reach) {
+    for (int row = std::max(0, y - reach); row <= std::min(part.height - 1, y + reach); ++row) {
+        for (int column = std::max(0, x - reach); column <= std::min(part.width - 1, x + reach); ++column)
+            part(column, row) = 1;
+    }
+}
+
+PicturePart block_part(const PictureArea& block, int width, int height) {
+    PicturePart part(width, height, std::uint8_t{0});
+    for (int y = std::max(0, block.y - margin); y < std::min(height, block.y + block.height + margin); ++y) {
+        for (int x = std::max(0, block.x - margin); x < std::min(width, block.x + block.width + margin); ++x) part(x, y) = 1;
+    }
+    return part;
+}
+
+PicturePart tracked_part(const PicturePart& part, const TrackImage& track) {
+    PicturePart out(part.width, part.height, std::uint8_t{0});
+    for (std::size_t i = 0; i < part.size(); ++i) {
+        const glm::vec2 p = track.pixels[i];
+        if (part.pixels[i] == 0 || std::isnan(p.x)) continue;
+        mark(out, static_cast<int>(std::lround(p.x)), static_cast<int>(std::lround(p.y)), track_reach);
+    }
+    return out;
+}
+
+PictureArea find_area(const std::vector<ProbeFrame>& frames, int width, int height) {
+    int left = width, top = height, right = 0, bottom = 0;
+    for (const ProbeFrame& each : frames) {
+        for (int y = 0; y < height; ++y) {
+            for (int x = 0; x < width; ++x) {
+                if (each.part(x, y) == 0) continue;
+                left = std::min(left, x), right = std::max(right, x + 1);
+                top = std::min(top, y), bottom = std::max(bottom, y + 1);
+            }
+        }
+    }
+    left = std::max(0, left - context) / alignment * alignment;
+    top = std::max(0, top - context) / alignment * alignment;
+    return {left, top, std::min(width, right + context) - left, std::min(height, bottom + context) - top};
+}
+
+std::uint32_t half_seed(std::int64_t frame, int round, int half) {
+    const auto place = static_cast<std::uint64_t>(frame) << 16 | static_cast<std::uint64_t>(2 * round + half);
+    return static_cast<std::uint32_t>(mix_bits(mix_bits(reference_seed) + place) >> 32);
+}
+
+/// Takes a mean of `added` samples into one of `count`.
+void add_to_mean(Image<Rgb>& mean, int count, const Image<Rgb>& picture, int added) {
+    if (mean.empty()) mean = Image<Rgb>(picture.width, picture.height, Rgb(0.0f));
+    const float weight = static_cast<float>(added) / static_cast<float>(count + added);
+    for (std::size_t i = 0; i < mean.size(); ++i) mean.pixels[i] += weight * (picture.pixels[i] - mean.pixels[i]);
+}
+
+}  // namespace
+
+std::vector<std::int64_t> list_window(std::int64_t frame, int reach, const FrameRange& range,
+                                      std::span<const std::int64_t> cuts) {
+    const auto is_cut = [&](std::int64_t at) { return std::ranges::find(cuts, at) != cuts.end(); };
+    if (frame < range.first || frame > range.last) return {frame};
+    std::int64_t first = frame, last = frame;
+    while (first > frame - reach && first > range.first && !is_cut(first)) --first;
+    while (last < frame + reach && last < range.last && !is_cut(last + 1)) ++last;
+    std::vector<std::int64_t> window;
+    for (std::int64_t at = first; at <= last; ++at) window.push_back(at);
+    return window;
+}
+
+ProbeWindow find_probe_window(const ProbePlace& place, Sequence& sequence) {
+    ProbeWindow window;
+    const Scene& scene = sequence.scene();
+    std::size_t own = 0;
+    for (const std::int64_t frame :
+         list_window(place.frame, filter_reach(scene.frame_rate), sequence.range(), scene.cuts)) {
+        if (frame == place.frame) own = window.frames.size();
+        window.frames.push_back({frame, read_maps(sequence.find_motion(frame)), {}, {}});
+    }
+    const int width = window.frames[own].motion.u.width, height = window.frames[own].motion.u.height;
+    std::vector<const MotionMaps*> forward, backward;
+    for (std::size_t i = own; i < window.frames.size(); ++i) forward.push_back(&window.frames[i].motion);
+    for (std::size_t i = own + 1; i-- > 0;) backward.push_back(&window.frames[i].motion);
+    const std::vector<TrackImage> after = track_forward(forward, static_cast<int>(forward.size()) - 1);
+    const std::vector<TrackImage> before = track_backward(backward, static_cast<int>(backward.size()) - 1);
+    const PicturePart part = block_part(place.block, width, height);
+    window.frames[own].part = part;
+    for (std::size_t k = 0; k < after.size(); ++k) window.frames[own + 1 + k].part = tracked_part(part, after[k]);
+    for (std::size_t k = 0; k < before.size(); ++k) window.frames[own - 1 - k].part = tracked_part(part, before[k]);
+    window.area = find_area(window.frames, width, height);
+    window.block = place.block;
+    window.block.x -= window.area.x;
+    window.block.y -= window.area.y;
+    for (ProbeFrame& each : window.frames) each.motion = crop_maps(each.motion, window.area);
+    return window;
+}
+
+void add_reference_samples(ProbeWindow& window, int round, int samples, Sequence& sequence) {
+    for (ProbeFrame& each : window.frames) {
+        // Where samples lie in a pixel may depend on their number alone. Halves of equal numbers would make the same
+        // error at an edge, which their difference does not tell.
+        const PartSamples pictures[] = {{half_seed(each.frame, round, 0), samples},
+                                        {half_seed(each.frame, round, 1), samples + 1}};
+        const std::vector<Image<Rgb>> made = sequence.render_part(each.frame, each.part, pictures);
+        for (std::size_t half = 0; half < 2; ++half)
+            add_to_mean(each.halves[half], each.samples / 2, crop(made[half], window.area), samples);
+        each.samples += 2 * samples;
+    }
+}
+
+PicturePair make_probe_pair(const ProbeFrame& frame, const PictureArea& area, const Image<Rgb>& picture) {
+    PicturePair pair{crop(picture, area), frame.halves[0], frame.halves[0]};
+    for (std::size_t i = 0; i < pair.reference.size(); ++i) {
+        pair.reference.pixels[i] = 0.5f * (frame.halves[0].pixels[i] + frame.halves[1].pixels[i]);
+        pair.noise.pixels[i] = 0.5f * (frame.halves[0].pixels[i] - frame.halves[1].pixels[i]);
+    }
+    const PicturePart part = crop(frame.part, area);
+    Image<Rgb> error(area.width, area.height);
+    for (std::size_t i = 0; i < error.size(); ++i) error.pixels[i] = pair.picture.pixels[i] - pair.reference.pixels[i];
+    error = continue_error(error, part);
+    for (std::size_t i = 0; i < error.size(); ++i) {
+        if (part.pixels[i] != 0) continue;
+        pair.reference.pixels[i] = glm::max(pair.picture.pixels[i] - error.pixels[i], Rgb(0.0f));
+    }
+    return pair;
+}
+
+}  // namespace aleph

@@ -1,0 +1,48 @@
+#pragma once
+// The frames around a probe, and the reference of its block in each of them.
+
+#include <array>
+#include <vector>
+
+#include "render/compare/visible_difference.h"
+#include "render/frame/sequence.h"
+#include "render/verify/probe_place.h"
+
+namespace aleph {
+
+/// A frame of a probe's window.
+struct ProbeFrame {
+    std::int64_t frame = 0;
+    MotionMaps motion;       ///< of the area
+    PicturePart part;        ///< pixels that the reference is rendered for, of the whole picture
+    /// Of the area, two means of as many samples, whose mean is the reference and whose difference its noise; 0 beyond
+    /// the part.
+    std::array<Image<Rgb>, 2> halves;
+    int samples = 0;  ///< of a pixel of the part, in both
+};
+
+/// What a probe is judged by: its frame and those that the instrument looks at beside it (filter_reach), as far as they
+/// are of its shot.
+struct ProbeWindow {
+    std::vector<ProbeFrame> frames;
+    PictureArea area;   ///< all parts and what the eye is adapted to around them, at multiples of 16 pixels
+    PictureArea block;  ///< relative to the area
+};
+
+/// Frames that the instrument looks at for one of them: within the range, without a cut between.
+std::vector<std::int64_t> list_window(std::int64_t frame, int reach, const FrameRange& range,
+                                      std::span<const std::int64_t> cuts);
+
+/// In the probe's frame the part is the block with a margin; in the others it is where its surfaces are.
+/// @param sequence  with traced_reference_settings
+ProbeWindow find_probe_window(const ProbePlace& place, Sequence& sequence);
+
+/// Adds samples to every frame's reference. Their random numbers are those of no other frame, round or picture.
+/// @param round    number of the call for this window, from 0 on
+/// @param samples  of each half, 2 or more
+void add_reference_samples(ProbeWindow& window, int round, int samples, Sequence& sequence);
+
+/// Pictures of the area as the instrument takes them. Beyond the part their difference is continued (continue_error).
+PicturePair make_probe_pair(const ProbeFrame& frame, const PictureArea& area, const Image<Rgb>& picture);
+
+}  // namespace aleph

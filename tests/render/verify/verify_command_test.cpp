@@ -1,0 +1,92 @@
+// `aleph render --verify`.
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "render/cli/commands.h"
+#include "render/cli/verify.h"
+#include "tests/support/paths.h"
+#include "tests/support/read_bytes.h"
+#include "tests/support/scratch_folder.h"
+
+namespace aleph {
+namespace {
+
+namespace fs = std::filesystem;
+
+class VerifyCommand : public testing::Test {
+  protected:
+    /// @return the exit code
+    int run(const std::vector<std::string>& more) {
+        std::vector<std::string> words = {"aleph", "render", (source_folder() / "scenes/cornell/scene.json").string(),
+                                          "-q",    "--size", "16x12",
+                                          "--fps", "8",      "--frames",
+                                          "20",    "-o",     file("a.exr")};
+        words.insert(words.end(), more.begin(), more.end());
+        std::vector<const char*> argv;
+        for (const std::string& word : words) argv.push_back(word.c_str());
+        CLI::App app{"aleph"};
+        Command command;
+        add_render_command(app, command);
+        errors.str("");
+        return run_program(app, command, static_cast<int>(argv.size()), argv.data(), errors);
+    }
+    std::string file(const char* name) const { return (folder_.path() / name).string(); }
+
+    std::ostringstream errors;
+
+  private:
+    ScratchFolder folder_;
+};
+
+TEST_F(VerifyCommand, WrongOnesAreRefused) {
+    for (const char* text : {"0", "-1", "nan", "inf", "", "8 probes"}) {
+        EXPECT_EQ(run({"--verify", text}), exit_bad_input) << text;
+        EXPECT_NE(errors.str().find("--verify"), std::string::npos) << errors.str();
+        EXPECT_FALSE(fs::exists(file("a.exr"))) << text;
+    }
+    EXPECT_EQ(run({"--verify", "1", "--integrator", "path"}), exit_bad_input);
+    EXPECT_NE(errors.str().find("give one of the two"), std::string::npos) << errors.str();
+    EXPECT_FALSE(fs::exists(file("a.exr")));
+}
+
+TEST_F(VerifyCommand, PrintsAndKeepsWhatItFound) {
+    testing::internal::CaptureStdout();
+    const int code = run({"--error", "2", "--verify", "0.01", "--stats", file("a.json")});
+    const std::string printed = testing::internal::GetCapturedStdout();
+    ASSERT_EQ(code, exit_done) << errors.str();
+    EXPECT_NE(printed.find("aleph: verified: "), std::string::npos) << printed;
+    EXPECT_NE(printed.find("4 blocks in 1 frame"), std::string::npos) << printed;
+    const auto verified = nlohmann::json::parse(read_bytes(file("a.json"))).at("verified");
+    EXPECT_EQ(verified.at("error"), 2.0);
+    EXPECT_EQ(verified.at("blocks"), 4);
+    EXPECT_EQ(verified.at("window"), 3);
+    EXPECT_LE(verified.at("beyond").at("share"), verified.at("seen").at("share"));
+    EXPECT_LE(verified.at("seen").at("low"), verified.at("seen").at("share"));
+    EXPECT_TRUE(verified.at("estimated_beyond").is_number());
+}
+
+TEST(VerifiedText, HasShareIntervalAndEstimate) {
+    VerifiedStatistics verified;
+    verified.beyond = verified.seen = {0.008, 0.003, 0.016};
+    verified.flicker = {0.002, 0.0, 0.01};
+    verified.lasting = {0.005, 0.0, 0.01};
+    verified.blocks = 23;
+    verified.frames = 12;
+    verified.window = 9;
+    verified.estimated = 0.009;
+    EXPECT_EQ(describe_verified(verified),
+              "aleph: verified: 0.8 % of the pixels are seen to differ (95 %: 0.3 to 1.6 %, 23 blocks in 12 frames), "
+              "estimated: 0.9 %\n"
+              "aleph: verified: 0.2 % flicker, 0.5 % last; by paths of 16 bounces or more, over 9 frames\n");
+    verified.unsettled = 1;
+    EXPECT_NE(describe_verified(verified).find("in 1 block noise"), std::string::npos);
+    verified.error = 2.0;
+    EXPECT_NE(describe_verified(verified).find("differ by more than 2 visible differences"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace aleph
