@@ -59,7 +59,7 @@ TEST(NoiseThreshold, IsTheSumOverTheFrequenciesOfTheNoise) {
 
 TEST(NoiseThreshold, NoiseThatLastsIsSeenBetterAtRest) {
     const NoiseVisibility fresh({}, thirty, NoiseOverTime::fresh), lasts({}, thirty, NoiseOverTime::lasts);
-    EXPECT_LT(1.5f * lasts.threshold(50.0f, 0.15f, 0.0f), fresh.threshold(50.0f, 0.15f, 0.0f));
+    EXPECT_LT(1.2f * lasts.threshold(50.0f, 0.15f, 0.0f), fresh.threshold(50.0f, 0.15f, 0.0f));
 }
 
 TEST(NoiseThreshold, SmallerPixelsHideMore) {

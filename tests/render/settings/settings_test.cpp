@@ -87,7 +87,7 @@ TEST(Settings, AnErrorChoosesWhatCostsAndTheRestOverridesIt) {
     apply_settings(settings, {{"error", 2.0}, {"gather", 100.0}}, "test");
     EXPECT_EQ(settings.sampling.rule, Sampling::threshold);
     EXPECT_EQ(settings.guide.adapter, Adapter::none);
-    EXPECT_DOUBLE_EQ(settings.cache.accuracy, 0.4);
+    EXPECT_DOUBLE_EQ(settings.cache.accuracy, 0.1);
     EXPECT_EQ(settings.light.bounces, 16);
     EXPECT_EQ(settings.sampling.spp, 4096);
     EXPECT_EQ(settings.cache.gather, 100);
@@ -144,7 +144,7 @@ TEST(Settings, ChoicesNameWhatIsAllowed) {
     EXPECT_EQ(refusal("estimate", ""), "expected one of flat, direct");
     EXPECT_EQ(refusal("bands", "Printed"), "expected one of printed, measured");
     EXPECT_EQ(refusal("grid", true), "expected one of full, center");
-    EXPECT_EQ(refusal("adapter", "scale_add"), "expected one of compress, scale-add, threshold");
+    EXPECT_EQ(refusal("adapter", "scale_add"), "expected one of compress, scale-add, none");
     EXPECT_EQ(refusal("neutral_opponent", "yes"), "expected true or false");
     EXPECT_EQ(refusal("neutral_opponent", 1.0), "expected true or false");
 }
