@@ -183,7 +183,7 @@ killed_after "killed/runs/*.json" aleph study long.json -q -o killed
 answers 0 'spp=16' aleph study long.json -o killed
 answers 0 'spp=16' aleph study long.json -o whole
 numbers() { cut -d, -f5,7,9,11,13,15,17,19 "$1/study.csv"; }
-is [ "$(head -1 whole/study.csv | cut -d, -f5,7,9)" = processor_seconds,share_beyond,share_certain ]
+is [ "$(head -1 whole/study.csv | cut -d, -f5,7,9)" = processor_seconds,share_seen,share_flicker ]
 is [ "$(numbers killed | cut -d, -f2-)" = "$(numbers whole | cut -d, -f2-)" ]
 
 # Two sequences: one line for each frame, and a summary.

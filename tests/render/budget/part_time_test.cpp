@@ -62,7 +62,7 @@ TEST_F(PartTiming, APartOfAllPixelsDoesWhatTheFrameDoes) {
 }
 
 TEST_F(PartTiming, ItsSamplesAreItsShare) {
-    const std::vector<RenderSettings> settings = {settings_for(2.0)};
+    const std::vector<RenderSettings> settings = {settings_for(0.5)};
     const auto count = [&](int every) {
         return Sequence(scene, settings.front())
             .time_part(4, choose_part(96, 72, every, 4), settings, [](auto&) { return true; })
