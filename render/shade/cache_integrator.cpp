@@ -93,8 +93,8 @@ class CacheIntegrator final : public LightIntegrator {
         all.carried = nullptr;
         add_seen_surfaces(all, first, seen_, input_.out.counts.rays);
         std::vector<PixelSurface> unknown;
-        add_seen_surfaces(context_, first, unknown, input_.out.counts.rays);
-        if (!unknown.empty()) add_further_bounces();
+        if (context_.carried != nullptr) add_seen_surfaces(context_, first, unknown, input_.out.counts.rays);
+        if (context_.carried == nullptr || !unknown.empty()) add_further_bounces();
     }
 
     void add_further_bounces() {

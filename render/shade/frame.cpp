@@ -16,9 +16,10 @@ namespace aleph {
 
 namespace {
 
-constexpr double fill_share = 0.3;       // of a frame's time, for progress only
-constexpr std::size_t task_ranges = 64;  // pixels of a task
-constexpr int slice_samples = 1 << 17;   // that may wait for light at a time: more only for the sake of threads
+constexpr double fill_share = 0.3;          // of a frame's time, for progress only
+constexpr std::size_t task_ranges = 64;     // pixels of a task
+constexpr std::size_t pending_pixels = 16;  // the same for samples that the cache did not cover
+constexpr int slice_samples = 1 << 17;      // that may wait for light at a time: more only for the sake of threads
 constexpr std::size_t slice_ranges = 64 * task_ranges;
 
 class FrameShading {
@@ -147,12 +148,24 @@ class FrameShading {
         samples.finish(shade);
     }
 
+    /// Where each pixel's samples begin, and the end of all: a pixel's sums belong to one task.
+    static std::vector<std::size_t> find_pixels(const std::vector<PendingSample>& pending) {
+        std::vector<std::size_t> begins;
+        for (std::size_t i = 0; i < pending.size(); ++i) {
+            const PixelSurface& now = pending[i].surface;
+            if (i == 0 || now.x != pending[i - 1].surface.x || now.y != pending[i - 1].surface.y) begins.push_back(i);
+        }
+        begins.push_back(pending.size());
+        return begins;
+    }
+
     void add_pending(const SampleScene& scene, std::vector<PendingSample>& pending) {
         if (pending.empty()) return;
-        parallel_for(pending.size(), task_ranges, [&](std::size_t begin, std::size_t end) {
+        const std::vector<std::size_t> pixels = find_pixels(pending);
+        parallel_for(pixels.size() - 1, pending_pixels, [&](std::size_t begin, std::size_t end) {
             thread_local GatherScratch scratch;
             ShadingTask task(scene.lighting.rays, context_.lighting.rays, scratch);
-            for (std::size_t i = begin; i < end; ++i) integrator_->add_waiting(task, pending[i]);
+            for (std::size_t i = pixels[begin]; i < pixels[end]; ++i) integrator_->add_waiting(task, pending[i]);
             finish(task);
         });
         ShadingTask task(scene.lighting.rays, context_.lighting.rays, pending_scratch_);

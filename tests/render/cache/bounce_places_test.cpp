@@ -10,8 +10,8 @@
 #include "render/cache/gather_at.h"
 #include "tests/support/directions.h"
 #include "tests/support/expect_near.h"
+#include "tests/support/indirect_stage.h"
 #include "tests/support/numbers.h"
-#include "tests/support/render_scenes.h"
 
 namespace aleph {
 namespace {
@@ -25,7 +25,7 @@ struct LeftHalfKnown : CarriedLight {
 };
 
 /// A Lambert floor at y = 0 under a ceiling at y = 2, seen from above the floor, straight down: it fills the picture.
-struct Rooms {
+struct Rooms : IndirectStage {
     static Scene make_scene() {
         Scene scene;
         const int white = add_lambert(scene, glm::dvec3(0.5), glm::dvec3(0.0), true);
@@ -35,18 +35,7 @@ struct Rooms {
         return scene;
     }
 
-    Rooms(int width, int height)
-        : stage(make_scene(), width, height),
-          lighting(stage.lighting()),
-          settings(plain_settings(0.25, 64)),
-          alpha(width, height, 0.25f),
-          centers(cast_centers(stage.rays, stage.view, nullptr)),
-          context{.lighting = lighting,
-                  .view = stage.view,
-                  .settings = settings,
-                  .accuracy = alpha,
-                  .max_radius = 3.0f,
-                  .progress = {}} {}
+    Rooms(int width, int height) : IndirectStage(make_scene(), width, height, 0.25) { context.max_radius = 3.0f; }
 
     std::vector<PixelSurface> seen() {
         std::vector<PixelSurface> surfaces;
@@ -54,12 +43,6 @@ struct Rooms {
         return surfaces;
     }
 
-    Stage stage;
-    LightingContext lighting;
-    RenderSettings settings;
-    Image<float> alpha;
-    SampleHits centers;
-    IndirectContext context;
     RayCounts counts;
 };
 

@@ -8,8 +8,8 @@
 
 #include "engine/load/load_scene.h"
 #include "render/cache/gather_at.h"
+#include "tests/support/indirect_stage.h"
 #include "tests/support/paths.h"
-#include "tests/support/render_scenes.h"
 
 namespace aleph {
 namespace {
@@ -18,31 +18,13 @@ Scene load(const std::string& name) {
     return load_scene(source_folder() / "scenes" / name / "scene.json");
 }
 
-struct Fill {
-    Fill(Scene scene, int width, int height, double accuracy, int gather = 64)
-        : stage(std::move(scene), width, height),
-          lighting(stage.lighting()),
-          settings(plain_settings(accuracy, gather)),
-          alpha(width, height, static_cast<float>(accuracy)),
-          centers(cast_centers(stage.rays, stage.view, nullptr)),
-          context{.lighting = lighting,
-                  .view = stage.view,
-                  .settings = settings,
-                  .accuracy = alpha,
-                  .max_radius = scene_radius(stage.shading),
-                  .progress = {}} {}
+struct Fill : IndirectStage {
+    using IndirectStage::IndirectStage;
 
     FrameTally make_tally() const {
         const Image<float> zero(stage.view.width, stage.view.height);
         return {zero, zero, {}};
     }
-
-    Stage stage;
-    LightingContext lighting;
-    RenderSettings settings;
-    Image<float> alpha;
-    SampleHits centers;
-    IndirectContext context;
 };
 
 std::size_t count_in_rounds(const Fill& fill) {

@@ -74,6 +74,17 @@ TEST(Determinism, DT01_UnguidedAndDenseFilesToo) {
     }
 }
 
+/// Samples of a pixel that the cache did not cover are finished by one thread, whose sums are then in one order.
+TEST(Determinism, DT01_ManySamplesOfAPixelWaitForRecords) {
+    RenderSettings settings = small_settings();
+    settings.picture.width = 40;
+    settings.picture.height = 30;
+    settings.sampling.spp = 32;
+    settings.cache.accuracy = 0.05;
+    const std::string one = frame_bytes(1, pool_scene(), settings, {21}).back();
+    for (int i = 0; i < 3; ++i) EXPECT_TRUE(frame_bytes(3, pool_scene(), settings, {21}).back() == one);
+}
+
 TEST(Determinism, DT01_DT04_EveryRuleOfStopping) {
     const Scene& scene = pool_scene();
     for (const Sampling rule : {Sampling::consecutive, Sampling::variance, Sampling::protocol, Sampling::threshold}) {
