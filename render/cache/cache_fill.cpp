@@ -78,7 +78,7 @@ std::vector<Candidate> find_uncovered(const IrradianceCache& cache, const Indire
 /// Takes those candidates out of `waiting` whose records are computed in this round. The others wait, because the
 /// record of an accepted candidate may cover them. A record's radius is not known before its gather: the bound that
 /// neighbour clamping sets is expected.
-std::vector<Candidate> accept_candidates(const IrradianceCache& cache, const IndirectContext& context, int most_rays,
+std::vector<Candidate> accept_candidates(const IrradianceCache& cache, const IndirectContext& context, int rays,
                                          std::vector<Candidate>& waiting) {
     IrradianceCache expected = make_cache(context.lighting.shading);
     std::vector<Candidate> accepted, later;
@@ -97,8 +97,11 @@ std::vector<Candidate> accept_candidates(const IrradianceCache& cache, const Ind
         record.radius =
             std::max(cache.radius_bound(record.position, record.normal, context.max_radius), record.min_radius);
         expected.insert(record);
-        const std::optional<float> ray_variance = cache.expected_ray_variance(candidate.query);
-        candidate.rays = std::min(most_rays, choose_rays(context.settings, candidate.query.accuracy, ray_variance));
+        candidate.rays = rays;
+        if (rays == 0) {
+            const std::optional<float> ray_variance = cache.expected_ray_variance(candidate.query);
+            candidate.rays = choose_rays(context.settings, candidate.query.accuracy, ray_variance);
+        }
         accepted.push_back(candidate);
     }
     waiting = std::move(later);
@@ -135,7 +138,7 @@ std::size_t fill_tiles(IrradianceCache& cache, const IndirectContext& context, c
     while (!tiles.empty()) {
         std::vector<Candidate> waiting = find_uncovered(cache, context, places.points, tiles, tally.counts);
         if (waiting.empty()) break;
-        const std::vector<Candidate> accepted = accept_candidates(cache, context, places.most_rays, waiting);
+        const std::vector<Candidate> accepted = accept_candidates(cache, context, places.rays, waiting);
         auto records = gather_records(context, places, accepted, tally.counts.rays);
         for (std::size_t i = 0; i < accepted.size(); ++i) {
             tally.records(accepted[i].x, accepted[i].y) += 1.0f;

@@ -14,7 +14,6 @@
 // sequential fill, where each record is inserted before the next pixel is looked at.
 
 #include <functional>
-#include <limits>
 
 #include "render/cache/fill_points.h"
 #include "render/cache/indirect_context.h"
@@ -30,8 +29,8 @@ struct FillPlaces {
     std::function<PixelSurface(int x, int y)> surface_at;
     /// Tiles start large; otherwise every point is looked at once.
     bool coarse_first = true;
-    int finest = 1;                                   ///< the last tiles' size, a power of 2
-    int most_rays = std::numeric_limits<int>::max();  ///< of a gather
+    int finest = 1;  ///< the last tiles' size, a power of 2
+    int rays = 0;    ///< of a gather; 0: as many as the accuracy needs (choose_rays)
     /// If given, what the gather of every record found is added, in the order of the records.
     std::vector<GatheredRays>* gathered = nullptr;
 };

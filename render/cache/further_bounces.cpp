@@ -12,16 +12,18 @@ namespace {
 /// alpha of the records, over the picture's; but for pictures of great accuracy it is the loosest one.
 constexpr double looser = 7.0, loosest_record = 0.7;
 
+constexpr double sampled_accuracy = 0.05;  // stands for that of a picture without records
+
 /// A scene where fewer records suffice takes more, with a smaller alpha: they cost little.
 constexpr std::size_t many_records = 500;
 constexpr float stricter = 0.7f;
 
-constexpr int most_record_rays = 128;
+constexpr int record_rays = 128;
 
 /// Adds records where gathers of the picture arrive. @return alpha of the last ones
 float fill_coarsely(IrradianceCache& cache, const IndirectContext& context, const FillPlaces& places,
                     FrameTally& tally) {
-    const double picture = context.settings.cache.accuracy;
+    const double asked = context.settings.cache.accuracy, picture = asked > 0.0 ? asked : sampled_accuracy;
     float alpha = static_cast<float>(std::max(picture, std::min(looser * picture, loosest_record)));
     const auto fill = [&] {
         const Image<float> accuracy(places.points.width, places.points.height, alpha);
@@ -35,6 +37,13 @@ float fill_coarsely(IrradianceCache& cache, const IndirectContext& context, cons
 }
 
 }  // namespace
+
+FurtherIrradiance::FurtherIrradiance(const MultiBounceLight& light) : KnownIrradiance(light.bounces), light_(light) {}
+
+std::optional<Rgb> FurtherIrradiance::find(const ViewedSurface& surface, const Hit&, float, const Rgb&,
+                                           RayTask& task) const {
+    return find_cached_irradiance(task, surface.point, light_);
+}
 
 int count_bounces(const RenderSettings& settings) {
     return std::min(settings.light.bounces, settings.light.path_depth - 1);
@@ -58,7 +67,7 @@ std::optional<FurtherBounces> solve_further_bounces(const IndirectContext& conte
     std::vector<GatheredRays> gathered;
     FillPlaces fill = make_fill_places(context.lighting.shading, places);
     fill.coarse_first = false;
-    fill.most_rays = most_record_rays;
+    fill.rays = record_rays;
     fill.gathered = &gathered;
     DirectGrid direct(context.max_radius);
     const Image<float> accuracy;

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "render/cache/indirect_context.h"
+#include "render/path/known_irradiance.h"
 
 namespace aleph {
 
@@ -26,6 +27,18 @@ struct FurtherBounces {
 /// Makes the light that gathers for the picture find at their hits beside direct light.
 /// @param known  null: random paths only, without bias
 MultiBounceLight make_multi_bounce_light(const RenderSettings& settings, const FurtherBounces* known);
+
+/// The same for paths, which use it after their first turn at a Lambert layer.
+class FurtherIrradiance final : public KnownIrradiance {
+  public:
+    explicit FurtherIrradiance(const MultiBounceLight& light);
+
+    std::optional<Rgb> find(const ViewedSurface& surface, const Hit& hit, float accuracy, const Rgb& weight,
+                            RayTask& task) const override;
+
+  private:
+    const MultiBounceLight light_;
+};
 
 /// Computes it where the gathers that fill the picture's cache need it.
 /// @param context  of the picture

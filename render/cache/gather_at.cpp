@@ -18,13 +18,10 @@ constexpr std::uint32_t gather_seed_mask = 0x67617468u;
 constexpr std::uint32_t turn_seed_step = 0x9e3779b9u;
 
 /// Records have random numbers of their place (make_place_key): a surface at rest that a camera at rest sees has the
-/// same noise at every time. Without records, the noise of every sample is its own.
+/// same noise at every time.
 RandomKey choose_key(const IndirectContext& context, const PixelSurface& surface) {
     const std::uint32_t bounces = static_cast<std::uint32_t>(context.bounces_before);
     const std::uint32_t seed = (context.settings.seed ^ gather_seed_mask) + bounces * turn_seed_step;
-    if (!(context.settings.cache.accuracy > 0.0)) {
-        return {seed, context.frame, surface.pixel, static_cast<std::uint32_t>(surface.sample)};
-    }
     return make_place_key(seed, surface.hit);
 }
 
@@ -33,7 +30,6 @@ RandomKey choose_key(const IndirectContext& context, const PixelSurface& surface
 int choose_rays(const RenderSettings& settings, float accuracy, const std::optional<float>& ray_variance) {
     const double most = settings.cache.gather > 0 ? settings.cache.gather : most_rays;
     const double base = settings.cache.gather > 0 ? settings.cache.gather : first_rays;
-    if (!(settings.cache.accuracy > 0.0 && accuracy > 0.0f)) return static_cast<int>(base);
     double rays = base * std::pow(settings.cache.accuracy / accuracy, 2.0);
     if (settings.cache.gather == 0 && ray_variance) rays = *ray_variance / std::pow(noise_per_accuracy * accuracy, 2.0);
     return static_cast<int>(std::lround(std::clamp(rays, std::min<double>(least_rays, most), most)));

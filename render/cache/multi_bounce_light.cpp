@@ -20,17 +20,13 @@ Rgb sample_multi_bounce_irradiance(const LightingContext& context, RayTask& task
     const glm::vec3 direction = make_basis(point.normal).to_world(sample_cosine_hemisphere(random.next_2d()));
     if (!(glm::dot(direction, point.geometric) > 0.0f)) return Rgb(0.0f);
     ++task.counts.multi_bounce;
-    const Hit hit = task.tracer.intersect({point.ray_origin(), direction});
-    if (hit.instance == no_index) return Rgb(0.0f);
-    const SurfacePoint met = make_surface_point(context.shading, hit, direction);
     PathState state;
     state.left = {multi_bounce.bounces - 1, depth};
     // Where a cache knows most of this light, long paths would cost more than all the rest.
     if (multi_bounce.cache != nullptr) state.roulette_after = 0;
     state.turned = true;
     state.emission = EmissionWeight::none;
-    return std::numbers::pi_v<float> *
-           scatter_light(context, task, view_surface(context.shading, met, -direction, {}), state, random);
+    return std::numbers::pi_v<float> * follow_ray(context, task, {point.ray_origin(), direction}, state, random);
 }
 
 }  // namespace aleph

@@ -128,6 +128,27 @@ class Path {
         return meet(ray, next);
     }
 
+    /// Casts a ray and adds the emission that it meets. True if it met a surface, which is then `next`.
+    bool meet(const Ray& ray, ViewedSurface& next) {
+        const Hit hit = hit_ = task_.tracer.intersect(ray);
+        if (hit.instance == no_index) {
+            if (context_.lights.has_environment && state_.emission != EmissionWeight::none) {
+                const float pdf = state_.emission == EmissionWeight::weighted
+                                      ? pdf_environment(context_.shading, state_.from, ray.direction)
+                                      : 0.0f;
+                light_ +=
+                    state_.throughput * environment_radiance(context_.shading, ray.direction) * weigh(state_, pdf);
+            }
+            return false;
+        }
+        next = view_surface(context_.shading, make_surface_point(context_.shading, hit, ray.direction), -ray.direction,
+                            {});
+        const Rgb attenuation = state_.media.attenuation(next);
+        if (attenuation != Rgb(0.0f)) state_.throughput *= glm::exp(-attenuation * hit.distance);
+        light_ += state_.throughput * met_emission(context_, state_, next, hit.instance);
+        return true;
+    }
+
     const Rgb& light() const { return light_; }
 
   private:
@@ -186,26 +207,6 @@ class Path {
         return true;
     }
 
-    bool meet(const Ray& ray, ViewedSurface& next) {
-        const Hit hit = hit_ = task_.tracer.intersect(ray);
-        if (hit.instance == no_index) {
-            if (context_.lights.has_environment && state_.emission != EmissionWeight::none) {
-                const float pdf = state_.emission == EmissionWeight::weighted
-                                      ? pdf_environment(context_.shading, state_.from, ray.direction)
-                                      : 0.0f;
-                light_ +=
-                    state_.throughput * environment_radiance(context_.shading, ray.direction) * weigh(state_, pdf);
-            }
-            return false;
-        }
-        next = view_surface(context_.shading, make_surface_point(context_.shading, hit, ray.direction), -ray.direction,
-                            {});
-        const Rgb attenuation = state_.media.attenuation(next);
-        if (attenuation != Rgb(0.0f)) state_.throughput *= glm::exp(-attenuation * hit.distance);
-        light_ += state_.throughput * met_emission(context_, state_, next, hit.instance);
-        return true;
-    }
-
     const LightingContext& context_;
     RayTask& task_;
     PathState state_;
@@ -228,6 +229,14 @@ Rgb follow_sample(const LightingContext& context, RayTask& task, const LitSurfac
     Path path(context, task, state, random);
     ViewedSurface next;
     if (path.follow(lit, sample, next)) path.scatter_at(next);
+    return path.light();
+}
+
+Rgb follow_ray(const LightingContext& context, RayTask& task, const Ray& ray, const PathState& state,
+               RandomStream& random) {
+    Path path(context, task, state, random);
+    ViewedSurface next;
+    if (path.meet(ray, next)) path.scatter_at(next);
     return path.light();
 }
 

@@ -50,4 +50,8 @@ Rgb scatter_light(const LightingContext& context, RayTask& task, ViewedSurface s
 Rgb follow_sample(const LightingContext& context, RayTask& task, const LitSurface& lit, const ScatterSample& sample,
                   PathState state, RandomStream& random);
 
+/// Light that comes back along a ray, in the same way.
+Rgb follow_ray(const LightingContext& context, RayTask& task, const Ray& ray, const PathState& state,
+               RandomStream& random);
+
 }  // namespace aleph

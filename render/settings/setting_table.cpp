@@ -101,10 +101,10 @@ std::vector<Setting> light_settings() {
         without_scene(number_setting(
             "accuracy",
             "ambient accuracy, as RADIANCE names it: the error that irradiance caching may make where the viewer is "
-            "strictest, so that smaller is more accurate; 0 gathers at every sample",
+            "strictest, so that smaller is more accurate; 0 casts rays at every sample",
             at(&S::cache, &C::accuracy), 0.0, 1.0)),
         with_unit(
-            number_setting("gather", "rays over the hemisphere for one irradiance value; 0: what the accuracy needs",
+            number_setting("gather", "rays over the hemisphere for one irradiance value; 0: what the accuracy needs; 2 at every sample",
                            at(&S::cache, &C::gather), 0, 1 << 20),
             "rays"),
         number_setting("bounces", "bounces of indirect diffuse light; the quick estimate has at most 1",

@@ -1,4 +1,5 @@
-// Direct light and gloss by samples, indirect light from the irradiance cache.
+// Direct light and gloss by samples; indirect light from the irradiance cache, or by samples as well. Light of the second
+// and further bounces comes from a coarse cache either way.
 
 #include "render/cache/bounce_places.h"
 #include "render/cache/cache_fill.h"
@@ -21,6 +22,7 @@ class CacheIntegrator final : public LightIntegrator {
           context_(input.context),
           indirect_(context_.settings.light.bounces > 0 && context_.settings.light.path_depth > 1),
           cached_(indirect_ && context_.settings.cache.accuracy > 0.0 && input.options.light_lasts),
+          blurred_(static_cast<bool>(input.options.at_sample)),
           cache_(make_cache(context_.lighting.shading)),
           known_(context_, cached_ ? &cache_ : nullptr),
           direct_(context_.max_radius) {
@@ -29,9 +31,14 @@ class CacheIntegrator final : public LightIntegrator {
         if (input.options.record_maps) uses_ = Image<RecordUse>(context_.view.width, context_.view.height);
     }
 
-    bool shares_light() const override { return cached_; }
+    bool shares_light() const override { return cached_ || samples_further(); }
 
     void fill(const SampleHits& first) override {
+        if (!cached_) {
+            find_seen_surfaces(first);
+            if (further_bounces_) further_.emplace(context_.multi_bounce);
+            return;
+        }
         if (input_.options.risk != nullptr) context_.carried = &checked_.emplace(context_, *input_.options.risk, first);
         find_seen_surfaces(first);
         if (checked_) checked_->check(cache_, context_, input_.out);
@@ -43,11 +50,10 @@ class CacheIntegrator final : public LightIntegrator {
     void begin(const SampleScene& scene) override {
         scene_ = &scene;
         const RenderSettings& settings = context_.settings;
-        const bool blurred = static_cast<bool>(input_.options.at_sample);
         const bool uniform = settings.sampling.rule == Sampling::uniform;
         context_.seen = nullptr;
         shutter_.reset();
-        if (blurred && cached_) {
+        if (blurred_ && cached_) {
             shutter_.emplace(context_.lighting.shading, scene.lighting.shading, context_.carried, &cache_, shade_reach);
             context_.seen = &scene.lighting.shading;
         }
@@ -56,8 +62,8 @@ class CacheIntegrator final : public LightIntegrator {
                           .noise_key = input_.noise_key,
                           .indirect = indirect_,
                           .cache = cached_ ? &cache_ : nullptr,
-                          .known = blurred ? nullptr : &known_,
-                          .blurred = blurred,
+                          .known = find_known(),
+                          .blurred = blurred_,
                           .shutter = shutter_ ? &*shutter_ : nullptr,
                           .points = {(settings.light.light_samples + settings.sampling.spp - 1) / settings.sampling.spp,
                                      0, settings.sampling.spp},
@@ -86,6 +92,18 @@ class CacheIntegrator final : public LightIntegrator {
     }
 
   private:
+    /// Whether samples without records find light of further bounces in a cache. While the shutter is open it would hold
+    /// for its centre alone.
+    bool samples_further() const {
+        return indirect_ && !(context_.settings.cache.accuracy > 0.0) && !blurred_ && context_.multi_bounce.bounces > 0;
+    }
+
+    const KnownIrradiance* find_known() const {
+        if (blurred_) return nullptr;
+        if (further_) return &*further_;
+        return &known_;
+    }
+
     /// Where the light of some pixels is known, gathers at others still find light of all surfaces.
     void find_seen_surfaces(const SampleHits& first) {
         if (context_.multi_bounce.bounces == 0) return;
@@ -104,12 +122,13 @@ class CacheIntegrator final : public LightIntegrator {
 
     const IntegratorInput input_;
     IndirectContext context_;
-    const bool indirect_, cached_;
+    const bool indirect_, cached_, blurred_;
     IrradianceCache cache_;
     std::optional<CheckedLight> checked_;
     FrameIrradiance known_;
     std::vector<PixelSurface> seen_;  ///< for further_bounces_, which is solved once a record is needed
     std::optional<FurtherBounces> further_bounces_;
+    std::optional<FurtherIrradiance> further_;  ///< to paths, without records
     DirectGrid direct_;
     Image<RecordUse> uses_;  ///< empty: not asked for
     std::optional<ShutterLight> shutter_;

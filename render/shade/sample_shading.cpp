@@ -3,6 +3,7 @@
 #include "render/cache/further_bounces.h"
 #include "render/cache/gather_at.h"
 #include "render/path/glossy_light.h"
+#include "render/settings/numbers.h"
 
 namespace aleph {
 
@@ -11,6 +12,8 @@ namespace {
 constexpr std::uint32_t irradiance_seed_mask = 0x69727261u;  // apart from path_seed_mask and others (gather_at.cpp)
 
 constexpr int lights_in_mirrors = 4;  // PathState::light_samples
+
+constexpr int rays_per_sample = 2;  // over the hemisphere, without records
 
 RandomStream path_stream(const SampleShading& shading, const PixelSurface& surface,
                          std::uint32_t mask = path_seed_mask) {
@@ -66,13 +69,30 @@ std::optional<Rgb> read_blurred(const SampleShading& shading, ShadingTask& task,
     return found.irradiance;
 }
 
-/// Indirect irradiance at the sample's own time, from one random path.
-Rgb sample_path(const SampleShading& shading, const SampleScene& scene, ShadingTask& task,
-                const PixelSurface& surface) {
+/// Indirect irradiance at the sample's own time, from random paths whose first directions belong to the pixel's
+/// sequence. Lamps that they meet straight away are direct light.
+Rgb sample_irradiance(const SampleShading& shading, const SampleScene& scene, ShadingTask& task,
+                      const PixelSurface& surface) {
     const RenderSettings& settings = shading.context.settings;
+    const PixelSequence sequence(settings.seed, shading.noise_key, surface.x, surface.y);
     RandomStream random = path_stream(shading, surface, irradiance_seed_mask);
-    return sample_multi_bounce_irradiance(scene.lighting, task, surface.point, {settings.light.bounces},
-                                          settings.light.path_depth - 1, random);
+    PathState state;
+    state.left = {settings.light.bounces - 1, settings.light.path_depth - 1};
+    state.emission = EmissionWeight::none;
+    state.turned = true;
+    state.known = shading.known;
+    state.accuracy = shading.context.accuracy(surface.x, surface.y);
+    const Basis basis = make_basis(surface.point.normal);
+    const int rays = settings.cache.gather > 0 ? settings.cache.gather : rays_per_sample;
+    Rgb sum(0.0f);
+    for (int i = 0; i < rays; ++i) {
+        const glm::vec2 u = sequence.at_2d(SampleUse::indirect, surface.sample * rays + i);
+        const glm::vec3 direction = basis.to_world(sample_cosine_hemisphere(u));
+        if (!(glm::dot(direction, surface.point.geometric) > 0.0f)) continue;
+        ++task.counts.path;
+        sum += follow_ray(scene.lighting, task, {surface.point.ray_origin(), direction}, state, random);
+    }
+    return sum * (pi / static_cast<float>(rays));
 }
 
 /// Adds what the surface reflects of its irradiance.
@@ -185,10 +205,7 @@ bool shade_sample(const SampleShading& shading, const SampleScene& scene, Shadin
     const Rgb left = share_left(surface);
     for (Rgb& part : light.parts) part *= left;
     if (!needs_irradiance) return true;
-    if (!irradiance && !waits) {
-        irradiance =
-            shading.blurred ? sample_path(shading, scene, task, surface) : gather_irradiance(shading, task, surface);
-    }
+    if (!irradiance && !waits) irradiance = sample_irradiance(shading, scene, task, surface);
     if (irradiance) add_irradiance(surface, *irradiance, light);
     return irradiance.has_value();
 }
@@ -197,7 +214,7 @@ void add_indirect(const SampleShading& shading, const SampleScene& scene, Shadin
                   const PixelSurface& surface, SampleLight& light) {
     if (shading.blurred) {
         const std::optional<Rgb> blurred = read_blurred(shading, task, surface, nullptr);
-        add_irradiance(surface, blurred ? *blurred : sample_path(shading, scene, task, surface), light);
+        add_irradiance(surface, blurred ? *blurred : sample_irradiance(shading, scene, task, surface), light);
         return;
     }
     const std::optional<Rgb> irradiance = read_irradiance(shading, task, surface);

@@ -40,9 +40,9 @@ struct SampleShading {
     const IndirectContext& context;
     std::uint32_t noise_key = 0;  ///< of SamplePlace
     bool indirect = false;        ///< there is indirect light
-    /// Finished; null: irradiance that no lighting keyframe knows is gathered at every sample.
+    /// Finished; null: every sample finds its irradiance by paths of its own, where no lighting keyframe knows it.
     const IrradianceCache* cache = nullptr;
-    const KnownIrradiance* known = nullptr;  ///< to paths from lobes; null: they find all light by themselves
+    const KnownIrradiance* known = nullptr;  ///< to paths; null: they find all light by themselves
     bool blurred = false;                    ///< the shutter is open: what `shutter` does not know is found by paths
     const ShutterLight* shutter = nullptr;   ///< null: it knows nothing
     LightPoints points{};                    ///< uniform sampling: on each light, of a pixel's first sample
