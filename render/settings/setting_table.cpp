@@ -93,20 +93,22 @@ std::vector<Setting> light_settings() {
     using C = CacheSettings;
     using L = LightSettings;
     return {
-        with_unit(number_setting("error",
-                                 "largest error that is asked for; sets sampling, adapter, accuracy, gather, bounces and spp, "
-                                 "which override it when they are given beside it; 0: none is asked for",
-                                 at(&S::error), 0.0, 1000.0),
+        with_unit(number_setting(
+                      "error",
+                      "largest error that is asked for; sets sampling, adapter, accuracy, gather, bounces and spp, "
+                      "which override it when they are given beside it; 0: none is asked for",
+                      at(&S::error), 0.0, 1000.0),
                   "just visible differences"),
         without_scene(number_setting(
             "accuracy",
             "ambient accuracy, as RADIANCE names it: the error that irradiance caching may make where the viewer is "
-            "strictest, so that smaller is more accurate; 0 casts rays at every sample",
+            "strictest, so that smaller is more accurate; 0: rays of every sample's own",
             at(&S::cache, &C::accuracy), 0.0, 1.0)),
-        with_unit(
-            number_setting("gather", "rays over the hemisphere for one irradiance value; 0: what the accuracy needs; 2 at every sample",
-                           at(&S::cache, &C::gather), 0, 1 << 20),
-            "rays"),
+        with_unit(number_setting("gather",
+                                 "rays over the hemisphere for one irradiance value; 0: what the accuracy needs, or 2 "
+                                 "where every sample has its own",
+                                 at(&S::cache, &C::gather), 0, 1 << 20),
+                  "rays"),
         number_setting("bounces", "bounces of indirect diffuse light; the quick estimate has at most 1",
                        at(&S::light, &L::bounces), 0, 1000),
         with_unit(number_setting("path_depth", "longest path of light that mirrors and glass may make",

@@ -12,11 +12,13 @@
 namespace aleph {
 
 void follow_error(RenderSettings& settings, double error) {
+    constexpr double accuracy_per_difference = 0.05;
     constexpr int most_samples = 4096, all_bounces = 16;
     settings.error = error;
     settings.sampling.rule = Sampling::threshold;
-    settings.guide.adapter = Adapter::none;
-    settings.cache.accuracy = 0.0;  // the error of records is smooth and lasts, where the eye is best
+    settings.guide.adapter = Adapter::none;  // light that follows the map flickers
+    settings.cache.accuracy = std::min(1.0, accuracy_per_difference * error);
+    settings.cache.gather = 512;
     settings.light.bounces = all_bounces;
     settings.sampling.spp = most_samples;
 }

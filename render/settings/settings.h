@@ -81,8 +81,9 @@ struct GuideSettings {
 
 /// The irradiance cache.
 struct CacheSettings {
-    double accuracy = 0.15;  ///< ambient accuracy alpha_Acc: smaller is more accurate; 0: every sample has rays of its own
-    int gather = 0;  ///< rays over the hemisphere per irradiance value; 0: what the accuracy needs (choose_rays), or 2
+    double accuracy =
+        0.15;        ///< ambient accuracy alpha_Acc: smaller is more accurate; 0: every sample has rays of its own
+    int gather = 0;  ///< rays over the hemisphere, of a record; 0: what the accuracy needs (choose_rays), 2 of a sample
     double min_radius_pixels = 12.0;  ///< least R of a record (irradiance_record.h), pixels
     int light_step = 10;  ///< frames between lighting keyframes of indirect light; 0: every frame computes its own
 
@@ -139,8 +140,8 @@ struct RenderSettings {
 /// this version. The settings before that key, in alphabetical order, have been overwritten.
 void apply_settings(RenderSettings& settings, const SettingMap& map, const std::string& source);
 
-/// Settings with which a picture is made to an error that is asked for: indirect light without records, 16 bounces,
-/// and as many samples as their noise needs to go unseen, 4,096 at most.
+/// Settings with which a picture is made to an error that is asked for: the accuracy of records that leaves most of the
+/// error to samples, 16 bounces, and as many samples as their noise needs to go unseen, 4,096 at most.
 /// @param error  thresholds, above 0
 void follow_error(RenderSettings& settings, double error);
 

@@ -1,5 +1,5 @@
-// Direct light and gloss by samples; indirect light from the irradiance cache, or by samples as well. Light of the second
-// and further bounces comes from a coarse cache either way.
+// Direct light and gloss by samples; indirect light from the irradiance cache, or by samples as well. Light of the
+// second and further bounces comes from a coarse cache either way.
 
 #include "render/cache/bounce_places.h"
 #include "render/cache/cache_fill.h"
@@ -92,8 +92,8 @@ class CacheIntegrator final : public LightIntegrator {
     }
 
   private:
-    /// Whether samples without records find light of further bounces in a cache. While the shutter is open it would hold
-    /// for its centre alone.
+    /// Whether samples without records find light of further bounces in a cache. While the shutter is open it would
+    /// hold for its centre alone.
     bool samples_further() const {
         return indirect_ && !(context_.settings.cache.accuracy > 0.0) && !blurred_ && context_.multi_bounce.bounces > 0;
     }

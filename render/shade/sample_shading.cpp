@@ -13,7 +13,8 @@ constexpr std::uint32_t irradiance_seed_mask = 0x69727261u;  // apart from path_
 
 constexpr int lights_in_mirrors = 4;  // PathState::light_samples
 
-constexpr int rays_per_sample = 2;  // over the hemisphere, without records
+/// Rays over the hemisphere of a sample without records, where their error decides the number of samples.
+constexpr int rays_per_sample = 2;
 
 RandomStream path_stream(const SampleShading& shading, const PixelSurface& surface,
                          std::uint32_t mask = path_seed_mask) {
@@ -83,7 +84,8 @@ Rgb sample_irradiance(const SampleShading& shading, const SampleScene& scene, Sh
     state.known = shading.known;
     state.accuracy = shading.context.accuracy(surface.x, surface.y);
     const Basis basis = make_basis(surface.point.normal);
-    const int rays = settings.cache.gather > 0 ? settings.cache.gather : rays_per_sample;
+    const bool chosen = settings.sampling.rule == Sampling::uniform && settings.cache.gather > 0;
+    const int rays = chosen ? settings.cache.gather : rays_per_sample;
     Rgb sum(0.0f);
     for (int i = 0; i < rays; ++i) {
         const glm::vec2 u = sequence.at_2d(SampleUse::indirect, surface.sample * rays + i);

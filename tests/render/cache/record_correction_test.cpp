@@ -75,14 +75,9 @@ TEST(RecordCorrection, RaysFollowVarianceAndAccuracy) {
     EXPECT_EQ(choose_rays(settings, 1.0f, 1.0f), 64);
     EXPECT_EQ(choose_rays(settings, 0.01f, 1.0f), 8192);
     EXPECT_EQ(choose_rays(settings, 0.1f, std::nullopt), 512);
-    EXPECT_EQ(choose_rays(settings, 0.0f, std::nullopt), 512);
     settings.cache.gather = 1000;
     EXPECT_EQ(choose_rays(settings, 0.1f, 9.0f), 1000);
     EXPECT_EQ(choose_rays(settings, 0.2f, 9.0f), 250);
-    EXPECT_EQ(choose_rays(settings, 0.0f, std::nullopt), 1000);
-    settings.cache.accuracy = 0.0;
-    EXPECT_EQ(choose_rays(settings, 0.0f, std::nullopt), 1000);
-    EXPECT_EQ(choose_rays(settings, 0.5f, std::nullopt), 1000);
 }
 
 TEST(RecordCorrection, VarianceIsExpectedFromRecordsAround) {

@@ -61,7 +61,7 @@ TEST(Frame, RaysByPurposeSumToWhatTheWrapperTraced) {
                 EXPECT_GT(s.counts.rays.shadow, 0u);
                 EXPECT_GT(s.counts.rays.glossy, 0u);
                 EXPECT_GE(s.counts.rays.gather, 15 * s.counts.records);  // a few are below smooth-shaded facets
-                EXPECT_GT(s.counts.records, 0u);
+                EXPECT_EQ(s.counts.records > 0, accuracy > 0.0);
                 if (guide == Guide::none) {
                     EXPECT_LE(s.counts.rays.gather, 16 * s.counts.records);
                 } else {  // and those of the quick estimate
@@ -93,7 +93,7 @@ TEST(Frame, RecordsPerPixelAddUp) {
         double records = 0.0;
         for (const float r : out.records.pixels) records += r;
         EXPECT_EQ(records, static_cast<double>(out.counts.records));
-        EXPECT_GT(records, 10.0);
+        EXPECT_EQ(records > 10.0, accuracy > 0.0);
         EXPECT_LE(out.counts.cache.hits, out.counts.cache.lookups);
     }
 }
