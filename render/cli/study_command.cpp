@@ -25,7 +25,7 @@ namespace aleph {
 namespace {
 
 struct StudyCommandOptions {
-    std::string file, frames, size, output, reference;
+    std::string file, frames, size, output;
     std::vector<std::string> sweeps, sets, viewers, judges;
     int passes = 0, spp = 0, repeats = 0, seeds = 0, threads = 0, candidates = 0;
     bool search = false, quiet = false, markdown = false;
@@ -125,7 +125,6 @@ void override_study(const StudyCommandOptions& options, Study& study) {
     }
     if (!options.size.empty()) study.settings["size"] = options.size;
     for (const std::string& set : options.sets) parse_setting(set, study.settings);
-    if (!options.reference.empty()) study.reference.kind = options.reference;
     if (options.passes > 0) study.reference.passes = options.passes;
     if (options.spp > 0) study.reference.spp = options.spp;
     if (options.repeats > 0) study.repeats = options.repeats;
@@ -193,10 +192,6 @@ void add_options(CLI::App& study, StudyCommandOptions& options) {
     study.add_option("--set", options.sets, "a setting of every variant and of the reference")
         ->type_name("KEY=VALUE")
         ->allow_extra_args(false);
-    study
-        .add_option("--reference", options.reference,
-                    "what judges: traced paths, or gather rays at every sample (default: the study's, or path)")
-        ->check(CLI::IsMember({"path", "gather"}));
     add_value(study, "--reference-passes", options.passes,
               "renderings that the reference is the mean of, at least 2; 0: the study's, or 4");
     add_value(study, "--reference-spp", options.spp, "samples per pixel of each; 0: the study's, or 32");
@@ -249,7 +244,7 @@ void add_study_command(CLI::App& app, Command& command) {
         "bounces then, unless --set says otherwise. Measured seconds decide: let nothing else run.\n\n"
         "Examples:\n"
         "  aleph study scenes/pool/scene.json --frames 20 --sweep error=.5,1,2,4 --sweep guide=none,saliency\n"
-        "  aleph study scenes/cornell/scene.json --sweep accuracy=.05,.15,.5 --reference path --repeats 3\n"
+        "  aleph study scenes/cornell/scene.json --sweep accuracy=.05,.15,.5 --repeats 3\n"
         "  aleph study scenes/pool/scene.json --frames 20-29 --sweep error=1,2 --seeds 2\n"
         "  aleph study scenes/pool/scene.json --frames 18-23 --sweep error=.5,1,2 --search\n"
         "  aleph study scenes/studies/pool.json -o out/pool");

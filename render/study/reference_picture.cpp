@@ -23,13 +23,6 @@ RenderSettings reference_settings(const RenderSettings& settings, const Referenc
     RenderSettings out = traced_reference_settings(settings);
     if (!options.full_light) out.light.bounces = settings.light.bounces;
     out.sampling.spp = options.pass_spp;
-    if (options.kind == "gather") {
-        out.light.integrator = Integrator::cache;
-        out.cache.accuracy = 0.0;
-        out.cache.light_step = 0;
-        out.cache.gather = 16;
-        out.light.light_samples = 2 * options.pass_spp;
-    }
     return out;
 }
 

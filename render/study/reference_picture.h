@@ -19,8 +19,7 @@ struct ReferencePictureOptions {
     int passes = 4;  ///< renderings that it is the mean of, at least 2
     /// Samples per pixel of the first. Each has one more than the one before (reference_picture.cpp).
     int pass_spp = 32;
-    /// "path": traced paths. "gather": no cache, 16 gather rays and 2 samples of every light at every pixel sample,
-    /// which have the noise of paths that take several times as long. "settings": as the settings are.
+    /// "path": traced paths. "settings": as the settings are.
     std::string kind = "path";
     bool full_light = true;  ///< at least 16 diffuse bounces; else as many as the settings say
     std::string folder;

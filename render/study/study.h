@@ -14,8 +14,7 @@ namespace aleph {
 
 /// Reference that variants are judged by.
 struct StudyReference {
-    /// "path": traced paths. "gather": no cache, gather rays at every pixel sample. "settings": the study's settings
-    /// with `settings` in their places.
+    /// "path": traced paths. "settings": the study's settings with `settings` in their places.
     std::string kind = "path";
     int passes = 4;         ///< renderings with random numbers of their own, of which it is the mean; at least 2
     int spp = 32;           ///< samples per pixel of each pass

@@ -131,9 +131,8 @@ std::string study_date() {
 
 std::string describe_reference(const PreparedStudy& prepared, const StudyResults& results) {
     const StudyReference& reference = prepared.study.reference;
-    const std::string kind = reference.kind == "path"     ? "traced paths"
-                             : reference.kind == "gather" ? "gather rays at every sample, no cache"
-                                                          : "given settings: " + name_settings(reference.settings);
+    const std::string kind =
+        reference.kind == "path" ? "traced paths" : "given settings: " + name_settings(reference.settings);
     double share = 0.0, noise = 0.0;
     for (const JudgingFrame& frame : results.frames) {
         share = std::max(share, frame.quality.share_by_noise);

@@ -22,7 +22,7 @@ Study small_study() {
     study.title = "small";
     study.scenes = {{source_folder() / "scenes/cornell/scene.json", "3"}};
     study.settings = {{"size", "20x15"}, {"light_step", 0.0}, {"filter", "box"}};
-    study.reference = {"gather", 2, 32, {}};
+    study.reference = {"path", 2, 256, {}};
     study.sweep = {{"spp", {1.0, 4.0}}, {"guide", {std::string("none"), std::string("saliency")}}};
     study.viewers = {{"own", {}}, {"castle", {{"vision", "castle"}, {"viewing.persistence", 1.0}}}};
     return study;
