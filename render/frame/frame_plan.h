@@ -27,11 +27,12 @@ struct FramePlan {
 /// Work on a frame before its picture.
 struct FrameWork {
     std::int64_t frame = 0;
-    bool perceive = false;  ///< estimate, motion, and the model of vision
-    bool maps = false;      ///< every map
+    bool perceive = false;     ///< estimate, motion, and the model of vision
+    bool maps = false;         ///< every map
     bool motion_only = false;  ///< of what `perceive` says
     OtherFrame other = OtherFrame::none;
     bool edited = false;  ///< motion leads from a frame before an edit
+    bool held = false;    ///< the next frame is a copy of this one
 };
 
 /// Makes the effects plans of a shot's frames.

@@ -28,7 +28,7 @@ void perceive(Preparation& kept, const FrameScene& here, const FrameWork& work, 
     RenderSettings vision = shot.settings;
     if (plan.skips(Effect::saliency) && vision.perception.guide == Guide::saliency)
         vision.perception.guide = Guide::full;
-    compute_frame_vision(out, shot.scene, vision, kept.noise(work.frame), work.maps, clock);
+    compute_frame_vision(out, shot.scene, vision, kept.noise(work), work.maps, clock);
 }
 
 }  // namespace

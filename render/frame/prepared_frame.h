@@ -29,12 +29,13 @@ struct Preparation {
     FrameMotion motion;
     FrameScene shutter;  ///< the scene while the shutter is open
 
-    /// How visible the noise of a frame is: it lasts where noise_key is the same in every frame.
-    const NoiseVisibility& noise(std::int64_t frame) {
-        const bool lasts = shot.is_still(shot.camera(frame));
+    /// How visible the noise of a frame is. It lasts where the next frame has the same.
+    const NoiseVisibility& noise(const FrameWork& work) {
+        const bool lasts = work.held || shot.keeps_noise(work.frame);
         std::optional<NoiseVisibility>& known = lasts ? lasting_noise_ : fresh_noise_;
         if (!known)
-            known.emplace(shot.scene.viewing, shot.scene.frame_rate, lasts ? NoiseOverTime::lasts : NoiseOverTime::fresh);
+            known.emplace(shot.scene.viewing, shot.scene.frame_rate,
+                          lasts ? NoiseOverTime::lasts : NoiseOverTime::fresh);
         return *known;
     }
 

@@ -58,9 +58,10 @@ SequenceState::SequenceState(Scene given, const RenderSettings& settings, const 
 }
 
 PreparedFrame SequenceState::prepare(std::int64_t frame, bool perceive, bool maps) {
-    return prepare_frame(
-        preparation, here,
-        {.frame = frame, .perceive = perceive, .maps = maps, .edited = preparation.motion.is_edited()});
+    const bool is_edited = preparation.motion.is_edited();
+    const bool is_held = !is_edited && static_spans.find_first(frame + 1) == frame;
+    return prepare_frame(preparation, here,
+                         {.frame = frame, .perceive = perceive, .maps = maps, .edited = is_edited, .held = is_held});
 }
 
 const CacheFingerprint& SequenceState::fingerprint() {

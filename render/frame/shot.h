@@ -36,10 +36,12 @@ struct Shot {
     /// The frame that a frame's motion leads to: the next one; the previous one at the scene's last frame; none across
     /// a cut.
     OtherFrame other_frame(std::int64_t frame) const;
-    /// Key of a frame's random numbers: the same for all frames if its camera never moves, so that their noise is too,
-    /// where nothing else does.
+    /// Returns whether a frame's noise is that of the frames around it, where nothing moves: its camera never does, and
+    /// no error is asked for. Noise that is new in every frame is seen less, so that less work keeps to an error.
+    bool keeps_noise(std::int64_t frame) const { return is_still(camera(frame)) && !(settings.error > 0.0); }
+    /// Key of a frame's random numbers.
     std::uint32_t noise_key(std::int64_t frame) const {
-        return is_still(camera(frame)) ? 0u : static_cast<std::uint32_t>(frame);
+        return keeps_noise(frame) ? 0u : static_cast<std::uint32_t>(frame);
     }
     bool can_change() const { return is_world_animated(scene) || !pose_plan.cameras.empty() || shots.size() > 1; }
     /// Returns whether a camera has the same view at all times.

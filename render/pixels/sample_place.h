@@ -11,7 +11,7 @@ namespace aleph {
 float find_spacing(const RenderSettings& settings, int index);
 
 /// Placing of sample `index` of the pixels. A single sample is the pixel's centre.
-/// @param noise_key  key of random numbers: the same in all frames if the camera never moves
+/// @param noise_key  key of random numbers: the same in all frames if their noise is (Shot::keeps_noise)
 SamplePlace make_sample_place(const RenderSettings& settings, const Lens& lens, bool blended, std::uint32_t noise_key,
                               int index);
 
