@@ -8,38 +8,22 @@
 
 #include "render/cli/commands.h"
 #include "render/cli/verify.h"
-#include "tests/support/paths.h"
 #include "tests/support/read_bytes.h"
-#include "tests/support/scratch_folder.h"
+#include "tests/support/render_command.h"
 
 namespace aleph {
 namespace {
 
 namespace fs = std::filesystem;
 
-class VerifyCommand : public testing::Test {
+class VerifyCommand : public RenderCommand {
   protected:
     /// @return the exit code
     int run(const std::vector<std::string>& more) {
-        std::vector<std::string> words = {"aleph", "render", (source_folder() / "scenes/cornell/scene.json").string(),
-                                          "-q",    "--size", "16x12",
-                                          "--fps", "8",      "--frames",
-                                          "20",    "-o",     file("a.exr")};
+        std::vector<std::string> words = {"--size", "16x12", "--fps", "8", "--frames", "20", "-o", file("a.exr")};
         words.insert(words.end(), more.begin(), more.end());
-        std::vector<const char*> argv;
-        for (const std::string& word : words) argv.push_back(word.c_str());
-        CLI::App app{"aleph"};
-        Command command;
-        add_render_command(app, command);
-        errors.str("");
-        return run_program(app, command, static_cast<int>(argv.size()), argv.data(), errors);
+        return RenderCommand::run(words);
     }
-    std::string file(const char* name) const { return (folder_.path() / name).string(); }
-
-    std::ostringstream errors;
-
-  private:
-    ScratchFolder folder_;
 };
 
 TEST_F(VerifyCommand, WrongOnesAreRefused) {
