@@ -11,6 +11,20 @@ namespace aleph {
 
 namespace fs = std::filesystem;
 
+namespace {
+
+thread_local ReadFiles* read_files = nullptr;
+
+}  // namespace
+
+ReadFiles::ReadFiles() : outer_(read_files) {
+    read_files = this;
+}
+
+ReadFiles::~ReadFiles() {
+    read_files = outer_;
+}
+
 Bytes read_regular_file(const fs::path& path, const std::string& file, const std::string& place) {
     std::error_code error;
     const fs::file_status status = fs::status(path, error);
@@ -29,6 +43,7 @@ Bytes read_regular_file(const fs::path& path, const std::string& file, const std
     if (!stream || static_cast<std::uintmax_t>(stream.gcount()) != size) {
         throw InputError(file, place, fmt::format("cannot read {}", name));
     }
+    if (read_files != nullptr) read_files->add(path);
     return bytes;
 }
 

@@ -18,6 +18,23 @@ inline constexpr std::uint64_t max_file_bytes = 0x7fffffff;
 /// @throws InputError
 Bytes read_regular_file(const std::filesystem::path& path, const std::string& file, const std::string& place);
 
+/// The files that this thread reads with read_regular_file while the object exists, so that no output replaces them.
+/// Another such object within its lifetime records in its place.
+class ReadFiles {
+  public:
+    ReadFiles();
+    ~ReadFiles();
+    ReadFiles(const ReadFiles&) = delete;
+    ReadFiles& operator=(const ReadFiles&) = delete;
+
+    const std::vector<std::filesystem::path>& paths() const { return paths_; }
+    void add(const std::filesystem::path& path) { paths_.push_back(path); }
+
+  private:
+    std::vector<std::filesystem::path> paths_;
+    ReadFiles* outer_;
+};
+
 /// The ending of a file's name in lower case: ".abc" of "Shot.ABC". Empty where there is none.
 std::string lower_extension(const std::filesystem::path& path);
 

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <iostream>
-#include <set>
 
 #include "engine/base/errors.h"
 #include "engine/image/image_file.h"
@@ -101,6 +100,7 @@ PreparedImages prepare_images(const MapsOptions& options) {
     PreparedImages images;
     images.files = find_frame_files(pattern);
     PreparedScene& prepared = images.prepared;
+    for (const auto& [frame, path] : images.files) prepared.read.push_back(path);
     Scene& shot = prepared.scene;
     shot.file = pattern;
     shot.exposure = 1.0;
@@ -136,20 +136,10 @@ PreparedImages prepare_images(const MapsOptions& options) {
     return images;
 }
 
-/// Every frame has the other one that its motion needs, and no picture would be written over.
-void check_frames(const PreparedImages& images, const std::string& output) {
-    const PreparedScene& prepared = images.prepared;
-    std::set<std::filesystem::path> names;
-    for (const auto& [number, file] : images.files) names.insert(file.filename());
-    const std::filesystem::path folder = images.files.begin()->second.parent_path();
-    for (const int frame : prepared.frames) {
-        if (!images.with_motion) find_other_frame(images.files, prepared.scene.cuts, frame);
-        const std::filesystem::path path = output_path(output, prepared.name, frame);
-        std::error_code ignored;
-        if (names.contains(path.filename()) && std::filesystem::equivalent(folder / path.filename(), path, ignored)) {
-            throw InputError("", "--output", printable(path.string(), 400) + " is one of the pictures themselves");
-        }
-    }
+/// Every frame has the other one that its motion needs.
+void check_frames(const PreparedImages& images) {
+    if (images.with_motion) return;
+    for (const int frame : images.prepared.frames) find_other_frame(images.files, images.prepared.scene.cuts, frame);
 }
 
 /// Pixels of the pictures that were no numbers.
@@ -172,7 +162,7 @@ struct ReplacedPixels {
 
 void write_image_maps(const MapsOptions& options) {
     const PreparedImages images = prepare_images(options);
-    check_frames(images, options.common.output);
+    check_frames(images);
     const PreparedScene& prepared = images.prepared;
     prepare_frames_output(prepared, options.common, maps_request());
     const ThreadLimit limit(options.common.threads);

@@ -20,7 +20,7 @@ void render_within(const std::string& budget, const SceneOptions& options, const
     refuse_beside_budget(options, cache);
     PreparedScene prepared = prepare_scene(options);
     if (verify > 0.0) refuse_traced(prepared.settings);
-    prepare_frames_output(prepared, options, request);
+    prepare_frames_output(prepared, options, request, cache);
     if (!options.quiet) std::cerr << "aleph: measuring parts of frames, to choose the error\n";
     {
         const ThreadLimit limit(options.threads);

@@ -10,6 +10,7 @@
 #include <map>
 
 #include "engine/base/errors.h"
+#include "engine/base/files.h"
 #include "engine/load/load_scene.h"
 #include "engine/pose/pose.h"
 #include "render/settings/frame_list.h"
@@ -215,7 +216,11 @@ void check_threads(int threads) {
 PreparedScene prepare_scene(const SceneOptions& options) {
     check_threads(options.threads);
     PreparedScene prepared;
-    prepared.scene = load_scene(options.scene, options.limits);
+    {
+        const ReadFiles read;
+        prepared.scene = load_scene(options.scene, options.limits);
+        prepared.read = read.paths();
+    }
     Scene& scene = prepared.scene;
     if (!options.fps.empty()) scene.frame_rate = parse_fps(options.fps);
     SettingMap given = options.settings;

@@ -1,6 +1,7 @@
 #pragma once
 // Options of the commands that make frames of a scene, and the scene with its settings as these options ask for.
 
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -18,7 +19,7 @@ struct SceneOptions {
     LoadLimits limits;
     bool quiet = false;
     bool keeps_to_error = false;  ///< without a setting that chooses the work, an error of 1 is asked for
-    bool importance = false;  ///< `maps` writes this picture in place of the maps
+    bool importance = false;      ///< `maps` writes this picture in place of the maps
 };
 
 /// Adds --KEY for every setting of the table, --set, and --help-all, which shows settings that are rarely changed too.
@@ -43,7 +44,8 @@ struct PreparedScene {
     Scene scene;
     RenderSettings settings;
     std::vector<int> frames;
-    std::string name;  ///< of the output files
+    std::string name;                         ///< of the output files
+    std::vector<std::filesystem::path> read;  ///< the scene file and all that it uses, or the pictures
 };
 
 /// Loads the scene and checks all options, before anything is computed. Prints the scene's warnings on standard error.

@@ -6,10 +6,12 @@
 #include <iostream>
 
 #include "engine/base/errors.h"
+#include "engine/base/files.h"
 #include "engine/base/parallel.h"
 #include "perception/vision_model.h"
 #include "render/cli/commands.h"
 #include "render/cli/frame_pattern.h"
+#include "render/cli/output_conflicts.h"
 #include "render/cli/progress.h"
 #include "render/cli/scene_options.h"
 #include "render/cli/search_output.h"
@@ -142,6 +144,7 @@ int run(const StudyCommandOptions& options, const std::string& command_line) {
     check_threads(options.threads);
     check_numbers(options);
     const ThreadLimit limit(options.threads);
+    const ReadFiles read;
     Study study = make_study(options);
     override_study(options, study);
     const PreparedStudy prepared = prepare_study(std::move(study));
@@ -154,6 +157,7 @@ int run(const StudyCommandOptions& options, const std::string& command_line) {
     }
     const std::filesystem::path folder =
         options.output.empty() ? study_folder(options.file) : std::filesystem::path(options.output);
+    refuse_overwriting(read.paths(), study_files(folder));
     StudyResults results;
     {
         Progress progress("study", 1.0, progress_look(options.quiet));

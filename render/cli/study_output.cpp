@@ -65,6 +65,13 @@ std::filesystem::path study_folder(const std::filesystem::path& file) {
     return name_scene(file) + "-study";
 }
 
+std::vector<OutputFile> study_files(const std::filesystem::path& folder) {
+    std::vector<OutputFile> files;
+    for (const char* name : {"study.json", "study.csv", "report.html", "viewer-test.html", "errors.jpg"})
+        files.push_back({folder / name, "--output"});
+    return files;
+}
+
 std::string study_command_line() {
     const Bytes bytes = read_regular_file("/proc/self/cmdline", "/proc/self/cmdline", "");
     std::string text(bytes.begin(), bytes.end()), line;

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "render/cli/output_conflicts.h"
 #include "render/study/run_study.h"
 #include "render/study/study_files.h"
 
@@ -13,6 +14,9 @@ namespace aleph {
 
 /// "pool-study" for pool/scene.json or studies/pool.json, in the current folder.
 std::filesystem::path study_folder(const std::filesystem::path& file);
+
+/// The files that write_study may write.
+std::vector<OutputFile> study_files(const std::filesystem::path& folder);
 
 /// This process's command line, for the results to say how they were made.
 std::string study_command_line();

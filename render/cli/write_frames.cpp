@@ -9,6 +9,7 @@
 #include "engine/base/parallel.h"
 #include "render/cli/budget.h"
 #include "render/cli/copied_frames.h"
+#include "render/cli/output_conflicts.h"
 #include "render/cli/output_path.h"
 #include "render/cli/progress.h"
 #include "render/cli/statistics_file.h"
@@ -131,7 +132,8 @@ void print_files(const FrameJob& job, const SceneOptions& options) {
 
 }  // namespace
 
-void prepare_frames_output(const PreparedScene& prepared, const SceneOptions& options, const FrameRequest& request) {
+void prepare_frames_output(const PreparedScene& prepared, const SceneOptions& options, const FrameRequest& request,
+                           const std::string& cache) {
     const std::filesystem::path path = output_path(options.output, prepared.name, prepared.frames.front());
     const OutputFormat format = output_format(path);
     if (format == OutputFormat::flow && (request.frame || options.importance)) {
@@ -144,8 +146,15 @@ void prepare_frames_output(const PreparedScene& prepared, const SceneOptions& op
                                      format == OutputFormat::png ? "PNG" : "HDR",
                                      request.frame ? "" : ", or .png to look at them, or .flo for motion alone"));
     }
+    std::vector<OutputFile> outputs;
+    if (!options.stats.empty()) outputs.push_back({options.stats, "--stats"});
+    if (!cache.empty()) outputs.push_back({cache, "--cache"});
+    for (const int frame : prepared.frames)
+        outputs.push_back({output_path(options.output, prepared.name, frame), "--output"});
+    refuse_overwriting(prepared.read, outputs);
     prepare_output(options.output, prepared.name, prepared.frames);
     if (!options.stats.empty()) try_output(options.stats);
+    if (!cache.empty()) try_output(cache);
 }
 
 void write_frames(const FrameJob& job, const SceneOptions& options, const FrameRequest& request) {
@@ -196,8 +205,7 @@ void write_frames(const FrameJob& job, const SceneOptions& options, const FrameR
 
 void render_frames(PreparedScene prepared, const SceneOptions& options, const FrameRequest& request,
                    const std::string& cache, const std::optional<Budget>& budget, double verify) {
-    prepare_frames_output(prepared, options, request);
-    if (!cache.empty()) try_output(cache);
+    prepare_frames_output(prepared, options, request, cache);
     const ThreadLimit limit(options.threads);
     std::optional<Scene> judged;
     if (verify > 0.0) judged = prepared.scene;  // with what --forbid leaves out
@@ -209,7 +217,8 @@ void render_frames(PreparedScene prepared, const SceneOptions& options, const Fr
         if (judged) pictures.keep(frame, output.shaded.color);
         return output;
     };
-    FrameJob job{sequence.scene(), prepared.settings, sequence.exposure(), prepared.frames, prepared.name, make, budget};
+    FrameJob job{
+        sequence.scene(), prepared.settings, sequence.exposure(), prepared.frames, prepared.name, make, budget};
     if (judged) {
         judged->exposure = sequence.exposure();
         job.verify = [&](std::optional<double> estimated) {

@@ -29,14 +29,16 @@ struct FrameJob {
     const std::string& name;  ///< of the files, where --output does not say
     std::function<FrameOutput(int frame, const FrameRequest& request)> make;
     std::optional<Budget> budget = std::nullopt;
-    /// Checks the frames once they are written. @param estimated  share of the pixels that are beyond, where it is known
+    /// Checks the frames once they are written. @param estimated  share of the pixels that are beyond, where it is
+    /// known
     std::function<VerifiedStatistics(std::optional<double> estimated)> verify = {};
 };
 
-/// Checks and tries --output and --stats, and makes their folders; called before anything is computed.
+/// Checks and tries --output, --stats and --cache, and makes their folders; called before anything is computed.
 /// @param maps  the files have channels of maps, which PNG and HDR cannot hold
-/// @throws InputError (--output), OutputError
-void prepare_frames_output(const PreparedScene& prepared, const SceneOptions& options, const FrameRequest& request);
+/// @throws InputError (--output; a file that is read or written twice), OutputError
+void prepare_frames_output(const PreparedScene& prepared, const SceneOptions& options, const FrameRequest& request,
+                           const std::string& cache = "");
 
 /// Makes every frame and writes it. The statistics (--stats) of finished frames are written as they go along
 /// (StatisticsFile). Prints at the end, on standard error, which files were written.

@@ -10,6 +10,7 @@
 #include "render/cli/compare/compare_frames.h"
 #include "render/cli/compare/compare_print.h"
 #include "render/cli/compare/seen_file.h"
+#include "render/cli/output_conflicts.h"
 
 namespace aleph {
 
@@ -17,6 +18,8 @@ namespace {
 
 int compare_pictures(const CompareOptions& options) {
     if (!options.cuts.empty()) throw InputError("", "--cuts", "applies to sequences only");
+    refuse_overwriting({options.first, options.second, options.threshold, options.seen},
+                       {{options.difference, "--diff"}, {options.seen_out, "--seen-out"}});
     const ChannelImage first = read_image(options.first), second = read_image(options.second);
     ChannelImage map;
     if (!options.threshold.empty()) map = read_image(options.threshold);
@@ -102,8 +105,10 @@ constexpr const char* compare_footer =
     "cache.radius only if both pictures have them.\n\n"
     "Sequences: 'name.####.exr', in quotes, or folders that hold one numbered sequence. Frames are paired by number.\n"
     "--seen follows differences along the motion in the maps, as the eye follows a surface. Those that change from\n"
-    "frame to frame *flicker*, the others *last*; *noticed* weighs pixels by how likely viewers look there (saliency).\n"
-    "It uses contrast sensitivity (castleCSF), masking, and the display that the maps name. One picture alone does not\n"
+    "frame to frame *flicker*, the others *last*; *noticed* weighs pixels by how likely viewers look there "
+    "(saliency).\n"
+    "It uses contrast sensitivity (castleCSF), masking, and the display that the maps name. One picture alone does "
+    "not\n"
     "flicker.\n\n"
     "Examples:\n"
     "  aleph compare new.exr golden.exr --relative 1e-4 --share 0.5 --max-rms 0.001\n"
@@ -125,9 +130,10 @@ void add_compare_command(CLI::App& app, Command& command) {
                      "their luminance differs by more than its threshold.Y; replaces --tolerance and --relative")
         ->type_name("MAPS.exr");
     compare_app
-        ->add_option("--seen", options->seen,
-                     "an EXR file of `aleph maps`, or the sequence of the reference's maps: the pictures differ where a "
-                     "viewer who looks there sees a difference; replaces --tolerance and --relative")
+        ->add_option(
+            "--seen", options->seen,
+            "an EXR file of `aleph maps`, or the sequence of the reference's maps: the pictures differ where a "
+            "viewer who looks there sees a difference; replaces --tolerance and --relative")
         ->type_name("MAPS.exr");
     compare_app
         ->add_option("--seen-out", options->seen_out,

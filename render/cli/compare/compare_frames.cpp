@@ -9,6 +9,7 @@
 #include "render/cli/compare/seen_file.h"
 #include "render/cli/frame_pattern.h"
 #include "render/cli/options.h"
+#include "render/cli/output_conflicts.h"
 #include "render/cli/progress.h"
 #include "render/settings/frame_list.h"
 
@@ -91,6 +92,24 @@ std::optional<NumberField> find_output_field(const std::string& argument, const 
     return field;
 }
 
+/// No frame's picture replaces a file of any frame.
+void check_outputs(const CompareOptions& options, const std::vector<const SequenceFiles*>& inputs) {
+    std::vector<std::filesystem::path> read;
+    for (const SequenceFiles* files : inputs) {
+        for (const auto& [frame, file] : *files) read.push_back(file);
+    }
+    std::vector<OutputFile> outputs;
+    const auto add = [&](const std::string& pattern, const std::string& option) {
+        const auto field = find_output_field(pattern, option);
+        if (!field) return;
+        for (const auto& [frame, file] : *inputs.front())
+            outputs.push_back({insert_number(pattern, *field, static_cast<int>(frame)), option});
+    };
+    add(options.difference, "--diff");
+    add(options.seen_out, "--seen-out");
+    refuse_overwriting(read, outputs);
+}
+
 /// The table follows, so a log needs no lines of progress.
 ProgressLook terminal_look(bool quiet) {
     ProgressLook look = progress_look(quiet);
@@ -117,6 +136,7 @@ int compare_frames(const CompareOptions& options) {
     check_partners(options, first, second, maps);
     const auto difference_field = find_output_field(options.difference, "--diff");
     const auto seen_field = find_output_field(options.seen_out, "--seen-out");
+    check_outputs(options, {&first, &second, &thresholds, &seen});
     SequenceComparison sequence(options.settings, parse_cuts(options.cuts), [&](const VisibleMaps& visible) {
         if (!seen_field) return;
         write_seen(insert_number(options.seen_out, *seen_field, static_cast<int>(visible.frame)), visible);

@@ -66,7 +66,7 @@ TEST(MapsImages, RefusesWhatItCannotMean) {
     expect_refusal({"--images", pattern, "--fps", "0"}, {"--fps"});
     expect_refusal({"--images", pattern, "-o", "maps.####.hdr"}, {"write .exr, or .png to look at them"});
     expect_refusal({"--images", pattern, "-o", "maps.####.hdr"}, {"write .exr"});
-    expect_refusal({"--images", pattern, "-o", pattern}, {"pictures themselves"});
+    expect_refusal({"--images", pattern, "-o", pattern}, {"--output", "is read by this command"});
     expect_refusal({"scene.json", "--cuts", "3"}, {"--cuts"});
 }
 
