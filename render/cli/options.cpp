@@ -7,7 +7,7 @@
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
-#include <ostream>
+#include <iostream>
 
 #include "engine/base/errors.h"
 #include "engine/json/close_names.h"
@@ -19,6 +19,13 @@ namespace {
 /// Writes one line without control characters.
 void report(std::ostream& errors, const std::string& message) {
     errors << "aleph: error: " << printable(message, 4000) << "\n" << std::flush;
+}
+
+/// @throws OutputError where some of what was printed is lost
+void flush_results() {
+    const bool printed = static_cast<bool>(std::cout.flush());
+    if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0 || !printed)
+        throw OutputError("standard output", "cannot write the results");
 }
 
 /// Returns whether a text reads as an option rather than as a value. Negative numbers are values.
@@ -137,7 +144,7 @@ void parse_size(std::string_view text, const std::string& option, int& width, in
 int run_command(const Command& command, std::ostream& errors) {
     try {
         const int code = command();
-        if (std::fflush(stdout) != 0) throw OutputError("standard output", "cannot write the results");
+        flush_results();
         return code;
     } catch (const InputError& e) {
         report(errors, e.what());
@@ -164,7 +171,8 @@ int run_program(CLI::App& app, const Command& command, int argc, const char* con
         app.parse(argc, argv);
         refuse_options_as_values(app);
     } catch (const CLI::Success& e) {  // --help, --version
-        return app.exit(e);
+        const int code = app.exit(e);
+        return run_command([code] { return code; }, errors);
     } catch (const CLI::ExtrasError&) {
         return refuse(describe_unexpected(app));
     } catch (const CLI::ParseError& e) {

@@ -34,6 +34,16 @@ ProgressLook progress_look(bool quiet) {
     return {ProgressStyle::bar, !no_colour || !*no_colour, known ? size.ws_col : 80};
 }
 
+namespace {
+
+/// A full disk or a closed terminal is no reason to end a render, so errors are not looked at.
+void write(const std::string& text, std::FILE* out) {
+    std::fwrite(text.data(), 1, text.size(), out);
+    std::fflush(out);
+}
+
+}  // namespace
+
 std::string format_duration(double seconds) {
     if (!(seconds >= 0.0)) return "?";
     if (seconds < 59.95) return fmt::format("{:.1f}s", seconds);
@@ -83,8 +93,7 @@ void Progress::show() {
     pending_ = false;
     const double share = done_ / total_;
     if (look_.style == ProgressStyle::lines) {
-        fmt::print(out_, "{} {:3.0f}% {} {}\n", title_, 100.0 * share, times(), what_);
-        std::fflush(out_);
+        write(fmt::format("{} {:3.0f}% {} {}\n", title_, 100.0 * share, times(), what_), out_);
         return;
     }
     const std::string tail = fmt::format(" {:3.0f}% {} {}", 100.0 * share, times(), what_);
@@ -99,8 +108,7 @@ void Progress::show() {
     } else {
         line = (line + tail).substr(0, static_cast<std::size_t>(std::max(1, look_.columns - 1)));
     }
-    fmt::print(out_, "\r{}\x1b[K", line);
-    std::fflush(out_);
+    write(fmt::format("\r{}\x1b[K", line), out_);
 }
 
 }  // namespace aleph

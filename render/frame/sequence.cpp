@@ -12,7 +12,23 @@ namespace aleph {
 
 namespace {
 
-constexpr int exposure_columns = 160;
+/// The picture that the exposure is measured from: 160 columns, and fewer where it would have more than 640 rows.
+/// Without that bound a picture of 1x8192 would be measured from 1.3 million rows.
+struct MeasuredSize {
+    explicit MeasuredSize(const PictureSettings& picture) {
+        constexpr std::int64_t most_columns = 160, most_rows = 640;
+        const std::int64_t width = picture.width, height = picture.height;
+        const std::int64_t rows_of_width = most_columns * height / width;
+        if (rows_of_width > most_rows) {
+            columns = static_cast<int>(std::max<std::int64_t>(1, most_rows * width / height));
+            rows = static_cast<int>(most_rows);
+        } else {
+            columns = static_cast<int>(most_columns);
+            rows = static_cast<int>(std::max<std::int64_t>(1, rows_of_width));
+        }
+    }
+    int columns, rows;
+};
 
 /// The exposure that the scene has with all of its effects, so that pictures without some of them can be compared.
 double find_full_exposure(const Scene& scene, RenderSettings settings, const std::string& camera) {
@@ -22,9 +38,9 @@ double find_full_exposure(const Scene& scene, RenderSettings settings, const std
 
 /// From a small quick estimate of the first frame.
 double find_exposure(const Shot& shot, FrameScene& scene) {
-    const int height = std::max(1, exposure_columns * shot.settings.picture.height / shot.settings.picture.width);
+    const MeasuredSize size(shot.settings.picture);
     const std::int64_t first = shot.range.first;
-    scene.pose(shot.scene.frame_rate.seconds_of(first), shot.camera(first), exposure_columns, height);
+    scene.pose(shot.scene.frame_rate.seconds_of(first), shot.camera(first), size.columns, size.rows);
     scene.prepare();
     RayCounts counts;
     const SampleHits centers = cast_centers(scene.rays(), scene.posed().view, &counts.primary);

@@ -23,6 +23,19 @@ void follow_error(RenderSettings& settings, double error) {
     settings.sampling.spp = most_samples;
 }
 
+namespace {
+
+/// Neither of the two could have its way.
+void refuse_contradiction(const EffectSettings& effects, const std::string& source) {
+    for (const EffectName& effect : effect_list) {
+        if (!effects.force.contains(effect.id) || !effects.forbid.contains(effect.id)) continue;
+        throw InputError(source, "forbid",
+                         fmt::format("the effect {} is named by \"force\" too; leave it out of one", effect.name));
+    }
+}
+
+}  // namespace
+
 void apply_settings(RenderSettings& settings, const SettingMap& map, const std::string& source) {
     const std::vector<Setting>& table = setting_table();
     // Refused below, if it is not a number in range.
@@ -42,6 +55,7 @@ void apply_settings(RenderSettings& settings, const SettingMap& map, const std::
         if (!mismatch.empty()) throw InputError(source, key, mismatch);
         found->set(settings, value);
     }
+    refuse_contradiction(settings.effects, source);
 }
 
 SettingMap setting_map(const RenderSettings& settings) {

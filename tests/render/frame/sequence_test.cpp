@@ -218,6 +218,16 @@ TEST(SequenceEdit, ABadEditChangesNothing) {
     EXPECT_TRUE(sequence.render(2).shaded.color.pixels == before.pixels);
 }
 
+/// Without a bound the tallest one takes more memory than most machines have.
+TEST(Sequence, TheExposureOfATallPictureIsMeasuredFromFewPixels) {
+    const double usual = Sequence(make_moving_scene(), quick_settings(8, 6)).exposure();
+    for (const int height : {1024, 65536}) {
+        const double tall = Sequence(make_moving_scene(), quick_settings(1, height)).exposure();
+        EXPECT_GT(tall, 0.1 * usual) << height;
+        EXPECT_LT(tall, 10.0 * usual) << height;
+    }
+}
+
 TEST(Sequence, RefusesAScenesFaults) {
     Scene scene = make_moving_scene();
     scene.nodes[1].meshes = {999};

@@ -56,6 +56,18 @@ std::string refusal(const std::string& key, const SettingValue& value) {
     return found.reason;
 }
 
+TEST(Settings, NoEffectIsForcedAndForbidden) {
+    RenderSettings settings;
+    apply_settings(settings, {{"force", "caustics"}, {"forbid", "alpha"}}, "scene.json");
+    for (const SettingMap& map :
+         {SettingMap{{"force", "alpha,caustics"}, {"forbid", "textures,alpha"}}, SettingMap{{"forbid", "caustics"}}}) {
+        RenderSettings changed = settings;
+        const Refusal found = find_refusal([&] { apply_settings(changed, map, "--set"); });
+        expect_refusal(found, "--set", "forbid", "\"force\" too");
+    }
+    EXPECT_NO_THROW(apply_settings(settings, {{"force", ""}, {"forbid", "caustics"}}, "--set"));
+}
+
 TEST(Settings, EveryKeyRoundTrips) {
     std::set<std::string> keys;
     for (const Setting& setting : setting_table()) {
