@@ -13,8 +13,14 @@ constexpr std::uint32_t irradiance_seed_mask = 0x69727261u;  // apart from path_
 
 constexpr int lights_in_mirrors = 4;  // PathState::light_samples
 
-/// Rays over the hemisphere of a sample without records, where their error decides the number of samples.
-constexpr int rays_per_sample = 2;
+/// Rays over the hemisphere of a sample. `gather` is their number where there are no records that it speaks of, and
+/// their error does not decide the number of samples.
+int count_sample_rays(const RenderSettings& settings) {
+    constexpr int usual = 2;
+    const bool has_records = settings.cache.accuracy > 0.0;
+    const bool chosen = !has_records && settings.sampling.rule == Sampling::uniform && settings.cache.gather > 0;
+    return chosen ? settings.cache.gather : usual;
+}
 
 RandomStream path_stream(const SampleShading& shading, const PixelSurface& surface,
                          std::uint32_t mask = path_seed_mask) {
@@ -84,8 +90,7 @@ Rgb sample_irradiance(const SampleShading& shading, const SampleScene& scene, Sh
     state.known = shading.known;
     state.accuracy = shading.context.accuracy(surface.x, surface.y);
     const Basis basis = make_basis(surface.point.normal);
-    const bool chosen = settings.sampling.rule == Sampling::uniform && settings.cache.gather > 0;
-    const int rays = chosen ? settings.cache.gather : rays_per_sample;
+    const int rays = count_sample_rays(settings);
     Rgb sum(0.0f);
     for (int i = 0; i < rays; ++i) {
         const glm::vec2 u = sequence.at_2d(SampleUse::indirect, surface.sample * rays + i);

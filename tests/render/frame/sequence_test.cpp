@@ -57,6 +57,45 @@ TEST(Sequence, SeesWithAProgramsOwnModelOfVision) {
     EXPECT_EQ(frame.alpha, Image<float>(40, 30, static_cast<float>(settings.cache.accuracy)));
 }
 
+/// Share of the pixels that two frames have in common.
+double share_equal(const Image<Rgb>& a, const Image<Rgb>& b) {
+    int equal = 0;
+    for (std::size_t i = 0; i < a.size(); ++i) equal += a.pixels[i] == b.pixels[i] ? 1 : 0;
+    return equal / static_cast<double>(a.size());
+}
+
+TEST(Sequence, NoiseOfAStillCameraIsNewInEachFrameWhereAnErrorIsAskedFor) {
+    Scene scene = make_moving_scene();
+    scene.nodes[1].translation.values = {{-1.0, 0.5, 0.0}, {-0.999, 0.5, 0.0}};  // hardly moves
+    const auto render_both = [&](double error) {
+        RenderSettings settings = quick_settings(40, 30);
+        settings.perception.guide = Guide::none;
+        settings.light.bounces = 0;
+        if (error > 0.0) {
+            follow_error(settings, error);
+            settings.light.bounces = 0;
+        }
+        Sequence sequence(scene, settings);
+        const Image<Rgb> first = sequence.render(10).shaded.color;
+        return share_equal(first, sequence.render(11).shaded.color);
+    };
+    EXPECT_GT(render_both(0.0), 0.5);
+    EXPECT_LT(render_both(4.0), 0.9 * render_both(0.0));
+}
+
+TEST(Sequence, NoiseOfAHeldFrameIsSeenMore) {
+    Scene scene = make_moving_scene();
+    RenderSettings settings = quick_settings(40, 30);
+    follow_error(settings, 4.0);
+    FrameRequest request;
+    request.maps = true;
+    const float moving = Sequence(scene, settings).render(10, request).threshold_noise(1, 28);
+    scene.nodes[1].translation = glm::dvec3(0.0, 0.5, 0.0);
+    const float held = Sequence(scene, settings).render(10, request).threshold_noise(1, 28);
+    EXPECT_LT(held, 0.9f * moving);
+    EXPECT_GT(held, 0.0f);
+}
+
 TEST(Sequence, OwnsItsScene) {
     const RenderSettings settings = quick_settings(40, 30);
     const Scene kept = make_moving_scene();

@@ -254,6 +254,32 @@ TEST(MotionBlur, FX15_ALampThatIsDarkAtTheShuttersCentreCastsShadows) {
     EXPECT_GT(open(width / 2, height / 2).x, 0.01f);
 }
 
+/// Rays of a record are not those of a sample that has none.
+TEST(MotionBlur, SamplesWithoutARecordDoNotCastTheRaysOfOne) {
+    Scene scene;
+    scene.exposure = 1.0;
+    scene.range = FrameRange{0, 10};
+    add_mesh(scene, make_quad(50.0, 50.0, add_lambert(scene, glm::dvec3(0.5), glm::dvec3(0.0), true)));
+    const int shining = add_lambert(scene, glm::dvec3(0.0), glm::dvec3(1.0), true);
+    scene.materials[shining].emission_strength = keyed<double>({0.0, at(0.75)}, {0.0, 100.0}, Interpolation::step);
+    add_mesh(scene, make_quad(1.0, 1.0, shining), {4.0, 0.0, 6.0});
+    add_camera(scene, {0.0, 0.0, 5.0}, glm::dvec3(0.0));
+    scene.cameras[0].shutter = {0.0, 1.0};
+    std::vector<std::uint64_t> rays;
+    for (const int gather : {4, 256}) {
+        RenderSettings settings = blur_settings(1);
+        settings.light.integrator = Integrator::cache;
+        settings.light.bounces = 1;
+        settings.cache.accuracy = 0.3;
+        settings.cache.light_step = 0;
+        settings.cache.gather = gather;
+        settings.effects.plan = EffectsPlanning::off;
+        rays.push_back(Sequence(scene, settings).render(0).statistics.counts.rays.path);
+    }
+    EXPECT_GT(rays[0], 0u);
+    EXPECT_EQ(rays[0], rays[1]);
+}
+
 TEST(MotionBlur, MC27_AChangeOfTopologyShowsBothMeshes) {
     // A surface of one triangle in frame 0, of two in frame 1.
     Scene scene = load_scene(source_folder() / "scenes" / "hard" / "changing_topology.json");
