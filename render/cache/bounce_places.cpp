@@ -117,7 +117,7 @@ FillPlaces make_fill_places(const ShadingScene& shading, const BouncePlaces& pla
                 if (places.hits(x, y).instance == no_index) continue;
                 const PixelSurface surface = make_bounce_surface(shading, places, x, y);
                 if (!surface.material.has_diffuse()) continue;
-                fill.points(x, y) = {surface.point.position, surface.footprint, surface.point.normal};
+                fill.points(x, y) = make_fill_point(surface);
             }
         }
     });

@@ -6,12 +6,14 @@
 
 #include "engine/base/parallel.h"
 #include "render/cache/gather_at.h"
+#include "render/cache/record_worth.h"
 
 namespace aleph {
 
 namespace {
 
 constexpr int first_stride = 64;            // pixels, size of the first tiles
+constexpr int probing_stride = 16;          // pixels, of tiles that get records in any case
 constexpr float least_reach_pixels = 0.7f;  // of a record at its own accuracy
 constexpr int max_reviews = 16;             // passes over all pixels after the last tile size
 /// A record may reach so much farther than expected: candidates within that wait.
@@ -45,9 +47,22 @@ std::vector<glm::ivec2> list_tiles(const Image<FillPoint>& points, int stride, b
     return tiles;
 }
 
-/// The tiles whose samples no record covers, in tile order.
+/// Returns whether a point gets a record: those of large tiles do in any case, so that others know what to expect.
+bool needs_record(const IrradianceCache& cache, const IndirectContext& context, const FillPoint& point,
+                  glm::ivec2 pixel) {
+    if (context.tolerance == nullptr) return true;
+    if (pixel.x % probing_stride == 0 && pixel.y % probing_stride == 0) return true;
+    const float accuracy = context.accuracy(pixel.x, pixel.y);
+    const auto expected = cache.expect({point.position, point.normal, accuracy}, context.max_radius);
+    if (!expected) return true;
+    return is_worth_record(*expected, point.footprint, accuracy, point.reflected, (*context.tolerance)(pixel.x, pixel.y),
+                           choose_rays(context.settings, accuracy, expected->ray_variance));
+}
+
+/// The tiles whose samples no record covers and which need one, in tile order. The points of those that do without are
+/// taken out.
 std::vector<Candidate> find_uncovered(const IrradianceCache& cache, const IndirectContext& context,
-                                      const Image<FillPoint>& points, const std::vector<glm::ivec2>& tiles,
+                                      Image<FillPoint>& points, const std::vector<glm::ivec2>& tiles,
                                       FrameCounts& counts) {
     std::vector<std::vector<Candidate>> found((tiles.size() + lookup_grain - 1) / lookup_grain);
     std::mutex counts_mutex;
@@ -56,12 +71,16 @@ std::vector<Candidate> find_uncovered(const IrradianceCache& cache, const Indire
         std::uint64_t asked = 0, missed = 0;
         for (std::size_t i = begin; i < end; ++i) {
             const int x = tiles[i].x, y = tiles[i].y;
-            const FillPoint& point = points(x, y);
+            FillPoint& point = points(x, y);
             const float accuracy = context.accuracy(x, y);
             const CacheQuery query{point.position, point.normal, accuracy, &task};
             ++asked;
             if (cache.covers(query)) continue;
             ++missed;
+            if (!needs_record(cache, context, point, tiles[i])) {
+                point.footprint = -1.0f;
+                continue;
+            }
             found[begin / lookup_grain].push_back(
                 {x, y, {query.position, query.normal, accuracy}, radius_bounds(context, point.footprint, accuracy)});
         }
@@ -99,8 +118,9 @@ std::vector<Candidate> accept_candidates(const IrradianceCache& cache, const Ind
         expected.insert(record);
         candidate.rays = rays;
         if (rays == 0) {
-            const std::optional<float> ray_variance = cache.expected_ray_variance(candidate.query);
-            candidate.rays = choose_rays(context.settings, candidate.query.accuracy, ray_variance);
+            const auto known = cache.expect(candidate.query, context.max_radius);
+            candidate.rays = choose_rays(context.settings, candidate.query.accuracy,
+                                         known ? std::optional(known->ray_variance) : std::nullopt);
         }
         accepted.push_back(candidate);
     }
@@ -132,7 +152,7 @@ std::vector<Gathered> gather_records(const IndirectContext& context, const FillP
 }
 
 /// Rounds over the tiles until every one is covered or has been tried. Returns the number of records added.
-std::size_t fill_tiles(IrradianceCache& cache, const IndirectContext& context, const FillPlaces& places,
+std::size_t fill_tiles(IrradianceCache& cache, const IndirectContext& context, FillPlaces& places,
                        std::vector<glm::ivec2> tiles, FrameTally& tally) {
     const std::size_t records_before = cache.records().size();
     while (!tiles.empty()) {
@@ -175,14 +195,14 @@ RadiusBounds radius_bounds(const IndirectContext& context, float footprint, floa
     return {min, context.max_radius, footprint / std::sqrt(alpha)};
 }
 
-void fill_places(IrradianceCache& cache, const IndirectContext& context, const FillPlaces& places, FrameTally& tally) {
+void fill_places(IrradianceCache& cache, const IndirectContext& context, FillPlaces places, FrameTally& tally) {
     const bool coarse = places.coarse_first;
     for (int stride = coarse ? first_stride : places.finest; stride >= places.finest; stride /= 2) {
         fill_tiles(cache, context, places, list_tiles(places.points, stride, coarse), tally);
     }
     // A new record near a wall shrinks its neighbours' radii, and pixels that they covered before are uncovered again.
-    // Without these reviews, shading would gather at each such pixel. Later samples look at every pixel anyway.
-    for (int review = 0; coarse && review < max_reviews; ++review) {
+    const bool reviews = coarse && context.tolerance == nullptr;
+    for (int review = 0; reviews && review < max_reviews; ++review) {
         if (fill_tiles(cache, context, places, list_tiles(places.points, places.finest, false), tally) == 0) break;
     }
 }

@@ -36,8 +36,8 @@ struct FillPlaces {
 };
 
 /// Adds records until every place is covered. A gather that is not finite makes no record: it is counted as invalid,
-/// and shading computes that sample's irradiance again if no other record covers it.
-void fill_places(IrradianceCache& cache, const IndirectContext& context, const FillPlaces& places, FrameTally& tally);
+/// and shading finds that sample's irradiance by rays of its own if no other record covers it.
+void fill_places(IrradianceCache& cache, const IndirectContext& context, FillPlaces places, FrameTally& tally);
 
 /// Bounds for a pixel: R_i is at least min_radius_pixels, and at the pixel's own accuracy S_i reaches a pixel.
 /// @param footprint  m, of the pixel

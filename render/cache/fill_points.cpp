@@ -4,6 +4,7 @@
 
 #include "engine/base/parallel.h"
 #include "render/surface/carried_point.h"
+#include "render/surface/scatter.h"
 
 namespace aleph {
 
@@ -15,6 +16,12 @@ std::optional<PixelSurface> find_surface(const IndirectContext& context, const S
     if (!point) return std::nullopt;
     surface.point = *point;
     return surface;
+}
+
+FillPoint make_fill_point(const PixelSurface& surface) {
+    const LitSurface lit(surface);
+    const Rgb reflected = diffuse_radiance(surface.material, lit.cos_view, Rgb(1.0f)) * lit.below_sheen;
+    return {surface.point.position, surface.footprint, surface.point.normal, luminance(reflected)};
 }
 
 Image<FillPoint> find_points(const IndirectContext& context, const SampleHits& sample, int step, RayCounts& counts) {
@@ -31,7 +38,7 @@ Image<FillPoint> find_points(const IndirectContext& context, const SampleHits& s
                 if (context.carried != nullptr && context.carried->find(*surface, context.accuracy(x, y), task)) {
                     continue;
                 }
-                points(x, y) = {surface->point.position, surface->footprint, surface->point.normal};
+                points(x, y) = make_fill_point(*surface);
             }
         }
         const std::lock_guard lock(counts_mutex);

@@ -10,7 +10,11 @@ struct FillPoint {
     glm::vec3 position{0.0f};  ///< m, relative to the anchor of IndirectContext::lighting
     float footprint = -1.0f;   ///< m, of the pixel; negative: no light is needed here, or it is known (CarriedLight)
     glm::vec3 normal{0.0f};    ///< unit
+    float reflected = 0.0f;    ///< luminance of radiance over irradiance
 };
+
+/// The point of a surface that needs light.
+FillPoint make_fill_point(const PixelSurface& surface);
 
 /// The surface that a pixel shows, in the pose whose light is wanted; nothing if it is not there.
 std::optional<PixelSurface> find_surface(const IndirectContext& context, const SampleHits& sample, int x, int y);

@@ -40,6 +40,9 @@ struct IndirectContext {
     /// If set, the hits were cast in this pose of the scene, and the light is wanted where their surfaces are in
     /// `lighting` (carry_point).
     const ShadingScene* seen = nullptr;
+    /// Luminance that the mean of a pixel's samples may err by: records are computed only where they cost less than
+    /// rays of samples. Null: everywhere.
+    const Image<float>* tolerance = nullptr;
     MultiBounceLight multi_bounce{};  ///< of fewer bounces than the light that is gathered
     int bounces_before = 0;  ///< at Lambert layers, between the picture and the surfaces whose light is gathered
 };

@@ -21,8 +21,8 @@ constexpr float comparison_reach = 2.0f;
 /// Likewise, where records are averaged to lower their noise, and how many standard deviations they may differ.
 constexpr float smoothing_reach = 2.0f, max_noise_difference = 2.5f;
 
-/// The variance of gather rays is expected from the records within this multiple of the reach.
-constexpr float variance_reach = 4.0f;
+/// A record is expected to be like those within this multiple of their reach.
+constexpr float expecting_reach = 4.0f;
 
 /// A record of a looser pixel has more noise: it covers no pixel whose accuracy is smaller by more than this factor.
 constexpr float max_looser = 1.5f;
@@ -114,26 +114,39 @@ void IrradianceCache::compare_with_neighbours(IrradianceRecord& record) {
 void IrradianceCache::insert(IrradianceRecord record) {
     clamp_to_neighbours(record);
     compare_with_neighbours(record);
-    ray_variance_sum_ += record.ray_variance;
+    ray_variances_ += record.ray_variance;
+    irradiances_ += luminance(record.irradiance);
     records_.push_back(record);
     index_.add(record.position, {record.radius}, record.accuracy);
 }
 
-std::optional<float> IrradianceCache::expected_ray_variance(const CacheQuery& query) const {
+std::optional<ExpectedRecord> IrradianceCache::expect(const CacheQuery& query, float max_radius) const {
     if (records_.empty()) return std::nullopt;
-    float sum = 0.0f, total = 0.0f;
-    const float reach = variance_reach * query.accuracy;
+    ExpectedRecord expected;
+    float growth = 0.0f, total = 0.0f;
+    const float reach = expecting_reach * query.accuracy;
     index_.visit_near(query.position, reach, 0.0f, [&](int i) {
         const IrradianceRecord& record = records_[i];
         const float weight = 1.0f - glm::length(query.position - record.position) / (reach * record.radius);
         if (weight > 0.0f && glm::dot(query.normal, record.normal) > 0.0f) {
-            sum += weight * record.ray_variance;
+            expected.irradiance += weight * luminance(record.irradiance);
+            expected.ray_variance += weight * record.ray_variance;
+            growth += weight * record.growth;
             total += weight;
         }
         return true;
     });
-    if (total > 0.0f) return sum / total;
-    return static_cast<float>(ray_variance_sum_ / static_cast<double>(records_.size()));
+    if (total > 0.0f) {
+        expected.irradiance /= total;
+        expected.ray_variance /= total;
+        expected.reach.spread = 1.0f / std::sqrt(growth / total);
+    } else {
+        const auto count = static_cast<double>(records_.size());
+        expected.irradiance = static_cast<float>(irradiances_ / count);
+        expected.ray_variance = static_cast<float>(ray_variances_ / count);
+    }
+    expected.reach.radius = radius_bound(query.position, query.normal, max_radius);
+    return expected;
 }
 
 IrradianceRecord IrradianceCache::smoothed(const IrradianceRecord& record) const {
@@ -186,11 +199,12 @@ void IrradianceCache::finish(std::size_t kept) {
 void IrradianceCache::restore(std::vector<IrradianceRecord> records) {
     records_ = std::move(records);
     index_ = index_.emptied();
-    ray_variance_sum_ = 0.0;
+    ray_variances_ = irradiances_ = 0.0;
     for (const IrradianceRecord& record : records_) {
         index_.add(record.position, {record.radius, spread_of(record)}, record.accuracy);
         max_accuracy_ = std::max(max_accuracy_, record.accuracy);
-        ray_variance_sum_ += record.ray_variance;
+        ray_variances_ += record.ray_variance;
+        irradiances_ += luminance(record.irradiance);
     }
 }
 

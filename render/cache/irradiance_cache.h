@@ -40,6 +40,13 @@ struct RecordUse {
     }
 };
 
+/// What a record would be, by those around it.
+struct ExpectedRecord {
+    float irradiance = 0.0f;    ///< luminance
+    float ray_variance = 0.0f;  ///< of a single gather ray, relative
+    RecordReach reach;
+};
+
 /// A place where irradiance is needed.
 struct CacheQuery {
     glm::vec3 position{0.0f};
@@ -79,9 +86,9 @@ class IrradianceCache {
     /// The radius, at most `max_radius`, that neighbour clamping would leave a record here.
     float radius_bound(const glm::vec3& position, const glm::vec3& normal, float max_radius) const;
 
-    /// Relative variance of one gather ray here, expected from the records around, or from all where none is near.
-    /// Nothing while there are no records.
-    std::optional<float> expected_ray_variance(const CacheQuery& query) const;
+    /// Means of the records around, or of all where none is near; the radius is that of neighbour clamping. Nothing
+    /// while there are no records.
+    std::optional<ExpectedRecord> expect(const CacheQuery& query, float max_radius) const;
 
     /// Replaces each record's value and gradients by the mean of what it and the records around it extrapolate to its
     /// place, of those that differ by no more than noise: less noise without more rays. Nothing is inserted afterwards.
@@ -102,7 +109,7 @@ class IrradianceCache {
     std::vector<IrradianceRecord> records_;
     RecordIndex index_;
     float max_accuracy_ = 0.0f;  ///< of the records
-    double ray_variance_sum_ = 0.0;
+    double ray_variances_ = 0.0, irradiances_ = 0.0;  ///< sums over the records
 };
 
 }  // namespace aleph

@@ -122,7 +122,8 @@ void fill_mirror_places(IrradianceCache& cache, const IndirectContext& context, 
                         FrameTally& tally) {
     MirrorPlaces mirrors = cast_mirror_places(context, sample, tally.counts.rays);
     if (!mirrors.any) return;
-    const IndirectContext mirrored = make_places_context(context, mirrors.accuracy);
+    IndirectContext mirrored = make_places_context(context, mirrors.accuracy);
+    mirrored.tolerance = context.tolerance;
     fill_places(cache, mirrored, make_fill_places(context.lighting.shading, mirrors.places), tally);
 }
 

@@ -15,7 +15,7 @@ inline constexpr double error_deviations = 1.585;
 /// How much more error of samples goes unseen than of noise that is independent from pixel to pixel: pixel_sequence.h
 /// spreads samples evenly over neighbouring pixels, so that most of their error is fine grain. Measured in pool and
 /// art-gallery with the instrument of compare/visible_difference.h (scenes/studies/README.md).
-inline constexpr double fine_grain = 2.4;
+inline constexpr double fine_grain = 1.8;
 
 /// The mean of a pixel's samples, as its neighbours tell it. A pixel's own samples never decide when it stops: a pixel
 /// whose first samples happen to agree would stop early, more often at a value that is too low than at one that is too

@@ -23,6 +23,7 @@ struct KnownIrradiance {
                                     RayTask& task) const = 0;
 
     const int bounces;
+    const KnownIrradiance* fewer = nullptr;  ///< light of fewer bounces; null: none is known
 };
 
 }  // namespace aleph

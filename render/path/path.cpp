@@ -155,14 +155,17 @@ class Path {
     /// Adds the indirect light that the Lambert layer scatters, if it is known: before Russian roulette, as no ray is
     /// needed. Then the path must not go on from that layer.
     bool add_known(const ViewedSurface& surface) {
-        if (state_.known == nullptr || hit_.instance == no_index || !surface.material.has_diffuse()) return false;
-        if (std::min(state_.left.bounces, state_.left.depth - 1) != state_.known->bounces) return false;
+        if (hit_.instance == no_index || !surface.material.has_diffuse()) return false;
+        const int bounces = std::min(state_.left.bounces, state_.left.depth - 1);
+        const KnownIrradiance* known = state_.known;
+        while (known != nullptr && known->bounces != bounces) known = known->fewer;
+        if (known == nullptr) return false;
         const LitSurface lit(surface);
         const auto scattered = [&](const Rgb& irradiance) {
             return state_.throughput * diffuse_radiance(surface.material, lit.cos_view, irradiance) * lit.below_sheen;
         };
         const std::optional<Rgb> irradiance =
-            state_.known->find(surface, hit_, loosen_accuracy(state_), scattered(Rgb(1.0f)), task_);
+            known->find(surface, hit_, loosen_accuracy(state_), scattered(Rgb(1.0f)), task_);
         if (irradiance) light_ += scattered(*irradiance);
         return irradiance.has_value();
     }

@@ -95,8 +95,8 @@ std::vector<Setting> light_settings() {
     return {
         with_unit(number_setting(
                       "error",
-                      "largest error that is asked for; sets sampling, adapter, accuracy, gather, bounces and spp, "
-                      "which override it when they are given beside it; 0: none is asked for",
+                      "largest error that is asked for; sets sampling, adapter, accuracy, gather, light_step, bounces "
+                      "and spp, which override it when they are given beside it; 0: none is asked for",
                       at(&S::error), 0.0, 1000.0),
                   "just visible differences"),
         without_scene(number_setting(

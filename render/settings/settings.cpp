@@ -19,6 +19,7 @@ void follow_error(RenderSettings& settings, double error) {
     settings.guide.adapter = Adapter::none;  // light that follows the map flickers
     settings.cache.accuracy = std::min(1.0, accuracy_per_difference * error);
     settings.cache.gather = 512;
+    settings.cache.light_step = 0;  // the records that pay (record_worth.h) cost less than keyframes
     settings.light.bounces = all_bounces;
     settings.sampling.spp = most_samples;
 }

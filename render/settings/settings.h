@@ -141,7 +141,8 @@ struct RenderSettings {
 void apply_settings(RenderSettings& settings, const SettingMap& map, const std::string& source);
 
 /// Settings with which a picture is made to an error that is asked for: the accuracy of records that leaves most of the
-/// error to samples, 16 bounces, and as many samples as their noise needs to go unseen, 4,096 at most.
+/// error to samples, no lighting keyframes, 16 bounces, and as many samples as their noise needs to go unseen, 4,096 at
+/// most.
 /// @param error  thresholds, above 0
 void follow_error(RenderSettings& settings, double error);
 

@@ -27,20 +27,19 @@ class CacheIntegrator final : public LightIntegrator {
           known_(context_, cached_ ? &cache_ : nullptr),
           direct_(context_.max_radius) {
         if (cached_) context_.direct = &direct_;
+        if (context_.settings.error > 0.0 && !input.sampling_tolerance.empty())
+            context_.tolerance = &input.sampling_tolerance;
         context_.multi_bounce = make_multi_bounce_light(context_.settings, nullptr);
         if (input.options.record_maps) uses_ = Image<RecordUse>(context_.view.width, context_.view.height);
     }
 
-    bool shares_light() const override { return cached_ || samples_further(); }
+    bool shares_light() const override { return cached_ || needs_further(); }
 
     void fill(const SampleHits& first) override {
-        if (!cached_) {
-            find_seen_surfaces(first);
-            if (further_bounces_) further_.emplace(context_.multi_bounce);
-            return;
-        }
-        if (input_.options.risk != nullptr) context_.carried = &checked_.emplace(context_, *input_.options.risk, first);
-        find_seen_surfaces(first);
+        if (cached_ && input_.options.risk != nullptr)
+            context_.carried = &checked_.emplace(context_, *input_.options.risk, first);
+        solve_further(first);
+        if (!cached_) return;
         if (checked_) checked_->check(cache_, context_, input_.out);
         fill_cache(cache_, context_, first, input_.out);
         fill_mirror_places(cache_, context_, first, input_.out);
@@ -51,39 +50,27 @@ class CacheIntegrator final : public LightIntegrator {
         scene_ = &scene;
         const RenderSettings& settings = context_.settings;
         const bool uniform = settings.sampling.rule == Sampling::uniform;
-        context_.seen = nullptr;
         shutter_.reset();
         if (blurred_ && cached_) {
             shutter_.emplace(context_.lighting.shading, scene.lighting.shading, context_.carried, &cache_, shade_reach);
-            context_.seen = &scene.lighting.shading;
         }
         shading_.emplace(
             SampleShading{.context = context_,
                           .noise_key = input_.noise_key,
                           .indirect = indirect_,
                           .cache = cached_ ? &cache_ : nullptr,
-                          .known = find_known(),
+                          .known = blurred_ ? nullptr : &known_,
                           .blurred = blurred_,
                           .shutter = shutter_ ? &*shutter_ : nullptr,
                           .points = {(settings.light.light_samples + settings.sampling.spp - 1) / settings.sampling.spp,
                                      0, settings.sampling.spp},
                           .light_samples = uniform ? 0 : progressive_light_samples,
                           .tolerance = input_.tolerance ? &*input_.tolerance : nullptr,
-                          .records = &input_.out.records,
                           .uses = uses_.empty() ? nullptr : &uses_});
     }
 
-    bool shade(ShadingTask& task, const PixelSurface& surface, const PixelSamples& pixel, SampleLight& light) override {
-        return shade_sample(*shading_, *scene_, task, surface, pixel, light);
-    }
-
-    void fill_waiting(const std::vector<PendingSample>& waiting) override {
-        if (!waiting.empty() && !further_bounces_) add_further_bounces();
-        fill_pending(cache_, context_, waiting, input_.out);
-    }
-
-    void add_waiting(ShadingTask& task, PendingSample& sample) override {
-        add_indirect(*shading_, *scene_, task, sample.surface, sample.light);
+    void shade(ShadingTask& task, const PixelSurface& surface, const PixelSamples& pixel, SampleLight& light) override {
+        shade_sample(*shading_, *scene_, task, surface, pixel, light);
     }
 
     void resolve(const Image<PixelSamples>& pixels, double exposure) override {
@@ -92,32 +79,20 @@ class CacheIntegrator final : public LightIntegrator {
     }
 
   private:
-    /// Whether samples without records find light of further bounces in a cache. While the shutter is open it would
-    /// hold for its centre alone.
-    bool samples_further() const {
-        return indirect_ && !(context_.settings.cache.accuracy > 0.0) && !blurred_ && context_.multi_bounce.bounces > 0;
-    }
+    /// Paths of samples while the shutter is open do not use it: it holds for the shutter's centre.
+    bool needs_further() const { return context_.multi_bounce.bounces > 0 && (cached_ || !blurred_); }
 
-    const KnownIrradiance* find_known() const {
-        if (blurred_) return nullptr;
-        if (further_) return &*further_;
-        return &known_;
-    }
-
-    /// Where the light of some pixels is known, gathers at others still find light of all surfaces.
-    void find_seen_surfaces(const SampleHits& first) {
-        if (context_.multi_bounce.bounces == 0) return;
+    /// Finds light of further bounces, for gathers and for paths of samples.
+    void solve_further(const SampleHits& first) {
+        if (!needs_further()) return;
         IndirectContext all = context_;
         all.carried = nullptr;
-        add_seen_surfaces(all, first, seen_, input_.out.counts.rays);
-        std::vector<PixelSurface> unknown;
-        if (context_.carried != nullptr) add_seen_surfaces(context_, first, unknown, input_.out.counts.rays);
-        if (context_.carried == nullptr || !unknown.empty()) add_further_bounces();
-    }
-
-    void add_further_bounces() {
-        further_bounces_ = solve_further_bounces(context_, seen_, input_.out.counts);
-        if (further_bounces_) context_.multi_bounce = make_multi_bounce_light(context_.settings, &*further_bounces_);
+        std::vector<PixelSurface> seen;
+        add_seen_surfaces(all, first, seen, input_.out.counts.rays);
+        further_bounces_ = solve_further_bounces(context_, seen, input_.out.counts);
+        if (!further_bounces_) return;
+        context_.multi_bounce = make_multi_bounce_light(context_.settings, &*further_bounces_);
+        known_.fewer = &further_.emplace(context_.multi_bounce);
     }
 
     const IntegratorInput input_;
@@ -126,9 +101,8 @@ class CacheIntegrator final : public LightIntegrator {
     IrradianceCache cache_;
     std::optional<CheckedLight> checked_;
     FrameIrradiance known_;
-    std::vector<PixelSurface> seen_;  ///< for further_bounces_, which is solved once a record is needed
     std::optional<FurtherBounces> further_bounces_;
-    std::optional<FurtherIrradiance> further_;  ///< to paths, without records
+    std::optional<FurtherIrradiance> further_;  ///< the same to paths
     DirectGrid direct_;
     Image<RecordUse> uses_;  ///< empty: not asked for
     std::optional<ShutterLight> shutter_;

@@ -18,26 +18,28 @@ namespace {
 
 constexpr double fill_share = 0.3;          // of a frame's time, for progress only
 constexpr std::size_t task_ranges = 64;     // pixels of a task
-constexpr std::size_t pending_pixels = 16;  // the same for samples that the cache did not cover
-constexpr int slice_samples = 1 << 17;      // that may wait for light at a time: more only for the sake of threads
-constexpr std::size_t slice_ranges = 64 * task_ranges;
+constexpr std::size_t slice_ranges = 64 * task_ranges;  // between reports of progress
 
 class FrameShading {
   public:
-    FrameShading(const IndirectContext& context, const SampleHits& centers, const SampleOptions& options,
-                 ShadedFrame& out)
+    FrameShading(const IndirectContext& context, const SampleHits& centers, double exposure,
+                 const SampleOptions& options, ShadedFrame& out)
         : context_(context),
           options_(options),
           out_(out),
           pixels_(context.view.width, context.view.height),
           place_(make_sample_place(context.settings, options.lens, options.blended, context.frame, 0)),
-          integrator_(make_integrator({context, options, out, place_.noise_key, systematic_})) {
+          exposure_(exposure),
+          plan_(make_sampling_plan(options.limits, context.settings, exposure)),
+          integrator_(make_integrator({context, options, out, place_.noise_key, plan_.tolerance, systematic_})) {
+        plan_.part = options.part;
+        if (options.limits) systematic_ = compute_systematic_tolerance(*options.limits, context.settings, exposure);
         const bool as_centers = !options.at_sample && !options.blended && !(options.lens.radius > 0.0);
         if (place_.centered && as_centers) first_ = &centers;
     }
 
-    /// Computes shared light for the first of the pixel samples alone: where others need light beside them, they get it
-    /// before they are added.
+    /// Computes shared light for the first of the pixel samples alone. Others that need light beside them find it by
+    /// rays of their own.
     void fill() {
         if (!integrator_->shares_light()) return;
         if (context_.progress) context_.progress(0.0, "fill");
@@ -50,18 +52,14 @@ class FrameShading {
         if (options_.at_sample) first_ = nullptr;  // of the shutter's centre
     }
 
-    void shade(double exposure) {
-        const RenderSettings& settings = context_.settings;
-        SamplingPlan plan = make_sampling_plan(options_.limits, settings, exposure);
-        plan.part = options_.part;
-        if (options_.limits) systematic_ = compute_systematic_tolerance(*options_.limits, settings, exposure);
-        sample_by_stages(plan, pixels_, [&](std::span<const PixelRange> ranges) { take(ranges); });
+    void shade() {
+        sample_by_stages(plan_, pixels_, [&](std::span<const PixelRange> ranges) { take(ranges); });
     }
 
-    void resolve(double exposure) {
+    void resolve() {
         if (options_.part != nullptr && !options_.part_picture) return count_samples(pixels_, out_);
-        integrator_->resolve(pixels_, exposure);
-        if (options_.limits != nullptr && context_.settings.sampling.spp > 1) report_errors(exposure);
+        integrator_->resolve(pixels_, exposure_);
+        if (options_.limits != nullptr && context_.settings.sampling.spp > 1) report_errors();
     }
 
   private:
@@ -90,37 +88,18 @@ class FrameShading {
 
     void take_at(const SampleScene& scene, std::span<const PixelRange> ranges) {
         integrator_->begin(scene);
-        std::size_t begin = 0, end = 0;
-        while (begin < ranges.size()) {
-            int samples = 0;
-            while (end < ranges.size() && (samples < slice_samples || end - begin < slice_ranges)) {
-                samples += ranges[end].last - ranges[end].first;
-                ++end;
-            }
-            take_slice(scene, ranges.subspan(begin, end - begin));
-            report_progress(static_cast<double>(end) / static_cast<double>(ranges.size()));
-            begin = end;
+        for (std::size_t begin = 0; begin < ranges.size(); begin += slice_ranges) {
+            const auto slice = ranges.subspan(begin, std::min(slice_ranges, ranges.size() - begin));
+            parallel_for(slice.size(), task_ranges, [&](std::size_t first, std::size_t last) {
+                ShadingTask task(scene.lighting.rays, context_.lighting.rays);
+                take_ranges(scene, task, slice.subspan(first, last - first));
+                finish(task);
+            });
+            report_progress(static_cast<double>(begin + slice.size()) / static_cast<double>(ranges.size()));
         }
     }
 
-    /// Takes samples, and then finds the light of those that the cache did not cover.
-    void take_slice(const SampleScene& scene, std::span<const PixelRange> ranges) {
-        std::vector<std::vector<PendingSample>> waiting((ranges.size() + task_ranges - 1) / task_ranges);
-        parallel_for(ranges.size(), task_ranges, [&](std::size_t begin, std::size_t end) {
-            thread_local GatherScratch scratch;
-            ShadingTask task(scene.lighting.rays, context_.lighting.rays, scratch);
-            take_ranges(scene, task, ranges.subspan(begin, end - begin), waiting[begin / task_ranges]);
-            finish(task);
-        });
-        std::vector<PendingSample> pending;
-        for (const auto& chunk : waiting) pending.insert(pending.end(), chunk.begin(), chunk.end());
-        waiting.clear();
-        integrator_->fill_waiting(pending);
-        add_pending(scene, pending);
-    }
-
-    void take_ranges(const SampleScene& scene, ShadingTask& task, std::span<const PixelRange> ranges,
-                     std::vector<PendingSample>& waiting) {
+    void take_ranges(const SampleScene& scene, ShadingTask& task, std::span<const PixelRange> ranges) {
         SamplePacket samples(scene, task);
         const auto shade = [&](const SamplePlace& at, int x, int y, const glm::vec3& direction, const Hit& hit) {
             SampleLight light;
@@ -132,11 +111,8 @@ class FrameShading {
             const PixelSurface surface =
                 make_pixel_surface(scene.lighting.shading, scene.view, at, hit, direction, {x, y});
             begin_light(surface, light);
-            if (integrator_->shade(task, surface, pixels_(x, y), light)) {
-                add_sample(task, x, y, light);
-            } else {
-                waiting.push_back({surface, light});
-            }
+            integrator_->shade(task, surface, pixels_(x, y), light);
+            add_sample(task, x, y, light);
         };
         for (const PixelRange& range : ranges) {
             for (int i = range.first; i < range.last; ++i) {
@@ -146,33 +122,6 @@ class FrameShading {
             }
         }
         samples.finish(shade);
-    }
-
-    /// Where each pixel's samples begin, and the end of all: a pixel's sums belong to one task.
-    static std::vector<std::size_t> find_pixels(const std::vector<PendingSample>& pending) {
-        std::vector<std::size_t> begins;
-        for (std::size_t i = 0; i < pending.size(); ++i) {
-            const PixelSurface& now = pending[i].surface;
-            if (i == 0 || now.x != pending[i - 1].surface.x || now.y != pending[i - 1].surface.y) begins.push_back(i);
-        }
-        begins.push_back(pending.size());
-        return begins;
-    }
-
-    void add_pending(const SampleScene& scene, std::vector<PendingSample>& pending) {
-        if (pending.empty()) return;
-        const std::vector<std::size_t> pixels = find_pixels(pending);
-        parallel_for(pixels.size() - 1, pending_pixels, [&](std::size_t begin, std::size_t end) {
-            thread_local GatherScratch scratch;
-            ShadingTask task(scene.lighting.rays, context_.lighting.rays, scratch);
-            for (std::size_t i = pixels[begin]; i < pixels[end]; ++i) integrator_->add_waiting(task, pending[i]);
-            finish(task);
-        });
-        ShadingTask task(scene.lighting.rays, context_.lighting.rays, pending_scratch_);
-        for (const PendingSample& sample : pending) {
-            add_sample(task, sample.surface.x, sample.surface.y, sample.light);
-        }
-        finish(task);
     }
 
     void add_sample(ShadingTask& task, int x, int y, const SampleLight& light) {
@@ -185,14 +134,14 @@ class FrameShading {
         ++task.invalid;
     }
 
-    void report_errors(double exposure) {
+    void report_errors() {
         const RenderSettings& settings = context_.settings;
         out_.errors = estimate_errors({.pixels = pixels_,
                                        .threshold = options_.limits->threshold,
                                        .noise = options_.limits->noise,
                                        .accuracy = options_.limits->accuracy,
                                        .outlines = options_.limits->outlines,
-                                       .luminance_scale = exposure * options_.limits->viewing.display_white,
+                                       .luminance_scale = exposure_ * options_.limits->viewing.display_white,
                                        .blurred = options_.at_sample || options_.lens.radius > 0.0});
         out_.error_shares = count_errors(out_.errors, settings.error > 0.0 ? settings.error : 1.0);
     }
@@ -204,7 +153,6 @@ class FrameShading {
         out_.counts.rays += task.at_frame.counts;
         out_.counts.cache.lookups += task.lookups;
         out_.counts.cache.hits += task.hits;
-        out_.counts.records += task.computed;
         out_.counts.invalid_samples += task.invalid;
     }
 
@@ -223,11 +171,12 @@ class FrameShading {
     ShadedFrame& out_;
     Image<PixelSamples> pixels_;
     SamplePlace place_;  ///< of the first sample
+    const double exposure_;
+    SamplingPlan plan_;
     std::optional<SystematicTolerance> systematic_;
     const std::unique_ptr<LightIntegrator> integrator_;
     const SampleHits* first_ = nullptr;  ///< hits of the pixels' first samples, if they are cast already
     SampleHits cast_first_;
-    GatherScratch pending_scratch_;
     int stage_ = 0;
     std::mutex mutex_;
 };
@@ -238,13 +187,13 @@ ShadedFrame shade_frame(const IndirectContext& context, const SampleHits& center
                         const SampleOptions& options) {
     ShadedFrame out;
     out.records = out.invalid_samples = Image<float>(context.view.width, context.view.height);
-    FrameShading shading(context, centers, options, out);
+    FrameShading shading(context, centers, exposure, options, out);
     StageClock clock;
     shading.fill();
     clock.add_to(out.fill_seconds);
     if (options.light_only) return out;
-    shading.shade(exposure);
-    shading.resolve(exposure);
+    shading.shade();
+    shading.resolve();
     clock.add_to(out.shade_seconds);
     return out;
 }

@@ -4,10 +4,8 @@
 // setting table.
 
 #include <memory>
-#include <vector>
 
 #include "render/shade/frame.h"
-#include "render/shade/pending_samples.h"
 #include "render/shade/sample_shading.h"
 
 namespace aleph {
@@ -29,13 +27,8 @@ class LightIntegrator {
     /// Finds the light that a pixel's surface sends to the camera. Called from any thread.
     /// @param pixel  its samples so far
     /// @param light  set, but for what begin_light sets
-    /// @return false: it lacks light that fill_waiting computes
-    virtual bool shade(ShadingTask& task, const PixelSurface& surface, const PixelSamples& pixel,
+    virtual void shade(ShadingTask& task, const PixelSurface& surface, const PixelSamples& pixel,
                        SampleLight& light) = 0;
-    /// Computes light that samples wait for.
-    virtual void fill_waiting(const std::vector<PendingSample>& waiting);
-    /// Adds it to a sample. Called from any thread.
-    virtual void add_waiting(ShadingTask& task, PendingSample& sample);
 
     /// Makes the frame's images.
     virtual void resolve(const Image<PixelSamples>& pixels, double exposure) = 0;
@@ -47,6 +40,7 @@ struct IntegratorInput {
     const SampleOptions& options;
     ShadedFrame& out;
     std::uint32_t noise_key = 0;  ///< SamplePlace::noise_key
+    const Image<float>& sampling_tolerance;  ///< SamplingPlan::tolerance
     /// Errors that do not fall with the number of samples; empty: nothing may be left out.
     const std::optional<SystematicTolerance>& tolerance;
 };

@@ -13,13 +13,12 @@ class PathIntegrator final : public LightIntegrator {
 
     void begin(const SampleScene& scene) override { scene_ = &scene; }
 
-    bool shade(ShadingTask& task, const PixelSurface& surface, const PixelSamples&, SampleLight& light) override {
+    void shade(ShadingTask& task, const PixelSurface& surface, const PixelSamples&, SampleLight& light) override {
         const RenderSettings& settings = input_.context.settings;
         RandomStream random = path_stream(settings.seed, input_.noise_key, surface);
         const Rgb left = share_left(surface);
         light[LightPart::surface] = surface.material.emission * left;
         light[LightPart::gloss] = scatter_light(scene_->lighting, task, surface, start_path(settings), random) * left;
-        return true;
     }
 
     void resolve(const Image<PixelSamples>& pixels, double exposure) override {

@@ -1,7 +1,6 @@
 #include "render/shade/sample_shading.h"
 
-#include "render/cache/further_bounces.h"
-#include "render/cache/gather_at.h"
+#include "render/cache/record_worth.h"
 #include "render/path/glossy_light.h"
 #include "render/settings/numbers.h"
 
@@ -16,10 +15,9 @@ constexpr int lights_in_mirrors = 4;  // PathState::light_samples
 /// Rays over the hemisphere of a sample. `gather` is their number where there are no records that it speaks of, and
 /// their error does not decide the number of samples.
 int count_sample_rays(const RenderSettings& settings) {
-    constexpr int usual = 2;
     const bool has_records = settings.cache.accuracy > 0.0;
     const bool chosen = !has_records && settings.sampling.rule == Sampling::uniform && settings.cache.gather > 0;
-    return chosen ? settings.cache.gather : usual;
+    return chosen ? settings.cache.gather : sample_rays;
 }
 
 RandomStream path_stream(const SampleShading& shading, const PixelSurface& surface,
@@ -48,32 +46,19 @@ std::optional<Rgb> read_irradiance(const SampleShading& shading, ShadingTask& ta
     return found;
 }
 
-/// Indirect irradiance from rays of its own.
-Rgb gather_irradiance(const SampleShading& shading, ShadingTask& task, const PixelSurface& surface) {
-    const IndirectContext& context = shading.context;
-    const float accuracy = context.accuracy(surface.x, surface.y);
-    std::optional<float> ray_variance;
-    if (shading.cache != nullptr) {
-        ray_variance = shading.cache->expected_ray_variance({surface.point.position, surface.point.normal, accuracy});
-    }
-    ++task.computed;
-    (*shading.records)(surface.x, surface.y) += 1.0f;
-    return gather_at(context, task, surface, task.scratch, choose_rays(context.settings, accuracy, ray_variance))
-        .irradiance;
-}
-
 /// Indirect irradiance while the shutter is open, from the shutter's centre.
-/// @param waits  if not null, set where a record would tell it
-std::optional<Rgb> read_blurred(const SampleShading& shading, ShadingTask& task, const PixelSurface& surface,
-                                bool* waits) {
+std::optional<Rgb> read_blurred(const SampleShading& shading, ShadingTask& task, const PixelSurface& surface) {
     const float accuracy = shading.context.accuracy(surface.x, surface.y);
     if (shading.shutter == nullptr || !(accuracy > 0.0f)) return std::nullopt;
     RecordUse* const used = shading.uses == nullptr ? nullptr : &(*shading.uses)(surface.x, surface.y);
     ++task.lookups;
-    const ShutterLight::Found found = shading.shutter->find(surface, accuracy, task.at_frame, used);
-    if (found.irradiance) ++task.hits;
-    if (waits != nullptr) *waits = found.missing;
-    return found.irradiance;
+    const std::optional<Rgb> found = shading.shutter->find(surface, accuracy, task.at_frame, used);
+    if (found) ++task.hits;
+    return found;
+}
+
+std::optional<Rgb> look_up(const SampleShading& shading, ShadingTask& task, const PixelSurface& surface) {
+    return shading.blurred ? read_blurred(shading, task, surface) : read_irradiance(shading, task, surface);
 }
 
 /// Indirect irradiance at the sample's own time, from random paths whose first directions belong to the pixel's
@@ -165,15 +150,6 @@ void add_with_cache(const SampleShading& shading, const SampleScene& scene, Shad
     }
 }
 
-/// Indirect irradiance that is known already.
-/// @param waits  set where it is not, but a record would tell it
-std::optional<Rgb> look_up(const SampleShading& shading, ShadingTask& task, const PixelSurface& surface, bool& waits) {
-    if (shading.blurred) return read_blurred(shading, task, surface, &waits);
-    const std::optional<Rgb> found = read_irradiance(shading, task, surface);
-    waits = !found && shading.cache != nullptr;
-    return found;
-}
-
 }  // namespace
 
 RandomStream path_stream(std::uint32_t seed, std::uint32_t noise_key, const PixelSurface& surface, std::uint32_t mask) {
@@ -199,33 +175,19 @@ void begin_light(const PixelSurface& surface, SampleLight& light) {
     light.normal = surface.point.normal;
 }
 
-bool shade_sample(const SampleShading& shading, const SampleScene& scene, ShadingTask& task,
+void shade_sample(const SampleShading& shading, const SampleScene& scene, ShadingTask& task,
                   const PixelSurface& surface, const PixelSamples& pixel, SampleLight& light) {
     const bool needs_irradiance = shading.indirect && surface.material.has_diffuse();
     std::optional<Rgb> irradiance;
-    bool waits = false;  // for a record
     if (needs_irradiance) {
         irradiance = pixel.find_irradiance(light);
-        if (!irradiance) irradiance = light.irradiance = look_up(shading, task, surface, waits);
+        if (!irradiance) irradiance = light.irradiance = look_up(shading, task, surface);
     }
     add_with_cache(shading, scene, task, surface, irradiance, light);
     const Rgb left = share_left(surface);
     for (Rgb& part : light.parts) part *= left;
-    if (!needs_irradiance) return true;
-    if (!irradiance && !waits) irradiance = sample_irradiance(shading, scene, task, surface);
-    if (irradiance) add_irradiance(surface, *irradiance, light);
-    return irradiance.has_value();
-}
-
-void add_indirect(const SampleShading& shading, const SampleScene& scene, ShadingTask& task,
-                  const PixelSurface& surface, SampleLight& light) {
-    if (shading.blurred) {
-        const std::optional<Rgb> blurred = read_blurred(shading, task, surface, nullptr);
-        add_irradiance(surface, blurred ? *blurred : sample_irradiance(shading, scene, task, surface), light);
-        return;
-    }
-    const std::optional<Rgb> irradiance = read_irradiance(shading, task, surface);
-    add_irradiance(surface, irradiance ? *irradiance : gather_irradiance(shading, task, surface), light);
+    if (!needs_irradiance) return;
+    add_irradiance(surface, irradiance ? *irradiance : sample_irradiance(shading, scene, task, surface), light);
 }
 
 }  // namespace aleph

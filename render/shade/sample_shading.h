@@ -3,7 +3,6 @@
 
 #include <vector>
 
-#include "render/cache/gather.h"
 #include "render/cache/indirect_context.h"
 #include "render/path/direct_light.h"
 #include "render/pixels/pixel_samples.h"
@@ -21,12 +20,10 @@ struct SampleScene {
 struct ShadingTask : RayTask {
     /// @param rays        at the samples' time
     /// @param frame_rays  at the shutter's centre: another scene while the shutter is open
-    ShadingTask(const RayScene& rays, const RayScene& frame_rays, GatherScratch& buffers)
-        : RayTask(rays), at_frame(frame_rays), scratch(buffers) {}
+    ShadingTask(const RayScene& rays, const RayScene& frame_rays) : RayTask(rays), at_frame(frame_rays) {}
 
     RayTask at_frame;
-    GatherScratch& scratch;
-    std::uint64_t lookups = 0, hits = 0, computed = 0, invalid = 0;
+    std::uint64_t lookups = 0, hits = 0, invalid = 0;
 };
 
 /// Errors, of luminance, that do not fall with the number of samples. Per pixel.
@@ -40,7 +37,7 @@ struct SampleShading {
     const IndirectContext& context;
     std::uint32_t noise_key = 0;  ///< of SamplePlace
     bool indirect = false;        ///< there is indirect light
-    /// Finished; null: every sample finds its irradiance by paths of its own, where no lighting keyframe knows it.
+    /// Finished; null: there are no records. Samples find irradiance that is not known by paths of their own.
     const IrradianceCache* cache = nullptr;
     const KnownIrradiance* known = nullptr;  ///< to paths; null: they find all light by themselves
     bool blurred = false;                    ///< the shutter is open: what `shutter` does not know is found by paths
@@ -49,7 +46,6 @@ struct SampleShading {
     /// Progressive sampling: samples of direct light per pixel sample, shared out among all lights; 0: uniform.
     int light_samples = 0;
     const SystematicTolerance* tolerance = nullptr;  ///< null: nothing may be left out
-    Image<float>* records = nullptr;                 ///< counts irradiance values computed here; of the frame's size
     Image<RecordUse>* uses = nullptr;                ///< records that were read; null: not asked for
 };
 
@@ -74,13 +70,7 @@ void begin_light(const PixelSurface& surface, SampleLight& light);
 /// Finds the light that a pixel's surface sends to the camera, with the cache.
 /// @param pixel  its samples so far
 /// @param light  after begin_light
-/// @return false: the cache has no record here, and `light` lacks indirect light (add_indirect)
-bool shade_sample(const SampleShading& shading, const SampleScene& scene, ShadingTask& task,
+void shade_sample(const SampleShading& shading, const SampleScene& scene, ShadingTask& task,
                   const PixelSurface& surface, const PixelSamples& pixel, SampleLight& light);
-
-/// Adds the indirect light that shade_sample did not find. Where there is still no record, it is gathered, or
-/// comes from a path while the shutter is open.
-void add_indirect(const SampleShading& shading, const SampleScene& scene, ShadingTask& task,
-                  const PixelSurface& surface, SampleLight& light);
 
 }  // namespace aleph

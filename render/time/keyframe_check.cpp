@@ -111,9 +111,9 @@ bool CheckedLight::differs(const IrradianceCache& cache, const IndirectContext& 
     const CacheQuery query{surface.point.position, surface.point.normal, accuracy, &task};
     const std::optional<Rgb> own = cache.interpolate(query), theirs = keyframes_.find(surface, accuracy, task);
     if (!own || !theirs) return false;
-    const std::optional<float> ray_variance = cache.expected_ray_variance(query);
+    const float ray_variance = cache.expect(query, context.max_radius)->ray_variance;  // it has records: `own`
     const int rays = choose_rays(context.settings, accuracy, ray_variance);
-    const float noise = std::sqrt(ray_variance.value_or(0.0f) / static_cast<float>(rays));
+    const float noise = std::sqrt(ray_variance / static_cast<float>(rays));
     const float a = luminance(*own), b = luminance(*theirs);
     return std::abs(a - b) > std::hypot(accuracy, noise_deviations * noise) * 0.5f * (a + b);
 }
@@ -124,7 +124,7 @@ void CheckedLight::check(IrradianceCache& cache, const IndirectContext& context,
     Image<FillPoint> points(count, 1);
     for (int i = 0; i < count; ++i) {
         const PixelSurface surface = *find_surface(context, sample_, probes_[i].x, probes_[i].y);
-        points(i, 0) = {surface.point.position, surface.footprint, surface.point.normal};
+        points(i, 0) = make_fill_point(surface);
         accuracy(i, 0) = context.accuracy(probes_[i].x, probes_[i].y);
     }
     const IndirectContext at_probes = make_places_context(context, accuracy);

@@ -105,22 +105,21 @@ std::optional<Rgb> ShutterLight::read(const PixelSurface& still, float accuracy,
     return cache_->interpolate(query);
 }
 
-ShutterLight::Found ShutterLight::find(const PixelSurface& surface, float accuracy, RayTask& task,
-                                       RecordUse* used) const {
+std::optional<Rgb> ShutterLight::find(const PixelSurface& surface, float accuracy, RayTask& task,
+                                      RecordUse* used) const {
     const std::optional<SurfacePoint> point = carry_point(frame_, surface.hit, surface.point);
-    if (!point) return {};
+    if (!point) return std::nullopt;
     const float turn = glm::length(surface.point.normal - point->normal) / std::numbers::sqrt2_v<float>;
-    if (!(turn <= accuracy)) return {};
+    if (!(turn <= accuracy)) return std::nullopt;
     const glm::vec3 moved = surface.point.position + shift_ - point->position;
-    if (find_hidden_change(movers_, point->position, moved, surface.hit.instance, accuracy) > accuracy) return {};
+    if (find_hidden_change(movers_, point->position, moved, surface.hit.instance, accuracy) > accuracy) return std::nullopt;
     PixelSurface still = surface;
     still.point = *point;
     RecordUse of_these;
     const std::optional<Rgb> found = read(still, accuracy, task, of_these);
-    if (!found) return {std::nullopt, true};
-    if (glm::length(moved) * of_these.weights > of_these.reaches) return {};
+    if (!found || glm::length(moved) * of_these.weights > of_these.reaches) return std::nullopt;
     if (used != nullptr) used->add(of_these);
-    return {found, false};
+    return found;
 }
 
 }  // namespace aleph

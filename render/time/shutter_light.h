@@ -55,15 +55,10 @@ class ShutterLight {
           reach_(static_cast<float>(reach)),
           movers_(find_movers(frame, sample)) {}
 
-    struct Found {
-        std::optional<Rgb> irradiance;
-        bool missing = false;  ///< the light lasts, but neither lighting keyframes nor the cache have a record
-    };
-
     /// Irradiance at a surface of the sample's time, where it is known to this accuracy. Any thread may call it.
     /// @param task  casts rays at the shutter's centre
     /// @param used  increased by the records that are used; may be null
-    Found find(const PixelSurface& surface, float accuracy, RayTask& task, RecordUse* used = nullptr) const;
+    std::optional<Rgb> find(const PixelSurface& surface, float accuracy, RayTask& task, RecordUse* used = nullptr) const;
 
   private:
     std::optional<Rgb> read(const PixelSurface& still, float accuracy, RayTask& task, RecordUse& used) const;

@@ -50,7 +50,9 @@ std::size_t count_sequentially(const Fill& fill) {
                 if (!s.material.has_diffuse()) continue;
                 const CacheQuery query{s.point.position, s.point.normal, accuracy, &task};
                 if (cache.covers(query)) continue;
-                const int rays = choose_rays(fill.settings, accuracy, cache.expected_ray_variance(query));
+                const auto expected = cache.expect(query, fill.context.max_radius);
+                const int rays = choose_rays(fill.settings, accuracy,
+                                             expected ? std::optional(expected->ray_variance) : std::nullopt);
                 const IrradianceSample value = gather_at(fill.context, task, s, scratch, rays);
                 const RadiusBounds bounds = radius_bounds(fill.context, s.footprint, accuracy);
                 cache.insert(make_record(query.position, query.normal, accuracy, value, bounds).value());

@@ -82,15 +82,15 @@ TEST(RecordCorrection, RaysFollowVarianceAndAccuracy) {
 
 TEST(RecordCorrection, VarianceIsExpectedFromRecordsAround) {
     IrradianceCache cache(glm::vec3(-5.0f), glm::vec3(5.0f));
-    EXPECT_FALSE(cache.expected_ray_variance({glm::vec3(0.0f), up, 0.1f}).has_value());
+    EXPECT_FALSE(cache.expect({glm::vec3(0.0f), up, 0.1f}, 9.0f).has_value());
     for (const auto& [x, variance] : {std::pair(-4.0f, 8.0f), std::pair(4.0f, 2.0f)}) {
         IrradianceRecord record = make_flat_record({x, 0.0f, 0.0f}, 1.0f, 0.1f);
         record.ray_variance = variance;
         cache.insert(record);
     }
-    EXPECT_FLOAT_EQ(*cache.expected_ray_variance({{-3.9f, 0.0f, 0.0f}, up, 0.1f}), 8.0f);
-    EXPECT_FLOAT_EQ(*cache.expected_ray_variance({{3.9f, 0.0f, 0.0f}, up, 0.1f}), 2.0f);
-    EXPECT_FLOAT_EQ(*cache.expected_ray_variance({glm::vec3(0.0f), up, 0.1f}), 5.0f);  // none is near: all
+    EXPECT_FLOAT_EQ(cache.expect({{-3.9f, 0.0f, 0.0f}, up, 0.1f}, 9.0f)->ray_variance, 8.0f);
+    EXPECT_FLOAT_EQ(cache.expect({{3.9f, 0.0f, 0.0f}, up, 0.1f}, 9.0f)->ray_variance, 2.0f);
+    EXPECT_FLOAT_EQ(cache.expect({glm::vec3(0.0f), up, 0.1f}, 9.0f)->ray_variance, 5.0f);  // none is near: all
 }
 
 TEST(RecordCorrection, ContactsHaveNoGradientBeyondThem) {

@@ -1,0 +1,65 @@
+// Records beside rays of samples: which cost less, and pictures that mix the two.
+
+#include "render/cache/record_worth.h"
+
+#include <gtest/gtest.h>
+
+#include "render/cache/cache_fill.h"
+#include "tests/support/cluttered_room.h"
+#include "tests/support/render_scenes.h"
+
+namespace aleph {
+namespace {
+
+/// One unit of irradiance, 512 rays, and a pixel 1 m wide.
+bool is_worth(float radius, float ray_variance, float tolerance) {
+    return is_worth_record({1.0f, ray_variance, {radius}}, 1.0f, 0.1f, 1.0f, tolerance, 512);
+}
+
+TEST(RecordWorth, GrowsWithReachAndVarianceAndFallsWithTolerance) {
+    constexpr float loose = 1e6f;
+    EXPECT_FALSE(is_worth(10.0f, 1.0f, loose)) << "about 3 pixels";
+    EXPECT_TRUE(is_worth(30.0f, 1.0f, loose)) << "28 pixels";
+    EXPECT_FALSE(is_worth(10.0f, 0.0f, 1e-3f)) << "no variance: no more samples";
+    EXPECT_TRUE(is_worth(10.0f, 1.0f, 0.1f)) << "130 more samples";
+    EXPECT_TRUE(is_worth(10.0f, 1.0f, 0.0f)) << "no error is tolerated";
+    bool before = true;
+    for (float tolerance = 1e-3f; tolerance < 1e3f; tolerance *= 1.5f) {
+        const bool now = is_worth(8.0f, 2.0f, tolerance);
+        EXPECT_TRUE(before || !now) << tolerance;
+        before = now;
+    }
+    EXPECT_FALSE(before);
+}
+
+TEST(RecordWorth, WhatSpreadsLimitsTheReach) {
+    const ExpectedRecord wide{1.0f, 0.0f, {1000.0f}}, narrow{1.0f, 0.0f, {1000.0f, 3.0f}};
+    EXPECT_TRUE(is_worth_record(wide, 1.0f, 0.1f, 1.0f, 1.0f, 512));
+    EXPECT_FALSE(is_worth_record(narrow, 1.0f, 0.1f, 1.0f, 1.0f, 512)) << "3 m sqrt(.1)";
+}
+
+TEST(RecordWorth, ATolerantPictureHasFewerRecordsAndAStrictOneAll) {
+    const Stage stage(make_cluttered_room(), 96, 72);
+    RenderSettings settings = plain_settings(0.05, 64);
+    settings.cache.gather = 1024;  // where a record costs much, fewer pay
+    const Image<float> alpha(96, 72, 0.05f);
+    const LightingContext lighting = stage.lighting();
+    const SampleHits hits = cast_centers(stage.rays, stage.view, nullptr);
+    const auto count = [&](const Image<float>* tolerance) {
+        IndirectContext context{lighting, stage.view, settings, alpha, 0, scene_radius(stage.shading), {}};
+        context.tolerance = tolerance;
+        FrameTally tally;
+        tally.records = tally.invalid_samples = Image<float>(96, 72);
+        IrradianceCache cache = make_cache(stage.shading);
+        fill_cache(cache, context, hits, tally);
+        return cache.records().size();
+    };
+    const Image<float> loose(96, 72, 1e6f), strict(96, 72, 0.0f);
+    const std::size_t all = count(nullptr), few = count(&loose), most = count(&strict);
+    EXPECT_GE(few, 20u) << "large tiles have records in any case";
+    EXPECT_LT(few * 2, all);
+    EXPECT_GT(most, all * 8 / 10);
+}
+
+}  // namespace
+}  // namespace aleph
