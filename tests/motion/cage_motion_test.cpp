@@ -129,6 +129,8 @@ TEST(CageMotion, RP16_StaticSurfacesDoNotMoveAtAnyLevel) {
             EXPECT_EQ(moved.motion.displacement.pixels[i], glm::dvec2(0.0));
         }
         EXPECT_GT(hits, 1000);
+        const Scene rigid = make_cage_scene(test, {test.points, test.points}, level);
+        EXPECT_TRUE(pose(rigid, 0.0).meshes[0].positions.empty());
     }
 }
 

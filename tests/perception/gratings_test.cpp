@@ -124,16 +124,6 @@ TEST(Gratings, ScalarModelsAreTheWrittenFormulas) {
     }
 }
 
-TEST(Gratings, WrittenCastleGivesThePublishedSensitivity) {
-    for (const PublishedCastle& row : published_castle()) {
-        for (int i = 0; i < 7; ++i) {
-            const double rho = std::ldexp(0.25, i);
-            const double written = written_castle_sensitivity(rho, rho * row.velocity, 100.0);
-            EXPECT_NEAR(written, row.sensitivity[i], 0.50001e-4) << row.velocity << " deg/s, " << rho;
-        }
-    }
-}
-
 TEST(Gratings, PeakFrequencyFallsAsOneOverVelocityPlusTwoOverC2) {
     for (const KellyModel& model : {daly_1998, laird_2006}) {
         const double product = csf_rho_numerator / (2.0 * pi * model.c1 * model.c2);

@@ -8,7 +8,6 @@
 #include <optional>
 
 #include "engine/rays/first_hits.h"
-#include "engine/surface/limit_surface.h"
 #include "motion/model_motion.h"
 #include "motion/reprojection.h"
 #include "tests/support/deforming_scenes.h"
@@ -140,75 +139,6 @@ TEST(Deforming, RP15_NoMotionAcrossAChangeOfTopology) {
         EXPECT_EQ(seen->motion.validity(width / 2, height / 2), MotionValidity::valid);
         EXPECT_GT(seen->motion.displacement(width / 2, height / 2).x, 1.0);
     }
-}
-
-/// A cage that bends: the square of make_sheet as a subdivision surface whose corners rise.
-Scene make_cage_scene(bool moves) {
-    Scene scene;
-    PointCache points;
-    points.sampling = {TimeSampling::Kind::acyclic, 0.0, 1.0, {0.0, 1.0}};
-    const Mesh sheet = make_sheet(3);
-    points.positions = {sheet.positions, sheet.positions};
-    if (moves)
-        for (glm::vec3& p : points.positions[1]) p += glm::vec3(0.2f * p.y, 0.3f, 0.5f * p.x * p.x);
-    scene.point_caches = {points};
-    Cage cage;
-    cage.name = "sheet";
-    for (int y = 0; y < 3; ++y) {
-        for (int x = 0; x < 3; ++x) {
-            const int a = 4 * y + x;
-            cage.face_sizes.push_back(4);
-            for (const int p : {a, a + 1, a + 5, a + 4}) cage.face_points.push_back(p);
-        }
-    }
-    cage.points = 0;
-    scene.cages = {cage};
-    Mesh mesh;
-    mesh.cage = 0;
-    scene.meshes = {mesh};
-    tessellate_cage(scene, 0);
-    scene.nodes.resize(1);
-    scene.nodes[0].meshes = {0};
-    return scene;
-}
-
-TEST(Deforming, RP16_CagesAreReprojectedOnTheLimitSurface) {
-    Scene scene = make_cage_scene(true);
-    add_camera(scene);
-    const Observed seen = observe(scene, 0.25, 0.75);
-    const LimitSurface& surface = *scene.meshes[0].limit.surface;
-    // The posed mesh against the limit surface itself.
-    const auto control = [&](double seconds) {
-        return surface.make_control_points(cage_points_at(scene, scene.cages[0], seconds));
-    };
-    const std::vector<glm::dvec3> from = control(0.25), to = control(0.75);
-    double largest = 0.0, moved = 0.0;
-    for (std::size_t i = 0; i < seen.hits.size(); ++i) {
-        const Hit& hit = seen.hits.pixels[i];
-        if (hit.instance == no_index) continue;
-        const glm::dvec2 uv = clamp_barycentrics(hit);
-        const glm::dvec2 expected = project(seen.other.view, surface.evaluate(0, to, hit.primitive, uv.x, uv.y)) -
-                                    project(seen.now.view, surface.evaluate(0, from, hit.primitive, uv.x, uv.y));
-        largest = std::max(largest, glm::length(expected - seen.motion.displacement.pixels[i]));
-        moved = std::max(moved, glm::length(expected));
-    }
-    EXPECT_GT(count_hits(seen), 500u);
-    EXPECT_GT(moved, 1.0);
-    EXPECT_LT(largest, 1e-9);
-}
-
-TEST(Deforming, RP16_AStaticCageStandsStillBitForBitAndIsRigid) {
-    Scene scene = make_cage_scene(false);
-    add_camera(scene);
-    const Observed seen = observe(scene, 0.25, 0.75);
-    EXPECT_GT(count_hits(seen), 500u);
-    EXPECT_TRUE(seen.now.pose.meshes[0].positions.empty());
-    for (const glm::dvec2& d : seen.motion.displacement.pixels) EXPECT_EQ(d, glm::dvec2(0.0));
-    Scene held = make_cage_scene(true);  // moves, but not between these times
-    add_camera(held);
-    const Observed late = observe(held, 1.5, 2.5);
-    EXPECT_FALSE(late.now.pose.meshes[0].control.empty());
-    for (const glm::dvec2& d : late.motion.displacement.pixels) EXPECT_EQ(d, glm::dvec2(0.0));
 }
 
 TEST(Deforming, SkinnedPointsTurnWithTheirJoint) {

@@ -35,7 +35,7 @@ int instance_at(const RayScene& scene, float x, float y) {
     return alone;
 }
 
-TEST(BadGeometry, RC02_InstancesWithoutVolumeAreLeftOutAndCounted) {
+TEST(BadGeometry, RC02_KF18_InstancesWithoutVolumeAreLeftOutAndCounted) {
     const double nan = std::nan("");
     for (const glm::dvec3& scale : {glm::dvec3(0.0), glm::dvec3(nan), glm::dvec3(1.0, 0.0, 1.0),
                                     glm::dvec3(1.0, 1.0, 1e-30), glm::dvec3(1.0, 1e-20, 1.0), glm::dvec3(1.0, 1.0, nan),

@@ -135,24 +135,6 @@ TEST(RayDeform, MeshesComeAndGoBesideOthersOfTheirNode) {
     }
 }
 
-TEST(RayDeform, PointsThatAreNotFiniteAreLeftOutAndCounted) {
-    Scene scene = make_sheet_scene();
-    add_cache(scene, 0, {0.0, 1.0}, [](const glm::vec3& p, std::size_t) { return p; });
-    scene.point_caches[0].positions[1][3].x = std::numeric_limits<float>::infinity();
-    RayScene rays(scene);
-    Ray ray;
-    ray.origin = {0.1f, 0.2f, 5.0f};
-    ray.direction = {0.0f, 0.0f, -1.0f};
-    for (int turn = 0; turn < 2; ++turn) {
-        rays.update(pose(scene, 0.0), glm::dvec3(0.0));
-        EXPECT_EQ(rays.skipped_instances(), 0u);
-        EXPECT_EQ(Tracer(rays).intersect(ray).instance, 0);
-        rays.update(pose(scene, 1.0), glm::dvec3(0.0));
-        EXPECT_EQ(rays.skipped_instances(), 1u);
-        EXPECT_EQ(Tracer(rays).intersect(ray).instance, no_index);
-    }
-}
-
 TEST(RayDeform, UpdatesTouchOnlyWhatMoves) {
     Scene scene = make_sheet_scene();
     for (int i = 0; i < 600; ++i) {

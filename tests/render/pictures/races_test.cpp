@@ -25,7 +25,7 @@ TEST(Races, DT08_EveryStageOfAFrameWithItsCache) {
 }
 
 /// Light of lighting keyframes, of two bounces, read while the shutter is open: by the cache, and by paths.
-TEST(Races, DT08_KeyMomentsAndAnOpenShutter) {
+TEST(Races, DT01_DT08_KeyMomentsAndAnOpenShutter) {
     Scene scene = make_shot_with_mover();
     scene.cameras[0].shutter = {-0.5, 0.5};
     RenderSettings settings = tiny_settings();
@@ -36,6 +36,7 @@ TEST(Races, DT08_KeyMomentsAndAnOpenShutter) {
     for (const Integrator integrator : {Integrator::cache, Integrator::path}) {
         settings.light.integrator = integrator;
         EXPECT_TRUE(frame_bytes(4, scene, settings, {3, 7}) == frame_bytes(1, scene, settings, {3, 7}));
+        EXPECT_TRUE(frame_bytes(2, scene, settings, {9, 3}).back() == frame_bytes(1, scene, settings, {3}).back());
     }
 }
 

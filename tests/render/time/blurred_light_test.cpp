@@ -128,17 +128,5 @@ TEST(MotionBlur, MC27_IndirectLightOfAFadeIsThatOfItsMean) {
     EXPECT_LT(std::hypot(found_sum.error(), expected_sum.error()), 0.02 * expected_sum.mean());
 }
 
-TEST(MotionBlur, DT01_BlurredFramesAreEqualForAnyNumberOfThreadsAndAlone) {
-    Scene scene = make_sliding_box();
-    scene.cameras[0].shutter = {-0.5, 0.5};
-    RenderSettings settings = small_settings();
-    settings.picture.width = 32;
-    settings.picture.height = 24;
-    settings.cache.light_step = 10;
-    const std::string one = frame_bytes(1, scene, settings, {3}).back();
-    EXPECT_TRUE(frame_bytes(4, scene, settings, {3}).back() == one);
-    EXPECT_TRUE(frame_bytes(2, scene, settings, {7, 2, 3}).back() == one);
-}
-
 }  // namespace
 }  // namespace aleph
