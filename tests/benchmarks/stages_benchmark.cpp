@@ -18,7 +18,6 @@
 
 #include "engine/base/parallel.h"
 #include "engine/load/load_scene.h"
-#include "engine/rays/first_hits.h"
 #include "engine/surface/shapes.h"
 #include "motion/image_motion.h"
 #include "motion/model_motion.h"
@@ -26,6 +25,7 @@
 #include "motion/velocity.h"
 #include "perception/perception.h"
 #include "tests/benchmarks/raw_embree.h"
+#include "tests/support/first_hits.h"
 #include "tests/support/paths.h"
 
 namespace aleph {

@@ -1,10 +1,5 @@
 // The vision model on moving gratings, whose bands have a closed form, and known answers of the models themselves.
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-
 #include "perception/band_frequencies.h"
 #include "perception/castle.h"
 #include "perception/castle_row.h"
@@ -12,8 +7,8 @@
 #include "perception/retinal_velocity.h"
 #include "tests/perception/grating_run.h"
 #include "tests/perception/vision_formulas.h"
-#include "tests/support/numbers.h"
 #include "tests/support/perception_reference.h"
+#include "tests/support/test.h"
 
 namespace aleph {
 namespace {

@@ -1,12 +1,7 @@
 // glTF reader: keys and rotations.
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <limits>
-#include <numbers>
-
 #include "engine/pose/pose.h"
 #include "tests/engine/gltf/fixture.h"
+#include "tests/support/test.h"
 
 namespace aleph {
 namespace {
@@ -116,7 +111,7 @@ TEST_F(GltfAnimation, FloatsBecomeDoublesExactly) {
     const float time = 0.1f, value = 1e-20f / 3.0f;
     draft.animate(0, "translation", {0.0f, time}, {0, 0, 0, value, -value, 16777217.0f});
     const Scene scene = load(draft);
-    EXPECT_EQ(last_time(scene.nodes[0].translation), static_cast<double>(time));
+    EXPECT_EQ(scene.nodes[0].translation.sampling.times.back(), static_cast<double>(time));
     EXPECT_EQ(scene.nodes[0].translation.values[1], glm::dvec3(value, -value, 16777216.0));
 }
 

@@ -1,16 +1,9 @@
-// Motion of deforming meshes (RP-14 to RP-16): skins and morph targets with known displacements.
+// Motion of deforming meshes (RP-14, RP-15): skins and morph targets with known displacements.
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <glm/gtc/matrix_transform.hpp>
-#include <numbers>
-#include <optional>
-
-#include "engine/rays/first_hits.h"
-#include "motion/model_motion.h"
 #include "motion/reprojection.h"
 #include "tests/support/deforming_scenes.h"
+#include "tests/support/seen_motion.h"
+#include "tests/support/test.h"
 
 namespace aleph {
 namespace {
@@ -20,28 +13,14 @@ constexpr int width = 64, height = 48;
 /// A camera at +z that sees the sheet.
 int add_camera(Scene& scene, double distance = 4.0) {
     scene.cameras.emplace_back();
-    Node node;
-    node.camera = 0;
-    node.translation = glm::dvec3(0.1, -0.2, distance);
-    scene.nodes.push_back(node);
+    scene.nodes.push_back({.translation = glm::dvec3(0.1, -0.2, distance), .camera = 0});
     return static_cast<int>(scene.nodes.size()) - 1;
 }
 
-struct Observed {
-    PosedView now, other;
-    Image<Hit> hits;
-    MotionField motion;
-};
+using Observed = SeenMotion;
 
 Observed observe(const Scene& scene, double from, double to) {
-    Observed seen;
-    seen.now = make_posed_view(scene, from, 0, width, height);
-    seen.other = make_posed_view(scene, to, 0, width, height);
-    RayScene rays(scene);
-    rays.update(seen.now.pose, compute_anchor(seen.now.view));
-    seen.hits = cast_first_hits(rays, seen.now.view);
-    seen.motion = compute_model_motion(scene, seen.now, seen.other, seen.hits);
-    return seen;
+    return {scene, from, to, width, height};
 }
 
 std::size_t count_hits(const Observed& seen) {
@@ -222,8 +201,7 @@ TEST(Deforming, HiddenPointsAreFoundWhereTheyHaveMoved) {
         return p - glm::vec3(0.0f, 0.0f, sample == 1 ? 2.0f : 0.0f);
     });
     scene.meshes.push_back(make_sheet(1));
-    Node screen;
-    screen.meshes = {1};
+    Node screen{.meshes = {1}};
     screen.translation = glm::dvec3(1.3, 0.0, -1.0);  // before the sheet only once that has gone back
     scene.nodes.push_back(screen);
     add_camera(scene);

@@ -1,17 +1,12 @@
 // Posed scenes for rays: updates of what moved, instances that are left out, meshes that are refused.
 
 #include "engine/rays/ray_scene.h"
-
-#include <gtest/gtest.h>
-
-#include <cmath>
-
-#include "engine/base/errors.h"
 #include "engine/pose/pose.h"
 #include "engine/surface/shapes.h"
 #include "tests/engine/rays/many_instances.h"
 #include "tests/support/keyed_track.h"
 #include "tests/support/render_scenes.h"
+#include "tests/support/test.h"
 
 namespace aleph {
 namespace {

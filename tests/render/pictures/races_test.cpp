@@ -1,10 +1,9 @@
 // Work of several threads at once (DT-08). tests/sanitizers.sh thread runs these tests under ThreadSanitizer; otherwise
 // they compare the results with those of one thread.
 
-#include <gtest/gtest.h>
-
 #include "tests/support/frame_bytes.h"
 #include "tests/support/shot_scenes.h"
+#include "tests/support/test.h"
 #include "tests/support/with_threads.h"
 
 namespace aleph {

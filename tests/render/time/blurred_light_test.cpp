@@ -1,9 +1,8 @@
 // Indirect light while the shutter is open: the picture of the cache against the one of paths.
 
-#include <gtest/gtest.h>
-
 #include "tests/support/frame_bytes.h"
 #include "tests/support/shot_scenes.h"
+#include "tests/support/test.h"
 #include "tests/support/trial.h"
 #include "tests/support/with_threads.h"
 
