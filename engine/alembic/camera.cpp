@@ -166,12 +166,11 @@ int read_camera(AlembicReader& reader, int object, const AlembicCompound& top) {
     }
     reader.widen(*property);
 
-    Camera camera;
-    camera.name = archive.objects()[object].name;
-    camera.fov = make_fov_track(samples, cores, views, film_back);
-    camera.shift_x = make_track(samples, views, &View::shift_x);
-    camera.shift_y = make_track(samples, views, &View::shift_y);
-    camera.focus_distance = make_track(samples, views, &View::focus);
+    Camera camera{.name = archive.objects()[object].name,
+                  .fov = make_fov_track(samples, cores, views, film_back),
+                  .shift_x = make_track(samples, views, &View::shift_x),
+                  .shift_y = make_track(samples, views, &View::shift_y),
+                  .focus_distance = make_track(samples, views, &View::focus)};
     const std::vector<double>& first = cores.front();
     if (first[near_plane] > 0.0 && std::isfinite(first[near_plane])) camera.near_plane = first[near_plane];
     reader.warn(object, "the camera's f-stop and shutter are not used: everything is in focus and nothing blurs");

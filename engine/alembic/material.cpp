@@ -88,11 +88,7 @@ void collect_material(AlembicReader& reader, int object, Found& found) {
 }
 
 Material make_neutral(const std::string& name) {
-    Material material;
-    material.name = name;
-    material.base_color = glm::dvec3(neutral_gray);
-    material.metallic = 0.0;
-    return material;
+    return {.name = name, .base_color = glm::dvec3(neutral_gray), .metallic = 0.0};
 }
 
 void set_parameters(const Found& found, Material& material) {

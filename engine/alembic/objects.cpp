@@ -69,9 +69,7 @@ class TreeReader {
 
   private:
     int add_node(int object, int name_of, int parent, const std::string& schema) {
-        Node node;
-        node.name = object_at(reader_, name_of).name;
-        node.parent = parent;
+        Node node{.name = object_at(reader_, name_of).name, .parent = parent};
         const AlembicCompound top = reader_.archive.properties(object);
         if (const AlembicProperty* visible = top.find("visible"); visible != nullptr && visible->sample_count > 0) {
             // Node::visible: 0 hidden, 1 as the parent, 2 shown in any case.

@@ -31,9 +31,7 @@ std::size_t read_instances(GltfReader& reader, std::size_t node_index, int paren
     const std::string name = reader.part.nodes[parent].name;
     std::size_t far_from_unit = 0, made = 0;
     for (std::size_t i = 0; i < count; ++i) {
-        Node node;
-        node.name = fmt::format("{}.{}", name, i);
-        node.parent = parent;
+        Node node{.name = fmt::format("{}.{}", name, i), .parent = parent};
         const auto vector = [&](const std::vector<double>& v) {
             return glm::dvec3(v[3 * i], v[3 * i + 1], v[3 * i + 2]);
         };

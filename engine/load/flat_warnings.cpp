@@ -16,16 +16,6 @@ namespace aleph {
 
 namespace {
 
-/// Every node's transform, and nothing else.
-ScenePose place_nodes(const Scene& scene, double seconds) {
-    ScenePose posed;
-    posed.seconds = seconds;
-    posed.world.resize(scene.nodes.size());
-    posed.visible.resize(scene.nodes.size());
-    for (int node = 0; node < std::ssize(scene.nodes); ++node) place_node(scene, node, seconds, posed);
-    return posed;
-}
-
 /// True where the file's reader warns of nodes that shrink everything to a point, and this is one.
 bool has_warning(const Scene& scene, const SceneFormats& formats, const Node& node, const glm::dmat4& world) {
     const SceneFormat* format = find_format(formats, source_file(scene, node.include));

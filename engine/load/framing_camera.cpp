@@ -66,9 +66,7 @@ void add_framing_camera(Scene& scene) {
     camera.near_plane = std::min(camera.near_plane, 1e-3 * distance);
     camera.focus_distance = distance;
 
-    Node node;
-    node.name = camera.name;
-    node.camera = 0;
+    Node node{.name = camera.name, .camera = 0};
     const glm::dvec3 eye = center + distance * safe_normalize(glm::dvec3(0.0, 0.3, 1.0));
     node.translation = eye;
     node.rotation = safe_normalize(glm::quat_cast(glm::dmat3(look_at(eye, center, glm::dvec3(0.0, 1.0, 0.0)))));

@@ -28,8 +28,7 @@ int add_axes_node(Scene& scene, int index) {
     const Include& include = scene.includes[index];
     if (include.scale == 1.0 && include.up == Include::Up::y) return include.node;
     constexpr double quarter = std::numbers::pi / 2.0;
-    Node node;
-    node.name = include.path;
+    Node node{.name = include.path};
     node.parent = include.node;
     node.include = index;
     node.scale = glm::dvec3(include.scale);

@@ -123,18 +123,6 @@ double find_level_needed(const SurfaceShape& shape, const glm::dmat4& world, con
     return shape.surface->level() + most;
 }
 
-/// Nodes and instances of the scene at a time, without its deforming meshes.
-ScenePose place_nodes(const Scene& scene, double seconds, std::vector<Instance> instances) {
-    ScenePose posed;
-    posed.seconds = seconds;
-    posed.world.resize(scene.nodes.size());
-    posed.visible.resize(scene.nodes.size());
-    posed.instances = std::move(instances);
-    for (std::size_t node = 0; node < scene.nodes.size(); ++node)
-        place_node(scene, static_cast<int>(node), seconds, posed);
-    return posed;
-}
-
 int find_camera_node(const Scene& scene, int camera) {
     for (std::size_t node = 0; node < scene.nodes.size(); ++node) {
         if (scene.nodes[node].camera != no_index && camera-- == 0) return static_cast<int>(node);
@@ -203,7 +191,8 @@ std::vector<double> find_levels_needed(const Scene& scene, int camera_node, int 
     Shapes shapes(scene);
     for (const std::int64_t number : sample_frames(frame_range(scene), settings.samples)) {
         const double seconds = scene.frame_rate.seconds_of(number);
-        const ScenePose posed = place_nodes(scene, seconds, instances);
+        ScenePose posed = place_nodes(scene, seconds);
+        posed.instances = instances;
         const CameraView view =
             make_camera_view(pose_camera(scene, camera_node, posed.world[camera_node], seconds), width, height);
         for (std::size_t i = 0; i < instances.size(); ++i) {

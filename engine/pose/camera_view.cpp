@@ -13,13 +13,12 @@ namespace aleph {
 CameraView make_camera_view(const CameraValues& camera, int width, int height) {
     if (width <= 0 || height <= 0)
         throw InputError("", "size", fmt::format("{} x {} pixels; both must be positive", width, height));
-    CameraView view;
-    view.width = width;
-    view.height = height;
-    view.orthographic = camera.orthographic;
-    view.position = camera.position;
-    view.axes = camera.axes;
-    view.near_plane = camera.near_plane;
+    CameraView view{.width = width,
+                    .height = height,
+                    .orthographic = camera.orthographic,
+                    .position = camera.position,
+                    .axes = camera.axes,
+                    .near_plane = camera.near_plane};
     if (camera.orthographic) {
         view.pixels_per_unit = 0.5 * height / camera.half_height;
         if (!(camera.half_height > 0.0 && std::isfinite(view.pixels_per_unit) && view.pixels_per_unit > 0.0))

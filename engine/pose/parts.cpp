@@ -64,6 +64,15 @@ void place_node(const Scene& scene, int index, double seconds, ScenePose& posed)
     posed.visible[n] = visible >= 2.0 || (visible != 0.0 && (root || posed.visible[parent] != 0));
 }
 
+ScenePose place_nodes(const Scene& scene, double seconds) {
+    ScenePose posed;
+    posed.seconds = seconds;
+    posed.world.resize(scene.nodes.size());
+    posed.visible.resize(scene.nodes.size());
+    for (int node = 0; node < std::ssize(scene.nodes); ++node) place_node(scene, node, seconds, posed);
+    return posed;
+}
+
 bool is_shown(const Scene& scene, const ScenePose& posed, std::size_t instance) {
     const Instance& of = posed.instances[instance];
     return posed.visible[of.node] != 0 && evaluate_whole(scene.meshes[of.mesh].present, posed.seconds) != 0.0;
@@ -113,20 +122,18 @@ LightValues pose_light(const Scene& scene, int node, const glm::dmat4& world, do
 
 CameraValues pose_camera(const Scene& scene, int node, const glm::dmat4& world, double seconds) {
     const Camera& camera = scene.cameras[scene.nodes[node].camera];
-    CameraValues values;
-    values.node = node;
-    values.orthographic = camera.orthographic;
-    values.position = glm::dvec3(world[3]);
-    values.axes = orthonormal_axes(world);
-    values.fov = evaluate(camera.fov, seconds);
-    values.half_height = evaluate(camera.half_height, seconds);
-    values.shift_x = evaluate(camera.shift_x, seconds);
-    values.shift_y = evaluate(camera.shift_y, seconds);
-    values.near_plane = camera.near_plane;
-    values.shutter = camera.shutter;
-    values.aperture = not_negative(camera.aperture, seconds);
-    values.focus_distance = not_negative(camera.focus_distance, seconds);
-    return values;
+    return {.node = node,
+            .orthographic = camera.orthographic,
+            .position = glm::dvec3(world[3]),
+            .axes = orthonormal_axes(world),
+            .fov = evaluate(camera.fov, seconds),
+            .half_height = evaluate(camera.half_height, seconds),
+            .shift_x = evaluate(camera.shift_x, seconds),
+            .shift_y = evaluate(camera.shift_y, seconds),
+            .near_plane = camera.near_plane,
+            .shutter = camera.shutter,
+            .aperture = not_negative(camera.aperture, seconds),
+            .focus_distance = not_negative(camera.focus_distance, seconds)};
 }
 
 void pose_environment(const Scene& scene, double seconds, ScenePose& posed) {

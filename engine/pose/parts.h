@@ -10,6 +10,9 @@ namespace aleph {
 /// Transform and visibility of a node. Those of its parent must be in `posed` already.
 void place_node(const Scene& scene, int node, double seconds, ScenePose& posed);
 
+/// Every node's transform and visibility, and nothing else.
+ScenePose place_nodes(const Scene& scene, double seconds);
+
 /// True where the instance's node is visible and its mesh present, at posed.seconds.
 bool is_shown(const Scene& scene, const ScenePose& posed, std::size_t instance);
 

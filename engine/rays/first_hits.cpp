@@ -1,7 +1,6 @@
 #include "engine/rays/first_hits.h"
 
 #include <array>
-#include <atomic>
 
 #include "engine/base/parallel.h"
 
@@ -40,15 +39,6 @@ void cast_rays(const RayScene& scene, const std::function<CameraRay(int x, int y
             }
         }
     });
-}
-
-Image<Hit> cast_first_hits(const RayScene& scene, const CameraView& view, double offset_x, double offset_y,
-                           std::uint64_t* rays_cast) {
-    Image<Hit> hits(view.width, view.height);
-    cast_rays(
-        scene, [&](int x, int y) { return make_camera_ray(view, x + offset_x, y + offset_y); }, Blend::cutout, hits);
-    if (rays_cast != nullptr) *rays_cast += hits.size();
-    return hits;
 }
 
 }  // namespace aleph

@@ -17,10 +17,10 @@ namespace aleph {
 /// A decoded picture. Eight bits a channel, or float for EXR and HDR and for the picture of the environment; one of the
 /// two is empty.
 struct SceneImage {
-    std::string name;
-    std::string path;  ///< relative to the scene file; empty where it was embedded
-    Image<glm::u8vec4> bytes;
-    Image<glm::vec4> floats;
+    std::string name{};
+    std::string path{};  ///< relative to the scene file; empty where it was embedded
+    Image<glm::u8vec4> bytes{};
+    Image<glm::vec4> floats{};
     int include = no_index;
 
     bool operator==(const SceneImage&) const = default;
@@ -44,7 +44,7 @@ struct TextureRef {
 
 /// glTF 2.0 metallic-roughness, its defaults.
 struct Material {
-    std::string name;
+    std::string name{};
     Track<glm::dvec3> base_color{glm::dvec3(1.0)};
     Track<double> alpha{1.0};
     Track<double> metallic{1.0};
@@ -70,23 +70,23 @@ struct Material {
     double clearcoat_normal_scale = 1.0;
     enum class AlphaMode { opaque, mask, blend };
     AlphaMode alpha_mode = AlphaMode::opaque;
-    double alpha_cutoff = 0.5;               ///< mask: not there where alpha is below
-    bool unlit = false;                      ///< KHR_materials_unlit: shows its base colour, takes and gives no light
-    TextureRef base_color_texture;           ///< sRGB, with alpha
-    TextureRef metallic_roughness_texture;   ///< B metallic, G roughness, linear
-    TextureRef emission_texture;             ///< sRGB
-    TextureRef specular_texture;             ///< A, linear
-    TextureRef specular_color_texture;       ///< sRGB
-    TextureRef transmission_texture;         ///< R, linear
-    TextureRef normal_texture;               ///< tangent space, linear; x along u, y against v, z outwards
-    TextureRef thickness_texture;            ///< G, linear
-    TextureRef clearcoat_texture;            ///< R, linear
-    TextureRef clearcoat_roughness_texture;  ///< G, linear
-    TextureRef clearcoat_normal_texture;     ///< as normal_texture, for the coat
-    TextureRef sheen_color_texture;          ///< sRGB
-    TextureRef sheen_roughness_texture;      ///< A, linear
-    TextureRef anisotropy_texture;           ///< RG direction, B strength, linear
-    bool double_sided = false;               ///< lit and, where it emits, shining on both sides
+    double alpha_cutoff = 0.5;                 ///< mask: not there where alpha is below
+    bool unlit = false;                        ///< KHR_materials_unlit: shows its base colour, takes and gives no light
+    TextureRef base_color_texture{};           ///< sRGB, with alpha
+    TextureRef metallic_roughness_texture{};   ///< B metallic, G roughness, linear
+    TextureRef emission_texture{};             ///< sRGB
+    TextureRef specular_texture{};             ///< A, linear
+    TextureRef specular_color_texture{};       ///< sRGB
+    TextureRef transmission_texture{};         ///< R, linear
+    TextureRef normal_texture{};               ///< tangent space, linear; x along u, y against v, z outwards
+    TextureRef thickness_texture{};            ///< G, linear
+    TextureRef clearcoat_texture{};            ///< R, linear
+    TextureRef clearcoat_roughness_texture{};  ///< G, linear
+    TextureRef clearcoat_normal_texture{};     ///< as normal_texture, for the coat
+    TextureRef sheen_color_texture{};          ///< sRGB
+    TextureRef sheen_roughness_texture{};      ///< A, linear
+    TextureRef anisotropy_texture{};           ///< RG direction, B strength, linear
+    bool double_sided = false;                 ///< lit and, where it emits, shining on both sides
     int include = no_index;
 
     bool operator==(const Material&) const = default;

@@ -45,23 +45,23 @@ struct OperationStack {
 };
 
 struct Node {
-    std::string name;
+    std::string name{};
     int parent = no_index;
 
     /// Local transform: `operations` where set, else `matrix` where set, else translation * rotation * scale.
     Track<glm::dvec3> translation{glm::dvec3(0.0)};
     Track<glm::dquat> rotation{glm::dquat(1.0, 0.0, 0.0, 0.0)};
-    std::optional<AxisRotation> axis_rotation;  ///< in place of `rotation`
+    std::optional<AxisRotation> axis_rotation{};  ///< in place of `rotation`
     Track<glm::dvec3> scale{glm::dvec3(1.0)};
-    std::optional<Track<glm::dmat4>> matrix;  ///< affine, column vectors
-    std::optional<OperationStack> operations;
+    std::optional<Track<glm::dmat4>> matrix{};  ///< affine, column vectors
+    std::optional<OperationStack> operations{};
     Track<double> inherits{1.0};  ///< step; where 0 the parent's transform does not apply (Alembic's `.inherits`)
 
     /// 0: hidden, with everything below; 1: as its parent; 2: shown even below a hidden parent (Alembic's explicit 1).
     /// Interpolation is step or nearest.
     Track<double> visible{1.0};
 
-    std::vector<int> meshes;
+    std::vector<int> meshes{};
     int camera = no_index;
     int light = no_index;
     int include = no_index;  ///< index of the include it comes from; such nodes are not saved
@@ -72,7 +72,7 @@ struct Node {
 /// KHR_lights_punctual; shines along its node's -z.
 struct Light {
     enum class Kind { point, directional, spot };
-    std::string name;
+    std::string name{};
     Kind kind = Kind::point;
     Track<glm::dvec3> color{glm::dvec3(1.0)};
     Track<double> intensity{1.0};                      ///< point, spot: candela; directional: lux
@@ -86,7 +86,7 @@ struct Light {
 
 /// Looks along its node's -z. The node's scale does not count.
 struct Camera {
-    std::string name;
+    std::string name{};
     bool orthographic = false;
     Track<double> fov{std::numbers::pi / 4.0};  ///< vertical, radians
     Track<double> half_height{1.0};             ///< orthographic, m

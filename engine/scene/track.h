@@ -43,16 +43,6 @@ T evaluate(const Track<T>& track, double seconds);
 template <class T>
 bool is_animated(const Track<T>& track);
 
-/// Time of the first and of the last key, s.
-template <class T>
-double first_time(const Track<T>& track) {
-    return sample_time(track.sampling, 0);
-}
-template <class T>
-double last_time(const Track<T>& track) {
-    return sample_time(track.sampling, track.key_count() - 1);
-}
-
 /// Value of a key: the middle one of a cubic key's three.
 template <class T>
 const T& key_value(const Track<T>& track, std::size_t key) {

@@ -20,9 +20,7 @@ std::string read_path(const JsonRef& at) {
 
 int add_image(SceneReader& reader, const JsonRef& at, const std::string& name) {
     reader.charge(sizeof(SceneImage) + 300, at, "it has too many images");
-    SceneImage image;
-    image.name = name;
-    image.path = read_path(at);
+    SceneImage image{.name = name, .path = read_path(at)};
     reader.result.image_places.push_back(at.pointer());
     const int index = SceneReader::add(std::move(image), reader.scene.images, reader.images);
     reader.image_of_path.emplace(reader.scene.images[index].path, index);
@@ -109,8 +107,7 @@ int add_material(SceneReader& reader, const JsonRef& at, const std::string& name
 int add_light(SceneReader& reader, const JsonRef& at, const std::string& name) {
     const FrameRate& rate = reader.scene.frame_rate;
     reader.charge(sizeof(Light) + 300, at, "it has too many lights");
-    Light light;
-    light.name = name;
+    Light light{.name = name};
     const JsonRef type = at.require("type");
     light.kind = read_word<Light::Kind>(type, light_words);
     if (const auto value = at.find("color")) light.color = read_vector(*value, rate, not_negative);
@@ -133,8 +130,7 @@ int add_light(SceneReader& reader, const JsonRef& at, const std::string& name) {
 int add_camera(SceneReader& reader, const JsonRef& at, const std::string& name) {
     const FrameRate& rate = reader.scene.frame_rate;
     reader.charge(sizeof(Camera) + 400, at, "it has too many cameras");
-    Camera camera;
-    camera.name = name;
+    Camera camera{.name = name};
     for (const auto& field : camera_angles) read_angle(at, field, rate, camera);
     const auto orthographic = at.find("orthographic");
     if (orthographic) camera.orthographic = orthographic->boolean();

@@ -110,9 +110,7 @@ inline constexpr std::array shape_numbers{
 /// The material of an empty object. Unlike in glTF an absent `metallic` is 0: in a file written by hand a colour alone
 /// means a plain surface.
 inline Material absent_material() {
-    Material material;
-    material.metallic = 0.0;
-    return material;
+    return {.metallic = 0.0};
 }
 
 // Words of enumerations, in the order of their values.

@@ -24,8 +24,7 @@ void check_shape_keys(const JsonRef& at, const char* kind, const std::vector<std
 }
 
 Shape read_shape(const JsonRef& at, Shape::Kind kind) {
-    Shape shape;
-    shape.kind = kind;
+    Shape shape{.kind = kind};
     const std::size_t index = index_of(kind);
     check_shape_keys(at, shape_words[index], shape_keys[index]);
     if (const auto value = at.find("size")) {

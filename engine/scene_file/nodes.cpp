@@ -50,8 +50,7 @@ class NodeReader {
     void read(const JsonRef& at, int parent) {
         reader_.charge(node_bytes, at, "it has too many nodes");
         const int index = static_cast<int>(scene_.nodes.size());
-        Node node;
-        node.parent = parent;
+        Node node{.parent = parent};
         if (const auto name = at.find("parent")) node.parent = read_parent(*name, parent);
         const auto name = at.find("name");
         node.name = name ? name->string() : all_names_.unused(fmt::format("node {}", index));

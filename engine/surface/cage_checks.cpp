@@ -39,19 +39,6 @@ EdgeFaces count_edge_faces(const Cage& cage) {
     return edges;
 }
 
-/// Calls visit(a, b, sharpness) for every edge of every crease.
-template <class Visit>
-void for_each_crease_edge(const Cage& cage, const Visit& visit) {
-    std::size_t begin = 0;
-    for (std::size_t c = 0; c < cage.crease_lengths.size(); ++c) {
-        const auto length = static_cast<std::size_t>(cage.crease_lengths[c]);
-        for (std::size_t i = begin; i + 1 < begin + length; ++i) {
-            visit(cage.crease_points[i], cage.crease_points[i + 1], cage.crease_sharpness[c]);
-        }
-        begin += length;
-    }
-}
-
 class Checker {
   public:
     Checker(const Cage& cage, std::size_t points) : cage_(cage), points_(points) {}

@@ -8,6 +8,7 @@
 
 #include "engine/base/errors.h"
 #include "engine/base/parallel.h"
+#include "engine/scene/points.h"
 #include "engine/surface/cage_checks.h"
 #include "engine/surface/grid.h"
 #include "engine/surface/patches.h"
@@ -167,15 +168,7 @@ Mesh LimitSurface::make_mesh(int part, std::span<const glm::dvec3> control) cons
 }
 
 std::vector<glm::dvec3> cage_points_at(const Scene& scene, const Cage& cage, double seconds) {
-    const PointCache& cache = scene.point_caches[cage.points];
-    const SampleSpan span = find_samples(cache.sampling, cache.positions.size(), seconds);
-    const std::vector<glm::vec3>& from = cache.positions[span.floor];
-    const std::vector<glm::vec3>& to = cache.positions[span.ceil];
-    std::vector<glm::dvec3> points(from.begin(), from.end());
-    if (span.floor == span.ceil || span.fraction == 0.0) return points;
-    // Points that do not move stay the same bit for bit.
-    for (std::size_t i = 0; i < points.size(); ++i) points[i] += span.fraction * (glm::dvec3(to[i]) - points[i]);
-    return points;
+    return sample_points(scene.point_caches[cage.points], seconds);
 }
 
 namespace {

@@ -82,16 +82,10 @@ struct CreaseEdges {
 
 CreaseEdges make_crease_edges(const Cage& cage) {
     CreaseEdges edges;
-    std::size_t begin = 0;
-    for (std::size_t c = 0; c < cage.crease_lengths.size(); ++c) {
-        const auto length = static_cast<std::size_t>(cage.crease_lengths[c]);
-        for (std::size_t i = begin; i + 1 < begin + length; ++i) {
-            edges.points.push_back(cage.crease_points[i]);
-            edges.points.push_back(cage.crease_points[i + 1]);
-            edges.sharpness.push_back(clamp_sharpness(cage.crease_sharpness[c]));
-        }
-        begin += length;
-    }
+    for_each_crease_edge(cage, [&](int a, int b, float sharpness) {
+        edges.points.insert(edges.points.end(), {a, b});
+        edges.sharpness.push_back(clamp_sharpness(sharpness));
+    });
     return edges;
 }
 

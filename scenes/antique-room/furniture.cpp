@@ -28,64 +28,40 @@ Shape turned_leg(double height, double radius) {
 
 void add_chair(Scene& scene, const std::string& name, const glm::dvec3& place, double degrees, int seat,
                const AntiqueMaterials& materials) {
-    const int chair = add_node(scene, name, no_index, place, turn({0.0, 1.0, 0.0}, degrees));
+    const Group chair{scene, add_node(scene, name, no_index, place, turn({0.0, 1.0, 0.0}, degrees))};
     const int wood = materials.mahogany;
     const Shape leg = turned_leg(0.43, 0.026), spindle = turned_leg(0.4, 0.014);
     for (const double x : {-1.0, 1.0}) {
         const char* which = x < 0.0 ? "a" : "b";
-        add_shape(scene, fmt::format("{}_leg_front_{}", name, which), chair, leg, wood, {x * 0.2, 0.0, 0.19});
-        add_rod(scene, fmt::format("{}_leg_back_{}", name, which), chair, {x * 0.19, 0.0, -0.22},
-                {x * 0.18, 0.44, -0.19}, 0.019, wood, 20);
-        add_rod(scene, fmt::format("{}_post_{}", name, which), chair, {x * 0.18, 0.44, -0.19}, {x * 0.19, 0.98, -0.27},
-                0.018, wood, 20);
-        add_shape(scene, fmt::format("{}_knob_{}", name, which), chair, sphere(0.026), wood, {x * 0.19, 0.995, -0.272});
-        add_rod(scene, fmt::format("{}_stretcher_{}", name, which), chair, {x * 0.2, 0.16, 0.19},
-                {x * 0.188, 0.16, -0.21}, 0.011, wood, 16);
+        chair.add_shape(fmt::format("{}_leg_front_{}", name, which), leg, wood, {x * 0.2, 0.0, 0.19});
+        chair.add_rod(fmt::format("{}_leg_back_{}", name, which), {x * 0.19, 0.0, -0.22}, {x * 0.18, 0.44, -0.19},
+                      0.019, wood, 20);
+        chair.add_rod(fmt::format("{}_post_{}", name, which), {x * 0.18, 0.44, -0.19}, {x * 0.19, 0.98, -0.27}, 0.018,
+                      wood, 20);
+        chair.add_shape(fmt::format("{}_knob_{}", name, which), sphere(0.026), wood, {x * 0.19, 0.995, -0.272});
+        chair.add_rod(fmt::format("{}_stretcher_{}", name, which), {x * 0.2, 0.16, 0.19}, {x * 0.188, 0.16, -0.21},
+                      0.011, wood, 16);
     }
-    add_rod(scene, name + "_stretcher", chair, {-0.195, 0.16, 0.0}, {0.195, 0.16, 0.0}, 0.011, wood, 16);
-    add_shape(scene, name + "_frame", chair, box({0.46, 0.055, 0.44}), wood, {0.0, 0.43, 0.0});
+    chair.add_rod(name + "_stretcher", {-0.195, 0.16, 0.0}, {0.195, 0.16, 0.0}, 0.011, wood, 16);
+    chair.add_shape(name + "_frame", box({0.46, 0.055, 0.44}), wood, {0.0, 0.43, 0.0});
     add_mesh_node(scene, name + "_seat", chair, seat, {0.0, 0.475, 0.0});
     const double lean = -std::atan2(0.08, 0.54) * 180.0 / pi;
     for (int i = 0; i < 4; ++i)
-        add_shape(scene, fmt::format("{}_spindle_{}", name, i), chair, spindle, wood, {-0.108 + 0.072 * i, 0.53, -0.2},
-                  turn({1.0, 0.0, 0.0}, lean));
-    add_shape(scene, name + "_rail_low", chair, box({0.36, 0.035, 0.02}), wood, {0.0, 0.53, -0.2});
-    add_shape(scene, name + "_rail_high", chair, box({0.37, 0.09, 0.022}), wood, {0.0, 0.94, -0.262},
-              turn({1.0, 0.0, 0.0}, lean));
+        chair.add_shape(fmt::format("{}_spindle_{}", name, i), spindle, wood, {-0.108 + 0.072 * i, 0.53, -0.2},
+                        turn({1.0, 0.0, 0.0}, lean));
+    chair.add_shape(name + "_rail_low", box({0.36, 0.035, 0.02}), wood, {0.0, 0.53, -0.2});
+    chair.add_shape(name + "_rail_high", box({0.37, 0.09, 0.022}), wood, {0.0, 0.94, -0.262},
+                    turn({1.0, 0.0, 0.0}, lean));
 }
 
-void add_table(Scene& scene, int table, const AntiqueMaterials& materials) {
-    add_shape(scene, "table_top", table,
-              lathe({{0.0, 0.71},
-                     {0.5, 0.71},
-                     {0.54, 0.715},
-                     {0.56, 0.725},
-                     {0.565, 0.735},
-                     {0.56, 0.745},
-                     {0.55, 0.75},
-                     {0.55, 0.75},
-                     {0.0, 0.75}},
-                    96, {4.0, 1.0}),
-              materials.walnut, glm::dvec3(0.0));
-    add_shape(scene, "table_column", table,
-              lathe({{0.0, 0.12},
-                     {0.05, 0.12},
-                     {0.1, 0.15},
-                     {0.11, 0.2},
-                     {0.08, 0.26},
-                     {0.05, 0.29},
-                     {0.065, 0.31},
-                     {0.045, 0.33},
-                     {0.05, 0.4},
-                     {0.085, 0.5},
-                     {0.09, 0.54},
-                     {0.05, 0.6},
-                     {0.07, 0.62},
-                     {0.05, 0.64},
-                     {0.1, 0.69},
-                     {0.2, 0.71}},
-                    56),
-              materials.mahogany, glm::dvec3(0.0));
+void add_table(Scene& scene, const Group& table, const AntiqueMaterials& materials) {
+    const Profile top_outline = {{0.0, 0.71},   {0.5, 0.71},  {0.54, 0.715}, {0.56, 0.725}, {0.565, 0.735},
+                                 {0.56, 0.745}, {0.55, 0.75}, {0.55, 0.75},  {0.0, 0.75}};
+    table.add_shape("table_top", lathe(top_outline, 96, {4.0, 1.0}), materials.walnut, glm::dvec3(0.0));
+    const Profile column_outline = {{0.0, 0.12},   {0.05, 0.12},  {0.1, 0.15}, {0.11, 0.2},  {0.08, 0.26}, {0.05, 0.29},
+                                    {0.065, 0.31}, {0.045, 0.33}, {0.05, 0.4}, {0.085, 0.5}, {0.09, 0.54}, {0.05, 0.6},
+                                    {0.07, 0.62},  {0.05, 0.64},  {0.1, 0.69}, {0.2, 0.71}};
+    table.add_shape("table_column", lathe(column_outline, 56), materials.mahogany, glm::dvec3(0.0));
     const int foot =
         add_cage(scene, "table_foot", make_cushion({0.07, 0.09, 0.44}, 0.03, {0.0, 0.02, 0.0}, 2), materials.mahogany);
     for (int i = 0; i < 3; ++i) {
@@ -97,22 +73,11 @@ void add_table(Scene& scene, int table, const AntiqueMaterials& materials) {
 }
 
 /// A vase with seven irises.
-void add_irises(Scene& scene, int table, const AntiqueMaterials& materials) {
-    add_shape(scene, "vase", table,
-              lathe({{0.0, 0.0},
-                     {0.06, 0.0},
-                     {0.06, 0.0},
-                     {0.055, 0.01},
-                     {0.08, 0.06},
-                     {0.095, 0.12},
-                     {0.08, 0.19},
-                     {0.045, 0.24},
-                     {0.04, 0.27},
-                     {0.055, 0.3},
-                     {0.05, 0.3},
-                     {0.034, 0.27}},
-                    56),
-              materials.porcelain, {0.0, 0.75, -0.05});
+void add_irises(Scene& scene, const Group& table, const AntiqueMaterials& materials) {
+    const Profile vase_outline = {{0.0, 0.0},   {0.06, 0.0},   {0.06, 0.0},  {0.055, 0.01},
+                                  {0.08, 0.06}, {0.095, 0.12}, {0.08, 0.19}, {0.045, 0.24},
+                                  {0.04, 0.27}, {0.055, 0.3},  {0.05, 0.3},  {0.034, 0.27}};
+    table.add_shape("vase", lathe(vase_outline, 56), materials.porcelain, {0.0, 0.75, -0.05});
     const int petal_paint = add_lambert(scene, "petal", {124, 92, 190});
     scene.materials.back().double_sided = true;
     const int petal = add_cage(scene, "petal", make_leaf(0.1, 0.055, 0.7), petal_paint);
@@ -122,7 +87,7 @@ void add_irises(Scene& scene, int table, const AntiqueMaterials& materials) {
                      high = 0.26 + 0.045 * ((i * 3) % 5);
         const glm::dvec3 root(0.0, 1.0, -0.05),
             tip = to_millionth(root + glm::dvec3(wide * 1.8 * std::sin(a), high, wide * 1.8 * std::cos(a)));
-        add_rod(scene, fmt::format("iris_stem_{}", i), table, root, tip, 0.005, materials.green, 8);
+        table.add_rod(fmt::format("iris_stem_{}", i), root, tip, 0.005, materials.green, 8);
         for (int k = 0; k < 6; ++k) {
             const double lean = k % 2 == 0 ? 88.0 : 22.0;
             add_mesh_node(scene, fmt::format("iris_{}_petal_{}", i, k), table, petal, tip,
@@ -135,26 +100,19 @@ void add_irises(Scene& scene, int table, const AntiqueMaterials& materials) {
 }
 
 /// Two cups on saucers.
-void add_tea(Scene& scene, int table, const AntiqueMaterials& materials) {
-    const Shape cup = lathe({{0.0, 0.006},
-                             {0.02, 0.006},
-                             {0.024, 0.0},
-                             {0.03, 0.01},
-                             {0.038, 0.035},
-                             {0.042, 0.055},
-                             {0.04, 0.055},
-                             {0.035, 0.035},
-                             {0.0, 0.012}},
-                            40);
-    const Shape saucer = lathe(
-        {{0.0, 0.0}, {0.035, 0.0}, {0.05, 0.005}, {0.072, 0.014}, {0.07, 0.017}, {0.045, 0.009}, {0.0, 0.006}}, 40);
+void add_tea(const Group& table, const AntiqueMaterials& materials) {
+    const Profile cup_outline = {{0.0, 0.006},   {0.02, 0.006}, {0.024, 0.0},   {0.03, 0.01}, {0.038, 0.035},
+                                 {0.042, 0.055}, {0.04, 0.055}, {0.035, 0.035}, {0.0, 0.012}};
+    const Shape cup = lathe(cup_outline, 40);
+    const Profile saucer_outline = {{0.0, 0.0},    {0.035, 0.0},   {0.05, 0.005}, {0.072, 0.014},
+                                    {0.07, 0.017}, {0.045, 0.009}, {0.0, 0.006}};
+    const Shape saucer = lathe(saucer_outline, 40);
     const glm::dvec3 cups[] = {{0.34, 0.75, 0.16}, {-0.3, 0.75, 0.26}};
     for (int i = 0; i < 2; ++i) {
-        add_shape(scene, fmt::format("saucer_{}", i), table, saucer, materials.porcelain, cups[i]);
-        add_shape(scene, fmt::format("cup_{}", i), table, cup, materials.porcelain,
-                  cups[i] + glm::dvec3(0.0, 0.007, 0.0));
-        add_shape(scene, fmt::format("cup_handle_{}", i), table, torus(0.016, 0.004, 32), materials.porcelain,
-                  cups[i] + glm::dvec3(0.05, 0.037, 0.0), turn({1.0, 0.0, 0.0}, 90.0));
+        table.add_shape(fmt::format("saucer_{}", i), saucer, materials.porcelain, cups[i]);
+        table.add_shape(fmt::format("cup_{}", i), cup, materials.porcelain, cups[i] + glm::dvec3(0.0, 0.007, 0.0));
+        table.add_shape(fmt::format("cup_handle_{}", i), torus(0.016, 0.004, 32), materials.porcelain,
+                        cups[i] + glm::dvec3(0.05, 0.037, 0.0), turn({1.0, 0.0, 0.0}, 90.0));
     }
 }
 
@@ -162,14 +120,14 @@ void add_tea(Scene& scene, int table, const AntiqueMaterials& materials) {
 
 void add_table_and_chairs(Scene& scene, const AntiqueMaterials& materials) {
     const glm::dvec3 place(-0.35, 0.012, 0.15);
-    const int table = add_node(scene, "table", no_index, place);
+    const Group table{scene, add_node(scene, "table", no_index, place)};
     add_table(scene, table, materials);
     add_irises(scene, table, materials);
-    add_tea(scene, table, materials);
-    add_shape(scene, "table_book_a", table, box({0.19, 0.035, 0.26}), materials.leather, {0.12, 0.768, 0.34},
-              turn({0.0, 1.0, 0.0}, 24.0));
-    add_shape(scene, "table_book_b", table, box({0.15, 0.028, 0.21}), materials.cloth, {0.125, 0.8, 0.335},
-              turn({0.0, 1.0, 0.0}, 41.0));
+    add_tea(table, materials);
+    table.add_shape("table_book_a", box({0.19, 0.035, 0.26}), materials.leather, {0.12, 0.768, 0.34},
+                    turn({0.0, 1.0, 0.0}, 24.0));
+    table.add_shape("table_book_b", box({0.15, 0.028, 0.21}), materials.cloth, {0.125, 0.8, 0.335},
+                    turn({0.0, 1.0, 0.0}, 41.0));
 
     const int seat =
         add_cage(scene, "chair_seat", make_cushion({0.44, 0.07, 0.42}, 0.03, {0.0, 0.025, 0.0}, 2), materials.cloth);
@@ -179,7 +137,7 @@ void add_table_and_chairs(Scene& scene, const AntiqueMaterials& materials) {
 }
 
 void add_armchair(Scene& scene, const AntiqueMaterials& materials) {
-    const int chair = add_node(scene, "armchair", no_index, {1.55, 0.0, -0.95}, turn({0.0, 1.0, 0.0}, -52.0));
+    const Group chair{scene, add_node(scene, "armchair", no_index, {1.55, 0.0, -0.95}, turn({0.0, 1.0, 0.0}, -52.0))};
     const int leather = materials.leather;
     const auto add = [&](const char* name, const CageShape& shape, const glm::dvec3& at,
                          const glm::dquat& turned = glm::dquat(1.0, 0.0, 0.0, 0.0)) {
@@ -197,13 +155,13 @@ void add_armchair(Scene& scene, const AntiqueMaterials& materials) {
     for (const double side : {-1.0, 1.0}) {
         const char* which = side < 0.0 ? "a" : "b";
         add_mesh_node(scene, fmt::format("armchair_arm_{}", which), chair, arm, {side * 0.355, 0.46, 0.02});
-        add_shape(scene, fmt::format("armchair_roll_{}", which), chair, cylinder(0.085, 0.66, 40), leather,
-                  {side * 0.37, 0.64, 0.03}, turn({1.0, 0.0, 0.0}, 90.0));
+        chair.add_shape(fmt::format("armchair_roll_{}", which), cylinder(0.085, 0.66, 40), leather,
+                        {side * 0.37, 0.64, 0.03}, turn({1.0, 0.0, 0.0}, 90.0));
         add_mesh_node(scene, fmt::format("armchair_wing_{}", which), chair, wing, {side * 0.34, 0.9, -0.24},
                       turn({1.0, 0.0, 0.0}, -12.0));
         for (const double end : {-1.0, 1.0})
-            add_shape(scene, fmt::format("armchair_foot_{}{}", which, end < 0.0 ? "a" : "b"), chair,
-                      turned_leg(0.15, 0.032), materials.mahogany, {side * 0.31, 0.0, end * 0.29});
+            chair.add_shape(fmt::format("armchair_foot_{}{}", which, end < 0.0 ? "a" : "b"), turned_leg(0.15, 0.032),
+                            materials.mahogany, {side * 0.31, 0.0, end * 0.29});
     }
     add("pillow", make_cushion({0.38, 0.3, 0.07}, 0.03, {-0.02, -0.015, 0.09}, 2), {0.02, 0.62, -0.1},
         turn({1.0, 0.0, 0.0}, -20.0));
@@ -211,39 +169,27 @@ void add_armchair(Scene& scene, const AntiqueMaterials& materials) {
 }
 
 void add_side_table(Scene& scene, const AntiqueMaterials& materials) {
-    const int table = add_node(scene, "side_table", no_index, {2.2, 0.0, -1.85});
-    add_shape(scene, "side_table_top", table,
-              lathe({{0.0, 0.6}, {0.26, 0.6}, {0.28, 0.61}, {0.28, 0.62}, {0.27, 0.63}, {0.27, 0.63}, {0.0, 0.63}}, 64),
-              materials.mahogany, glm::dvec3(0.0));
-    add_shape(scene, "side_table_stem", table, turned_leg(0.6, 0.05), materials.mahogany, glm::dvec3(0.0));
-    add_shape(scene, "side_table_base", table,
-              lathe({{0.0, 0.0}, {0.22, 0.0}, {0.22, 0.0}, {0.21, 0.025}, {0.1, 0.045}, {0.0, 0.05}}, 48),
-              materials.mahogany, glm::dvec3(0.0));
+    const Group table{scene, add_node(scene, "side_table", no_index, {2.2, 0.0, -1.85})};
+    const Profile top_outline = {{0.0, 0.6},   {0.26, 0.6},  {0.28, 0.61}, {0.28, 0.62},
+                                 {0.27, 0.63}, {0.27, 0.63}, {0.0, 0.63}};
+    table.add_shape("side_table_top", lathe(top_outline, 64), materials.mahogany, glm::dvec3(0.0));
+    table.add_shape("side_table_stem", turned_leg(0.6, 0.05), materials.mahogany, glm::dvec3(0.0));
+    const Profile base_outline = {{0.0, 0.0}, {0.22, 0.0}, {0.22, 0.0}, {0.21, 0.025}, {0.1, 0.045}, {0.0, 0.05}};
+    table.add_shape("side_table_base", lathe(base_outline, 48), materials.mahogany, glm::dvec3(0.0));
     const int shade = add_lambert(scene, "lamp_shade", {226, 196, 142});
     scene.materials.back().double_sided = true;
     const int glow = add_emitter(scene, "lamp_glow", {1.0, 0.76, 0.46}, 60.0);
-    add_shape(scene, "lamp_foot", table,
-              lathe({{0.0, 0.0},
-                     {0.09, 0.0},
-                     {0.09, 0.0},
-                     {0.085, 0.015},
-                     {0.05, 0.03},
-                     {0.08, 0.09},
-                     {0.09, 0.14},
-                     {0.06, 0.2},
-                     {0.025, 0.24},
-                     {0.02, 0.3},
-                     {0.0, 0.3}},
-                    48),
-              materials.porcelain, {0.0, 0.63, 0.0});
-    add_rod(scene, "lamp_stem", table, {0.0, 0.93, 0.0}, {0.0, 1.1, 0.0}, 0.008, materials.brass, 16);
+    const Profile foot_outline = {{0.0, 0.0},   {0.09, 0.0}, {0.09, 0.0},   {0.085, 0.015}, {0.05, 0.03}, {0.08, 0.09},
+                                  {0.09, 0.14}, {0.06, 0.2}, {0.025, 0.24}, {0.02, 0.3},    {0.0, 0.3}};
+    table.add_shape("lamp_foot", lathe(foot_outline, 48), materials.porcelain, {0.0, 0.63, 0.0});
+    table.add_rod("lamp_stem", {0.0, 0.93, 0.0}, {0.0, 1.1, 0.0}, 0.008, materials.brass, 16);
     Shape cone = lathe({{0.21, 0.94}, {0.12, 1.22}}, 64);
     cone.smooth = false;
-    add_shape(scene, "lamp_shade", table, cone, shade, glm::dvec3(0.0));
-    add_shape(scene, "lamp_down", table, quad(0.09, 0.09), glow, {0.0, 1.06, 0.0}, z_to_down);
-    add_shape(scene, "lamp_up", table, quad(0.09, 0.09), glow, {0.0, 1.105, 0.0}, z_to_up);
-    add_shape(scene, "side_table_book", table, box({0.14, 0.03, 0.2}), materials.cloth, {-0.14, 0.645, 0.1},
-              turn({0.0, 1.0, 0.0}, 30.0));
+    table.add_shape("lamp_shade", cone, shade, glm::dvec3(0.0));
+    table.add_shape("lamp_down", quad(0.09, 0.09), glow, {0.0, 1.06, 0.0}, z_to_down);
+    table.add_shape("lamp_up", quad(0.09, 0.09), glow, {0.0, 1.105, 0.0}, z_to_up);
+    table.add_shape("side_table_book", box({0.14, 0.03, 0.2}), materials.cloth, {-0.14, 0.645, 0.1},
+                    turn({0.0, 1.0, 0.0}, 30.0));
 }
 
 }  // namespace aleph

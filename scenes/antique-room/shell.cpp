@@ -37,12 +37,11 @@ struct Wall {
 /// Paper above, panelled wood below.
 void add_wall(Scene& scene, int room, const Wall& where, int panel_mesh, const AntiqueMaterials& materials) {
     const auto& [name, middle, length, facing, panels] = where;
-    const int wall = add_node(scene, name, room, middle, facing);
+    const Group wall{scene, add_node(scene, name, room, middle, facing)};
     const double paper = antique_high.y - dado;
-    add_shape(scene, name + "_paper", wall, quad(length, paper, {length / paper_tile, paper / paper_tile}),
-              materials.paper, {0.0, dado + 0.5 * paper, 0.0});
-    add_shape(scene, name + "_dado", wall, quad(length, dado, {0.5 * length, 0.5}), materials.panel,
-              {0.0, 0.5 * dado, 0.02});
+    wall.add_shape(name + "_paper", quad(length, paper, {length / paper_tile, paper / paper_tile}), materials.paper,
+                   {0.0, dado + 0.5 * paper, 0.0});
+    wall.add_shape(name + "_dado", quad(length, dado, {0.5 * length, 0.5}), materials.panel, {0.0, 0.5 * dado, 0.02});
     for (int i = 0; i < panels; ++i) {
         add_mesh_node(scene, fmt::format("{}_panel_{}", name, i), wall, panel_mesh,
                       {(i + 0.5 - 0.5 * panels) * length / panels, 0.53, 0.02});
@@ -52,123 +51,85 @@ void add_wall(Scene& scene, int room, const Wall& where, int panel_mesh, const A
 constexpr double fire_height = 0.78;                  // m, of the opening
 constexpr double mantel_height = fire_height + 0.37;  // m
 
-void add_fire_surround(Scene& scene, int place, int soot, const AntiqueMaterials& materials) {
+void add_fire_surround(Scene& scene, const Group& place, int soot, const AntiqueMaterials& materials) {
     const double half = 0.46, top = fire_height;
-    add_shape(scene, "fire_back", place, quad(2.0 * half, top), soot, {0.0, 0.5 * top, 0.03});
-    add_shape(scene, "hearth", place, box({1.7, 0.04, 0.5}), materials.stone, {0.0, 0.02, 0.42});
+    place.add_shape("fire_back", quad(2.0 * half, top), soot, {0.0, 0.5 * top, 0.03});
+    place.add_shape("hearth", box({1.7, 0.04, 0.5}), materials.stone, {0.0, 0.02, 0.42});
     for (const double side : {-1.0, 1.0}) {
         const char* which = side < 0.0 ? "a" : "b";
-        add_shape(scene, fmt::format("fire_cheek_{}", which), place, box({0.02, top, 0.2}), soot,
-                  {side * (half - 0.01), 0.5 * top, 0.13});
-        add_shape(scene, fmt::format("fire_pier_{}", which), place, box({0.2, top, 0.24}, {0.4, 1.2}), materials.stone,
-                  {side * (half + 0.1), 0.5 * top, 0.12});
-        add_shape(scene, fmt::format("fire_column_{}", which), place,
-                  lathe({{0.0, 0.0},
-                         {0.075, 0.0},
-                         {0.075, 0.0},
-                         {0.075, 0.03},
-                         {0.06, 0.05},
-                         {0.068, 0.07},
-                         {0.052, 0.09},
-                         {0.056, 0.3},
-                         {0.048, 0.62},
-                         {0.05, 0.64},
-                         {0.066, 0.66},
-                         {0.052, 0.68},
-                         {0.078, 0.71},
-                         {0.078, 0.74},
-                         {0.078, 0.74},
-                         {0.0, 0.74}},
-                        40),
-                  materials.stone, {side * (half + 0.1), 0.04, 0.29});
+        place.add_shape(fmt::format("fire_cheek_{}", which), box({0.02, top, 0.2}), soot,
+                        {side * (half - 0.01), 0.5 * top, 0.13});
+        place.add_shape(fmt::format("fire_pier_{}", which), box({0.2, top, 0.24}, {0.4, 1.2}), materials.stone,
+                        {side * (half + 0.1), 0.5 * top, 0.12});
+        const Profile column_outline = {{0.0, 0.0},    {0.075, 0.0},  {0.075, 0.0},  {0.075, 0.03},
+                                        {0.06, 0.05},  {0.068, 0.07}, {0.052, 0.09}, {0.056, 0.3},
+                                        {0.048, 0.62}, {0.05, 0.64},  {0.066, 0.66}, {0.052, 0.68},
+                                        {0.078, 0.71}, {0.078, 0.74}, {0.078, 0.74}, {0.0, 0.74}};
+        place.add_shape(fmt::format("fire_column_{}", which), lathe(column_outline, 40), materials.stone,
+                        {side * (half + 0.1), 0.04, 0.29});
     }
-    add_shape(scene, "fire_lintel", place, box({2.0 * half + 0.4, 0.3, 0.26}, {2.0, 0.5}), materials.stone,
-              {0.0, top + 0.15, 0.13});
+    place.add_shape("fire_lintel", box({2.0 * half + 0.4, 0.3, 0.26}, {2.0, 0.5}), materials.stone,
+                    {0.0, top + 0.15, 0.13});
     add_mesh_node(
         scene, "fire_tablet", place,
         add_cage(scene, "fire_tablet", make_rectangle_moulding({0.7, 0.2}, panel_profile, false), materials.stone),
         {0.0, top + 0.15, 0.26});
-    add_shape(scene, "mantel_shelf", place, box({1.75, 0.05, 0.42}, {2.0, 0.5}), materials.stone,
-              {0.0, top + 0.345, 0.21});
-    add_shape(scene, "mantel_under", place, box({1.6, 0.04, 0.36}, {2.0, 0.5}), materials.stone,
-              {0.0, top + 0.3, 0.18});
+    place.add_shape("mantel_shelf", box({1.75, 0.05, 0.42}, {2.0, 0.5}), materials.stone, {0.0, top + 0.345, 0.21});
+    place.add_shape("mantel_under", box({1.6, 0.04, 0.36}, {2.0, 0.5}), materials.stone, {0.0, top + 0.3, 0.18});
 }
 
 /// Embers that shine up, logs, and the grate.
-void add_fire(Scene& scene, int place, int embers, int bark, const AntiqueMaterials& materials) {
-    add_shape(scene, "embers", place, quad(0.46, 0.14), embers, {0.0, 0.13, 0.17}, z_to_up);
+void add_fire(const Group& place, int embers, int bark, const AntiqueMaterials& materials) {
+    place.add_shape("embers", quad(0.46, 0.14), embers, {0.0, 0.13, 0.17}, z_to_up);
     for (int i = 0; i < 3; ++i)
-        add_rod(scene, fmt::format("log_{}", i), place, {-0.27 + 0.03 * i, 0.16 + 0.05 * (i % 2), 0.1 + 0.07 * i},
-                {0.25 + 0.02 * i, 0.19 + 0.04 * (i % 2), 0.12 + 0.06 * i}, 0.04, bark, 16);
-    add_shape(scene, "grate", place, box({0.56, 0.02, 0.2}), materials.black, {0.0, 0.11, 0.17});
+        place.add_rod(fmt::format("log_{}", i), {-0.27 + 0.03 * i, 0.16 + 0.05 * (i % 2), 0.1 + 0.07 * i},
+                      {0.25 + 0.02 * i, 0.19 + 0.04 * (i % 2), 0.12 + 0.06 * i}, 0.04, bark, 16);
+    place.add_shape("grate", box({0.56, 0.02, 0.2}), materials.black, {0.0, 0.11, 0.17});
     for (int i = 0; i < 7; ++i)
-        add_rod(scene, fmt::format("grate_bar_{}", i), place, {-0.27 + 0.09 * i, 0.04, 0.28},
-                {-0.27 + 0.09 * i, 0.24, 0.3}, 0.008, materials.black, 10);
+        place.add_rod(fmt::format("grate_bar_{}", i), {-0.27 + 0.09 * i, 0.04, 0.28}, {-0.27 + 0.09 * i, 0.24, 0.3},
+                      0.008, materials.black, 10);
 }
 
 void add_mantel_clock(Scene& scene, int place, const AntiqueMaterials& materials) {
-    const int clock = add_node(scene, "mantel_clock", place, {0.0, mantel_height, 0.2});
-    add_shape(scene, "mantel_clock_base", clock, box({0.3, 0.05, 0.15}), materials.mahogany, {0.0, 0.025, 0.0});
-    add_shape(scene, "mantel_clock_body", clock, box({0.23, 0.22, 0.12}), materials.mahogany, {0.0, 0.16, 0.0});
+    const Group clock{scene, add_node(scene, "mantel_clock", place, {0.0, mantel_height, 0.2})};
+    clock.add_shape("mantel_clock_base", box({0.3, 0.05, 0.15}), materials.mahogany, {0.0, 0.025, 0.0});
+    clock.add_shape("mantel_clock_body", box({0.23, 0.22, 0.12}), materials.mahogany, {0.0, 0.16, 0.0});
     const int dial = add_textured(scene, "dial", "dial");
-    add_shape(scene, "mantel_clock_face", clock, quad(0.15, 0.15), dial, {0.0, 0.165, 0.062});
-    add_shape(scene, "mantel_clock_ring", clock, torus(0.078, 0.009, 48), materials.brass, {0.0, 0.165, 0.062},
-              turn({1.0, 0.0, 0.0}, 90.0));
-    add_shape(scene, "mantel_clock_top", clock,
-              lathe({{0.12, 0.0}, {0.1, 0.03}, {0.05, 0.05}, {0.02, 0.06}, {0.025, 0.08}, {0.0, 0.1}}, 40),
-              materials.mahogany, {0.0, 0.27, 0.0});
+    clock.add_shape("mantel_clock_face", quad(0.15, 0.15), dial, {0.0, 0.165, 0.062});
+    clock.add_shape("mantel_clock_ring", torus(0.078, 0.009, 48), materials.brass, {0.0, 0.165, 0.062},
+                    turn({1.0, 0.0, 0.0}, 90.0));
+    const Profile top_outline = {{0.12, 0.0}, {0.1, 0.03}, {0.05, 0.05}, {0.02, 0.06}, {0.025, 0.08}, {0.0, 0.1}};
+    clock.add_shape("mantel_clock_top", lathe(top_outline, 40), materials.mahogany, {0.0, 0.27, 0.0});
 }
 
 /// Candlesticks beside the clock, and two urns.
-void add_mantel_ornaments(Scene& scene, int place, const AntiqueMaterials& materials) {
-    const Shape stick = lathe({{0.0, 0.0},
-                               {0.06, 0.0},
-                               {0.06, 0.0},
-                               {0.058, 0.012},
-                               {0.03, 0.025},
-                               {0.015, 0.05},
-                               {0.024, 0.075},
-                               {0.012, 0.1},
-                               {0.012, 0.17},
-                               {0.022, 0.19},
-                               {0.014, 0.205},
-                               {0.035, 0.215},
-                               {0.035, 0.22},
-                               {0.0, 0.222}},
-                              36);
-    const Shape urn = lathe({{0.0, 0.0},
-                             {0.06, 0.0},
-                             {0.06, 0.0},
-                             {0.05, 0.02},
-                             {0.025, 0.045},
-                             {0.07, 0.1},
-                             {0.1, 0.17},
-                             {0.095, 0.22},
-                             {0.06, 0.26},
-                             {0.075, 0.29},
-                             {0.065, 0.292},
-                             {0.05, 0.26}},
-                            48);
+void add_mantel_ornaments(const Group& place, const AntiqueMaterials& materials) {
+    const Profile stick_outline = {{0.0, 0.0},     {0.06, 0.0},    {0.06, 0.0},   {0.058, 0.012}, {0.03, 0.025},
+                                   {0.015, 0.05},  {0.024, 0.075}, {0.012, 0.1},  {0.012, 0.17},  {0.022, 0.19},
+                                   {0.014, 0.205}, {0.035, 0.215}, {0.035, 0.22}, {0.0, 0.222}};
+    const Shape stick = lathe(stick_outline, 36);
+    const Profile urn_outline = {{0.0, 0.0},  {0.06, 0.0},   {0.06, 0.0},  {0.05, 0.02},  {0.025, 0.045}, {0.07, 0.1},
+                                 {0.1, 0.17}, {0.095, 0.22}, {0.06, 0.26}, {0.075, 0.29}, {0.065, 0.292}, {0.05, 0.26}};
+    const Shape urn = lathe(urn_outline, 48);
     for (const double side : {-1.0, 1.0}) {
         const char* which = side < 0.0 ? "a" : "b";
-        add_shape(scene, fmt::format("candlestick_{}", which), place, stick, materials.brass,
-                  {side * 0.36, mantel_height, 0.2});
-        add_shape(scene, fmt::format("candle_{}", which), place, cylinder(0.014, 0.2, 20), materials.ivory,
-                  {side * 0.36, mantel_height + 0.32, 0.2});
-        add_shape(scene, fmt::format("mantel_urn_{}", which), place, urn, materials.porcelain,
-                  {side * 0.68, mantel_height, 0.2});
+        place.add_shape(fmt::format("candlestick_{}", which), stick, materials.brass,
+                        {side * 0.36, mantel_height, 0.2});
+        place.add_shape(fmt::format("candle_{}", which), cylinder(0.014, 0.2, 20), materials.ivory,
+                        {side * 0.36, mantel_height + 0.32, 0.2});
+        place.add_shape(fmt::format("mantel_urn_{}", which), urn, materials.porcelain,
+                        {side * 0.68, mantel_height, 0.2});
     }
 }
 
 }  // namespace
 
 void add_antique_shell(Scene& scene, const AntiqueMaterials& materials) {
-    const int room = add_node(scene, "room");
+    const Group room{scene, add_node(scene, "room")};
     const glm::dvec3 size = antique_high - antique_low, middle = 0.5 * (antique_low + antique_high);
-    add_shape(scene, "floor", room, quad(size.x, size.z, {size.x / 1.5, size.z / 1.2}), materials.boards,
-              {middle.x, 0.0, middle.z}, z_to_up);
-    add_shape(scene, "ceiling", room, quad(size.x, size.z), materials.ceiling, {middle.x, antique_high.y, middle.z},
-              z_to_down);
+    room.add_shape("floor", quad(size.x, size.z, {size.x / 1.5, size.z / 1.2}), materials.boards,
+                   {middle.x, 0.0, middle.z}, z_to_up);
+    room.add_shape("ceiling", quad(size.x, size.z), materials.ceiling, {middle.x, antique_high.y, middle.z}, z_to_down);
     const int panel =
         add_cage(scene, "panel", make_rectangle_moulding({0.66, 0.58}, panel_profile, false), materials.walnut);
     const glm::dquat z_to_plus_z(1.0, 0.0, 0.0, 0.0);
@@ -196,32 +157,22 @@ void add_antique_shell(Scene& scene, const AntiqueMaterials& materials) {
         add_mesh_node(scene, moulding.name, room, mesh, {0.0, moulding.height, 0.0}, z_to_up);
     }
     // A rose of rings on the ceiling.
-    add_shape(scene, "ceiling_rose", room,
-              lathe({{0.45, 0.0},
-                     {0.44, -0.02},
-                     {0.4, -0.03},
-                     {0.36, -0.02},
-                     {0.33, -0.02},
-                     {0.28, -0.04},
-                     {0.2, -0.03},
-                     {0.14, -0.05},
-                     {0.06, -0.08},
-                     {0.0, -0.085}},
-                    72),
-              materials.ceiling, {0.0, antique_high.y, 0.1});
+    const Profile rose_outline = {{0.45, 0.0},   {0.44, -0.02}, {0.4, -0.03},  {0.36, -0.02}, {0.33, -0.02},
+                                  {0.28, -0.04}, {0.2, -0.03},  {0.14, -0.05}, {0.06, -0.08}, {0.0, -0.085}};
+    room.add_shape("ceiling_rose", lathe(rose_outline, 72), materials.ceiling, {0.0, antique_high.y, 0.1});
     const int rug = add_textured(scene, "rug", "rug");
-    add_shape(scene, "rug", room, box({3.0, 0.012, 2.0}), rug, {-0.1, 0.006, 0.1});
+    room.add_shape("rug", box({3.0, 0.012, 2.0}), rug, {-0.1, 0.006, 0.1});
 }
 
 void add_fireplace(Scene& scene, const AntiqueMaterials& materials) {
-    const int place = add_node(scene, "fireplace", no_index, {-0.15, 0.0, antique_low.z});
+    const Group place{scene, add_node(scene, "fireplace", no_index, {-0.15, 0.0, antique_low.z})};
     const int soot = add_lambert(scene, "soot", {36, 30, 28});
     const int embers = add_emitter(scene, "embers", {1.0, 0.36, 0.1}, 5.0);
     const int bark = add_lambert(scene, "bark", {74, 52, 38});
     add_fire_surround(scene, place, soot, materials);
-    add_fire(scene, place, embers, bark, materials);
+    add_fire(place, embers, bark, materials);
     add_mantel_clock(scene, place, materials);
-    add_mantel_ornaments(scene, place, materials);
+    add_mantel_ornaments(place, materials);
 }
 
 void add_antique_pictures(Scene& scene, const AntiqueMaterials& materials) {
@@ -237,8 +188,8 @@ void add_antique_pictures(Scene& scene, const AntiqueMaterials& materials) {
                                    Hanging{"valley", {antique_high.x, 1.75, -0.2}, {1.1, 0.77}, z_to_minus_x}}) {
         const std::string name = hanging.image;
         const int paint = add_textured(scene, name, name);
-        const int node = add_node(scene, "picture_" + name, pictures, hanging.middle, hanging.facing);
-        add_shape(scene, name + "_canvas", node, quad(hanging.size.x, hanging.size.y), paint, {0.0, 0.0, 0.01});
+        const Group node{scene, add_node(scene, "picture_" + name, pictures, hanging.middle, hanging.facing)};
+        node.add_shape(name + "_canvas", quad(hanging.size.x, hanging.size.y), paint, {0.0, 0.0, 0.01});
         add_mesh_node(scene, name + "_frame", node,
                       add_cage(scene, name + "_frame", make_rectangle_moulding(hanging.size, frame_profile, true),
                                materials.gilt),

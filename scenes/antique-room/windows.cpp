@@ -11,20 +11,21 @@ namespace aleph {
 namespace {
 
 /// A window: posts and bars in front of an emissive picture, and a sill below.
-void add_casement(Scene& scene, int window, const std::string& name, const glm::dvec2& size, int outside, int paint) {
-    add_shape(scene, name + "_sky", window, quad(size.x, size.y), outside, {0.0, 0.0, 0.012});
+void add_casement(Scene& scene, const Group& window, const std::string& name, const glm::dvec2& size, int outside,
+                  int paint) {
+    window.add_shape(name + "_sky", quad(size.x, size.y), outside, {0.0, 0.0, 0.012});
     const std::vector<glm::dvec2> casing = {{-0.02, 0.0},  {-0.02, 0.09}, {-0.02, 0.09}, {0.0, 0.1},   {0.06, 0.1},
                                             {0.08, 0.085}, {0.1, 0.09},   {0.12, 0.07},  {0.12, 0.07}, {0.12, 0.0}};
     add_mesh_node(scene, name + "_casing", window,
                   add_cage(scene, name + "_casing", make_rectangle_moulding(size, casing, true), paint),
                   glm::dvec3(0.0));
     for (int i = -1; i <= 1; ++i)
-        add_shape(scene, fmt::format("{}_post_{}", name, i + 1), window, box({i == 0 ? 0.06 : 0.025, size.y, 0.035}),
-                  paint, {0.25 * size.x * i, 0.0, 0.07});
+        window.add_shape(fmt::format("{}_post_{}", name, i + 1), box({i == 0 ? 0.06 : 0.025, size.y, 0.035}), paint,
+                         {0.25 * size.x * i, 0.0, 0.07});
     for (int i = -1; i <= 1; ++i)
-        add_shape(scene, fmt::format("{}_bar_{}", name, i + 1), window, box({size.x, 0.025, 0.03}), paint,
-                  {0.0, 0.25 * size.y * i, 0.07});
-    add_shape(scene, name + "_sill", window, box({size.x + 0.36, 0.04, 0.2}), paint, {0.0, -0.5 * size.y - 0.1, 0.1});
+        window.add_shape(fmt::format("{}_bar_{}", name, i + 1), box({size.x, 0.025, 0.03}), paint,
+                         {0.0, 0.25 * size.y * i, 0.07});
+    window.add_shape(name + "_sill", box({size.x + 0.36, 0.04, 0.2}), paint, {0.0, -0.5 * size.y - 0.1, 0.1});
 }
 
 }  // namespace
@@ -40,9 +41,9 @@ void add_antique_window(Scene& scene, const AntiqueMaterials& materials) {
     const int curtain = add_lambert(scene, "curtain", {128, 34, 40});
     scene.materials.back().double_sided = true;
     const double height = 1.75, middle = 0.98 + 0.5 * height;
-    const int window = add_node(scene, "window", no_index, {antique_low.x, middle, -0.35}, z_to_plus_x);
+    const Group window{scene, add_node(scene, "window", no_index, {antique_low.x, middle, -0.35}, z_to_plus_x)};
     add_casement(scene, window, "window", {1.5, height}, view, white);
-    const int unseen = add_node(scene, "window_b", no_index, {antique_high.x, middle, 1.5}, z_to_minus_x);
+    const Group unseen{scene, add_node(scene, "window_b", no_index, {antique_high.x, middle, 1.5}, z_to_minus_x)};
     add_casement(scene, unseen, "window_b", {1.2, height}, sky, white);
 
     // Curtains: a wavy path with a vertical profile.
@@ -54,10 +55,10 @@ void add_antique_window(Scene& scene, const AntiqueMaterials& materials) {
         const CageShape sheet = make_moulding(path, false, {{0.0, -1.86}, {0.004, -0.8}, {0.0, 1.01}}, 2);
         add_mesh_node(scene, name, window, add_cage(scene, name, sheet, curtain), glm::dvec3(0.0), z_to_up);
     }
-    add_rod(scene, "curtain_rod", window, {-1.3, 1.01, 0.17}, {1.3, 1.01, 0.17}, 0.018, materials.brass, 24);
+    window.add_rod("curtain_rod", {-1.3, 1.01, 0.17}, {1.3, 1.01, 0.17}, 0.018, materials.brass, 24);
     for (const double side : {-1.0, 1.0})
-        add_shape(scene, side < 0.0 ? "curtain_knob_a" : "curtain_knob_b", window, sphere(0.04), materials.brass,
-                  {side * 1.32, 1.01, 0.17});
+        window.add_shape(side < 0.0 ? "curtain_knob_a" : "curtain_knob_b", sphere(0.04), materials.brass,
+                         {side * 1.32, 1.01, 0.17});
 }
 
 }  // namespace aleph

@@ -62,34 +62,25 @@ std::vector<BallDrop> make_ball_drops() {
 }
 
 void add_ball_work(Scene& scene, const GalleryMaterials& materials) {
-    const int work = add_node(scene, "ball_work");
-    add_shape(scene, "ball_base", work,
-              lathe({{0.0, 0.0},
-                     {1.3, 0.0},
-                     {1.3, 0.0},
-                     {1.3, 0.05},
-                     {1.29, 0.072},
-                     {1.265, ring_base},
-                     {1.265, ring_base},
-                     {0.0, ring_base}},
-                    96),
-              materials.plinth, ring_place);
-    add_shape(scene, "ball_ring", work, torus(ring_radius, 0.035, 96), materials.steel,
-              ring_place + glm::dvec3(0.0, ring_height, 0.0));
+    const Group work{scene, add_node(scene, "ball_work")};
+    const Profile base_outline = {{0.0, 0.0},    {1.3, 0.0},         {1.3, 0.0},         {1.3, 0.05},
+                                  {1.29, 0.072}, {1.265, ring_base}, {1.265, ring_base}, {0.0, ring_base}};
+    work.add_shape("ball_base", lathe(base_outline, 96), materials.plinth, ring_place);
+    work.add_shape("ball_ring", torus(ring_radius, 0.035, 96), materials.steel,
+                   ring_place + glm::dvec3(0.0, ring_height, 0.0));
     for (int i = 0; i < 3; ++i) {
         const double angle = 2.0 * pi * (i + 0.5) / 3.0;
         const glm::dvec3 at =
             to_millionth(ring_place + ring_radius * glm::dvec3(std::sin(angle), 0.0, std::cos(angle)));
-        add_rod(scene, fmt::format("ball_post_{}", i), work, at + glm::dvec3(0.0, ring_base, 0.0),
-                at + glm::dvec3(0.0, ring_height, 0.0), 0.016, materials.steel, 16);
+        work.add_rod(fmt::format("ball_post_{}", i), at + glm::dvec3(0.0, ring_base, 0.0),
+                     at + glm::dvec3(0.0, ring_height, 0.0), 0.016, materials.steel, 16);
     }
     for (int i = 0; i < ring_balls; ++i) {
         const glm::dvec3 at = to_millionth(ring_point(i)) + glm::dvec3(0.0, ring_height, 0.0);
-        add_rod(scene, fmt::format("ball_holder_{}", i), work, at - glm::dvec3(0.0, 0.11, 0.0), at, 0.02,
-                materials.steel, 16);
+        work.add_rod(fmt::format("ball_holder_{}", i), at - glm::dvec3(0.0, 0.11, 0.0), at, 0.02, materials.steel, 16);
     }
 
-    const int balls = add_node(scene, "balls");
+    const Group balls{scene, add_node(scene, "balls")};
     const std::vector<BallDrop> drops = make_ball_drops();
     for (std::size_t i = 0; i < drops.size(); ++i) {
         const std::string name = fmt::format("ball_{}", i);
@@ -97,13 +88,13 @@ void add_ball_work(Scene& scene, const GalleryMaterials& materials) {
         const int texture = rolls ? (i % 2 == 1 ? 0 : 2) : static_cast<int>(i) % 5 + 1;
         const int material = add_textured(scene, name, fmt::format("ball_{}", texture));
         add_gloss(scene, 0.3);
-        const int index = add_shape(scene, name, balls, sphere(drops[i].radius), material, glm::dvec3(0.0));
+        const int index = balls.add_shape(name, sphere(drops[i].radius), material, glm::dvec3(0.0));
         const auto path = simulate_drop(drops[i], gallery_seconds);
         node_at(scene, index).translation = cubic_track(path);
         if (rolls) {
             const double height = drops[i].position.y - drops[i].radius;
-            add_shape(scene, name + "_plinth", work, box({0.34, height, 0.34}), materials.plinth,
-                      {drops[i].position.x, 0.5 * height, drops[i].position.z});
+            work.add_shape(name + "_plinth", box({0.34, height, 0.34}), materials.plinth,
+                           {drops[i].position.x, 0.5 * height, drops[i].position.z});
             const glm::dvec3 v = drops[i].velocity;
             turn_about(scene, index, glm::normalize(glm::cross(glm::dvec3(0.0, 1.0, 0.0), v)),
                        cubic_track(simulate_spin(drops[i], path)));

@@ -55,29 +55,18 @@ struct PlantParts {
 /// Long leaves on thin stems in a pot.
 void add_plant(Scene& scene, int parent, const std::string& name, const glm::dvec3& place, const PlantParts& parts,
                std::uint32_t seed) {
-    const int plant = add_node(scene, name, parent, place);
-    add_shape(scene, name + "_pot", plant,
-              lathe({{0.0, 0.0},
-                     {0.17, 0.0},
-                     {0.17, 0.0},
-                     {0.19, 0.06},
-                     {0.235, 0.3},
-                     {0.25, 0.38},
-                     {0.265, 0.4},
-                     {0.265, 0.42},
-                     {0.245, 0.425},
-                     {0.235, 0.4},
-                     {0.23, 0.36}},
-                    48),
-              parts.pot, glm::dvec3(0.0));
-    add_shape(scene, name + "_earth", plant, cylinder(0.231, 0.02, 32), parts.earth, {0.0, 0.37, 0.0});
+    const Group plant{scene, add_node(scene, name, parent, place)};
+    const Profile pot_outline = {{0.0, 0.0},   {0.17, 0.0},   {0.17, 0.0},    {0.19, 0.06}, {0.235, 0.3}, {0.25, 0.38},
+                                 {0.265, 0.4}, {0.265, 0.42}, {0.245, 0.425}, {0.235, 0.4}, {0.23, 0.36}};
+    plant.add_shape(name + "_pot", lathe(pot_outline, 48), parts.pot, glm::dvec3(0.0));
+    plant.add_shape(name + "_earth", cylinder(0.231, 0.02, 32), parts.earth, {0.0, 0.37, 0.0});
     for (int i = 0; i < 34; ++i) {
         const double around = i * 137.508, high = lattice_value(i, 0, seed), wide = lattice_value(i, 1, seed);
         const double reach = 0.05 + 0.2 * wide, top = 0.62 + 0.75 * high;
         const glm::dvec3 out(std::sin(around * pi / 180.0), 0.0, std::cos(around * pi / 180.0));
         const glm::dvec3 foot = glm::dvec3(0.0, 0.38, 0.0) + 0.06 * out;
         const glm::dvec3 tip = to_millionth(glm::dvec3(0.0, top, 0.0) + (0.06 + reach) * out);
-        add_rod(scene, fmt::format("{}_stem_{}", name, i), plant, foot, tip, 0.006, parts.stem, 6);
+        plant.add_rod(fmt::format("{}_stem_{}", name, i), foot, tip, 0.006, parts.stem, 6);
         const double lean = 38.0 + 55.0 * wide * (1.2 - 0.5 * high);
         add_mesh_node(scene, fmt::format("{}_leaf_{}", name, i), plant, parts.leaf, tip,
                       turn({0.0, 1.0, 0.0}, std::fmod(around, 360.0)) * turn({1.0, 0.0, 0.0}, lean));
@@ -105,16 +94,15 @@ void add_couch(Scene& scene, const GalleryMaterials& materials) {
         add_cage(scene, "couch_rest", make_cushion({0.655, 0.42, 0.17}, 0.05, {0.015, 0.02, 0.07}, 2), cloth);
     const int pillow =
         add_cage(scene, "couch_pillow", make_cushion({0.42, 0.42, 0.08}, 0.03, {-0.02, -0.02, 0.11}, 2), pillow_cloth);
-    const int foot = add_node(scene, "couch_feet", couch);
+    const Group foot{scene, add_node(scene, "couch_feet", couch)};
     for (const double side : {-1.0, 1.0}) {
         const char* which = side < 0.0 ? "a" : "b";
         add_mesh_node(scene, fmt::format("couch_arm_{}", which), couch, arm, {side * 1.1, 0.37, 0.0});
         for (const double end : {-1.0, 1.0}) {
-            add_shape(
-                scene, fmt::format("couch_foot_{}{}", which, end < 0.0 ? "a" : "b"), foot,
-                lathe({{0.0, 0.0}, {0.024, 0.0}, {0.024, 0.0}, {0.034, 0.03}, {0.022, 0.05}, {0.04, 0.1}, {0.04, 0.15}},
-                      24),
-                materials.oak, {side * 1.08, 0.0, end * 0.36});
+            const Profile foot_outline = {{0.0, 0.0},    {0.024, 0.0}, {0.024, 0.0}, {0.034, 0.03},
+                                          {0.022, 0.05}, {0.04, 0.1},  {0.04, 0.15}};
+            foot.add_shape(fmt::format("couch_foot_{}{}", which, end < 0.0 ? "a" : "b"), lathe(foot_outline, 24),
+                           materials.oak, {side * 1.08, 0.0, end * 0.36});
         }
     }
     for (int i = 0; i < 3; ++i) {
@@ -130,14 +118,14 @@ void add_couch(Scene& scene, const GalleryMaterials& materials) {
 
 void add_bench(Scene& scene, const std::string& name, const glm::dvec3& place, double degrees, int seat,
                const GalleryMaterials& materials) {
-    const int bench = add_node(scene, name, no_index, place, turn({0.0, 1.0, 0.0}, degrees));
+    const Group bench{scene, add_node(scene, name, no_index, place, turn({0.0, 1.0, 0.0}, degrees))};
     add_mesh_node(scene, name + "_seat", bench, seat, {0.0, 0.44, 0.0});
     for (const double side : {-1.0, 1.0}) {
         const char* which = side < 0.0 ? "a" : "b";
-        add_shape(scene, fmt::format("{}_leg_{}", name, which), bench, box({0.06, 0.4, 0.36}), materials.dark,
-                  {side * 0.62, 0.2, 0.0});
+        bench.add_shape(fmt::format("{}_leg_{}", name, which), box({0.06, 0.4, 0.36}), materials.dark,
+                        {side * 0.62, 0.2, 0.0});
     }
-    add_shape(scene, name + "_rail", bench, box({1.2, 0.05, 0.05}), materials.dark, {0.0, 0.16, 0.0});
+    bench.add_shape(name + "_rail", box({1.2, 0.05, 0.05}), materials.dark, {0.0, 0.16, 0.0});
 }
 
 }  // namespace
@@ -149,14 +137,14 @@ void add_pictures(Scene& scene, const GalleryMaterials& materials) {
     for (const Hanging& hanging : hangings) {
         const std::string name = hanging.image;
         const int paint = add_textured(scene, name, name);
-        const int node = add_node(scene, "picture_" + name, pictures, hanging.middle, facing[hanging.wall]);
-        add_shape(scene, name + "_canvas", node, quad(hanging.size.x, hanging.size.y), paint, {0.0, 0.0, 0.012});
+        const Group node{scene, add_node(scene, "picture_" + name, pictures, hanging.middle, facing[hanging.wall])};
+        node.add_shape(name + "_canvas", quad(hanging.size.x, hanging.size.y), paint, {0.0, 0.0, 0.012});
         const CageShape moulding =
             make_rectangle_moulding(hanging.size, hanging.frame == 0 ? gilt_profile : plain_profile, true);
         const int frame = add_cage(scene, name + "_frame", moulding, frames[hanging.frame]);
         add_mesh_node(scene, name + "_frame", node, frame, glm::dvec3(0.0));
-        add_shape(scene, name + "_label", node, box({0.12, 0.08, 0.006}), materials.white_frame,
-                  {0.5 * hanging.size.x + 0.24, -0.5 * hanging.size.y + 0.04, 0.003});
+        node.add_shape(name + "_label", box({0.12, 0.08, 0.006}), materials.white_frame,
+                       {0.5 * hanging.size.x + 0.24, -0.5 * hanging.size.y + 0.04, 0.003});
     }
 }
 

@@ -47,45 +47,41 @@ void add_trim(Scene& scene, int parent, const Room& room, int trim, int cornice)
 }
 
 /// Floor, ceiling and walls of a room, without the wall with the doorway.
-void add_shell(Scene& scene, int parent, const Room& room, const GalleryMaterials& materials) {
+void add_shell(const Group& parent, const Room& room, const GalleryMaterials& materials) {
     const auto& [name, low, high, door_x, wall] = room;
     const glm::dvec3 size = high - low, middle = 0.5 * (low + high);
     const double tile = 1.1;  // m, one repeat of the parquet
-    add_shape(scene, name + "_floor", parent, quad(size.x, size.z, {size.x / tile, size.z / tile}), materials.parquet,
-              {middle.x, 0.0, middle.z}, z_to_up);
-    add_shape(scene, name + "_ceiling", parent, quad(size.x, size.z), materials.ceiling, {middle.x, high.y, middle.z},
-              z_to_down);
-    add_shape(scene, name + "_wall_north", parent, quad(size.x, size.y), wall, {middle.x, middle.y, low.z});
-    add_shape(scene, name + "_wall_south", parent, quad(size.x, size.y), wall, {middle.x, middle.y, high.z},
-              z_to_minus_z);
+    parent.add_shape(name + "_floor", quad(size.x, size.z, {size.x / tile, size.z / tile}), materials.parquet,
+                     {middle.x, 0.0, middle.z}, z_to_up);
+    parent.add_shape(name + "_ceiling", quad(size.x, size.z), materials.ceiling, {middle.x, high.y, middle.z},
+                     z_to_down);
+    parent.add_shape(name + "_wall_north", quad(size.x, size.y), wall, {middle.x, middle.y, low.z});
+    parent.add_shape(name + "_wall_south", quad(size.x, size.y), wall, {middle.x, middle.y, high.z}, z_to_minus_z);
     const bool at_high = door_x == low.x;
-    add_shape(scene, name + "_wall_end", parent, quad(size.z, size.y), wall,
-              {at_high ? high.x : low.x, middle.y, middle.z}, at_high ? z_to_minus_x : z_to_plus_x);
+    parent.add_shape(name + "_wall_end", quad(size.z, size.y), wall, {at_high ? high.x : low.x, middle.y, middle.z},
+                     at_high ? z_to_minus_x : z_to_plus_x);
 }
 
 /// The wall between the two rooms, its faces in the colours of the rooms; jambs and floor of the doorway.
-void add_doorway(Scene& scene, int parent, const GalleryMaterials& materials) {
+void add_doorway(Scene& scene, const Group& parent, const GalleryMaterials& materials) {
     const double front = hall_low.x, back = cabinet_high.x, depth = front - back;
     const auto side = [&](const std::string& name, double x, double half, double top, int wall,
                           const glm::dquat& facing) {
         for (const double sign : {-1.0, 1.0}) {
-            add_shape(scene, fmt::format("{}_{}", name, sign < 0.0 ? "a" : "b"), parent,
-                      quad(half - door_half_width, top), wall, {x, 0.5 * top, sign * 0.5 * (half + door_half_width)},
-                      facing);
+            parent.add_shape(fmt::format("{}_{}", name, sign < 0.0 ? "a" : "b"), quad(half - door_half_width, top),
+                             wall, {x, 0.5 * top, sign * 0.5 * (half + door_half_width)}, facing);
         }
-        add_shape(scene, name + "_over", parent, quad(2.0 * door_half_width, top - door_height), wall,
-                  {x, 0.5 * (top + door_height), 0.0}, facing);
+        parent.add_shape(name + "_over", quad(2.0 * door_half_width, top - door_height), wall,
+                         {x, 0.5 * (top + door_height), 0.0}, facing);
     };
     side("door_wall_hall", front, hall_high.z, hall_high.y, materials.wall, z_to_plus_x);
     side("door_wall_cabinet", back, cabinet_high.z, cabinet_high.y, materials.blue_wall, z_to_minus_x);
     const double x = 0.5 * (front + back);
-    add_shape(scene, "door_sill", parent, quad(depth, 2.0 * door_half_width), materials.dark, {x, 0.0, 0.0}, z_to_up);
-    add_shape(scene, "door_head", parent, quad(depth, 2.0 * door_half_width), materials.trim, {x, door_height, 0.0},
-              z_to_down);
-    add_shape(scene, "door_jamb_a", parent, quad(depth, door_height), materials.trim,
-              {x, 0.5 * door_height, -door_half_width});
-    add_shape(scene, "door_jamb_b", parent, quad(depth, door_height), materials.trim,
-              {x, 0.5 * door_height, door_half_width}, z_to_minus_z);
+    parent.add_shape("door_sill", quad(depth, 2.0 * door_half_width), materials.dark, {x, 0.0, 0.0}, z_to_up);
+    parent.add_shape("door_head", quad(depth, 2.0 * door_half_width), materials.trim, {x, door_height, 0.0}, z_to_down);
+    parent.add_shape("door_jamb_a", quad(depth, door_height), materials.trim, {x, 0.5 * door_height, -door_half_width});
+    parent.add_shape("door_jamb_b", quad(depth, door_height), materials.trim, {x, 0.5 * door_height, door_half_width},
+                     z_to_minus_z);
     const double h = door_half_width;
     const std::vector<glm::dvec2> path = {{-h, 0.0}, {-h, door_height}, {h, door_height}, {h, 0.0}};
     const int mesh = add_cage(scene, "architrave", make_moulding(path, false, architrave_profile), materials.trim);
@@ -105,46 +101,46 @@ struct Lamp {
     int glow;             ///< material
 };
 
-void add_lamp(Scene& scene, int parent, const Lamp& look, const GalleryMaterials& materials) {
+void add_lamp(Scene& scene, const Group& parent, const Lamp& look, const GalleryMaterials& materials) {
     const auto& [name, place, size, depth, lean_degrees, ceiling, glow] = look;
-    const int lamp = add_node(scene, name, parent, place, turn({1.0, 0.0, 0.0}, lean_degrees));
-    add_shape(scene, name + "_box", lamp, box({size.x + 0.06, 0.06, size.y + 0.06}), materials.steel,
-              {0.0, 0.031, 0.0});
+    const Group lamp{scene, add_node(scene, name, parent, place, turn({1.0, 0.0, 0.0}, lean_degrees))};
+    lamp.add_shape(name + "_box", box({size.x + 0.06, 0.06, size.y + 0.06}), materials.steel, {0.0, 0.031, 0.0});
     if (depth > 0.0) {
         const double corner = to_millionth(0.5 * std::numbers::sqrt2 * size.x);
         Shape pyramid = lathe({{0.0, -depth}, {corner, 0.0}}, 4);
         pyramid.smooth = false;
-        add_shape(scene, name + "_glow", lamp, pyramid, glow, glm::dvec3(0.0), turn({0.0, 1.0, 0.0}, 45.0));
+        lamp.add_shape(name + "_glow", pyramid, glow, glm::dvec3(0.0), turn({0.0, 1.0, 0.0}, 45.0));
     } else {
-        add_shape(scene, name + "_glow", lamp, quad(size.x, size.y), glow, glm::dvec3(0.0), z_to_down);
+        lamp.add_shape(name + "_glow", quad(size.x, size.y), glow, glm::dvec3(0.0), z_to_down);
     }
     for (const double side : {-1.0, 1.0}) {
         const glm::dvec3 foot = place + glm::dvec3(side * 0.4 * size.x, 0.05, 0.0);
-        add_rod(scene, fmt::format("{}_rod_{}", name, side < 0.0 ? "a" : "b"), parent, foot, {foot.x, ceiling, foot.z},
-                0.008, materials.steel);
+        parent.add_rod(fmt::format("{}_rod_{}", name, side < 0.0 ? "a" : "b"), foot, {foot.x, ceiling, foot.z}, 0.008,
+                       materials.steel);
     }
 }
 
 }  // namespace
 
 void add_rooms(Scene& scene, const GalleryMaterials& materials) {
-    const int rooms = add_node(scene, "rooms");
+    const Group rooms{scene, add_node(scene, "rooms")};
     const Room hall{"hall", hall_low, hall_high, hall_low.x, materials.wall};
     const Room cabinet{"cabinet", cabinet_low, cabinet_high, cabinet_high.x, materials.blue_wall};
-    add_shell(scene, rooms, hall, materials);
-    add_shell(scene, rooms, cabinet, materials);
+    add_shell(rooms, hall, materials);
+    add_shell(rooms, cabinet, materials);
     add_doorway(scene, rooms, materials);
     add_trim(scene, rooms, hall, materials.trim, materials.ceiling);
     add_trim(scene, rooms, cabinet, materials.trim, materials.ceiling);
 
     // Beams: four across, two along.
     for (int i = 0; i < 4; ++i) {
-        add_shape(scene, fmt::format("beam_across_{}", i), rooms, box({0.22, 0.26, hall_high.z - hall_low.z}),
-                  materials.ceiling, {-4.5 + 3.0 * i, hall_high.y - 0.13, 0.0});
+        rooms.add_shape(fmt::format("beam_across_{}", i), box({0.22, 0.26, hall_high.z - hall_low.z}),
+                        materials.ceiling, {-4.5 + 3.0 * i, hall_high.y - 0.13, 0.0});
     }
     for (const double side : {-1.0, 1.0}) {
-        add_shape(scene, fmt::format("beam_along_{}", side < 0.0 ? "a" : "b"), rooms,
-                  box({hall_high.x - hall_low.x, 0.2, 0.22}), materials.ceiling, {0.0, hall_high.y - 0.1, side * 1.5});
+        rooms.add_shape(fmt::format("beam_along_{}", side < 0.0 ? "a" : "b"),
+                        box({hall_high.x - hall_low.x, 0.2, 0.22}), materials.ceiling,
+                        {0.0, hall_high.y - 0.1, side * 1.5});
     }
 }
 
@@ -152,7 +148,7 @@ void add_lamps(Scene& scene, const GalleryMaterials& materials) {
     const int warm = add_emitter(scene, "warm_glow", {1.0, 0.88, 0.7}, 10.0);
     const int day = add_emitter(scene, "day_glow", {0.86, 0.94, 1.0}, 8.0);
     const int cabinet = add_emitter(scene, "cabinet_glow", {1.0, 0.8, 0.58}, 14.0);
-    const int lamps = add_node(scene, "lamps");
+    const Group lamps{scene, add_node(scene, "lamps")};
     // Six light the long walls, one is a skylight, one is in the cabinet.
     for (int i = 0; i < 3; ++i) {
         const double x = -3.9 + 3.9 * i;

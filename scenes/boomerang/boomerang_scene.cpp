@@ -31,25 +31,23 @@ void add_room(Scene& scene) {
     const int blue = add_lambert(scene, "blue_wash", {126, 176, 186});
     const int wood = add_lambert(scene, "dark_wood", {104, 66, 42});
 
-    const int room = add_node(scene, "room");
+    const Group room{scene, add_node(scene, "room")};
     const glm::dvec3 size = high - low, middle = 0.5 * (low + high);
-    add_shape(scene, "floor", room, quad(size.x, size.z, {size.x / 0.8, size.z / 0.8}), tiles,
-              {middle.x, 0.0, middle.z}, z_to_up);
-    add_shape(scene, "ceiling", room, quad(size.x, size.z), lime, {middle.x, high.y, middle.z}, z_to_down);
-    add_shape(scene, "mural_wall", room, quad(size.x, size.y), mural, {middle.x, middle.y, low.z});
-    add_shape(scene, "near_wall", room, quad(size.x, size.y), lime, {middle.x, middle.y, high.z}, z_to_minus_z);
-    add_shape(scene, "clay_wall", room, quad(size.z, size.y, {3.0, 1.5}), plaster, {low.x, middle.y, middle.z},
-              z_to_plus_x);
-    add_shape(scene, "blue_wall", room, quad(size.z, size.y), blue, {high.x, middle.y, middle.z}, z_to_minus_x);
-    add_shape(scene, "skirting", room, box({size.x, 0.12, 0.025}), wood, {middle.x, 0.06, low.z + 0.0125});
+    room.add_shape("floor", quad(size.x, size.z, {size.x / 0.8, size.z / 0.8}), tiles, {middle.x, 0.0, middle.z},
+                   z_to_up);
+    room.add_shape("ceiling", quad(size.x, size.z), lime, {middle.x, high.y, middle.z}, z_to_down);
+    room.add_shape("mural_wall", quad(size.x, size.y), mural, {middle.x, middle.y, low.z});
+    room.add_shape("near_wall", quad(size.x, size.y), lime, {middle.x, middle.y, high.z}, z_to_minus_z);
+    room.add_shape("clay_wall", quad(size.z, size.y, {3.0, 1.5}), plaster, {low.x, middle.y, middle.z}, z_to_plus_x);
+    room.add_shape("blue_wall", quad(size.z, size.y), blue, {high.x, middle.y, middle.z}, z_to_minus_x);
+    room.add_shape("skirting", box({size.x, 0.12, 0.025}), wood, {middle.x, 0.06, low.z + 0.0125});
     for (const double side : {-1.0, 1.0}) {
-        add_shape(scene, side < 0.0 ? "skirting_left" : "skirting_right", room, box({0.025, 0.12, size.z - 0.05}), wood,
-                  {side * (high.x - 0.0125), 0.06, middle.z + 0.025});
+        room.add_shape(side < 0.0 ? "skirting_left" : "skirting_right", box({0.025, 0.12, size.z - 0.05}), wood,
+                       {side * (high.x - 0.0125), 0.06, middle.z + 0.025});
     }
     const double beams[] = {low.z + 0.07, -0.1, 1.5, 3.0};
     for (int i = 0; i < 4; ++i) {
-        add_shape(scene, fmt::format("beam_{}", i), room, box({size.x, 0.16, 0.14}), wood,
-                  {middle.x, high.y - 0.08, beams[i]});
+        room.add_shape(fmt::format("beam_{}", i), box({size.x, 0.16, 0.14}), wood, {middle.x, high.y - 0.08, beams[i]});
     }
 }
 
@@ -66,20 +64,20 @@ void add_furniture(Scene& scene) {
                                          {0.235, 0.34}, {0.25, 0.37}, {0.25, 0.41}, {0.25, 0.41},
                                          {0.22, 0.41},  {0.22, 0.41}, {0.2, 0.33},  {0.0, 0.33}};
     const auto add_tree = [&](const std::string& name, const glm::dvec3& place, int material, double height) {
-        const int node = add_node(scene, name, no_index, place);
-        add_shape(scene, name + "_pot", node, lathe(pot), material, {0.0, 0.0, 0.0});
-        add_shape(scene, name + "_stem", node, cylinder(0.018, height, 16), bark, {0.0, 0.33 + 0.5 * height, 0.0});
-        add_shape(scene, name + "_crown", node, sphere(0.24), green, {0.0, 0.5 + height, 0.0});
-        add_shape(scene, name + "_ball", node, sphere(0.14), green, {0.0, 0.84 + height, 0.0});
+        const Group node{scene, add_node(scene, name, no_index, place)};
+        node.add_shape(name + "_pot", lathe(pot), material, {0.0, 0.0, 0.0});
+        node.add_shape(name + "_stem", cylinder(0.018, height, 16), bark, {0.0, 0.33 + 0.5 * height, 0.0});
+        node.add_shape(name + "_crown", sphere(0.24), green, {0.0, 0.5 + height, 0.0});
+        node.add_shape(name + "_ball", sphere(0.14), green, {0.0, 0.84 + height, 0.0});
     };
     add_tree("tree_left", {-2.12, 0.0, -1.75}, clay, 0.5);
     add_tree("tree_right", {2.1, 0.0, -1.6}, glaze, 0.34);
 
-    const int bench = add_node(scene, "bench", no_index, {0.1, 0.0, -2.05});
-    add_shape(scene, "bench_seat", bench, box({1.7, 0.05, 0.36}), oak, {0.0, 0.44, 0.0});
+    const Group bench{scene, add_node(scene, "bench", no_index, {0.1, 0.0, -2.05})};
+    bench.add_shape("bench_seat", box({1.7, 0.05, 0.36}), oak, {0.0, 0.44, 0.0});
     for (const double side : {-1.0, 1.0}) {
-        add_shape(scene, side < 0.0 ? "bench_leg_a" : "bench_leg_b", bench, box({0.07, 0.415, 0.3}), oak,
-                  {side * 0.7, 0.2075, 0.0});
+        bench.add_shape(side < 0.0 ? "bench_leg_a" : "bench_leg_b", box({0.07, 0.415, 0.3}), oak,
+                        {side * 0.7, 0.2075, 0.0});
     }
 }
 
@@ -87,9 +85,9 @@ void add_lights(Scene& scene) {
     // Two skylights between the beams, and evening light from a window beside the camera.
     const int day = add_emitter(scene, "daylight", {1.0, 0.95, 0.86}, 9.0);
     const int evening = add_emitter(scene, "evening", {1.0, 0.78, 0.5}, 7.0);
-    add_shape(scene, "skylight_far", no_index, quad(2.2, 1.0), day, {0.0, high.y - 0.001, -0.9}, z_to_down);
-    add_shape(scene, "skylight_near", no_index, quad(2.2, 1.0), day, {0.0, high.y - 0.001, 0.7}, z_to_down);
-    add_shape(scene, "window", no_index, quad(1.1, 1.5), evening, {high.x - 0.001, 1.7, 2.2}, z_to_minus_x);
+    Group{scene}.add_shape("skylight_far", quad(2.2, 1.0), day, {0.0, high.y - 0.001, -0.9}, z_to_down);
+    Group{scene}.add_shape("skylight_near", quad(2.2, 1.0), day, {0.0, high.y - 0.001, 0.7}, z_to_down);
+    Group{scene}.add_shape("window", quad(1.1, 1.5), evening, {high.x - 0.001, 1.7, 2.2}, z_to_minus_x);
 }
 
 /// The flight: most of a loop, seen from outside; keys every tenth of a second.

@@ -13,11 +13,7 @@ namespace aleph {
 namespace {
 
 Material make_lambert(const std::string& name) {
-    Material material;
-    material.name = name;
-    material.metallic = 0.0;
-    material.specular = 0.0;
-    return material;
+    return {.name = name, .metallic = 0.0, .specular = 0.0};
 }
 
 int add_material(Scene& scene, const Material& material) {
@@ -37,9 +33,17 @@ glm::dquat y_towards(const glm::dvec3& direction) {
     return to_millionth(glm::normalize(glm::dquat(1.0 + glm::dot(up, to), glm::cross(up, to))));
 }
 
-int add_rod(Scene& scene, const std::string& name, int parent, const glm::dvec3& from, const glm::dvec3& to,
-            double radius, int material, int segments) {
-    return add_shape(scene, name, parent, cylinder(radius, to_millionth(glm::distance(from, to)), segments), material,
+int Group::add_shape(const std::string& name, const Shape& shape, int material, const glm::dvec3& translation,
+                     const glm::dquat& rotation) const {
+    scene.meshes.push_back(make_shape_mesh(shape, material, name));
+    const int added = add_node(scene, name, node, translation, rotation);
+    scene.nodes.back().meshes = {static_cast<int>(scene.meshes.size()) - 1};
+    return added;
+}
+
+int Group::add_rod(const std::string& name, const glm::dvec3& from, const glm::dvec3& to, double radius, int material,
+                   int segments) const {
+    return add_shape(name, cylinder(radius, to_millionth(glm::distance(from, to)), segments), material,
                      to_millionth(0.5 * (from + to)), y_towards(to - from));
 }
 

@@ -11,12 +11,7 @@ namespace aleph {
 inline int add_node(Scene& scene, const std::string& name, int parent = no_index,
                     const glm::dvec3& translation = glm::dvec3(0.0),
                     const glm::dquat& rotation = glm::dquat(1.0, 0.0, 0.0, 0.0)) {
-    Node node;
-    node.name = name;
-    node.parent = parent;
-    node.translation = translation;
-    node.rotation = rotation;
-    scene.nodes.push_back(node);
+    scene.nodes.push_back({.name = name, .parent = parent, .translation = translation, .rotation = rotation});
     return static_cast<int>(scene.nodes.size()) - 1;
 }
 
@@ -27,15 +22,6 @@ inline Node& node_at(Scene& scene, int index) {
 /// Rotates a node about an axis. @param angle  radians
 inline void turn_about(Scene& scene, int node, const glm::dvec3& axis, const Track<double>& angle) {
     node_at(scene, node).axis_rotation = AxisRotation{axis, angle};
-}
-
-/// Adds a node that shows one shape. Returns its index.
-inline int add_shape(Scene& scene, const std::string& name, int parent, const Shape& shape, int material,
-                     const glm::dvec3& translation, const glm::dquat& rotation = glm::dquat(1.0, 0.0, 0.0, 0.0)) {
-    scene.meshes.push_back(make_shape_mesh(shape, material, name));
-    const int node = add_node(scene, name, parent, translation, rotation);
-    scene.nodes.back().meshes = {static_cast<int>(scene.meshes.size()) - 1};
-    return node;
 }
 
 inline Shape quad(double width, double height, const glm::dvec2& uv_scale = glm::dvec2(1.0)) {
@@ -55,9 +41,9 @@ inline Shape cylinder(double radius, double height, int segments = 24) {
 inline Shape torus(double radius, double tube_radius, int segments = 48) {
     return {.kind = Shape::Kind::torus, .radius = radius, .tube_radius = tube_radius, .segments = segments};
 }
-/// A profile of (distance from the axis, height); a repeated point is a sharp edge.
-inline Shape lathe(const std::vector<glm::dvec2>& profile, int segments = 48,
-                   const glm::dvec2& uv_scale = glm::dvec2(1.0)) {
+/// (distance from the axis, height) of each point; a repeated point is a sharp edge.
+using Profile = std::vector<glm::dvec2>;
+inline Shape lathe(const Profile& profile, int segments = 48, const glm::dvec2& uv_scale = glm::dvec2(1.0)) {
     return {.kind = Shape::Kind::lathe, .segments = segments, .profile = profile, .uv_scale = uv_scale};
 }
 
@@ -66,9 +52,19 @@ glm::dquat turn(const glm::dvec3& axis, double degrees);
 /// The rotation that takes +y to a direction, rounded to six decimals.
 glm::dquat y_towards(const glm::dvec3& direction);
 
-/// A straight round bar between two points.
-int add_rod(Scene& scene, const std::string& name, int parent, const glm::dvec3& from, const glm::dvec3& to,
-            double radius, int material, int segments = 12);
+/// A node of a scene, to which shapes are added; no_index: the root.
+struct Group {
+    Scene& scene;
+    int node = no_index;
+
+    operator int() const { return node; }
+    /// Adds a node that shows one shape. Returns its index.
+    int add_shape(const std::string& name, const Shape& shape, int material, const glm::dvec3& translation,
+                  const glm::dquat& rotation = glm::dquat(1.0, 0.0, 0.0, 0.0)) const;
+    /// A straight round bar between two points.
+    int add_rod(const std::string& name, const glm::dvec3& from, const glm::dvec3& to, double radius, int material,
+                int segments = 12) const;
+};
 
 /// Rotations that take +z (the front of a quad) to the direction in the name; exact, without rounded sines.
 inline constexpr double half_root = 0.70710678118654752440;

@@ -24,10 +24,9 @@ void write_textures(const std::filesystem::path& folder, const std::vector<Drawn
 
 void add_images(Scene& scene, const std::string& folder, const std::vector<DrawnTexture>& textures) {
     for (const DrawnTexture& texture : textures) {
-        SceneImage image;
-        image.name = texture.name;
-        image.path = folder + texture.name + ".png";
-        image.bytes = Image<glm::u8vec4>(texture.srgb.width, texture.srgb.height);
+        SceneImage image{.name = texture.name,
+                         .path = folder + texture.name + ".png",
+                         .bytes = Image<glm::u8vec4>(texture.srgb.width, texture.srgb.height)};
         for (std::size_t i = 0; i < texture.srgb.size(); ++i)
             image.bytes.pixels[i] = glm::u8vec4(texture.srgb.pixels[i], 255);
         scene.images.push_back(image);

@@ -25,14 +25,14 @@ glm::dquat y_to(const glm::dvec3& direction) {
 }  // namespace
 
 void add_balls(Scene& scene, const PoolSettings& settings, const PoolRun& run) {
-    const int balls = add_node(scene, "balls", no_index, {0.0, cloth_height, 0.0});
+    const Group balls{scene, add_node(scene, "balls", no_index, {0.0, cloth_height, 0.0})};
     const auto wait = static_cast<std::size_t>(std::lround(strike_time * run.samples_per_second));
     const std::size_t count = wait + run.samples.size();
     for (std::size_t i = 0; i < run.samples.front().size(); ++i) {
         const std::string name = fmt::format("ball_{:02}", i);
         const int material = add_textured(scene, name, name);
         add_gloss(scene, 0.15);
-        const int index = add_shape(scene, name, balls, sphere(settings.radius), material, glm::dvec3(0.0));
+        const int index = balls.add_shape(name, sphere(settings.radius), material, glm::dvec3(0.0));
         Node& node = scene.nodes[index];
         node.translation.sampling.period = node.rotation.sampling.period = 1.0 / run.samples_per_second;
         node.translation.values.clear();
@@ -54,11 +54,11 @@ void add_cue(Scene& scene, const PoolSettings& settings, const PoolBall& struck)
     const int chalk = add_lambert(scene, "cue_tip", {52, 104, 168});
 
     // Origin at the tip, the butt along +y.
-    const int cue = add_node(scene, "cue", no_index);
-    add_shape(scene, "tip", cue, cylinder(0.006, 0.01, 24), chalk, {0.0, 0.005, 0.0});
-    add_shape(scene, "ferrule", cue, cylinder(0.0062, 0.025, 24), white, {0.0, 0.0225, 0.0});
-    add_shape(scene, "shaft", cue, cylinder(0.008, 0.7, 24), maple, {0.0, 0.385, 0.0});
-    add_shape(scene, "butt", cue, cylinder(0.0125, 0.72, 24), ebony, {0.0, 1.095, 0.0});
+    const Group cue{scene, add_node(scene, "cue", no_index)};
+    cue.add_shape("tip", cylinder(0.006, 0.01, 24), chalk, {0.0, 0.005, 0.0});
+    cue.add_shape("ferrule", cylinder(0.0062, 0.025, 24), white, {0.0, 0.0225, 0.0});
+    cue.add_shape("shaft", cylinder(0.008, 0.7, 24), maple, {0.0, 0.385, 0.0});
+    cue.add_shape("butt", cylinder(0.0125, 0.72, 24), ebony, {0.0, 1.095, 0.0});
 
     // Raised by 4 degrees to clear the rail. After the strike it draws back along its axis. When its tip is past the
     // far rail it sinks behind the table to the floor.

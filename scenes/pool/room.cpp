@@ -26,19 +26,18 @@ struct WallMaterials {
 };
 
 void add_wall(Scene& scene, int room, const Wall& wall, const WallMaterials& materials) {
-    const int node = add_node(scene, wall.name, room, wall.middle, wall.facing);
+    const Group node{scene, add_node(scene, wall.name, room, wall.middle, wall.facing)};
     const auto name = [&](const char* part) { return fmt::format("{}_{}", wall.name, part); };
     const double paper = room_high.y - wainscot_height;
-    add_shape(scene, name("paper"), node, quad(wall.length, paper, {wall.length / paper_tile, paper / paper_tile}),
-              materials.paper, {0.0, wainscot_height + 0.5 * paper, 0.0});
-    add_shape(scene, name("wainscot"), node,
-              box({wall.length, wainscot_height - 0.12, 0.03}, {std::round(wall.length / 0.7), 1.0}), materials.panel,
-              {0.0, 0.12 + 0.5 * (wainscot_height - 0.12), 0.015});
-    add_shape(scene, name("skirting"), node, box({wall.length, 0.12, 0.04}), materials.trim, {0.0, 0.06, 0.02});
-    add_shape(scene, name("chair_rail"), node, box({wall.length, 0.06, 0.06}), materials.trim,
-              {0.0, wainscot_height + 0.03, 0.03});
-    add_shape(scene, name("cornice"), node, box({wall.length, 0.1, 0.09}), materials.trim,
-              {0.0, room_high.y - 0.05, 0.045});
+    node.add_shape(name("paper"), quad(wall.length, paper, {wall.length / paper_tile, paper / paper_tile}),
+                   materials.paper, {0.0, wainscot_height + 0.5 * paper, 0.0});
+    node.add_shape(name("wainscot"),
+                   box({wall.length, wainscot_height - 0.12, 0.03}, {std::round(wall.length / 0.7), 1.0}),
+                   materials.panel, {0.0, 0.12 + 0.5 * (wainscot_height - 0.12), 0.015});
+    node.add_shape(name("skirting"), box({wall.length, 0.12, 0.04}), materials.trim, {0.0, 0.06, 0.02});
+    node.add_shape(name("chair_rail"), box({wall.length, 0.06, 0.06}), materials.trim,
+                   {0.0, wainscot_height + 0.03, 0.03});
+    node.add_shape(name("cornice"), box({wall.length, 0.1, 0.09}), materials.trim, {0.0, room_high.y - 0.05, 0.045});
 }
 
 struct Painting {
@@ -52,31 +51,31 @@ struct Painting {
 void add_painting(Scene& scene, int room, const Painting& painting, int mount) {
     const auto& [image, middle, size, facing, frame] = painting;
     const int picture = add_textured(scene, image, image);
-    const int node = add_node(scene, "painting_" + image, room, middle, facing);
-    add_shape(scene, image + "_frame", node, box({size.x + 0.14, size.y + 0.14, 0.04}), frame, {0.0, 0.0, 0.02});
-    add_shape(scene, image + "_mount", node, box({size.x + 0.06, size.y + 0.06, 0.01}), mount, {0.0, 0.0, 0.045});
-    add_shape(scene, image + "_picture", node, quad(size.x, size.y), picture, {0.0, 0.0, 0.051});
+    const Group node{scene, add_node(scene, "painting_" + image, room, middle, facing)};
+    node.add_shape(image + "_frame", box({size.x + 0.14, size.y + 0.14, 0.04}), frame, {0.0, 0.0, 0.02});
+    node.add_shape(image + "_mount", box({size.x + 0.06, size.y + 0.06, 0.01}), mount, {0.0, 0.0, 0.045});
+    node.add_shape(image + "_picture", quad(size.x, size.y), picture, {0.0, 0.0, 0.051});
 }
 
 /// Spare cues in a rack on the wall at z = room_high.z.
 void add_cue_rack(Scene& scene, int room, double x, int wood, int ivory) {
-    const int node = add_node(scene, "cue_rack", room, {x, 0.0, room_high.z}, z_to_minus_z);
-    add_shape(scene, "rack_top", node, box({0.72, 0.1, 0.05}), wood, {0.0, 1.75, 0.025});
-    add_shape(scene, "rack_shelf", node, box({0.72, 0.05, 0.12}), wood, {0.0, 1.04, 0.09});
+    const Group node{scene, add_node(scene, "cue_rack", room, {x, 0.0, room_high.z}, z_to_minus_z)};
+    node.add_shape("rack_top", box({0.72, 0.1, 0.05}), wood, {0.0, 1.75, 0.025});
+    node.add_shape("rack_shelf", box({0.72, 0.05, 0.12}), wood, {0.0, 1.04, 0.09});
     for (int i = 0; i < 5; ++i) {
         const double place = -0.28 + 0.14 * i;
-        add_shape(scene, fmt::format("spare_butt_{}", i), node, cylinder(0.014, 0.6, 16), wood, {place, 1.365, 0.1});
-        add_shape(scene, fmt::format("spare_shaft_{}", i), node, cylinder(0.009, 0.62, 16), ivory, {place, 1.975, 0.1});
+        node.add_shape(fmt::format("spare_butt_{}", i), cylinder(0.014, 0.6, 16), wood, {place, 1.365, 0.1});
+        node.add_shape(fmt::format("spare_shaft_{}", i), cylinder(0.009, 0.62, 16), ivory, {place, 1.975, 0.1});
     }
 }
 
 /// A bar stool with a round seat.
 void add_stool(Scene& scene, int room, const std::string& name, const glm::dvec3& place, int leather, int wood) {
-    const int node = add_node(scene, name, room, place);
-    add_shape(scene, name + "_seat", node, cylinder(0.19, 0.07, 48), leather, {0.0, 0.74, 0.0});
-    add_shape(scene, name + "_disc", node, cylinder(0.17, 0.025, 48), wood, {0.0, 0.69, 0.0});
-    add_shape(scene, name + "_column", node, cylinder(0.03, 0.66, 24), wood, {0.0, 0.3475, 0.0});
-    add_shape(scene, name + "_foot", node, cylinder(0.2, 0.035, 48), wood, {0.0, 0.0175, 0.0});
+    const Group node{scene, add_node(scene, name, room, place)};
+    node.add_shape(name + "_seat", cylinder(0.19, 0.07, 48), leather, {0.0, 0.74, 0.0});
+    node.add_shape(name + "_disc", cylinder(0.17, 0.025, 48), wood, {0.0, 0.69, 0.0});
+    node.add_shape(name + "_column", cylinder(0.03, 0.66, 24), wood, {0.0, 0.3475, 0.0});
+    node.add_shape(name + "_foot", cylinder(0.2, 0.035, 48), wood, {0.0, 0.0175, 0.0});
 }
 
 /// A surface that emits light and reflects none: reflected light would be invisible beside the emission.
@@ -100,11 +99,11 @@ void add_room(Scene& scene) {
     const int ivory = add_lambert(scene, "maple", {222, 190, 140});
     const int leather = add_lambert(scene, "leather", {140, 42, 34});
 
-    const int room = add_node(scene, "room");
+    const Group room{scene, add_node(scene, "room")};
     const glm::dvec3 size = room_high - room_low, middle = 0.5 * (room_low + room_high);
-    add_shape(scene, "floor", room, quad(size.x, size.z, {size.x / 1.2, size.z / 1.2}), floor,
-              {middle.x, 0.0, middle.z}, z_to_up);
-    add_shape(scene, "ceiling", room, quad(size.x, size.z), ceiling, {middle.x, room_high.y, middle.z}, z_to_down);
+    room.add_shape("floor", quad(size.x, size.z, {size.x / 1.2, size.z / 1.2}), floor, {middle.x, 0.0, middle.z},
+                   z_to_up);
+    room.add_shape("ceiling", quad(size.x, size.z), ceiling, {middle.x, room_high.y, middle.z}, z_to_down);
     add_wall(scene, room, {"wall_far", {room_low.x, 0.0, middle.z}, size.z, z_to_plus_x}, materials);
     add_wall(scene, room, {"wall_near", {room_high.x, 0.0, middle.z}, size.z, z_to_minus_x}, materials);
     add_wall(scene, room, {"wall_right", {middle.x, 0.0, room_low.z}, size.x, {1.0, 0.0, 0.0, 0.0}}, materials);
@@ -125,23 +124,23 @@ void add_lights(Scene& scene) {
     const int glow = add_glow(scene, "lamp_glow", {1.0, 0.87, 0.66}, 14.0);
     const glm::dvec3 size(1.7, 0.2, 0.5);
     const double bottom = cloth_height + 0.9, cord = room_high.y - bottom - size.y;
-    const int lamp = add_node(scene, "lamp", no_index, {0.0, bottom, 0.0});
-    add_shape(scene, "lamp_shade", lamp, box(size), shade, {0.0, 0.5 * size.y, 0.0});
-    add_shape(scene, "lamp_panel", lamp, quad(size.x - 0.1, size.z - 0.1), glow, {0.0, -0.001, 0.0}, z_to_down);
+    const Group lamp{scene, add_node(scene, "lamp", no_index, {0.0, bottom, 0.0})};
+    lamp.add_shape("lamp_shade", box(size), shade, {0.0, 0.5 * size.y, 0.0});
+    lamp.add_shape("lamp_panel", quad(size.x - 0.1, size.z - 0.1), glow, {0.0, -0.001, 0.0}, z_to_down);
     for (const double side : {-1.0, 1.0}) {
         const char* which = side < 0.0 ? "a" : "b";
-        add_shape(scene, fmt::format("lamp_cord_{}", which), lamp, cylinder(0.006, cord, 12), brass,
-                  {side * 0.6, size.y + 0.5 * cord, 0.0});
-        add_shape(scene, fmt::format("lamp_trim_{}", which), lamp, box({size.x + 0.02, 0.02, 0.01}), brass,
-                  {0.0, 0.02, side * (0.5 * size.z + 0.005)});
+        lamp.add_shape(fmt::format("lamp_cord_{}", which), cylinder(0.006, cord, 12), brass,
+                       {side * 0.6, size.y + 0.5 * cord, 0.0});
+        lamp.add_shape(fmt::format("lamp_trim_{}", which), box({size.x + 0.02, 0.02, 0.01}), brass,
+                       {0.0, 0.02, side * (0.5 * size.z + 0.005)});
     }
 
     // A soft ceiling light over the sitting corner, so that the walls are not too dark.
     const int frame = add_lambert(scene, "light_frame", {226, 220, 206});
     const int soft = add_glow(scene, "ceiling_glow", {1.0, 0.9, 0.76}, 5.0);
-    const int panel = add_node(scene, "ceiling_light", no_index, {-2.1, room_high.y, 0.2});
-    add_shape(scene, "ceiling_light_frame", panel, box({1.5, 0.04, 1.5}), frame, {0.0, -0.02, 0.0});
-    add_shape(scene, "ceiling_light_panel", panel, quad(1.4, 1.4), soft, {0.0, -0.041, 0.0}, z_to_down);
+    const Group panel{scene, add_node(scene, "ceiling_light", no_index, {-2.1, room_high.y, 0.2})};
+    panel.add_shape("ceiling_light_frame", box({1.5, 0.04, 1.5}), frame, {0.0, -0.02, 0.0});
+    panel.add_shape("ceiling_light_panel", quad(1.4, 1.4), soft, {0.0, -0.041, 0.0}, z_to_down);
 
     // A tall window in the evening; its bars are a little in front of the sky.
     const int sky = add_textured(scene, "evening_sky", "sky");
@@ -150,15 +149,15 @@ void add_lights(Scene& scene) {
     shining.base_color = glm::dvec3(0.0);
     shining.emission = glm::dvec3(1.0);
     shining.emission_strength = 0.4;
-    const int window = add_node(scene, "window", no_index, {-1.9, 1.75, room_low.z});
+    const Group window{scene, add_node(scene, "window", no_index, {-1.9, 1.75, room_low.z})};
     const double width = 1.5, height = 1.4;
-    add_shape(scene, "window_sky", window, quad(width, height), sky, {0.0, 0.0, 0.01});
+    window.add_shape("window_sky", quad(width, height), sky, {0.0, 0.0, 0.01});
     for (const double side : {-1.0, 0.0, 1.0}) {
         const int i = static_cast<int>(side) + 1;
-        add_shape(scene, fmt::format("window_post_{}", i), window, box({0.05, height, 0.02}), frame,
-                  {side * 0.5 * (width - 0.05), 0.0, 0.1});
-        add_shape(scene, fmt::format("window_bar_{}", i), window, box({width + 0.1, 0.06, 0.03}), frame,
-                  {0.0, side * 0.5 * (height + 0.06), 0.1});
+        window.add_shape(fmt::format("window_post_{}", i), box({0.05, height, 0.02}), frame,
+                         {side * 0.5 * (width - 0.05), 0.0, 0.1});
+        window.add_shape(fmt::format("window_bar_{}", i), box({width + 0.1, 0.06, 0.03}), frame,
+                         {0.0, side * 0.5 * (height + 0.06), 0.1});
     }
 }
 

@@ -15,43 +15,42 @@ void add_table(Scene& scene, const PoolSettings& settings) {
 
     const double length = settings.length, width = settings.width;
     const double nose = 0.05, rail = 0.13, height = 0.042;  // m: cushion and rail widths, top above the cloth
-    const int table = add_node(scene, "table", no_index, {0.0, cloth_height, 0.0});
-    add_shape(scene, "bed", table, box({length + 2.0 * nose, 0.04, width + 2.0 * nose}, {9.0, 5.0}), cloth,
-              {0.0, -0.02, 0.0});
+    const Group table{scene, add_node(scene, "table", no_index, {0.0, cloth_height, 0.0})};
+    table.add_shape("bed", box({length + 2.0 * nose, 0.04, width + 2.0 * nose}, {9.0, 5.0}), cloth, {0.0, -0.02, 0.0});
     for (const double side : {-1.0, 1.0}) {
         const char* which = side < 0.0 ? "a" : "b";
         const auto name = [&](const char* part) { return fmt::format("{}_{}", part, which); };
         // Cushions start a little below the cloth, so that no two faces share a plane.
-        add_shape(scene, name("cushion_long"), table, box({length + 2.0 * nose, height, nose}, {9.0, 0.4}), cushion,
-                  {0.0, 0.5 * height - 0.004, side * 0.5 * (width + nose)});
-        add_shape(scene, name("cushion_short"), table, box({nose, height, width}, {0.4, 4.0}), cushion,
-                  {side * 0.5 * (length + nose), 0.5 * height - 0.004, 0.0});
+        table.add_shape(name("cushion_long"), box({length + 2.0 * nose, height, nose}, {9.0, 0.4}), cushion,
+                        {0.0, 0.5 * height - 0.004, side * 0.5 * (width + nose)});
+        table.add_shape(name("cushion_short"), box({nose, height, width}, {0.4, 4.0}), cushion,
+                        {side * 0.5 * (length + nose), 0.5 * height - 0.004, 0.0});
         // The grain runs along u: short rails are long ones turned.
         const double out = nose + 0.5 * rail, top = 0.04;
-        add_shape(scene, name("rail_long"), table, box({length + 2.0 * (nose + rail), 0.08, rail}, {3.0, 1.0}), wood,
-                  {0.0, top - 0.04, side * (0.5 * width + out)});
-        add_shape(scene, name("rail_short"), table, box({width + 2.0 * nose, 0.08, rail}, {1.6, 1.0}), wood,
-                  {side * (0.5 * length + out), top - 0.04, 0.0}, z_to_plus_x);
-        add_shape(scene, name("apron_long"), table, box({length + 0.2, 0.16, 0.03}, {3.0, 0.8}), wood,
-                  {0.0, top - 0.15, side * (0.5 * width + out)});
-        add_shape(scene, name("apron_short"), table, box({width + 0.26, 0.16, 0.03}, {1.6, 0.8}), wood,
-                  {side * (0.5 * length + out), top - 0.15, 0.0}, z_to_plus_x);
+        table.add_shape(name("rail_long"), box({length + 2.0 * (nose + rail), 0.08, rail}, {3.0, 1.0}), wood,
+                        {0.0, top - 0.04, side * (0.5 * width + out)});
+        table.add_shape(name("rail_short"), box({width + 2.0 * nose, 0.08, rail}, {1.6, 1.0}), wood,
+                        {side * (0.5 * length + out), top - 0.04, 0.0}, z_to_plus_x);
+        table.add_shape(name("apron_long"), box({length + 0.2, 0.16, 0.03}, {3.0, 0.8}), wood,
+                        {0.0, top - 0.15, side * (0.5 * width + out)});
+        table.add_shape(name("apron_short"), box({width + 0.26, 0.16, 0.03}, {1.6, 0.8}), wood,
+                        {side * (0.5 * length + out), top - 0.15, 0.0}, z_to_plus_x);
         for (int i = 1; i <= 3; ++i) {
-            add_shape(scene, fmt::format("sight_short_{}_{}", which, i), table, cylinder(0.007, 0.002, 16), pearl,
-                      {side * (0.5 * length + out), top + 0.0005, (i - 2) * 0.25 * width});
+            table.add_shape(fmt::format("sight_short_{}_{}", which, i), cylinder(0.007, 0.002, 16), pearl,
+                            {side * (0.5 * length + out), top + 0.0005, (i - 2) * 0.25 * width});
         }
         for (int i = 1; i <= 7; ++i) {
             if (i == 4) continue;  // where a pocket would be
-            add_shape(scene, fmt::format("sight_long_{}_{}", which, i), table, cylinder(0.007, 0.002, 16), pearl,
-                      {(i - 4) * 0.125 * length, top + 0.0005, side * (0.5 * width + out)});
+            table.add_shape(fmt::format("sight_long_{}_{}", which, i), cylinder(0.007, 0.002, 16), pearl,
+                            {(i - 4) * 0.125 * length, top + 0.0005, side * (0.5 * width + out)});
         }
         for (const double end : {-1.0, 1.0}) {
             const double leg = 0.16, under = cloth_height - 0.1;
-            add_shape(scene, fmt::format("leg_{}_{}", which, end < 0.0 ? "a" : "b"), table, box({leg, under, leg}),
-                      dark, {side * (0.5 * length - 0.1), -cloth_height + 0.5 * under, end * (0.5 * width - 0.1)});
+            table.add_shape(fmt::format("leg_{}_{}", which, end < 0.0 ? "a" : "b"), box({leg, under, leg}), dark,
+                            {side * (0.5 * length - 0.1), -cloth_height + 0.5 * under, end * (0.5 * width - 0.1)});
         }
     }
-    add_shape(scene, "body", table, box({length, 0.14, width}), dark, {0.0, -0.11, 0.0});
+    table.add_shape("body", box({length, 0.14, width}), dark, {0.0, -0.11, 0.0});
 }
 
 }  // namespace aleph

@@ -7,11 +7,9 @@
 
 #include <algorithm>
 #include <array>
-#include <cstdlib>
 #include <ctime>
 #include <functional>
 #include <limits>
-#include <string>
 
 #include "engine/base/parallel.h"
 #include "engine/load/load_scene.h"
@@ -148,8 +146,7 @@ int run(int argc, char** argv) {
                    "command line");
     Frame frame(scene, argc > 2 ? std::atoll(argv[2]) : 0, settings.picture.width, settings.picture.height);
     frame.depth = std::max(0, settings.light.path_depth - 2);
-    const RawEmbree raw(scene, frame.posed.pose, frame.posed.view, true,
-                        origin_of_recorded(frame.rays, frame.posed.pose));
+    const RawEmbree raw(scene, frame.posed.pose, origin_of_recorded(frame.rays, frame.posed.pose));
     const HemisphereStrata strata = choose_strata(settings.cache.gather);
 
     fmt::print("{}: {} points, {} gather rays each\n", argv[1], frame.points.size(), strata.count());

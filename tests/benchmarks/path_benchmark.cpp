@@ -5,8 +5,6 @@
 #include <fmt/format.h>
 
 #include <chrono>
-#include <cstdlib>
-#include <string>
 
 #include "engine/base/parallel.h"
 #include "engine/load/load_scene.h"
@@ -50,7 +48,7 @@ int run(int argc, char** argv) {
         make_posed_view(scene, scene.frame_rate.seconds_of(frame), 0, settings.picture.width, settings.picture.height);
     RayScene rays_of_frame(scene);
     rays_of_frame.update(posed.pose, compute_anchor(posed.view));
-    RawEmbree raw(scene, posed.pose, posed.view, true, origin_of_recorded(rays_of_frame, posed.pose));
+    const RawEmbree raw(scene, posed.pose, origin_of_recorded(rays_of_frame, posed.pose));
     fmt::print("{}, frame {}, {}x{}, {} samples, {} threads: {} rays\n", argv[1], frame, settings.picture.width,
                settings.picture.height, settings.sampling.spp, thread_count(), paths.traced.all);
     const double rays = static_cast<double>(paths.traced.all), path_seconds = paths.seconds.shade;

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
-#include <limits>
 #include <span>
 
 #include "engine/base/flush_denormals.h"
@@ -26,31 +25,6 @@ void add_mesh(RTCDevice device, RTCScene scene, const Mesh& mesh) {
     rtcCommitGeometry(geometry);
     rtcAttachGeometry(scene, geometry);
     rtcReleaseGeometry(geometry);
-}
-
-RTCScene build_mesh(RTCDevice device, const Mesh& mesh) {
-    RTCScene scene = rtcNewScene(device);
-    rtcSetSceneFlags(scene, RTC_SCENE_FLAG_ROBUST);
-    add_mesh(device, scene, mesh);
-    rtcCommitScene(scene);
-    return scene;
-}
-
-RTCRayHit16 make_packet(const CameraView& view, const glm::vec3& origin, int x0, int y0) {
-    RTCRayHit16 packet{};
-    for (int lane = 0; lane < lanes; ++lane) {
-        const glm::vec3 d(make_camera_ray(view, x0 + lane % 4 + 0.5, y0 + lane / 4 + 0.5).direction);
-        packet.ray.org_x[lane] = origin.x;
-        packet.ray.org_y[lane] = origin.y;
-        packet.ray.org_z[lane] = origin.z;
-        packet.ray.dir_x[lane] = d.x;
-        packet.ray.dir_y[lane] = d.y;
-        packet.ray.dir_z[lane] = d.z;
-        packet.ray.tfar[lane] = std::numeric_limits<float>::infinity();
-        packet.ray.mask[lane] = ~0u;
-        packet.hit.geomID[lane] = packet.hit.instID[0][lane] = RTC_INVALID_GEOMETRY_ID;
-    }
-    return packet;
 }
 
 std::size_t trace_singles(RTCScene scene, std::span<const RawRay> rays) {
@@ -117,45 +91,11 @@ std::size_t trace_packets(RTCScene scene, bool coherent, std::span<const RawRay>
 
 }  // namespace
 
-RawEmbree::RawEmbree(const Scene& scene, const ScenePose& frame, const CameraView& view, bool flat,
-                     const std::optional<glm::dvec3>& given) {
+RawEmbree::RawEmbree(const Scene& scene, const ScenePose& frame, const glm::dvec3& origin) {
     const FlushDenormals flush;
     device_ = rtcNewDevice(nullptr);
     top_ = rtcNewScene(device_);
     rtcSetSceneFlags(top_, RTC_SCENE_FLAG_ROBUST);
-    const glm::dvec3 anchor = given.value_or(compute_anchor(view));
-    if (flat) {
-        build_flat(scene, frame, anchor);
-    } else {
-        build_instances(scene, frame, anchor);
-    }
-    rtcCommitScene(top_);
-    const glm::vec3 origin(view.position - anchor);
-    for (int y = 0; y + 4 <= view.height; y += 4) {
-        for (int x = 0; x + 4 <= view.width; x += 4) prepared_.push_back(make_packet(view, origin, x, y));
-    }
-}
-
-void RawEmbree::build_instances(const Scene& scene, const ScenePose& frame, const glm::dvec3& anchor) {
-    for (const Mesh& mesh : scene.meshes) meshes_.push_back(build_mesh(device_, mesh));
-    for (const Instance& instance : frame.instances) {
-        if (!frame.visible[instance.node]) continue;
-        const glm::dmat4& world = frame.world[instance.node];
-        std::array<float, 12> transform;
-        for (std::size_t i = 0; i < transform.size(); ++i) {
-            const int column = static_cast<int>(i / 3), row = static_cast<int>(i % 3);
-            transform[i] = static_cast<float>(world[column][row] - (column == 3 ? anchor[row] : 0.0));
-        }
-        RTCGeometry geometry = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_INSTANCE);
-        rtcSetGeometryInstancedScene(geometry, meshes_[instance.mesh]);
-        rtcSetGeometryTransform(geometry, 0, RTC_FORMAT_FLOAT3X4_COLUMN_MAJOR, transform.data());
-        rtcCommitGeometry(geometry);
-        rtcAttachGeometry(top_, geometry);
-        rtcReleaseGeometry(geometry);
-    }
-}
-
-void RawEmbree::build_flat(const Scene& scene, const ScenePose& frame, const glm::dvec3& anchor) {
     Mesh all;
     for (std::size_t i = 0; i < frame.instances.size(); ++i) {
         if (frame.shown[i] == 0) continue;
@@ -165,33 +105,17 @@ void RawEmbree::build_flat(const Scene& scene, const ScenePose& frame, const glm
         const auto first = static_cast<std::uint32_t>(all.positions.size());
         for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
             const glm::dvec3 p = deformed.empty() ? glm::dvec3(mesh.positions[v]) : deformed[v];
-            all.positions.emplace_back(glm::dvec3(frame.world[node] * glm::dvec4(p, 1.0)) - anchor);
+            all.positions.emplace_back(glm::dvec3(frame.world[node] * glm::dvec4(p, 1.0)) - origin);
         }
         for (const glm::uvec3& t : mesh.triangles) all.triangles.push_back(t + first);
     }
     add_mesh(device_, top_, all);
+    rtcCommitScene(top_);
 }
 
 RawEmbree::~RawEmbree() {
     rtcReleaseScene(top_);
-    for (RTCScene mesh : meshes_) rtcReleaseScene(mesh);
     rtcReleaseDevice(device_);
-}
-
-std::size_t RawEmbree::trace() {
-    const FlushDenormals flush;
-    packets_ = prepared_;
-    alignas(64) int valid[lanes];
-    std::fill(valid, valid + lanes, -1);
-    RTCIntersectContext context;
-    rtcInitIntersectContext(&context);
-    context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
-    std::size_t met = 0;
-    for (RTCRayHit16& packet : packets_) {
-        rtcIntersect16(valid, top_, &context, &packet);
-        for (int lane = 0; lane < lanes; ++lane) met += packet.hit.geomID[lane] != RTC_INVALID_GEOMETRY_ID;
-    }
-    return met;
 }
 
 std::size_t RawEmbree::trace(const std::vector<RawRay>& rays, Packets packets) const {

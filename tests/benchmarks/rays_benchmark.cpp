@@ -14,7 +14,6 @@
 #include <memory>
 #include <numeric>
 #include <random>
-#include <string>
 
 #include "engine/base/flush_denormals.h"
 #include "engine/base/parallel.h"
@@ -209,7 +208,7 @@ void measure(const char* name, const std::vector<Ray>& rays, Way way, bool occlu
 void run(const Scene& scene, const PosedView& posed) {
     const PosePlan plan = make_pose_plan(scene);
     const Built flat(scene, plan, posed, true), nodes(scene, plan, posed, false);
-    const RawEmbree raw(scene, posed.pose, posed.view, true);
+    const RawEmbree raw(scene, posed.pose, compute_anchor(posed.view));
     print_sizes(scene, posed.pose, flat, nodes);
     const RaySets sets = make_rays(posed, *nodes.rays);
     fmt::print("{:<28}{:>10}{:>10}{:>10}{:>10}{:>13}{:>13}\n", "Mray/s", "rays", "flat", "nodes", "Embree",

@@ -8,10 +8,10 @@
 
 #include "engine/base/parallel.h"
 #include "engine/load/load_scene.h"
-#include "engine/rays/first_hits.h"
 #include "render/frame/frame_scene.h"
 #include "render/time/shutter.h"
 #include "tests/support/deforming_scenes.h"
+#include "tests/support/first_hits.h"
 #include "tests/support/render_scenes.h"
 
 namespace aleph {

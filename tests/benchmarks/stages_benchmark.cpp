@@ -1,6 +1,5 @@
 // Cost of motion and perception on one thread at 640x480, relative to casting the frame's first hits in packets, and to
-// a plain copy of what each stage reads and writes. Prints a table of ratios. Uses scenes/pool/scene.json where it
-// exists, else a scene made here.
+// a plain copy of what each stage reads and writes. Prints a table of ratios. The scene is `pool`.
 
 #include <benchmark/benchmark.h>
 #include <fmt/format.h>
@@ -8,7 +7,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
-#include <filesystem>
 #include <functional>
 #include <map>
 #include <string>
@@ -18,14 +16,16 @@
 
 #include "engine/base/parallel.h"
 #include "engine/load/load_scene.h"
-#include "engine/rays/first_hits.h"
-#include "engine/surface/shapes.h"
 #include "motion/image_motion.h"
 #include "motion/model_motion.h"
 #include "motion/reprojection.h"
 #include "motion/velocity.h"
+#include "perception/noise_threshold.h"
 #include "perception/perception.h"
+#include "perception/sanitize.h"
+#include "perception/threshold.h"
 #include "tests/benchmarks/raw_embree.h"
+#include "tests/support/first_hits.h"
 #include "tests/support/paths.h"
 
 namespace aleph {
@@ -33,42 +33,8 @@ namespace {
 
 constexpr int width = 640, height = 480;
 
-/// A dozen balls of 9,000 triangles that roll over a floor, under a camera that pans; some background in view.
-Scene make_balls() {
-    Scene scene;
-    scene.meshes.push_back(make_shape_mesh({.kind = Shape::Kind::sphere, .radius = 0.5, .segments = 96}));
-    scene.meshes.push_back(make_shape_mesh({.kind = Shape::Kind::quad, .size = {12.0, 12.0, 0.0}}));
-    const auto moving = [](auto from, auto to) {
-        Track<decltype(from)> track(from);
-        track.sampling.kind = TimeSampling::Kind::acyclic;
-        track.sampling.times = {0.0, 1.0};
-        track.values.push_back(to);
-        return track;
-    };
-    for (int i = 0; i < 12; ++i) {
-        Node ball;
-        ball.meshes = {0};
-        const glm::dvec3 at(1.4 * (i % 4) - 2.1, 0.5, -1.4 * (i / 4) - 1.0);
-        ball.translation = moving(at, at + glm::dvec3(0.3 * i, 0.0, 0.5));
-        ball.axis_rotation = AxisRotation{{0.0, 0.0, 1.0}, moving(0.0, 0.8 * i)};
-        scene.nodes.push_back(ball);
-    }
-    Node floor;
-    floor.meshes = {1};
-    floor.axis_rotation = AxisRotation{{1.0, 0.0, 0.0}, Track<double>(-1.5707963267948966)};
-    scene.nodes.push_back(floor);
-    scene.cameras.emplace_back();
-    Node camera;
-    camera.camera = 0;
-    camera.translation = glm::dvec3(0.0, 2.0, 5.0);
-    camera.axis_rotation = AxisRotation{{0.8, 0.6, 0.0}, moving(-0.2, -0.3)};
-    scene.nodes.push_back(camera);
-    return scene;
-}
-
 /// Everything that the stages read, made once.
 struct Inputs {
-    std::string name;
     Scene scene;
     std::int64_t frame_number = 0;
     PosedView now, next;
@@ -78,8 +44,7 @@ struct Inputs {
     Image<float> velocity;
     Image<Rgb> estimate, next_estimate;
 
-    explicit Inputs(const std::string& scene_name, Scene from)
-        : name(scene_name), scene(std::move(from)), rays(scene), other_rays(rays.share_meshes()) {
+    explicit Inputs(Scene from) : scene(std::move(from)), rays(scene), other_rays(rays.share_meshes()) {
         const FrameRange range = frame_range(scene);
         frame_number = range.first + (range.last - range.first) / 4;
         const int camera = find_camera(scene, "");
@@ -117,10 +82,7 @@ struct Inputs {
 };
 
 const Inputs& inputs() {
-    static const Inputs made = [] {
-        const std::filesystem::path pool = source_folder() / "scenes/pool/scene.json";
-        return std::filesystem::exists(pool) ? Inputs("pool", load_scene(pool)) : Inputs("balls", make_balls());
-    }();
+    static const Inputs made(load_scene(source_folder() / "scenes/pool/scene.json"));
     return made;
 }
 
@@ -129,8 +91,17 @@ void first_hits(benchmark::State& state) {
 }
 
 void raw_embree(benchmark::State& state) {
-    static RawEmbree raw(inputs().scene, inputs().now.pose, inputs().now.view);
-    for (auto _ : state) benchmark::DoNotOptimize(raw.trace());
+    const auto& [frame, view] = inputs().now;
+    const glm::dvec3 anchor = compute_anchor(view);
+    const RawEmbree raw(inputs().scene, frame, anchor);
+    std::vector<RawRay> rays;
+    for (int i = 0; i < width * height; ++i) {
+        const int x = i / 16 * 4 % width + i % 4, y = i / 16 * 4 / width * 4 + i / 4 % 4;  // in blocks of 4 x 4
+        const CameraRay ray = make_camera_ray(view, x + 0.5, y + 0.5);
+        const glm::vec3 o(ray.origin - anchor), d(ray.direction);
+        rays.push_back({{o.x, o.y, o.z, 0.0f, d.x, d.y, d.z, 0.0f, Ray{}.far, ~0u, 0, 0}, false});
+    }
+    for (auto _ : state) benchmark::DoNotOptimize(raw.trace(rays, RawEmbree::Packets::coherent));
 }
 
 void motion(benchmark::State& state) {
@@ -163,6 +134,30 @@ void perception(benchmark::State& state, const PerceptionSettings& settings) {
         benchmark::DoNotOptimize(
             compute_perception(inputs().estimate, inputs().velocity, {}, {}, settings).aleph.pixels.data());
     }
+}
+
+void sanitize(benchmark::State& state) {
+    for (auto _ : state) {
+        state.PauseTiming();
+        Image<Rgb> estimate = inputs().estimate;
+        state.ResumeTiming();
+        benchmark::DoNotOptimize(sanitize_estimate(estimate).clamped);
+    }
+}
+
+void threshold(benchmark::State& state) {
+    for (auto _ : state) {
+        const Image<float> luminance = compute_adaptation_luminance(inputs().estimate, {});
+        benchmark::DoNotOptimize(compute_threshold(inputs().velocity, luminance).pixels.data());
+    }
+}
+
+void threshold_noise(benchmark::State& state) {
+    const Image<float> luminance = compute_adaptation_luminance(inputs().estimate, {});
+    const NoiseVisibility noise({}, {}, NoiseOverTime::fresh);
+    const Image<float>& velocity = inputs().velocity;
+    for (auto _ : state)
+        benchmark::DoNotOptimize(compute_noise_threshold(noise, luminance, velocity, velocity).pixels.data());
 }
 
 /// Copies each image once: what a stage reads and writes, without its arithmetic.
@@ -223,9 +218,13 @@ void print_ratios(const BestTimes& best) {
                 {"image_motion", nullptr, 0.0},
                 {"perception_full", "copy_perception", 8.0},
                 {"perception_center", "copy_perception", 2.0},
-                {"perception_spatial", "copy_perception", 0.0}};
-    fmt::print("\nscene {}, frame {}, {}x{}, one thread, best CPU time of the repetitions\n", inputs().name,
-               inputs().frame_number, width, height);
+                {"perception_spatial", "copy_perception", 0.0},
+                {"perception_castle", "copy_perception", 0.0},
+                {"sanitize", nullptr, 0.0},
+                {"threshold", nullptr, 0.0},
+                {"threshold_noise", nullptr, 0.0}};
+    fmt::print("\nframe {}, {}x{}, one thread, best CPU time of the repetitions\n", inputs().frame_number, width,
+               height);
     fmt::print("{:<20}{:>8}{:>14}{:>10}{:>10}\n", "stage", "ms", "x first hits", "at most", "x memcpy");
     const auto ratio = [](double a, double b) { return a > 0.0 && b > 0.0 ? fmt::format("{:.2f}", a / b) : "-"; };
     for (const auto& row : rows) {
@@ -261,6 +260,10 @@ int main(int argc, char** argv) {
     add("perception_full", [](auto& state) { perception(state, {.grid = SaliencyGrid::full}); });
     add("perception_center", [](auto& state) { perception(state, {.grid = SaliencyGrid::center}); });
     add("perception_spatial", [](auto& state) { perception(state, {.guide = Guide::spatial}); });
+    add("perception_castle", [](auto& state) { perception(state, {.vision = &castle_vision()}); });
+    add("sanitize", sanitize);
+    add("threshold", threshold);
+    add("threshold_noise", threshold_noise);
     add("copy_motion", copy_motion);
     add("copy_perception", copy_perception);
     BestTimes best;

@@ -52,8 +52,7 @@ BENCHMARK(look_up)
     ->Args({100, 100, 1});
 
 void pixel_footprint(benchmark::State& state) {
-    CameraView view;
-    view.pixels_per_unit = 300.0;
+    CameraView view{.pixels_per_unit = 300.0};
     SurfacePoint point;
     point.geometric = {0.0f, 0.6f, 0.8f};
     point.edges[0] = {1.0f, 0.0f, 0.0f};

@@ -13,13 +13,13 @@
 
 #include "engine/base/parallel.h"
 #include "engine/pose/posed_view.h"
-#include "engine/rays/first_hits.h"
 #include "engine/rays/ray_scene.h"
 #include "engine/surface/shapes.h"
 #include "motion/model_motion.h"
 #include "render/light/lights.h"
 #include "render/surface/shading_scene.h"
 #include "render/surface/texture.h"
+#include "tests/support/first_hits.h"
 
 namespace aleph {
 namespace {
@@ -39,8 +39,7 @@ Scene make_field(int objects) {
     scene.materials[0].emission = glm::dvec3(5.0);
     const int columns = static_cast<int>(std::ceil(std::sqrt(objects)));
     for (int i = 0; i < objects; ++i) {
-        Node node;
-        node.meshes = {i == 0 ? 1 : 0};
+        Node node{.meshes = {i == 0 ? 1 : 0}};
         const glm::dvec3 at(2.0 * (i % columns), i == 0 ? 9.0 : 0.0, 2.0 * (i / columns));
         node.translation = at;
         if (i % (objects / movers) == 5) {
@@ -56,11 +55,9 @@ Scene make_field(int objects) {
         scene.nodes.push_back(node);
     }
     scene.cameras.emplace_back();
-    Node camera;
-    camera.camera = 0;
-    camera.translation = glm::dvec3(6.0, 4.0, -6.0);
-    camera.axis_rotation = AxisRotation{{0.0, 1.0, 0.0}, {std::numbers::pi}};
-    scene.nodes.push_back(camera);
+    scene.nodes.push_back({.translation = glm::dvec3(6.0, 4.0, -6.0),
+                           .axis_rotation = AxisRotation{{0.0, 1.0, 0.0}, {std::numbers::pi}},
+                           .camera = 0});
     return scene;
 }
 

@@ -1,16 +1,10 @@
 // Rules for includes: they point one way, and every source folder is a layer.
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <filesystem>
 #include <regex>
-#include <set>
-#include <string>
-#include <vector>
 
 #include "tests/support/paths.h"
 #include "tests/support/read_bytes.h"
+#include "tests/support/test.h"
 
 namespace aleph {
 namespace {
@@ -37,9 +31,9 @@ const std::vector<Layer>& layers() {
         for (const char* folder : {"motion", "perception"}) stages.push_back(folder);
         // Each includes those before it.
         std::vector<Layer> rooms;
-        for (const char* room : {"settings", "surface", "pixels", "guide", "light", "path", "cache", "estimate", "time",
-                                 "shade", "plan", "frame", "output", "compare", "images", "budget", "verify", "study",
-                                 "cli"}) {
+        for (const char* room :
+             {"settings", "surface", "pixels", "guide", "light", "path", "cache", "estimate", "time", "shade", "plan",
+              "frame", "output", "compare", "images", "budget", "verify", "study", "cli"}) {
             rooms.push_back({std::string("render/") + room, stages});
             stages.push_back(rooms.back().folder);
         }

@@ -144,10 +144,7 @@ void place_below(Scene& scene, const glm::dvec3& translation, const glm::dquat& 
     for (Skin& skin : scene.skins)
         for (int& joint : skin.joints) ++joint;
     for (Include& include : scene.includes) ++include.node;
-    Node root;
-    root.name = "above everything";
-    root.translation = translation;
-    root.rotation = rotation;
+    Node root{.name = "above everything", .translation = translation, .rotation = rotation};
     scene.nodes.insert(scene.nodes.begin(), root);
     for (glm::dquat& value : scene.environment_rotation.values) value = rotation * value;
 }

@@ -1,12 +1,9 @@
 // The irradiance cache against path tracing in rooms made at random: six accuracies, one to three bounces.
 
-#include <gtest/gtest.h>
-
-#include <array>
 #include <iostream>
-#include <random>
 
 #include "tests/support/render_scenes.h"
+#include "tests/support/test.h"
 #include "tests/support/trial.h"
 
 namespace aleph {

@@ -2,10 +2,6 @@
 // The irradiance cache at work, one sample a pixel. Every relation prints its largest differences. Where random numbers
 // change with the scene, mean luminances of 12 seeds are compared in two stages.
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <functional>
 #include <iostream>
 
 #include "engine/base/color.h"
@@ -14,6 +10,7 @@
 #include "tests/metamorphic/changes.h"
 #include "tests/support/paths.h"
 #include "tests/support/quick_settings.h"
+#include "tests/support/test.h"
 #include "tests/support/trial.h"
 
 namespace aleph {

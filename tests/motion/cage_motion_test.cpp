@@ -1,47 +1,13 @@
 // Motion of deforming cages against the closed form of their limit surface (a bicubic B-spline over regular faces).
-#include <gtest/gtest.h>
-
-#include <array>
-#include <glm/geometric.hpp>
-
-#include "engine/rays/first_hits.h"
-#include "motion/model_motion.h"
 #include "tests/support/cage_scenes.h"
+#include "tests/support/seen_motion.h"
+#include "tests/support/test.h"
 
 namespace aleph {
 namespace {
 
-constexpr int picture_width = 160, picture_height = 120;
-
-struct Moved {
-    Image<Hit> hits;
-    MotionField motion;
-    PosedView now, other;
-};
-
-Moved compute_motion(const Scene& scene, std::int64_t from, std::int64_t to) {
-    Moved moved;
-    moved.now = make_posed_view(scene, scene.frame_rate.seconds_of(from), 0, picture_width, picture_height);
-    moved.other = make_posed_view(scene, scene.frame_rate.seconds_of(to), 0, picture_width, picture_height);
-    RayScene rays(scene);
-    rays.update(moved.now.pose, compute_anchor(moved.now.view));
-    moved.hits = cast_first_hits(rays, moved.now.view);
-    moved.motion = compute_model_motion(scene, moved.now, moved.other, moved.hits);
-    return moved;
-}
-
-glm::dvec3 bspline_patch(const std::vector<glm::dvec3>& points, double s, double t) {
-    const auto weights = [](double x) {
-        const double r = 1.0 - x;
-        return std::array{r * r * r / 6.0, (3.0 * x * x * x - 6.0 * x * x + 4.0) / 6.0,
-                          (-3.0 * x * x * x + 3.0 * x * x + 3.0 * x + 1.0) / 6.0, x * x * x / 6.0};
-    };
-    const auto ws = weights(s), wt = weights(t);
-    glm::dvec3 sum(0.0);
-    for (std::size_t y = 0; y < 4; ++y) {
-        for (std::size_t x = 0; x < 4; ++x) sum += ws[x] * wt[y] * points[y * 4 + x];
-    }
-    return sum;
+SeenMotion compute_motion(const Scene& scene) {
+    return {scene, 0.0, scene.frame_rate.seconds_of(1), 160, 120};
 }
 
 /// (s, t) of a hit on the one face that is drawn: two triangles per cell, cells row by row.
@@ -64,7 +30,7 @@ TEST(CageMotion, IsTheLimitSurfacesAtEveryLevel) {
     for (int level = 0; level <= 6; ++level) {
         Scene scene = make_cage_scene(test, {test.points, later}, level);
         scene.nodes[1].translation = glm::dvec3(1.5, 1.6, 1.9);
-        const Moved moved = compute_motion(scene, 0, 1);
+        const SeenMotion moved = compute_motion(scene);
         const auto from = round_to_float(test.points), to = round_to_float(later);
         int hits = 0;
         double worst = 0.0, longest = 0.0;
@@ -74,8 +40,10 @@ TEST(CageMotion, IsTheLimitSurfacesAtEveryLevel) {
             ++hits;
             const glm::dvec2 st = place_of(hit, level);
             const glm::dvec2 expected =
-                project_camera_point(moved.other.view, to_camera(moved.other.view, bspline_patch(to, st.x, st.y))) -
-                project_camera_point(moved.now.view, to_camera(moved.now.view, bspline_patch(from, st.x, st.y)));
+                project_camera_point(moved.other.view,
+                                     to_camera(moved.other.view, tensor(to, bspline(st.x), bspline(st.y)))) -
+                project_camera_point(moved.now.view,
+                                     to_camera(moved.now.view, tensor(from, bspline(st.x), bspline(st.y))));
             worst = std::max(worst, glm::length(moved.motion.displacement.pixels[i] - expected));
             longest = std::max(longest, glm::length(expected));
         }
@@ -93,7 +61,7 @@ TEST(CageMotion, FollowsAnAffineMapOfAnIrregularCage) {
     for (const glm::dvec3& p : test.points) later.push_back(map * p + shift);
     Scene scene = make_cage_scene(test, {test.points, later}, 4);
     scene.nodes[1].translation = glm::dvec3(0.1, 0.2, 5.0);
-    const Moved moved = compute_motion(scene, 0, 1);
+    const SeenMotion moved = compute_motion(scene);
     const LimitSurface& surface = *scene.meshes[0].limit.surface;
     const auto control = surface.make_control_points(round_to_float(test.points));
     double worst = 0.0;
@@ -122,13 +90,15 @@ TEST(CageMotion, RP16_StaticSurfacesDoNotMoveAtAnyLevel) {
         later[0] *= 1.5;
         Scene scene = make_cage_scene(test, {test.points, test.points, later}, level);
         scene.nodes[1].translation = glm::dvec3(0.3, 0.2, 4.0);
-        const Moved moved = compute_motion(scene, 0, 1);
+        const SeenMotion moved = compute_motion(scene);
         int hits = 0;
         for (std::size_t i = 0; i < moved.hits.size(); ++i) {
             hits += moved.hits.pixels[i].instance != no_index ? 1 : 0;
             EXPECT_EQ(moved.motion.displacement.pixels[i], glm::dvec2(0.0));
         }
         EXPECT_GT(hits, 1000);
+        const Scene rigid = make_cage_scene(test, {test.points, test.points}, level);
+        EXPECT_TRUE(pose(rigid, 0.0).meshes[0].positions.empty());
     }
 }
 
@@ -141,7 +111,7 @@ TEST(CageMotion, RP16_PartsThatDoNotMoveDoNotMove) {
     }
     Scene scene = make_cage_scene(test, {test.points, later}, 3);
     scene.nodes[1].translation = glm::dvec3(5.5, 1.5, 12.0);
-    const Moved moved = compute_motion(scene, 0, 1);
+    const SeenMotion moved = compute_motion(scene);
     int still = 0, moving = 0;
     for (std::size_t i = 0; i < moved.hits.size(); ++i) {
         const Hit& hit = moved.hits.pixels[i];

@@ -1,13 +1,8 @@
 // Image-based motion of pictures without texture, of tiny pictures, and with a known answer (RP-22 to RP-24).
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-
 #include "motion/image_motion.h"
 #include "tests/support/image_patterns.h"
-#include "tests/support/numbers.h"
+#include "tests/support/test.h"
 
 namespace aleph {
 namespace {

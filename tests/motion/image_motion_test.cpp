@@ -1,19 +1,14 @@
 // Image-based motion: against a slow, separate implementation of the search, and known answers.
 
-#include "motion/image_motion.h"
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
 #include <bitset>
-#include <cmath>
 #include <tuple>
 
-#include "engine/base/errors.h"
 #include "engine/base/opponent_color.h"
 #include "engine/base/parallel.h"
 #include "engine/base/pyramid.h"
+#include "motion/image_motion.h"
 #include "tests/support/image_patterns.h"
+#include "tests/support/test.h"
 
 namespace aleph {
 namespace {

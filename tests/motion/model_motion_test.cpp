@@ -1,18 +1,14 @@
 // Model-based motion (thesis 5.1.2) against long-double truth at the hit's own (primitive, u, v), and what must be
 // exact.
 
-#include "motion/model_motion.h"
-
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <functional>
 #include <ostream>
 
 #include "engine/base/parallel.h"
+#include "motion/model_motion.h"
 #include "tests/support/child_node.h"
 #include "tests/support/motion_scenes.h"
 #include "tests/support/motion_truth.h"
+#include "tests/support/test.h"
 
 namespace aleph {
 namespace {
@@ -87,8 +83,7 @@ int panning(Scene& scene, int root) {
     return camera_in_place(scene, root, with_spin(child_of(root, {0.1, 0.2, 1.0}), {0.1, 1.0, 0.0}, -1.0, 2.0));
 }
 int dollying(Scene& scene, int root) {
-    Node mount;
-    mount.translation = ramp(glm::dvec3(0.0, 0.5, 2.0), glm::dvec3(8.0, -3.0, -7.0));
+    Node mount{.translation = ramp(glm::dvec3(0.0, 0.5, 2.0), glm::dvec3(8.0, -3.0, -7.0))};
     return camera_in_place(scene, root, mount);
 }
 int rolling(Scene& scene, int root) {

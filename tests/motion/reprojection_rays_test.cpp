@@ -1,19 +1,13 @@
 // Reprojection with real rays: single-precision hits must not disturb motion, and points hidden in the other frame are
 // found.
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <cstdint>
-#include <limits>
-#include <random>
-
-#include "engine/rays/first_hits.h"
 #include "engine/rays/ray_scene.h"
 #include "motion/model_motion.h"
 #include "motion/reprojection.h"
+#include "tests/support/first_hits.h"
 #include "tests/support/motion_scenes.h"
 #include "tests/support/motion_truth.h"
+#include "tests/support/test.h"
 
 namespace aleph {
 namespace {
@@ -27,14 +21,12 @@ RayScene trace(const Scene& scene, const ScenePose& frame, const CameraView& vie
 TEST(ReprojectionRays, RP01_StaticSceneMovesByExactlyZero) {
     for (const double tilt : {45.0, 10.0, 1.0, 0.1}) {
         Scene scene;
-        Node plane;
-        plane.meshes = {add_grid(scene, 1000.0f, 1000.0f, 8)};
-        plane.translation = glm::dvec3(0.0, -1.0, -3.0);
-        plane.axis_rotation = AxisRotation{{1.0, 0.0, 0.0}, (tilt - 90.0) * degrees};
+        Node plane{.translation = glm::dvec3(0.0, -1.0, -3.0),
+                   .axis_rotation = AxisRotation{{1.0, 0.0, 0.0}, (tilt - 90.0) * degrees},
+                   .meshes = {add_grid(scene, 1000.0f, 1000.0f, 8)}};
         add_node(scene, plane);
-        Node mount;
-        mount.axis_rotation = AxisRotation{glm::normalize(glm::dvec3(1.0, 2.0, 3.0)), 0.03};
-        mount.translation = glm::dvec3(0.1, 0.7, -0.3);
+        Node mount{.translation = glm::dvec3(0.1, 0.7, -0.3),
+                   .axis_rotation = AxisRotation{glm::normalize(glm::dvec3(1.0, 2.0, 3.0)), 0.03}};
         add_camera(scene, add_node(scene, mount));
         const TwoViews views(scene, 0.0, 1.0 / 30.0, 320, 240);
         const RayScene rays = trace(scene, views.now.pose, views.now.view);
@@ -55,15 +47,23 @@ TEST(ReprojectionRays, RP01_StaticSceneMovesByExactlyZero) {
 TEST(ReprojectionRays, RP18_BarycentricsOffTheTriangleArePutBack) {
     Scene scene;
     add_point(scene, {1.0f, 2.0f, 3.0f});  // corners p, p + x, p + y
-    const float nan = std::numeric_limits<float>::quiet_NaN(), inf = std::numeric_limits<float>::infinity();
     const struct {
         float u, v;
         glm::dvec2 expected;
-    } cases[] = {{0.25f, 0.5f, {0.25, 0.5}}, {1.0f, 0.0f, {1.0, 0.0}},        {0.0f, 1.0f, {0.0, 1.0}},
-                 {1.0000001f, 0.0f, {1, 0}}, {-1e-7f, 0.5f, {0.0, 0.5}},      {0.5f, -1e-7f, {0.5, 0.0}},
-                 {0.75f, 0.75f, {0.5, 0.5}}, {0.50000006f, 0.5f, {0.5, 0.5}}, {nan, 0.5f, {0.0, 0.5}},
-                 {0.5f, nan, {0.5, 0.0}},    {inf, 0.0f, {1.0, 0.0}},         {-inf, -inf, {0.0, 0.0}},
-                 {inf, inf, {0.5, 0.5}},     {-0.0f, 1e-45f, {0.0, 0.0}}};
+    } cases[] = {{0.25f, 0.5f, {0.25, 0.5}},
+                 {1.0f, 0.0f, {1.0, 0.0}},
+                 {0.0f, 1.0f, {0.0, 1.0}},
+                 {1.0000001f, 0.0f, {1, 0}},
+                 {-1e-7f, 0.5f, {0.0, 0.5}},
+                 {0.5f, -1e-7f, {0.5, 0.0}},
+                 {0.75f, 0.75f, {0.5, 0.5}},
+                 {0.50000006f, 0.5f, {0.5, 0.5}},
+                 {float_nan, 0.5f, {0.0, 0.5}},
+                 {0.5f, float_nan, {0.5, 0.0}},
+                 {float_infinity, 0.0f, {1.0, 0.0}},
+                 {-float_infinity, -float_infinity, {0.0, 0.0}},
+                 {float_infinity, float_infinity, {0.5, 0.5}},
+                 {-0.0f, 1e-45f, {0.0, 0.0}}};
     for (const auto& c : cases) {
         const glm::dvec3 point = surface_point(scene.meshes[0], {.instance = 0, .primitive = 0, .u = c.u, .v = c.v});
         EXPECT_NEAR(point.x, 1.0 + c.expected.x, 1e-7) << c.u << ' ' << c.v;
@@ -119,8 +119,7 @@ TEST(ReprojectionRays, RP19_BarycentricPointsLieOnTheirTriangles) {
         slivers.triangles.emplace_back(3 * i, 3 * i + 1, 3 * i + 2);
     }
     scene.meshes = {slivers};
-    Node node;
-    node.meshes = {0};
+    Node node{.meshes = {0}};
     add_node(scene, node);
     add_camera(scene, no_index, 0.12);
     const TwoViews views(scene, 0.0, 1.0, 320, 240);
@@ -175,19 +174,14 @@ struct Hidden {
 /// A card passes before a wall while the camera stands still.
 Scene make_card(bool orthographic, double distance_from_origin) {
     Scene scene;
-    Node root;
-    root.translation = glm::dvec3(distance_from_origin, -distance_from_origin, distance_from_origin);
-    root.axis_rotation = AxisRotation{glm::normalize(glm::dvec3(1.0, -2.0, 0.5)), 0.8};
+    Node root{.translation = glm::dvec3(distance_from_origin, -distance_from_origin, distance_from_origin),
+              .axis_rotation = AxisRotation{glm::normalize(glm::dvec3(1.0, -2.0, 0.5)), 0.8}};
     add_node(scene, root);
-    Node wall;
-    wall.parent = 0;
-    wall.meshes = {add_grid(scene, 30.0f, 30.0f, 3)};
-    wall.translation = glm::dvec3(0.0, 0.0, -10.0);
+    Node wall{.parent = 0, .translation = glm::dvec3(0.0, 0.0, -10.0), .meshes = {add_grid(scene, 30.0f, 30.0f, 3)}};
     add_node(scene, wall);
-    Node card;
-    card.parent = 0;
-    card.meshes = {add_grid(scene, 1.03f, 1.51f)};
-    card.translation = ramp(glm::dvec3(-0.9, 0.1, -5.0), glm::dvec3(0.7, -0.2, -5.0));
+    Node card{.parent = 0,
+              .translation = ramp(glm::dvec3(-0.9, 0.1, -5.0), glm::dvec3(0.7, -0.2, -5.0)),
+              .meshes = {add_grid(scene, 1.03f, 1.51f)}};
     add_node(scene, card);
     add_camera(scene, 0);
     scene.cameras[0].orthographic = orthographic;
@@ -238,10 +232,9 @@ TEST(ReprojectionRays, ASpinningBallHidesWhatTurnsAway) {
         }
     }
     scene.meshes = {ball};
-    Node node;
-    node.meshes = {0};
-    node.translation = ramp(glm::dvec3(-0.3, 0.0, -6.0), glm::dvec3(0.3, 0.2, -6.0));
-    node.axis_rotation = AxisRotation{{0.0, 1.0, 0.0}, ramp(0.0, 40.0 * degrees)};
+    Node node{.translation = ramp(glm::dvec3(-0.3, 0.0, -6.0), glm::dvec3(0.3, 0.2, -6.0)),
+              .axis_rotation = AxisRotation{{0.0, 1.0, 0.0}, ramp(0.0, 40.0 * degrees)},
+              .meshes = {0}};
     add_node(scene, node);
     add_camera(scene);
     const Hidden motion(scene, 200, 150);

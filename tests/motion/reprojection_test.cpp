@@ -1,12 +1,9 @@
 // Reprojection of Q(u,v,t) where it is fragile. Expected values by hand or in long double.
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-
 #include "motion/model_motion.h"
 #include "motion/velocity.h"
 #include "tests/support/motion_scenes.h"
+#include "tests/support/test.h"
 
 namespace aleph {
 namespace {
@@ -14,13 +11,10 @@ namespace {
 /// An object that rotates about the camera together with it: its motion must be almost 0.
 TEST(Reprojection, RP01_RidingAlongIsStillWithinRounding) {
     Scene scene;
-    Node cart;
-    cart.translation = ramp(glm::dvec3(0.0), glm::dvec3(300.0, 5.0, 90.0));
-    cart.axis_rotation = AxisRotation{{0.0, 1.0, 0.0}, ramp(0.0, 90.0)};
+    Node cart{.translation = ramp(glm::dvec3(0.0), glm::dvec3(300.0, 5.0, 90.0)),
+              .axis_rotation = AxisRotation{{0.0, 1.0, 0.0}, ramp(0.0, 90.0)}};
     const int root = add_node(scene, cart);
-    Node node;
-    node.parent = root;
-    node.meshes = {add_point(scene, {0.3f, 0.2f, -5.0f})};
+    Node node{.parent = root, .meshes = {add_point(scene, {0.3f, 0.2f, -5.0f})}};
     add_node(scene, node);
     add_camera(scene, root);
     const PointMotion motion = motion_of_point(scene, 0.0, 1.0 / 30.0);
@@ -52,10 +46,9 @@ TEST(Reprojection, RP02_TinyMotion) {
 /// dead zone of the motion channel.
 TEST(Reprojection, RP03_RoundingStaysFarBelowTheDeadZone) {
     Scene scene;
-    Node node;
-    node.meshes = {add_triangle_soup(scene, 100, 1.0f)};
-    node.translation = glm::dvec3(0.0, 0.0, -10.0);
-    node.axis_rotation = AxisRotation{{0.0, 1.0, 0.0}, ramp(0.0, 200.0 * std::numbers::pi)};
+    Node node{.translation = glm::dvec3(0.0, 0.0, -10.0),
+              .axis_rotation = AxisRotation{{0.0, 1.0, 0.0}, ramp(0.0, 200.0 * std::numbers::pi)},
+              .meshes = {add_triangle_soup(scene, 100, 1.0f)}};
     add_node(scene, node);
     add_camera(scene);
     const TwoViews views(scene, 0.13, 0.14, 320, 240);  // one full turn

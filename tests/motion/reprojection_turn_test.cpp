@@ -1,13 +1,9 @@
 // Objects that turn far within a frame, so that the chord is much shorter than the path (RP-07).
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <vector>
-
 #include "motion/model_motion.h"
 #include "motion/turn.h"
 #include "tests/support/motion_scenes.h"
+#include "tests/support/test.h"
 
 namespace aleph {
 namespace {
@@ -141,12 +137,10 @@ TEST(ReprojectionTurn, RP07_SpinsAddUpAlongTheHierarchy) {
     // Two nested half turns make a full one; in opposite directions they cancel.
     for (const double sense : {1.0, -1.0}) {
         Scene scene;
-        Node outer;
-        outer.axis_rotation = AxisRotation{{0.0, 0.0, 1.0}, ramp(0.0, std::numbers::pi)};
-        Node inner;
-        inner.parent = add_node(scene, outer);
-        inner.meshes = {add_point(scene, {1.0f, 0.0f, -10.0f})};
-        inner.axis_rotation = AxisRotation{{0.0, 0.0, 1.0}, ramp(0.0, sense * std::numbers::pi)};
+        Node outer{.axis_rotation = AxisRotation{{0.0, 0.0, 1.0}, ramp(0.0, std::numbers::pi)}};
+        Node inner{.parent = add_node(scene, outer),
+                   .axis_rotation = AxisRotation{{0.0, 0.0, 1.0}, ramp(0.0, sense * std::numbers::pi)},
+                   .meshes = {add_point(scene, {1.0f, 0.0f, -10.0f})}};
         add_node(scene, inner);
         add_camera(scene, no_index, fov_of(1500.0, 1000));
         EXPECT_NEAR(motion_of_point(scene).path_length, sense > 0.0 ? 942.48 : 0.0, 9.4);

@@ -1,13 +1,10 @@
 // How far nodes turn, from tracks whose turns are known.
 
-#include "motion/turn.h"
-
-#include <gtest/gtest.h>
-
 #include <glm/gtc/type_ptr.hpp>
 
+#include "motion/turn.h"
 #include "tests/support/motion_scenes.h"
-#include "tests/support/numbers.h"
+#include "tests/support/test.h"
 
 namespace aleph {
 namespace {
@@ -49,9 +46,7 @@ Node make_operations() {
         append(channels, glm::mat4_cast(turned(0.05 * phase, {1.0, 2.0, 3.0})));
         channels.insert(channels.end(), {phase, phase, phase});
     }
-    Node node;
-    node.operations = stack;
-    return node;
+    return {.operations = stack};
 }
 
 TEST(Turn, AllOperationsThatTurnAddUp) {
@@ -63,16 +58,14 @@ TEST(Turn, AllOperationsThatTurnAddUp) {
     EXPECT_NEAR(turn_of(node, 2.0, 0.5), 1.5 * sum, 1e-12);
     EXPECT_NEAR(turn_of(node, -5.0, 9.0), 3.0 * sum, 1e-12);
     EXPECT_EQ(turn_of(node, 3.0, 9.0), 0.0);
-    Node single;
-    single.operations = OperationStack{{OperationStack::Kind::rotate_x}, {}, {1.0}};
+    Node single{.operations = OperationStack{{OperationStack::Kind::rotate_x}, {}, {1.0}}};
     EXPECT_EQ(turn_of(single, 0.0, 1.0), 0.0);
 }
 
 TEST(Turn, ASplineSwingsBeyondItsKeys) {
     // Equal keys at 0 and 1 s, and an angle of 4 a (t - t^2) between: to a and back.
     constexpr double a = 2.5;
-    Node node;
-    node.axis_rotation = AxisRotation{{0.0, 0.0, 1.0}, ramp(0.0, 0.0)};
+    Node node{.axis_rotation = AxisRotation{{0.0, 0.0, 1.0}, ramp(0.0, 0.0)}};
     Track<double>& angle = node.axis_rotation->angle;
     angle.interpolation = Interpolation::cubic;
     angle.values = {0.0, 0.0, 4.0 * a, -4.0 * a, 0.0, 0.0};
@@ -84,8 +77,7 @@ TEST(Turn, ASplineSwingsBeyondItsKeys) {
 
 TEST(Turn, QuaternionsTurnTheShortWay) {
     for (const double angle : {1e-6, 0.3, 2.0, 3.1, 3.2, 5.0}) {
-        Node node;
-        node.rotation = ramp(turned(0.7, {1.0, 2.0, 3.0}), turned(0.7 + angle, {1.0, 2.0, 3.0}));
+        Node node{.rotation = ramp(turned(0.7, {1.0, 2.0, 3.0}), turned(0.7 + angle, {1.0, 2.0, 3.0}))};
         EXPECT_NEAR(turn_of(node, 0.0, 1.0), std::min(angle, 2.0 * pi - angle), 1e-12) << angle;
     }
 }
@@ -100,16 +92,12 @@ TEST(Turn, MatricesTurnAsTheirRotations) {
         EXPECT_NEAR(turn_of(node, 0.0, 1.0), 1.3, 1e-12) << mirror;
     }
     // What has no rotation does not turn.
-    Node flat;
-    flat.matrix = ramp(glm::dmat4(0.0), glm::dmat4(0.0));
+    Node flat{.matrix = ramp(glm::dmat4(0.0), glm::dmat4(0.0))};
     EXPECT_EQ(turn_of(flat, 0.0, 1.0), 0.0);
 }
 
 Node make_spin(int parent, double turn) {
-    Node node;
-    node.parent = parent;
-    node.axis_rotation = AxisRotation{{0.0, 0.0, 1.0}, ramp(0.0, turn)};
-    return node;
+    return {.parent = parent, .axis_rotation = AxisRotation{{0.0, 0.0, 1.0}, ramp(0.0, turn)}};
 }
 
 /// A cart carries an arm, with an object on it, and a mast with the camera on it.

@@ -1,13 +1,8 @@
-// Pixels per frame to degrees per second, (5.1).
+// Pixels per frame to degrees per second, (5.1), and which frame motion is found against.
 
 #include "motion/velocity.h"
-
-#include <gtest/gtest.h>
-
-#include <limits>
-
-#include "engine/base/errors.h"
-#include "tests/support/refusal.h"
+#include "motion/other_frame.h"
+#include "tests/support/test.h"
 
 namespace aleph {
 namespace {
@@ -64,8 +59,7 @@ TEST(Velocity, KeepsTheFieldsShape) {
 }
 
 TEST(Velocity, RP21_RatesThatAreNotPositiveAndFiniteAreRefused) {
-    const double inf = std::numeric_limits<double>::infinity(), nan = std::numeric_limits<double>::quiet_NaN();
-    for (const double bad : {0.0, -0.0, -1.0, inf, -inf, nan}) {
+    for (const double bad : {0.0, -0.0, -1.0, infinity, -infinity, not_a_number}) {
         EXPECT_EQ(find_refusal([&] { velocity_of(1.0, {.pixels_per_degree = bad}); }).place, "pixels per degree")
             << bad;
     }
@@ -79,6 +73,15 @@ TEST(Velocity, RP21_RatesThatAreNotPositiveAndFiniteAreRefused) {
             EXPECT_EQ(error.place(), "frames per second");
         }
     }
+}
+
+TEST(OtherFrame, NumbersAndSigns) {
+    EXPECT_EQ(other_frame_number(7, OtherFrame::next), 8);
+    EXPECT_EQ(other_frame_number(7, OtherFrame::previous), 6);
+    EXPECT_EQ(other_frame_number(7, OtherFrame::none), 7);
+    EXPECT_EQ(displacement_sign(OtherFrame::next), 1.0);
+    EXPECT_EQ(displacement_sign(OtherFrame::previous), -1.0);
+    EXPECT_EQ(displacement_sign(OtherFrame::none), 1.0);
 }
 
 }  // namespace

@@ -1,18 +1,12 @@
 // The float rows of the last pass against the double formulas, and compute_perception as a whole.
 
 #include "perception/aleph_map.h"
-
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <limits>
-
-#include "engine/base/errors.h"
 #include "engine/base/parallel.h"
 #include "perception/fast_math.h"
 #include "perception/kelly_vision.h"
 #include "perception/perception.h"
 #include "tests/support/perception_scene.h"
+#include "tests/support/test.h"
 
 namespace aleph {
 namespace {
@@ -148,8 +142,7 @@ TEST(Perception, RefusesWhatDoesNotFit) {
     const Image<float> velocity(8, 8);
     EXPECT_THROW(compute_perception(estimate, Image<float>(8, 7), {}, {}, {}), InputError);
     EXPECT_THROW(compute_perception({}, {}, {}, {}, {}), InputError);
-    constexpr double infinity = std::numeric_limits<double>::infinity();
-    for (const double bad : {0.0, -1.0, infinity, std::nan("")}) {
+    for (const double bad : {0.0, -1.0, infinity, not_a_number}) {
         EXPECT_THROW(compute_perception(estimate, velocity, {.pixels_per_degree = bad}, {}, {}), InputError) << bad;
         EXPECT_THROW(compute_perception(estimate, velocity, {.display_white = bad}, {}, {}), InputError) << bad;
     }

@@ -1,14 +1,10 @@
 #include "perception/band_response.h"
-
-#include <gtest/gtest.h>
-
-#include <cmath>
-
 #include "engine/base/opponent_color.h"
 #include "engine/base/parallel.h"
 #include "tests/support/perception_bands.h"
 #include "tests/support/perception_reference.h"
 #include "tests/support/perception_scene.h"
+#include "tests/support/test.h"
 
 namespace aleph {
 namespace {

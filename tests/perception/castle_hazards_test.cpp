@@ -1,17 +1,13 @@
 // castleCSF, the hold of displays and their thresholds with inputs for which the printed formulas have no finite
 // result.
 
-#include <gtest/gtest.h>
-
 #include <cfloat>
-#include <cmath>
-#include <vector>
 
 #include "perception/castle.h"
 #include "perception/castle_row.h"
 #include "perception/display_hold.h"
 #include "perception/threshold.h"
-#include "tests/support/numbers.h"
+#include "tests/support/test.h"
 
 namespace aleph {
 namespace {

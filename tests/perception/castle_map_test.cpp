@@ -1,12 +1,5 @@
 // castleCSF in the Aleph map: rows of floats against single values in double, the hold of displays, thresholds.
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <vector>
-
-#include "engine/base/errors.h"
 #include "engine/base/sampling.h"
 #include "perception/castle.h"
 #include "perception/castle_row.h"
@@ -14,6 +7,7 @@
 #include "perception/perception.h"
 #include "perception/threshold.h"
 #include "tests/support/perception_scene.h"
+#include "tests/support/test.h"
 
 namespace aleph {
 namespace {
@@ -109,7 +103,7 @@ TEST(CastleMap, SettingsReachTheMap) {
     EXPECT_EQ(aleph_with(&thesis_vision(), 1.0), aleph_with(&thesis_vision(), 0.1));
     EXPECT_NE(aleph_with(&thesis_vision(), 1.0), aleph_with(&laird_vision(), 1.0));
     EXPECT_THROW(aleph_with(&thesis_vision(), 1.5), InputError);
-    EXPECT_THROW(aleph_with(&castle_vision(), std::nan("")), InputError);
+    EXPECT_THROW(aleph_with(&castle_vision(), not_a_number), InputError);
 }
 
 TEST(CastleThreshold, IsLuminanceOverTheHighestSensitivity) {

@@ -1,14 +1,8 @@
 // Published values of castleCSF, and of the elevations of the three models of vision side by side.
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <numbers>
-
 #include "perception/castle.h"
 #include "perception/kelly.h"
+#include "tests/support/test.h"
 
 namespace aleph {
 namespace {
@@ -83,133 +77,41 @@ TEST(Castle, GivesThePublishedSensitivityToMotion) {
 
 /// (5.9) by the thesis's constants, those of Laird et al. 2006, and castleCSF at 100 cd/m2.
 struct PublishedElevations {
-    double velocity;                                    // deg/s on the retina
-    double daly_peak, daly_at, castle_peak, castle_at;  // sensitivity, cycles per degree
-    std::array<std::array<double, 3>, 6> by_frequency;  // at .5 to 16 cycles per degree
+    // Velocity on the retina, deg/s; Daly's peak and its frequency, cycles per degree; the same of castleCSF.
+    std::array<double, 5> peaks;
+    std::array<double, 18> by_frequency;  // at .5 to 16 cycles per degree, of the three models each
 };
 
 constexpr PublishedElevations published_elevations[] = {
-    {0.15,
-     245.4,
-     4.84,
-     128.7,
-     3.75,
-     {{{1.00, 1.00, 1.00},
-       {1.00, 1.00, 1.00},
-       {1.00, 1.00, 1.00},
-       {1.00, 1.00, 1.00},
-       {1.35, 1.97, 1.45},
-       {9.25, 30.32, 4.14}}}},
-    {0.3,
-     248.0,
-     4.34,
-     122.5,
-     3.59,
-     {{{1.00, 1.00, 1.00},
-       {1.00, 1.00, 1.00},
-       {1.00, 1.00, 1.00},
-       {1.00, 1.00, 1.01},
-       {1.59, 1.97, 1.55},
-       {15.78, 30.32, 4.69}}}},
-    {0.5,
-     248.3,
-     3.83,
-     115.4,
-     3.40,
-     {{{1.00, 1.00, 1.00},
-       {1.00, 1.00, 1.00},
-       {1.00, 1.00, 1.00},
-       {1.00, 1.01, 1.02},
-       {2.03, 2.30, 1.67},
-       {33.21, 47.56, 5.58}}}},
-    {1,
-     250.6,
-     2.95,
-     104.2,
-     3.04,
-     {{{1.00, 1.00, 1.00},
-       {1.00, 1.00, 1.00},
-       {1.00, 1.00, 1.00},
-       {1.11, 1.07, 1.05},
-       {4.19, 3.52, 2.12},
-       {238.74, 115.76, 10.20}}}},
-    {2,
-     231.2,
-     2.02,
-     94.1,
-     2.48,
-     {{{1.00, 1.00, 1.00},
-       {1.00, 1.00, 1.00},
-       {1.00, 1.00, 1.00},
-       {1.81, 1.35, 1.24},
-       {23.82, 9.27, 4.06},
-       {231.23, 116.99, 47.91}}}},
-    {3,
-     203.5,
-     1.54,
-     89.1,
-     2.04,
-     {{{1.00, 1.00, 1.00},
-       {1.00, 1.00, 1.00},
-       {1.08, 1.00, 1.00},
-       {3.65, 1.89, 1.62},
-       {166.99, 27.00, 8.66},
-       {203.53, 114.83, 89.14}}}},
-    {5,
-     169.8,
-     1.04,
-     84.2,
-     1.48,
-     {{{1.00, 1.00, 1.00},
-       {1.00, 1.00, 1.00},
-       {1.72, 1.12, 1.10},
-       {20.22, 4.42, 3.23},
-       {169.79, 103.08, 45.62},
-       {169.79, 103.08, 84.22}}}},
-    {10,
-     141.1,
-     0.57,
-     80.1,
-     0.85,
-     {{{1.00, 1.00, 1.00},
-       {1.45, 1.02, 1.02},
-       {11.86, 2.54, 2.36},
-       {141.14, 62.83, 25.69},
-       {141.14, 80.90, 80.09},
-       {141.14, 80.90, 80.09}}}},
-    {20,
-     125.0,
-     0.30,
-     78.2,
-     0.46,
-     {{{1.35, 1.00, 1.01},
-       {9.16, 1.98, 2.05},
-       {124.98, 30.91, 19.05},
-       {124.98, 66.72, 78.23},
-       {124.98, 66.72, 78.23},
-       {124.98, 66.72, 78.23}}}},
-    {40,
-     109.5,
-     0.16,
-     73.9,
-     0.25,
-     {{{8.06, 1.76, 1.86},
-       {109.51, 21.88, 15.78},
-       {109.51, 58.92, 73.89},
-       {109.51, 58.92, 73.89},
-       {109.51, 58.92, 73.89},
-       {109.51, 58.92, 73.89}}}},
-    {80,
-     91.2,
-     0.08,
-     66.4,
-     0.13,
-     {{{91.17, 18.45, 13.61},
-       {91.17, 51.80, 66.44},
-       {91.17, 51.80, 66.44},
-       {91.17, 51.80, 66.44},
-       {91.17, 51.80, 66.44},
-       {91.17, 51.80, 66.44}}}},
+    {{0.15, 245.4, 4.84, 128.7, 3.75},
+     {1.00, 1.00, 1.00, 1.00, 1.00, 1.00, 1.00, 1.00, 1.00, 1.00, 1.00, 1.00, 1.35, 1.97, 1.45, 9.25, 30.32, 4.14}},
+    {{0.3, 248.0, 4.34, 122.5, 3.59},
+     {1.00, 1.00, 1.00, 1.00, 1.00, 1.00, 1.00, 1.00, 1.00, 1.00, 1.00, 1.01, 1.59, 1.97, 1.55, 15.78, 30.32, 4.69}},
+    {{0.5, 248.3, 3.83, 115.4, 3.40},
+     {1.00, 1.00, 1.00, 1.00, 1.00, 1.00, 1.00, 1.00, 1.00, 1.00, 1.01, 1.02, 2.03, 2.30, 1.67, 33.21, 47.56, 5.58}},
+    {{1, 250.6, 2.95, 104.2, 3.04},
+     {1.00, 1.00, 1.00, 1.00, 1.00, 1.00, 1.00, 1.00, 1.00, 1.11, 1.07, 1.05, 4.19, 3.52, 2.12, 238.74, 115.76, 10.20}},
+    {{2, 231.2, 2.02, 94.1, 2.48},
+     {1.00, 1.00, 1.00, 1.00, 1.00, 1.00, 1.00, 1.00, 1.00, 1.81, 1.35, 1.24, 23.82, 9.27, 4.06, 231.23, 116.99,
+      47.91}},
+    {{3, 203.5, 1.54, 89.1, 2.04},
+     {1.00, 1.00, 1.00, 1.00, 1.00, 1.00, 1.08, 1.00, 1.00, 3.65, 1.89, 1.62, 166.99, 27.00, 8.66, 203.53, 114.83,
+      89.14}},
+    {{5, 169.8, 1.04, 84.2, 1.48},
+     {1.00, 1.00, 1.00, 1.00, 1.00, 1.00, 1.72, 1.12, 1.10, 20.22, 4.42, 3.23, 169.79, 103.08, 45.62, 169.79, 103.08,
+      84.22}},
+    {{10, 141.1, 0.57, 80.1, 0.85},
+     {1.00, 1.00, 1.00, 1.45, 1.02, 1.02, 11.86, 2.54, 2.36, 141.14, 62.83, 25.69, 141.14, 80.90, 80.09, 141.14, 80.90,
+      80.09}},
+    {{20, 125.0, 0.30, 78.2, 0.46},
+     {1.35, 1.00, 1.01, 9.16, 1.98, 2.05, 124.98, 30.91, 19.05, 124.98, 66.72, 78.23, 124.98, 66.72, 78.23, 124.98,
+      66.72, 78.23}},
+    {{40, 109.5, 0.16, 73.9, 0.25},
+     {8.06, 1.76, 1.86, 109.51, 21.88, 15.78, 109.51, 58.92, 73.89, 109.51, 58.92, 73.89, 109.51, 58.92, 73.89, 109.51,
+      58.92, 73.89}},
+    {{80, 91.2, 0.08, 66.4, 0.13},
+     {91.17, 18.45, 13.61, 91.17, 51.80, 66.44, 91.17, 51.80, 66.44, 91.17, 51.80, 66.44, 91.17, 51.80, 66.44, 91.17,
+      51.80, 66.44}},
 };
 
 struct Peak {
@@ -228,21 +130,21 @@ Peak find_castle_peak(double velocity) {
 
 TEST(Castle, ElevationsOfTheThreeModels) {
     for (const PublishedElevations& row : published_elevations) {
-        const Peak peak = find_castle_peak(row.velocity);
-        EXPECT_NEAR(csf_max(row.velocity), row.daly_peak, 0.0501) << row.velocity;
-        EXPECT_NEAR(csf_peak_frequency(row.velocity), row.daly_at, 0.00501) << row.velocity;
-        EXPECT_NEAR(peak.sensitivity, row.castle_peak, 0.0501) << row.velocity;
-        EXPECT_NEAR(peak.frequency / row.castle_at, 1.0, row.castle_at < 0.5 ? 0.03 : 0.006) << row.velocity;
+        const auto& [velocity, daly_peak, daly_at, castle_peak, castle_at] = row.peaks;
+        const Peak peak = find_castle_peak(velocity);
+        EXPECT_NEAR(csf_max(velocity), daly_peak, 0.0501) << velocity;
+        EXPECT_NEAR(csf_peak_frequency(velocity), daly_at, 0.00501) << velocity;
+        EXPECT_NEAR(peak.sensitivity, castle_peak, 0.0501) << velocity;
+        EXPECT_NEAR(peak.frequency / castle_at, 1.0, castle_at < 0.5 ? 0.03 : 0.006) << velocity;
         for (int i = 0; i < 6; ++i) {
             const double rho = std::ldexp(0.5, i);
-            const double castle =
-                rho > peak.frequency
-                    ? peak.sensitivity / std::max(1.0, castle_sensitivity(rho, rho * row.velocity, 100.0))
-                    : 1.0;
-            EXPECT_NEAR(elevation(rho, row.velocity), row.by_frequency[i][0], 0.00501) << row.velocity << " " << rho;
-            EXPECT_NEAR(elevation(rho, row.velocity, laird_2006), row.by_frequency[i][1], 0.00501)
-                << row.velocity << " " << rho;
-            EXPECT_NEAR(castle, row.by_frequency[i][2], 0.00501) << row.velocity << " " << rho;
+            const double castle = rho > peak.frequency
+                                      ? peak.sensitivity / std::max(1.0, castle_sensitivity(rho, rho * velocity, 100.0))
+                                      : 1.0;
+            EXPECT_NEAR(elevation(rho, velocity), row.by_frequency[3 * i], 0.00501) << velocity << " " << rho;
+            EXPECT_NEAR(elevation(rho, velocity, laird_2006), row.by_frequency[3 * i + 1], 0.00501)
+                << velocity << " " << rho;
+            EXPECT_NEAR(castle, row.by_frequency[3 * i + 2], 0.00501) << velocity << " " << rho;
         }
     }
 }

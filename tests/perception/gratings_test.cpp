@@ -1,10 +1,5 @@
 // The vision model on moving gratings, whose bands have a closed form, and known answers of the models themselves.
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-
 #include "perception/band_frequencies.h"
 #include "perception/castle.h"
 #include "perception/castle_row.h"
@@ -12,8 +7,8 @@
 #include "perception/retinal_velocity.h"
 #include "tests/perception/grating_run.h"
 #include "tests/perception/vision_formulas.h"
-#include "tests/support/numbers.h"
 #include "tests/support/perception_reference.h"
+#include "tests/support/test.h"
 
 namespace aleph {
 namespace {
@@ -120,16 +115,6 @@ TEST(Gratings, ScalarModelsAreTheWrittenFormulas) {
                 const double castle = castle_elevation(rho, lit.retinal, lit.tracked, luminance, 1.0, frame_rate);
                 EXPECT_NEAR(castle / written_elevation(&castle_vision(), rho, lit), 1.0, 1e-9) << rho << " " << v;
             }
-        }
-    }
-}
-
-TEST(Gratings, WrittenCastleGivesThePublishedSensitivity) {
-    for (const PublishedCastle& row : published_castle()) {
-        for (int i = 0; i < 7; ++i) {
-            const double rho = std::ldexp(0.25, i);
-            const double written = written_castle_sensitivity(rho, rho * row.velocity, 100.0);
-            EXPECT_NEAR(written, row.sensitivity[i], 0.50001e-4) << row.velocity << " deg/s, " << rho;
         }
     }
 }

@@ -1,16 +1,9 @@
 // Noise of single pixels, against sums over its frequencies.
 
 #include "perception/noise_threshold.h"
-
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <limits>
-#include <numbers>
-
-#include "engine/base/errors.h"
 #include "perception/castle.h"
 #include "perception/display_hold.h"
+#include "tests/support/test.h"
 
 namespace aleph::noise_threshold_test {
 namespace {
@@ -71,9 +64,8 @@ TEST(NoiseThreshold, SmallerPixelsHideMore) {
 
 TEST(NoiseThreshold, EveryInputHasAPositiveResult) {
     const NoiseVisibility noise({}, thirty, NoiseOverTime::fresh);
-    const float infinite = std::numeric_limits<float>::infinity(), nan = std::numeric_limits<float>::quiet_NaN();
-    for (const float luminance : {nan, -1.0f, 0.0f, 1e-6f, 1.0f, 1e6f, infinite}) {
-        for (const float velocity : {nan, -1.0f, 0.0f, 1e-9f, 0.1f, 100.0f, 1e9f, infinite}) {
+    for (const float luminance : {float_nan, -1.0f, 0.0f, 1e-6f, 1.0f, 1e6f, float_infinity}) {
+        for (const float velocity : {float_nan, -1.0f, 0.0f, 1e-9f, 0.1f, 100.0f, 1e9f, float_infinity}) {
             const float threshold = noise.threshold(luminance, velocity, velocity);
             EXPECT_GT(threshold, 0.0f) << luminance << " " << velocity;
             EXPECT_TRUE(std::isfinite(threshold)) << luminance << " " << velocity;

@@ -1,25 +1,18 @@
 // N(.) where "the average of all other local maxima" is 0/0, or depends on what counts as a local maximum.
+// Flat pictures: every pixel ties with its neighbours. The search for local maxima must not store all of them.
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-
+#include "perception/normalize.h"
+#include "engine/base/parallel.h"
 #include "engine/base/pyramid.h"
 #include "engine/base/sampling.h"
-#include "perception/normalize.h"
+#include "perception/perception.h"
+#include "tests/support/allocations.h"
 #include "tests/support/perception_reference.h"
+#include "tests/support/perception_scene.h"
+#include "tests/support/test.h"
 
 namespace aleph {
 namespace {
-
-Image<float> checkerboard(int width, int height) {
-    Image<float> image(width, height);
-    for (int y = 0; y < height; ++y) {
-        for (int x = 0; x < width; ++x) image(x, y) = static_cast<float>((x + y) % 2);
-    }
-    return image;
-}
 
 TEST(NormalizeHard, PY08_NoOtherLocalMaximum) {
     Image<float> spike(21, 15);
@@ -54,7 +47,7 @@ TEST(NormalizeHard, PY09_PlateausCountOnce) {
     EXPECT_NEAR(compute_normalization(plateaus, 0).weight, std::pow(1 - 0.5, 2), 1e-4);
 
     // The bright pixels of a one-pixel checkerboard touch at their corners: 8-connected, they are one plateau.
-    EXPECT_EQ(compute_normalization(checkerboard(20, 20), 0).weight, 1.0);
+    EXPECT_EQ(compute_normalization(checker(20, 20), 0).weight, 1.0);
 }
 
 TEST(NormalizeHard, PY09_RandomPlateausAgreeWithTheFullFloodFill) {
@@ -99,6 +92,40 @@ TEST(NormalizeHard, PY10_MaximaUnderATenthAreDropped) {
     EXPECT_EQ(compute_normalization(map, 0).weight, 1.0);
     for (int x = 12; x < 60; x += 4) map(x, 8) = 0.101f;
     EXPECT_NEAR(compute_normalization(map, 0).weight, std::pow(1 - 0.101, 2), 1e-4);
+}
+
+constexpr int width = 3840, height = 2160;
+constexpr double mebibytes_per_float = 4.0 * width * height / (1 << 20);  // of a map at full size
+
+/// Peak memory of `work` on one thread, MiB.
+double peak_memory(const std::function<void()>& work) {
+    const ThreadLimit one(1);
+    return count_allocations(work).peak_mebibytes();
+}
+
+TEST(FlatPicture, PY09_SaliencyOf4KStaysWithin16FloatsPerPixel) {
+    const double mebibytes = peak_memory([] {
+        const Image<Rgb> estimate(width, height, Rgb(0.4f, 0.5f, 0.3f));
+        const Image<float> velocity(width, height, 8.0f);
+        const PerceptionMaps maps = compute_perception(estimate, velocity, {}, {}, {});
+        EXPECT_TRUE(maps.fallback) << "something stands out of a flat picture";
+    });
+    EXPECT_LT(mebibytes, 16 * mebibytes_per_float);
+}
+
+TEST(FlatPicture, PY09_NormalizationOf4KStaysWithin6FloatsPerPixel) {
+    // One dark pixel, so that the range is above the floor and the rest is one plateau.
+    const double mebibytes = peak_memory([&] {
+        Image<float> map(width, height, 1.0f);
+        map(width / 2, height / 2) = 0.0f;
+        EXPECT_EQ(compute_normalization(map, 1e-6).weight, 1.0) << "a plateau counts once";
+    });
+    EXPECT_LT(mebibytes, 6 * mebibytes_per_float);
+    const double below_floor = peak_memory([&] {
+        const Image<float> map(width, height, 1.0f);
+        EXPECT_TRUE(compute_normalization(map, 1e-6).empty) << "a flat map has no range";
+    });
+    EXPECT_LT(below_floor, 6 * mebibytes_per_float);
 }
 
 }  // namespace

@@ -1,12 +1,10 @@
 // The maps of the optimized library against those of the same sources compiled without optimization.
 
-#include <gtest/gtest.h>
-
-#include <cmath>
 #include <cstdio>
 
-#include "tests/support/all_maps.h"
 #include "tests/support/paths.h"
+#include "tests/support/perception_scene.h"
+#include "tests/support/test.h"
 
 namespace aleph {
 namespace {

@@ -1,16 +1,10 @@
 // Saliency and Aleph maps against a slow, direct implementation of the equations (perception_reference.h).
 
 #include "perception/saliency.h"
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <vector>
-
 #include "perception/perception.h"
 #include "tests/support/perception_reference.h"
 #include "tests/support/perception_scene.h"
+#include "tests/support/test.h"
 
 namespace aleph {
 namespace {
@@ -44,16 +38,6 @@ TEST_P(AgainstReference, FullGridAgrees) {
 INSTANTIATE_TEST_SUITE_P(Sizes, AgainstReference,
                          testing::Values(std::pair{640, 480}, std::pair{333, 211}, std::pair{96, 64},
                                          std::pair{61, 17}));
-
-double correlation(const Image<float>& a, const Image<float>& b) {
-    double sa = 0, sb = 0, saa = 0, sbb = 0, sab = 0;
-    for (std::size_t i = 0; i < a.size(); ++i) {
-        const double p = a.pixels[i], q = b.pixels[i];
-        sa += p, sb += q, saa += p * p, sbb += q * q, sab += p * q;
-    }
-    const auto n = static_cast<double>(a.size());
-    return (sab - sa * sb / n) / std::sqrt((saa - sa * sa / n) * (sbb - sb * sb / n));
-}
 
 TEST(Saliency, CenterGridIsCloseToFull) {
     const SyntheticFrame frame = make_synthetic_frame(640, 480);

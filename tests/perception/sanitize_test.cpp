@@ -1,12 +1,6 @@
 #include "perception/sanitize.h"
-
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <limits>
-
 #include "engine/base/sampling.h"
-#include "tests/support/numbers.h"
+#include "tests/support/test.h"
 
 namespace aleph {
 namespace {
@@ -40,7 +34,7 @@ TEST(Sanitize, NegativeComponentsBecomeZero) {
 TEST(Sanitize, PY05_HolesFillFromTheirRim) {
     Image<Rgb> image(30, 20, Rgb(0.25f, 0.5f, 0.75f));
     for (int y = 5; y < 15; ++y) {
-        for (int x = 8; x < 20; ++x) image(x, y) = Rgb(0.1f, std::nanf(""), float_infinity);
+        for (int x = 8; x < 20; ++x) image(x, y) = Rgb(0.1f, float_nan, float_infinity);
     }
     EXPECT_EQ(sanitize_estimate(image).replaced, 120u);
     EXPECT_EQ(image, Image<Rgb>(30, 20, Rgb(0.25f, 0.5f, 0.75f)));
@@ -53,7 +47,7 @@ TEST(Sanitize, PY05_FrameWithoutAnyValidPixelBecomesBlack) {
 }
 
 TEST(Sanitize, PY05_OneValidPixelFillsTheRest) {
-    Image<Rgb> image(9, 7, Rgb(std::nanf("")));
+    Image<Rgb> image(9, 7, Rgb(float_nan));
     image(8, 0) = Rgb(0.3f, 0.2f, 0.1f);
     EXPECT_EQ(sanitize_estimate(image).replaced, 62u);
     EXPECT_EQ(image, Image<Rgb>(9, 7, Rgb(0.3f, 0.2f, 0.1f)));

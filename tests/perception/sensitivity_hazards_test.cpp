@@ -1,12 +1,5 @@
 // CSF, elevation and the Aleph map with inputs for which the printed formulas have no finite result.
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <limits>
-#include <numbers>
-
 #include "engine/base/flush_denormals.h"
 #include "engine/base/sampling.h"
 #include "perception/aleph_map.h"
@@ -16,8 +9,8 @@
 #include "perception/perception.h"
 #include "perception/retinal_velocity.h"
 #include "perception/sanitize.h"
-#include "tests/support/numbers.h"
 #include "tests/support/perception_bands.h"
+#include "tests/support/test.h"
 
 namespace aleph {
 namespace {
@@ -160,8 +153,8 @@ TEST(SensitivityHard, CS08_BoundsOnRandomImagesWithBrokenPixelsAndRandomMotion) 
                 Rgb(random.next(), random.next(), random.next()) * static_cast<float>(std::pow(10.0, exponent));
             velocity.pixels[i] =
                 random.next() < 0.5f ? 0.0f : static_cast<float>(std::pow(10.0, 6 * random.next() - 3));
-            if (random.next() < 0.01f) estimate.pixels[i].y = std::nanf("");
-            if (random.next() < 0.01f) estimate.pixels[i].x = std::numeric_limits<float>::infinity();
+            if (random.next() < 0.01f) estimate.pixels[i].y = float_nan;
+            if (random.next() < 0.01f) estimate.pixels[i].x = float_infinity;
         }
         EXPECT_GT(sanitize_estimate(estimate).replaced, 0u);
         for (const Guide guide : {Guide::spatial, Guide::full, Guide::saliency}) {

@@ -3,22 +3,18 @@
 #include "perception/band_frequencies.h"
 #include "perception/kelly.h"
 #include "perception/retinal_velocity.h"
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <numbers>
+#include "tests/support/test.h"
 
 namespace aleph {
 namespace {
 
 /// (5.6) to (5.8) written a second time, in long double.
 long double csf_exact(long double rho, long double v) {
-    const long double pi = std::numbers::pi_v<long double>;
+    const long double exact_pi = std::numbers::pi_v<long double>;
     const long double k = 6.1L + 7.3L * std::pow(std::abs(std::log10(1.7L * v / 3.0L)), 3.0L);
     const long double rho_max = 45.9L / (1.7L * v + 2.0L);
-    return k * 1.14L * 1.7L * v * std::pow(2 * pi * rho * 0.67L, 2.0L) * std::exp(-4 * pi * 0.67L * rho / rho_max);
+    return k * 1.14L * 1.7L * v * std::pow(2 * exact_pi * rho * 0.67L, 2.0L) *
+           std::exp(-4 * exact_pi * 0.67L * rho / rho_max);
 }
 
 TEST(Sensitivity, AgreesWithLongDouble) {

@@ -1,16 +1,9 @@
 // TVI, adaptation luminance and luminance thresholds (Yee 2000, section 6.2).
 
 #include "perception/threshold.h"
-#include "perception/tvi.h"
-
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <limits>
-
-#include "engine/base/errors.h"
 #include "engine/base/sampling.h"
-#include "tests/support/numbers.h"
+#include "perception/tvi.h"
+#include "tests/support/test.h"
 
 namespace aleph {
 namespace {

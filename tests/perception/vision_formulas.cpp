@@ -68,14 +68,6 @@ double hold(double rho, const EyeMotion& motion) {
            blur_transfer(rho, eye(motion.tracked)) / blur_transfer(rho, eye(0.0));
 }
 
-constexpr PublishedCastle castle_rows[] = {
-    {0, {12.5306, 25.0311, 51.4673, 104.9921, 134.2779, 98.5628, 38.1997}},
-    {0.15, {12.5162, 24.9592, 51.0977, 103.1121, 128.4570, 88.8558, 31.0812}},
-    {1, {12.4153, 24.5561, 49.2684, 92.8022, 98.8221, 49.2230, 10.2200}},
-    {5, {15.2119, 36.5246, 72.3910, 76.4278, 26.0463, 1.8460, 0.0128}},
-    {20, {55.5783, 77.6964, 38.2112, 4.1075, 0.0483, 0.0000, 0.0000}},
-};
-
 }  // namespace
 
 double written_retinal_velocity(double v, double s) {
@@ -132,10 +124,6 @@ double written_elevation(const VisionModel* vision, double rho, const EyeMotion&
     }
     const double seen = written_castle_sensitivity(rho, rho * motion.retinal, motion.luminance) * hold(rho, motion);
     return std::max(1.0, written_castle_peak(motion.luminance) / std::max(1.0, seen));
-}
-
-std::span<const PublishedCastle> published_castle() {
-    return castle_rows;
 }
 
 }  // namespace aleph

@@ -2,9 +2,6 @@
 // The elevations of the three models of vision as their papers print them, written a second time: what the vision model
 // of the renderer is compared with. Nothing here calls it.
 
-#include <array>
-#include <span>
-
 #include "perception/perception_settings.h"
 
 namespace aleph {
@@ -33,12 +30,5 @@ double written_castle_peak(double luminance);
 
 /// f of a frequency, (5.9), or for castle its peak at rest over the sensitivity and the display's blur.
 double written_elevation(const VisionModel* vision, double rho, const EyeMotion& motion);
-
-/// A row of the authors' own program, version 0.2.4, at 100 cd/m2, to four decimals.
-struct PublishedCastle {
-    double velocity;                    ///< deg/s on the retina
-    std::array<double, 7> sensitivity;  ///< at .25 to 16 cycles per degree
-};
-std::span<const PublishedCastle> published_castle();
 
 }  // namespace aleph

@@ -1,19 +1,12 @@
 // Promises of every model of vision, and models that are not in the list.
 
 #include "perception/vision_model.h"
-
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <set>
-
-#include "engine/base/errors.h"
 #include "engine/base/sampling.h"
 #include "perception/perception.h"
 #include "perception/threshold.h"
 #include "perception/tvi.h"
-#include "tests/support/ones_vision.h"
 #include "tests/support/perception_scene.h"
+#include "tests/support/test.h"
 
 namespace aleph {
 namespace {

@@ -1,17 +1,11 @@
 // The scene art-gallery: its contents, its motion against the laws of mechanics, and that its generator reproduces the
 // files.
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <glm/geometric.hpp>
-#include <set>
-
 #include "render/frame/sequence.h"
 #include "scenes/art-gallery/gallery.h"
 #include "tests/scenes/authored_scenes.h"
-#include "tests/support/numbers.h"
 #include "tests/support/paths.h"
+#include "tests/support/test.h"
 
 namespace aleph {
 namespace {

@@ -1,21 +1,15 @@
 #pragma once
 // Loading the scenes in scenes/, querying them, and running their generators.
 
-#include <gtest/gtest.h>
-
 #include <cstdlib>
-#include <filesystem>
-#include <map>
-#include <set>
-#include <string>
 
 #include "engine/load/load_scene.h"
 #include "engine/pose/pose.h"
-#include "engine/rays/first_hits.h"
-#include "motion/model_motion.h"
 #include "tests/support/paths.h"
 #include "tests/support/read_bytes.h"
 #include "tests/support/scratch_folder.h"
+#include "tests/support/seen_motion.h"
+#include "tests/support/test.h"
 
 namespace aleph {
 
@@ -40,24 +34,12 @@ inline const glm::dmat4& world_of(const ScenePose& frame, int node) {
 }
 
 inline Image<Hit> cast(const Scene& scene, const ScenePose& now, const CameraView& view) {
-    RayScene rays(scene);
-    rays.update(now, compute_anchor(view));
-    return cast_first_hits(rays, view);
+    return cast_first_hits(scene, {now, view});
 }
 
 /// First hits of a frame and their motion to the next frame.
-struct FrameMotion {
-    Image<Hit> hits;
-    MotionField field;
-    std::vector<Instance> instances;
-};
-
-inline FrameMotion compute_motion(const Scene& scene, int frame, int width, int height) {
-    const PosedView now = make_posed_view(scene, scene.frame_rate.seconds_of(frame), 0, width, height);
-    const PosedView next = make_posed_view(scene, scene.frame_rate.seconds_of(frame + 1), 0, width, height);
-    FrameMotion result{cast(scene, now.pose, now.view), {}, now.pose.instances};
-    result.field = compute_model_motion(scene, now, next, result.hits);
-    return result;
+inline SeenMotion compute_motion(const Scene& scene, int frame, int width, int height) {
+    return {scene, scene.frame_rate.seconds_of(frame), scene.frame_rate.seconds_of(frame + 1), width, height};
 }
 
 inline std::uintmax_t folder_size(const std::filesystem::path& folder) {

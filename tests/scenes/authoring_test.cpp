@@ -1,19 +1,7 @@
 // The page on authoring scenes: every example on it loads and renders, and every key of the schema is in one.
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <filesystem>
-#include <fstream>
-#include <functional>
 #include <nlohmann/json.hpp>
-#include <set>
-#include <sstream>
-#include <string>
-#include <utility>
-#include <vector>
 
-#include "engine/base/errors.h"
 #include "engine/json/text.h"
 #include "engine/load/load_scene.h"
 #include "engine/scene_file/scene_text.h"
@@ -22,6 +10,7 @@
 #include "tests/support/paths.h"
 #include "tests/support/read_bytes.h"
 #include "tests/support/scratch_folder.h"
+#include "tests/support/test.h"
 
 namespace aleph {
 namespace {
@@ -139,10 +128,9 @@ RenderSettings small_settings(const Scene& scene) {
 void add_missing_camera(Scene& scene) {
     const auto has_camera = [](const Node& node) { return node.camera != no_index; };
     if (std::ranges::any_of(scene.nodes, has_camera)) return;
-    Node eye;
-    eye.name = "added camera";
-    eye.translation = glm::dvec3(0.0, 1.0, 6.0);
-    eye.camera = static_cast<int>(scene.cameras.size());
+    Node eye{.name = "added camera",
+             .translation = glm::dvec3(0.0, 1.0, 6.0),
+             .camera = static_cast<int>(scene.cameras.size())};
     scene.cameras.emplace_back();
     scene.nodes.push_back(std::move(eye));
 }

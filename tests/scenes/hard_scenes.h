@@ -1,18 +1,12 @@
 #pragma once
 // The scenes of scenes/hard, rendered at 48x36.
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <filesystem>
-#include <string>
-#include <vector>
-
 #include "engine/base/color.h"
 #include "engine/load/load_scene.h"
 #include "render/frame/sequence.h"
 #include "tests/support/paths.h"
 #include "tests/support/quick_settings.h"
+#include "tests/support/test.h"
 #include "tests/support/warnings.h"
 
 namespace aleph {

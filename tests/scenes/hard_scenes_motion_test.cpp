@@ -1,11 +1,7 @@
 // The scenes of scenes/hard about motion have the results that scenes/hard/README.md expects.
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <numbers>
-
 #include "tests/scenes/hard_scenes.h"
+#include "tests/support/test.h"
 
 namespace aleph {
 namespace {

@@ -1,15 +1,11 @@
 // The scenes of scenes/hard: every frame of every scene renders to finite numbers, and the scenes about rays and light
 // have the results that scenes/hard/README.md expects.
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <numbers>
-
+#include "tests/scenes/hard_scenes.h"
 #include "engine/load/framing_camera.h"
 #include "engine/rays/ray_scene.h"
-#include "tests/scenes/hard_scenes.h"
 #include "tests/support/read_bytes.h"
+#include "tests/support/test.h"
 
 namespace aleph {
 namespace {

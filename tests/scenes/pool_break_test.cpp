@@ -1,14 +1,8 @@
 // The break shot of the scene `pool`: momentum is conserved, energy falls, balls do not overlap.
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <glm/geometric.hpp>
-#include <limits>
-
 #include "scenes/pool/break.h"
 #include "scenes/pool/simulation.h"
+#include "tests/support/test.h"
 
 namespace aleph {
 namespace {
@@ -47,7 +41,7 @@ TEST(PoolBreak, EnergyNeverRises) {
     const PoolRun& run = break_run();
     for (const PoolEvent& event : run.events)
         EXPECT_LE(event.energy_after, event.energy_before * (1.0 + 4e-16)) << event.seconds;
-    double before = std::numeric_limits<double>::infinity();
+    double before = infinity;
     for (const auto& balls : run.samples) {
         const double now = kinetic_energy(balls, settings);
         EXPECT_LE(now, before);

@@ -1,14 +1,7 @@
 // The physics of pool: motions and impacts with a closed form, and bad input.
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <glm/geometric.hpp>
-#include <limits>
-
-#include "engine/base/errors.h"
 #include "scenes/pool/simulation.h"
+#include "tests/support/test.h"
 
 namespace aleph {
 namespace {
@@ -139,8 +132,7 @@ TEST(PoolSimulation, ContactFrictionTurnsTheOtherBall) {
 }
 
 TEST(PoolSimulation, StruckBallEndsRollingWithFiveSeventhsOfItsSpeed) {
-    PoolSettings settings;
-    settings.rolling_friction = 0.0;
+    PoolSettings settings{.rolling_friction = 0.0};
     PoolBall ball = resting(-1.0, 0.0);
     ball.velocity = {2.0, 0.0, 0.0};
     // The ball slides for 2/7 v / (mu g) = .2913 s.
@@ -215,13 +207,12 @@ TEST(PoolSimulation, MirroredBreakRunsMirrored) {
 TEST(PoolSimulation, RefusesBadInput) {
     const PoolBall good = resting(0.0, 0.0);
     PoolBall broken = good;
-    broken.velocity.x = std::numeric_limits<double>::quiet_NaN();
+    broken.velocity.x = not_a_number;
     EXPECT_THROW(simulate_pool({broken}, {}, 1.0, 60.0), InputError);
     EXPECT_THROW(simulate_pool({good, resting(0.01, 0.0)}, {}, 1.0, 60.0), InputError);
     EXPECT_THROW(simulate_pool({resting(2.0, 0.0)}, {}, 1.0, 60.0), InputError);
     EXPECT_THROW(simulate_pool({good}, {}, 1.0, 0.0), InputError);
-    PoolSettings settings;
-    settings.ball_restitution = 1.5;
+    PoolSettings settings{.ball_restitution = 1.5};
     EXPECT_THROW(simulate_pool({good}, settings, 1.0, 60.0), InputError);
 }
 

@@ -1,18 +1,12 @@
 // The scenes pool, pool-still, cornell and room: their contents and motion, and that the generator reproduces the
 // files.
 
-#include <gtest/gtest.h>
-
-#include <array>
-#include <cmath>
-#include <glm/geometric.hpp>
-#include <set>
-#include <vector>
-
 #include "scenes/pool/break.h"
 #include "scenes/pool/pool_scene.h"
 #include "tests/scenes/authored_scenes.h"
+#include "tests/support/first_hits.h"
 #include "tests/support/paths.h"
+#include "tests/support/test.h"
 
 namespace aleph {
 namespace {
@@ -30,13 +24,13 @@ bool is_below(const Scene& scene, int node, const std::string& name) {
 
 /// Mean displacement in pixels over the pixels of the room, and their share of the picture.
 std::array<double, 2> background_motion(const Scene& scene, int frame) {
-    const FrameMotion motion = compute_motion(scene, frame, 640, 480);
+    const SeenMotion motion = compute_motion(scene, frame, 640, 480);
     double sum = 0.0, count = 0.0;
     for (std::size_t i = 0; i < motion.hits.size(); ++i) {
         const Hit& hit = motion.hits.pixels[i];
         if (hit.instance == no_index) continue;
-        if (!is_below(scene, motion.instances[hit.instance].node, "room")) continue;
-        sum += glm::length(motion.field.displacement.pixels[i]);
+        if (!is_below(scene, motion.now.pose.instances[hit.instance].node, "room")) continue;
+        sum += glm::length(motion.motion.displacement.pixels[i]);
         count += 1.0;
     }
     return {sum / count, count / static_cast<double>(motion.hits.size())};
@@ -95,9 +89,9 @@ TEST(PoolScene, BackgroundMovesByThreePixels) {
 TEST(PoolScene, StillCameraMovesNothingButTheGame) {
     const Scene& scene = loaded("pool-still");
     EXPECT_EQ(background_motion(scene, 40)[0], 0.0);
-    const FrameMotion motion = compute_motion(scene, 16, 320, 240);
+    const SeenMotion motion = compute_motion(scene, 16, 320, 240);
     double fastest = 0.0;
-    for (const glm::dvec2& d : motion.field.displacement.pixels) fastest = std::max(fastest, glm::length(d));
+    for (const glm::dvec2& d : motion.motion.displacement.pixels) fastest = std::max(fastest, glm::length(d));
     EXPECT_GT(fastest, 5.0);
     EXPECT_EQ(scene.meshes, loaded("pool").meshes);
     ASSERT_EQ(scene.images.size(), loaded("pool").images.size());
@@ -107,7 +101,7 @@ TEST(PoolScene, StillCameraMovesNothingButTheGame) {
 
 TEST(PoolScene, RoomIsClosed) {
     for (const int frame : {0, 45, 89}) {
-        const FrameMotion motion = compute_motion(loaded("pool"), frame, 320, 240);
+        const SeenMotion motion = compute_motion(loaded("pool"), frame, 320, 240);
         for (const Hit& hit : motion.hits.pixels) ASSERT_NE(hit.instance, no_index) << frame;
     }
 }
@@ -115,10 +109,10 @@ TEST(PoolScene, RoomIsClosed) {
 TEST(PoolScene, BallsFillThePicture) {
     const Scene& scene = loaded("pool");
     for (const int frame : {0, 12, 20, 40, 89}) {
-        const FrameMotion motion = compute_motion(scene, frame, 320, 240);
+        const SeenMotion motion = compute_motion(scene, frame, 320, 240);
         std::set<int> seen;
         for (const Hit& hit : motion.hits.pixels) {
-            const int node = motion.instances[hit.instance].node;
+            const int node = motion.now.pose.instances[hit.instance].node;
             if (is_below(scene, node, "balls")) seen.insert(node);
         }
         EXPECT_GE(seen.size(), 10u) << frame;
@@ -171,10 +165,10 @@ TEST(PoolScene, CueIsGoneOnceTheBallsSpread) {
     for (const char* name : {"pool", "pool-still"}) {
         const Scene& scene = loaded(name);
         for (const int frame : {0, 12, 45, 60, 89}) {
-            const FrameMotion motion = compute_motion(scene, frame, 320, 240);
+            const SeenMotion motion = compute_motion(scene, frame, 320, 240);
             int pixels = 0;
             for (const Hit& hit : motion.hits.pixels)
-                if (is_below(scene, motion.instances[hit.instance].node, "cue")) ++pixels;
+                if (is_below(scene, motion.now.pose.instances[hit.instance].node, "cue")) ++pixels;
             if (frame < 30)
                 EXPECT_GT(pixels, 20) << name << " " << frame;
             else

@@ -24,10 +24,8 @@ inline Scene make_cage_scene(TestCage test, const std::vector<std::vector<glm::d
     mesh.name = "surface";
     mesh.cage = 0;
     scene.meshes.push_back(std::move(mesh));
-    Node object;
-    object.meshes = {0};
-    Node camera;
-    camera.camera = 0;
+    Node object{.meshes = {0}};
+    Node camera{.camera = 0};
     scene.nodes = {object, camera};
     scene.cameras.resize(1);
     scene.cameras[0].name = "camera";

@@ -5,10 +5,7 @@
 namespace aleph {
 
 inline Node child_of(int parent, const glm::dvec3& translation = glm::dvec3(0.0)) {
-    Node node;
-    node.parent = parent;
-    node.translation = translation;
-    return node;
+    return {.parent = parent, .translation = translation};
 }
 
 }  // namespace aleph

@@ -21,19 +21,32 @@ inline ViewedSurface make_viewed(const SurfaceMaterial& material, const glm::vec
     return surface;
 }
 
+/// A square with this material that faces +z, and the point in its middle.
+struct MaterialStage {
+    explicit MaterialStage(Material material, std::vector<SceneImage> images = {})
+        : stage([&] {
+              Scene scene;
+              scene.images = std::move(images);
+              scene.materials.push_back(std::move(material));
+              add_mesh(scene, make_quad(1.0, 1.0, 0));
+              return scene;
+          }()) {
+        point.material = 0;
+    }
+    SurfaceMaterial evaluate() const { return evaluate_material(stage.shading, point, {}); }
+
+    Stage stage;
+    SurfacePoint point = make_point(glm::vec3(0.0f), {0.0f, 0.0f, 1.0f});
+};
+
 /// The surface material of a scene's material without textures.
 /// @param front  seen from its front side
 /// @param color  of the vertices
 inline SurfaceMaterial evaluate_plain(Material material, bool front = true, const glm::vec4& color = glm::vec4(1.0f)) {
-    Scene scene;
-    scene.materials.push_back(std::move(material));
-    add_mesh(scene, make_quad(1.0, 1.0, 0));
-    const Stage stage(std::move(scene));
-    SurfacePoint point = make_point(glm::vec3(0.0f), {0.0f, 0.0f, 1.0f});
-    point.material = 0;
-    point.front = front;
-    point.color = color;
-    return evaluate_material(stage.shading, point, {});
+    MaterialStage square(std::move(material));
+    square.point.front = front;
+    square.point.color = color;
+    return square.evaluate();
 }
 
 inline SurfaceMaterial make_white_plastic(float alpha, float f0 = 0.04f, float f90 = 1.0f) {
@@ -47,9 +60,7 @@ inline SurfaceMaterial make_white_plastic(float alpha, float f0 = 0.04f, float f
 
 /// @param ratio  index of refraction of the far side over that of the viewer's
 inline SurfaceMaterial make_glass(float alpha, float ratio, bool volume) {
-    SurfaceMaterial material;
-    material.glass = 1.0f;
-    material.alpha = alpha;
+    SurfaceMaterial material{.alpha = alpha, .glass = 1.0f};
     material.ior = material.ior_ratio = ratio;
     material.volume = volume;
     return material;
@@ -80,6 +91,29 @@ Mean mean_scattered(const LitSurface& lit, int count, std::uint32_t seed, const 
         mean.add(sample.weight.x > 0.0f ? sample.weight.x * g(sample) : 0.0);
     }
     return mean;
+}
+
+/// Integrates f(light) over the upper hemisphere along half vectors spread like the lobe of this width, so that narrow
+/// lobes are resolved: tan = width sqrt(u / (1 - u)).
+template <class F>
+double integrate_around_lobe(float width, const glm::vec3& view, const F& f, int steps = 512) {
+    double sum = 0.0;
+    for (int i = 0; i < steps; ++i) {
+        const double u = (i + 0.5) / steps, ratio = std::sqrt(u / (1.0 - u)), tangent = width * ratio;
+        const double cosine = 1.0 / std::sqrt(1.0 + tangent * tangent), sine = tangent * cosine;
+        // d tan / du = width / (2 ratio (1 - u)^2); d theta = cos^2 d tan
+        const double ring = sine * cosine * cosine * width / (2.0 * ratio * (1.0 - u) * (1.0 - u)) / steps;
+        for (int k = 0; k < steps; ++k) {
+            const double azimuth = 2.0 * pi * (k + 0.5) / steps;
+            const glm::dvec3 h(sine * std::cos(azimuth), sine * std::sin(azimuth), cosine), v(view);
+            const double vh = glm::dot(v, h);
+            if (vh <= 0.0) continue;
+            const glm::dvec3 light = 2.0 * vh * h - v;
+            if (light.z <= 0.0) continue;
+            sum += f(glm::vec3(light)) * 4.0 * vh * ring * 2.0 * pi / steps;
+        }
+    }
+    return sum;
 }
 
 }  // namespace aleph

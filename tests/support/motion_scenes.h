@@ -33,13 +33,9 @@ inline int add_node(Scene& scene, Node node) {
 
 /// A camera of this vertical field of view under a parent, at its origin.
 inline int add_camera(Scene& scene, int parent = no_index, double fov = std::numbers::pi / 4.0) {
-    Camera camera;
-    camera.fov = fov;
+    Camera camera{.fov = fov};
     scene.cameras.push_back(camera);
-    Node node;
-    node.name = "camera";
-    node.parent = parent;
-    node.camera = static_cast<int>(scene.cameras.size()) - 1;
+    Node node{.name = "camera", .parent = parent, .camera = static_cast<int>(scene.cameras.size()) - 1};
     return add_node(scene, node);
 }
 
@@ -138,8 +134,7 @@ inline double fov_of(double focal_length, int height) {
 /// One point before a camera of 1000 px focal length, 1000x1000. Node 0 holds the point, node 1 the camera.
 inline Scene make_point_scene(const glm::vec3& point, double focal_length = 1000.0) {
     Scene scene;
-    Node node;
-    node.meshes = {add_point(scene, point)};
+    Node node{.meshes = {add_point(scene, point)}};
     add_node(scene, node);
     add_camera(scene, no_index, fov_of(focal_length, 1000));
     return scene;

@@ -31,50 +31,43 @@ inline bool meet(const Stage& stage, RayTask& task, const Ray& ray, ViewedSurfac
     return true;
 }
 
-/// Directions are sampled from the lobes only, and all light that is met counts. Of `depth` surfaces that scatter.
-/// Volumes are not followed.
-inline Estimator by_lobes(int depth) {
+/// Follows lobes over `depth` surfaces that scatter. Volumes are not followed.
+/// @param choose_lights  one light is chosen at every surface, without a weight, and light that is met does not count;
+/// else only light that is met counts
+inline Estimator by_walks(int depth, bool choose_lights) {
     return [=](const Stage& stage, RayTask& task, ViewedSurface surface, RandomStream& random) {
         Rgb light(0.0f), throughput(1.0f);
         for (int i = 0; i < depth; ++i) {
             const LitSurface lit(surface);
+            if (choose_lights) {
+                const ScatteredLight direct = choose_light(stage.lighting(), lit, {}, random);
+                if (direct.radiance != Rgb(0.0f))
+                    light +=
+                        throughput * direct.radiance * find_transmittance(stage.lighting(), task, direct.shadow_ray);
+            }
             const ScatterSample sample =
                 sample_scatter(lit, share_lobes(lit, LobeSet::all), random.next(), random.next_2d(), random.next());
             if (sample.weight == Rgb(0.0f)) break;
             throughput *= sample.weight;
             const Ray ray{lit.ray_origin(sample.direction), sample.direction};
             ViewedSurface next;
-            if (!meet(stage, task, ray, next)) {
-                return light + throughput * environment_radiance(stage.shading, ray.direction);
-            }
-            light += throughput * next.material.emission;
+            const bool met = meet(stage, task, ray, next);
+            if (!choose_lights)
+                light +=
+                    throughput * (met ? next.material.emission : environment_radiance(stage.shading, ray.direction));
+            if (!met) break;
             surface = next;
         }
         return light;
     };
 }
-
-/// One light is chosen at every surface, without a weight, and light that is met does not count. For scenes without
-/// mirrors and without smooth glass.
+/// Directions are sampled from the lobes only, and all light that is met counts.
+inline Estimator by_lobes(int depth) {
+    return by_walks(depth, false);
+}
+/// For scenes without mirrors and without smooth glass.
 inline Estimator by_lights(int depth) {
-    return [=](const Stage& stage, RayTask& task, ViewedSurface surface, RandomStream& random) {
-        Rgb light(0.0f), throughput(1.0f);
-        for (int i = 0; i < depth; ++i) {
-            const LitSurface lit(surface);
-            const ScatteredLight direct = choose_light(stage.lighting(), lit, {}, random);
-            if (direct.radiance != Rgb(0.0f)) {
-                light += throughput * direct.radiance * find_transmittance(stage.lighting(), task, direct.shadow_ray);
-            }
-            const ScatterSample sample =
-                sample_scatter(lit, share_lobes(lit, LobeSet::all), random.next(), random.next_2d(), random.next());
-            if (sample.weight == Rgb(0.0f)) break;
-            throughput *= sample.weight;
-            ViewedSurface next;
-            if (!meet(stage, task, {lit.ray_origin(sample.direction), sample.direction}, next)) break;
-            surface = next;
-        }
-        return light;
-    };
+    return by_walks(depth, true);
 }
 
 /// So many samples of direct light. The sequence begins anew at each call.

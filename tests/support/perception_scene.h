@@ -9,6 +9,9 @@
 #include "engine/base/color.h"
 #include "engine/base/image.h"
 #include "engine/base/sampling.h"
+#include "perception/perception.h"
+#include "perception/tvi.h"
+#include "perception/vision_model.h"
 
 namespace aleph {
 
@@ -16,6 +19,28 @@ inline double mean_of(const Image<float>& image) {
     double sum = 0.0;
     for (const float v : image.pixels) sum += v;
     return sum / static_cast<double>(image.size());
+}
+
+inline Image<float> checker(int width, int height) {
+    Image<float> image(width, height);
+    for (int y = 0; y < height; ++y) {
+        for (int x = 0; x < width; ++x) image(x, y) = static_cast<float>((x + y) % 2);
+    }
+    return image;
+}
+
+/// Correlation of two maps over the pixels further than `radius` from a place.
+inline double correlation(const Image<float>& a, const Image<float>& b, const glm::ivec2& place = {},
+                          double radius = -1.0) {
+    double n = 0, sa = 0, sb = 0, saa = 0, sbb = 0, sab = 0;
+    for (int y = 0; y < a.height; ++y) {
+        for (int x = 0; x < a.width; ++x) {
+            if (std::hypot(x - place.x, y - place.y) <= radius) continue;
+            const double p = a(x, y), q = b(x, y);
+            n += 1, sa += p, sb += q, saa += p * p, sbb += q * q, sab += p * q;
+        }
+    }
+    return (sab - sa * sb / n) / std::sqrt((saa - sa * sa / n) * (sbb - sb * sb / n));
 }
 
 struct SyntheticFrame {
@@ -71,5 +96,29 @@ inline SyntheticFrame make_synthetic_frame(int width, int height, std::uint32_t 
     }
     return frame;
 }
+
+inline std::vector<float> all_maps() {
+    const SyntheticFrame frame = make_synthetic_frame(97, 71);
+    std::vector<float> values;
+    for (const VisionModel* const vision : {&thesis_vision(), &laird_vision(), &castle_vision()}) {
+        for (const SaliencyGrid grid : {SaliencyGrid::full, SaliencyGrid::center}) {
+            const PerceptionMaps maps = compute_perception(frame.estimate, frame.velocity, {}, {},
+                                                           {.vision = vision, .grid = grid}, {true, true});
+            for (const Image<float>* map :
+                 {&maps.aleph, &maps.saliency, &maps.retinal_velocity, &maps.adaptation, &maps.conspicuity_intensity,
+                  &maps.conspicuity_color, &maps.conspicuity_orientation, &maps.conspicuity_motion})
+                values.insert(values.end(), map->pixels.begin(), map->pixels.end());
+        }
+    }
+    return values;
+}
+
+class OnesVision final : public VisionModel {
+  public:
+    std::string name() const override { return "ones"; }
+    std::string summary() const override { return "the same elevation everywhere"; }
+    double elevation(const Stimulus& /*stimulus*/, const Presentation& /*shown*/) const override { return 1.0; }
+    double threshold(double luminance) const override { return tvi(luminance); }
+};
 
 }  // namespace aleph

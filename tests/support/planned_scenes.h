@@ -36,18 +36,14 @@ inline RenderSettings planned_settings() {
 }
 
 inline int add_material(Scene& scene, double metallic, double roughness) {
-    Material material;
-    material.base_color = glm::dvec3(metallic > 0.0 ? 0.8 : 0.0);
-    material.metallic = metallic;
-    material.roughness = roughness;
-    scene.materials.push_back(material);
+    scene.materials.push_back(
+        {.base_color = glm::dvec3(metallic > 0.0 ? 0.8 : 0.0), .metallic = metallic, .roughness = roughness});
     return static_cast<int>(scene.materials.size()) - 1;
 }
 
 /// Texels of one colour.
 inline TextureRef add_texture(Scene& scene, const glm::u8vec4& texel) {
-    SceneImage image;
-    image.bytes = Image<glm::u8vec4>(2, 2, texel);
+    SceneImage image{.bytes = Image<glm::u8vec4>(2, 2, texel)};
     scene.images.push_back(image);
     TextureRef texture;
     texture.image = static_cast<int>(scene.images.size()) - 1;

@@ -9,44 +9,29 @@
 
 #include "engine/surface/shapes.h"
 #include "render/shade/frame.h"
-#include "tests/support/mean.h"
+#include "tests/support/trial.h"
 
 namespace aleph {
 
 /// A surface without glossy reflection, whose albedo is exactly `albedo`.
 inline int add_lambert(Scene& scene, const glm::dvec3& albedo, const glm::dvec3& emission = glm::dvec3(0.0),
                        bool double_sided = false) {
-    Material material;
-    material.base_color = albedo;
-    material.metallic = 0.0;
-    material.specular = 0.0;
-    material.emission = emission;
-    material.double_sided = double_sided;
-    scene.materials.push_back(material);
+    scene.materials.push_back(
+        {.base_color = albedo, .metallic = 0.0, .emission = emission, .specular = 0.0, .double_sided = double_sided});
     return static_cast<int>(scene.materials.size()) - 1;
 }
 
 inline Mesh make_quad(double width, double height, int material) {
-    Shape shape;
-    shape.kind = Shape::Kind::quad;
-    shape.size = {width, height, 1.0};
-    return make_shape_mesh(shape, material);
+    return make_shape_mesh({.kind = Shape::Kind::quad, .size = {width, height, 1.0}}, material);
 }
 
 inline Mesh make_box(const glm::dvec3& size, int material) {
-    Shape shape;
-    shape.kind = Shape::Kind::box;
-    shape.size = size;
-    return make_shape_mesh(shape, material);
+    return make_shape_mesh({.kind = Shape::Kind::box, .size = size}, material);
 }
 
 /// With flat facets: a polyhedron, for closed forms.
 inline Mesh make_faceted_sphere(double radius, int segments, int material) {
-    Shape shape;
-    shape.kind = Shape::Kind::sphere;
-    shape.radius = radius;
-    shape.segments = segments;
-    Mesh mesh = make_shape_mesh(shape, material);
+    Mesh mesh = make_shape_mesh({.kind = Shape::Kind::sphere, .radius = radius, .segments = segments}, material);
     mesh.normals.clear();
     return mesh;
 }
@@ -77,11 +62,7 @@ inline const glm::dquat z_to_up = glm::angleAxis(-std::numbers::pi / 2, glm::dve
 inline const glm::dquat z_to_down = glm::angleAxis(std::numbers::pi / 2, glm::dvec3(1.0, 0.0, 0.0));
 
 inline int add_node(Scene& scene, const glm::dvec3& translation, const glm::dquat& rotation, int parent = no_index) {
-    Node node;
-    node.translation = translation;
-    node.rotation = rotation;
-    node.parent = parent;
-    scene.nodes.push_back(node);
+    scene.nodes.push_back({.parent = parent, .translation = translation, .rotation = rotation});
     return static_cast<int>(scene.nodes.size()) - 1;
 }
 
@@ -96,9 +77,7 @@ inline int add_mesh(Scene& scene, Mesh mesh, const glm::dvec3& translation = glm
 
 inline int add_light(Scene& scene, Light::Kind kind, const glm::dvec3& intensity, const glm::dvec3& position,
                      const glm::dquat& rotation = no_turn, int parent = no_index) {
-    Light light;
-    light.kind = kind;
-    light.color = intensity;
+    Light light{.kind = kind, .color = intensity};
     scene.lights.push_back(light);
     const int node = add_node(scene, position, rotation, parent);
     scene.nodes.back().light = static_cast<int>(scene.lights.size()) - 1;
@@ -107,8 +86,7 @@ inline int add_light(Scene& scene, Light::Kind kind, const glm::dvec3& intensity
 
 inline int add_camera(Scene& scene, const glm::dvec3& eye, const glm::dvec3& target, double fov = 0.9,
                       int parent = no_index) {
-    Camera camera;
-    camera.fov = fov;
+    Camera camera{.fov = fov};
     scene.cameras.push_back(camera);
     const glm::dvec3 forward = glm::normalize(target - eye);
     const glm::dvec3 up = std::abs(forward.y) > 0.99 ? glm::dvec3(0.0, 0.0, -1.0) : glm::dvec3(0.0, 1.0, 0.0);
@@ -117,10 +95,21 @@ inline int add_camera(Scene& scene, const glm::dvec3& eye, const glm::dvec3& tar
     return node;
 }
 
+/// A room of 2 x 2 x 2 m about the origin, open towards a camera at +z, with a square lamp below its ceiling.
+inline void add_small_room(Scene& scene, int walls, int left, const glm::dvec3& light, double lamp_size) {
+    const int lamp = add_lambert(scene, glm::dvec3(0.0), light);
+    const glm::dvec3 y(0.0, 1.0, 0.0);
+    add_mesh(scene, make_quad(2.0, 2.0, walls), {0.0, -1.0, 0.0}, z_to_up);
+    add_mesh(scene, make_quad(2.0, 2.0, walls), {0.0, 1.0, 0.0}, z_to_down);
+    add_mesh(scene, make_quad(2.0, 2.0, walls), {0.0, 0.0, -1.0});
+    add_mesh(scene, make_quad(2.0, 2.0, left), {-1.0, 0.0, 0.0}, glm::angleAxis(std::numbers::pi / 2, y));
+    add_mesh(scene, make_quad(2.0, 2.0, walls), {1.0, 0.0, 0.0}, glm::angleAxis(-std::numbers::pi / 2, y));
+    add_mesh(scene, make_quad(lamp_size, lamp_size, lamp), {0.0, 0.98, 0.0}, z_to_down);
+}
+
 /// Surrounds the scene with a picture.
 inline void add_surroundings(Scene& scene, const Image<Rgb>& picture) {
-    SceneImage image;
-    image.floats = Image<glm::vec4>(picture.width, picture.height);
+    SceneImage image{.floats = Image<glm::vec4>(picture.width, picture.height)};
     for (std::size_t i = 0; i < picture.size(); ++i) image.floats.pixels[i] = glm::vec4(picture.pixels[i], 1.0f);
     scene.images.push_back(std::move(image));
     scene.environment_image = static_cast<int>(scene.images.size()) - 1;
@@ -165,18 +154,12 @@ inline SurfacePoint make_point(const glm::vec3& position, const glm::vec3& norma
 }
 
 inline SurfaceMaterial make_lambert(float albedo) {
-    SurfaceMaterial material;
-    material.diffuse = Rgb(albedo);
-    return material;
+    return {.diffuse = Rgb(albedo)};
 }
 
 /// A white metal.
 inline SurfaceMaterial make_metal(float alpha) {
-    SurfaceMaterial material;
-    material.f0 = Rgb(1.0f);
-    material.f90 = 1.0f;
-    material.alpha = alpha;
-    return material;
+    return {.f0 = Rgb(1.0f), .f90 = 1.0f, .alpha = alpha};
 }
 
 /// One pixel sample, uniform accuracy, exposure 1.
@@ -206,6 +189,44 @@ inline RenderSettings path_settings(int bounces, int spp, std::uint32_t seed = 0
     settings.sampling.spp = settings.light.light_samples = spp;
     settings.seed = seed;
     return settings;
+}
+
+/// The mean of the red of all pixels, none of which may be invalid.
+inline Mean mean_of_pixels(const ShadedFrame& frame) {
+    EXPECT_EQ(frame.counts.invalid_samples, 0u);
+    Mean mean;
+    for (const Rgb& pixel : frame.color.pixels) mean.add(pixel.x);
+    return mean;
+}
+
+/// Adds a camera at z = 5 m that looks along -z, by parallel rays; and exposure and range are those of a simple shot.
+inline void add_flat_view(Scene& scene, double half_height, const glm::dvec2& shutter = glm::dvec2(0.0)) {
+    scene.exposure = 1.0;
+    scene.range = FrameRange{0, 100};
+    add_camera(scene, {0.0, 0.0, 5.0}, glm::dvec3(0.0));
+    Camera& camera = scene.cameras.back();
+    camera.orthographic = true;
+    camera.half_height = half_height;
+    camera.shutter = shutter;
+}
+
+/// 4 x 3 x 5 m about the origin; all surfaces are Lambert.
+inline Scene make_cluttered_room() {
+    Scene scene;
+    const int grey = add_lambert(scene, glm::dvec3(0.5), glm::dvec3(0.0), true);
+    const int dark = add_lambert(scene, glm::dvec3(0.05), glm::dvec3(0.0), true);
+    const int lamp = add_lambert(scene, glm::dvec3(0.0), glm::dvec3(20.0));
+    add_mesh(scene, make_box({4.0, 3.0, 5.0}, grey));
+    for (int i = 0; i < 32; ++i) {
+        const double turn = 2.4 * i, across = 0.6 + 0.035 * i;
+        add_mesh(scene, make_box({0.15, 0.3 + 0.02 * i, 0.2}, i % 2 == 0 ? dark : grey),
+                 {across * std::cos(turn), -1.2 + 0.08 * i, across * std::sin(turn)},
+                 glm::angleAxis(turn, glm::dvec3(0.0, 1.0, 0.0)));
+    }
+    for (const double x : {-1.2, 0.0, 1.2}) {
+        for (const double z : {-1.5, 1.5}) add_mesh(scene, make_quad(0.2, 0.2, lamp), {x, 1.4, z}, z_to_down);
+    }
+    return scene;
 }
 
 }  // namespace aleph

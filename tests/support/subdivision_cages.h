@@ -132,4 +132,21 @@ inline ReferenceMesh make_reference(const TestCage& from) {
     return mesh;
 }
 
+/// Weights of a uniform cubic B-spline.
+inline std::array<double, 4> bspline(double t) {
+    const double r = 1.0 - t;
+    return {r * r * r / 6.0, (3.0 * t * t * t - 6.0 * t * t + 4.0) / 6.0,
+            (-3.0 * t * t * t + 3.0 * t * t + 3.0 * t + 1.0) / 6.0, t * t * t / 6.0};
+}
+
+/// Tensor product over 4 x 4 points.
+inline glm::dvec3 tensor(const std::vector<glm::dvec3>& points, const std::array<double, 4>& wx,
+                         const std::array<double, 4>& wy) {
+    glm::dvec3 sum(0.0);
+    for (std::size_t y = 0; y < 4; ++y) {
+        for (std::size_t x = 0; x < 4; ++x) sum += wx[x] * wy[y] * points[y * 4 + x];
+    }
+    return sum;
+}
+
 }  // namespace aleph

@@ -3,17 +3,31 @@
 // Then other seeds, four times the samples and 4.5 standard errors: of 150,000 right estimates one fails, and a wrong
 // one that failed the first stage is as good as certain to fail again.
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <cstdint>
 #include <source_location>
-#include <sstream>
-#include <string>
 
-#include "tests/support/mean.h"
+#include "tests/support/test.h"
 
 namespace aleph {
+
+/// The mean of independent values.
+class Mean {
+  public:
+    void add(double value) {
+        ++count_;
+        const double delta = value - mean_;
+        mean_ += delta / static_cast<double>(count_);
+        squares_ += delta * (value - mean_);
+    }
+    double mean() const { return mean_; }
+    double error() const {
+        const double n = static_cast<double>(count_);
+        return std::sqrt(squares_ / (n * (n - 1.0)));
+    }
+
+  private:
+    std::size_t count_ = 0;
+    double mean_ = 0.0, squares_ = 0.0;
+};
 
 /// One stage of a check: what it varies, and what it finds wrong.
 class Trial {

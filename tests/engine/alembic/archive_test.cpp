@@ -1,14 +1,8 @@
 // Properties of objects, all samples that the truth lists, metadata, times and look-up by time.
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <array>
-#include <cmath>
-
 #include "engine/alembic/archive.h"
-#include "engine/base/errors.h"
 #include "tests/support/files/alembic_truth.h"
 #include "tests/support/read_bytes.h"
+#include "tests/support/test.h"
 
 namespace aleph {
 namespace {

@@ -1,16 +1,13 @@
 // Scene files made from the truth of two archives (tests/assets/abc/author_scenes.py) have the same first hits and
 // motion as the archives.
-#include <cmath>
-#include <glm/geometric.hpp>
-
 #include "engine/load/load_scene.h"
 #include "engine/pose/pose.h"
-#include "engine/rays/first_hits.h"
 #include "engine/rays/ray_scene.h"
 #include "engine/scene/transforms.h"
-#include "motion/model_motion.h"
 #include "tests/support/files/alembic_truth.h"
 #include "tests/support/paths.h"
+#include "tests/support/seen_motion.h"
+#include "tests/support/test.h"
 
 namespace aleph {
 namespace {
@@ -30,23 +27,10 @@ struct View {
     glm::dvec3 eye, target;
 };
 
-struct Seen {
-    Image<Hit> hits;
-    MotionField motion;
-};
-
-Seen look(const Scene& scene, double seconds, double other_seconds, const View& view) {
-    CameraValues camera;
-    camera.position = view.eye;
-    camera.axes = look_at(view.eye, view.target, {0.0, 1.0, 0.0});
+SeenMotion look(const Scene& scene, double seconds, double other_seconds, const View& view) {
+    CameraValues camera{.position = view.eye, .axes = look_at(view.eye, view.target, {0.0, 1.0, 0.0})};
     const CameraView pixels = make_camera_view(camera, width, height);
-    const PosedView now{pose(scene, seconds), pixels}, other{pose(scene, other_seconds), pixels};
-    RayScene rays(scene);
-    rays.update(now.pose, compute_anchor(pixels));
-    Seen seen;
-    seen.hits = cast_first_hits(rays, pixels);
-    seen.motion = compute_model_motion(scene, now, other, seen.hits);
-    return seen;
+    return {scene, {pose(scene, seconds), pixels}, {pose(scene, other_seconds), pixels}};
 }
 
 void expect_same(const std::string& name, const std::vector<View>& views, int frames, double least_share) {
@@ -60,7 +44,7 @@ void expect_same(const std::string& name, const std::vector<View>& views, int fr
         int surface = 0;
         for (int step = 0; step < 2 * frames; ++step) {  // between the samples too
             const double seconds = 0.5 * step / 24.0, next = seconds + 1.0 / 24.0;
-            const Seen ours = look(archive, seconds, next, view), theirs = look(authored, seconds, next, view);
+            const SeenMotion ours = look(archive, seconds, next, view), theirs = look(authored, seconds, next, view);
             for (std::size_t p = 0; p < ours.hits.size(); ++p) {
                 const Hit &a = ours.hits.pixels[p], &b = theirs.hits.pixels[p];
                 ASSERT_EQ(a.instance == no_index, b.instance == no_index) << name << " pixel " << p << " step " << step;

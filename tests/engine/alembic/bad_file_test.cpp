@@ -1,14 +1,9 @@
 // Damaged and hostile archives end in an InputError or a scene, within limits of time and memory.
-#include <fmt/format.h>
-#include <gtest/gtest.h>
-
-#include <filesystem>
-#include <functional>
-
 #include "tests/engine/alembic/verdict.h"
 #include "tests/support/files/alembic_truth.h"
 #include "tests/support/paths.h"
 #include "tests/support/read_bytes.h"
+#include "tests/support/test.h"
 
 namespace aleph {
 namespace {

@@ -1,10 +1,9 @@
 // Drafts of what archives of other programs contain: unfolded texture coordinates, instances within instances, cameras
 // with a film back under evenly spaced acyclic times, stacks of translations and curves; and those archives where they
 // are there.
-#include <cmath>
-
 #include "engine/pose/pose.h"
 #include "tests/engine/alembic/fixture.h"
+#include "tests/support/test.h"
 
 namespace aleph {
 namespace {

@@ -1,13 +1,10 @@
 // Polygon meshes of archives: vertices, triangles, orientation, topology; archives against their truth, and small ones
 // written here against the answer on paper.
-#include <gtest/gtest.h>
-
-#include <cmath>
-
 #include "engine/alembic/polygons.h"
 #include "engine/pose/pose.h"
 #include "engine/scene/points.h"
 #include "tests/engine/alembic/fixture.h"
+#include "tests/support/test.h"
 
 namespace aleph {
 namespace {

@@ -1,9 +1,5 @@
 // Archives as scenes: load_scene and pose against the truth beside them.
-#include <algorithm>
-#include <cmath>
 #include <glm/gtc/type_ptr.hpp>
-#include <map>
-#include <set>
 
 #include "engine/alembic/camera.h"
 #include "engine/load/load_scene.h"
@@ -11,6 +7,7 @@
 #include "engine/scene/operations.h"
 #include "engine/scene/points.h"
 #include "tests/support/files/alembic_truth.h"
+#include "tests/support/test.h"
 #include "tests/support/warnings.h"
 
 namespace aleph {

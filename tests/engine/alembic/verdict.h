@@ -1,17 +1,12 @@
 #pragma once
 // Loads archives that are broken on purpose, within the limits of memory.
 
-#include <gtest/gtest.h>
-
-#include <filesystem>
-#include <string>
-#include <vector>
-
 #include "engine/load/load_scene.h"
 #include "engine/pose/pose.h"
 #include "tests/support/files/alembic_draft.h"
 #include "tests/support/files/load_cost.h"
 #include "tests/support/scratch_folder.h"
+#include "tests/support/test.h"
 
 namespace aleph {
 

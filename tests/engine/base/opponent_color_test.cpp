@@ -1,15 +1,10 @@
 // Opponent colours against the printed matrices in double, and pixels that are no colours.
 
-#include "engine/base/opponent_color.h"
-
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <glm/mat3x3.hpp>
 #include <glm/matrix.hpp>
-#include <limits>
 
+#include "engine/base/opponent_color.h"
 #include "engine/base/sampling.h"
+#include "tests/support/test.h"
 
 namespace aleph {
 namespace {
@@ -64,10 +59,14 @@ TEST(OpponentColor, PY15_RowsAgreeWithTheDoubleMatrix) {
 }
 
 TEST(OpponentColor, PY15_OutOfGamutAndBrokenPixelsAreClampedFirst) {
-    constexpr float infinity = std::numeric_limits<float>::infinity();
     Image<Rgb> image(7, 1);
-    image.pixels = {Rgb(-1, 0.5f, 0.5f), Rgb(0, 0.5f, 0.5f), Rgb(std::nanf(""), 0.5f, 0.5f),        Rgb(0.0f),
-                    Rgb(-0.0f),          Rgb(infinity),      Rgb(std::numeric_limits<float>::max())};
+    image.pixels = {Rgb(-1, 0.5f, 0.5f),
+                    Rgb(0, 0.5f, 0.5f),
+                    Rgb(float_nan, 0.5f, 0.5f),
+                    Rgb(0.0f),
+                    Rgb(-0.0f),
+                    Rgb(float_infinity),
+                    Rgb(std::numeric_limits<float>::max())};
     for (const OpponentChannel channel : {OpponentChannel::a, OpponentChannel::c1, OpponentChannel::c2}) {
         const Image<float> out = compute_opponent(image, channel, false);
         EXPECT_EQ(out(0, 0), out(1, 0));

@@ -1,11 +1,7 @@
 // parallel_for visits every index once, in fixed chunks, and passes exceptions on.
 
 #include "engine/base/parallel.h"
-
-#include <gtest/gtest.h>
-
-#include <stdexcept>
-#include <vector>
+#include "tests/support/test.h"
 
 namespace aleph {
 namespace {

@@ -1,10 +1,5 @@
 // Pyramids, N(.) and saliency of images for which simple code gives NaN, noise or one bright pixel.
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-
 #include "engine/base/pyramid.h"
 #include "engine/base/sampling.h"
 #include "perception/band_response.h"
@@ -12,9 +7,9 @@
 #include "perception/orientation.h"
 #include "perception/perception.h"
 #include "perception/sanitize.h"
-#include "tests/support/numbers.h"
 #include "tests/support/perception_bands.h"
 #include "tests/support/perception_scene.h"
+#include "tests/support/test.h"
 
 namespace aleph {
 namespace {
@@ -39,27 +34,6 @@ void expect_fallback(const PerceptionMaps& maps, const Image<float>& velocity) {
         const double v = velocity.pixels[i];
         ASSERT_NEAR(maps.retinal_velocity.pixels[i], std::max(0.15, v - std::min(0.82 * v + 0.15, 80.0)), 1e-5);
     }
-}
-
-/// Correlation of two maps over the pixels further than `radius` from (x, y).
-double correlation_away_from(const Image<float>& a, const Image<float>& b, int cx, int cy, double radius) {
-    double n = 0, sa = 0, sb = 0, saa = 0, sbb = 0, sab = 0;
-    for (int y = 0; y < a.height; ++y) {
-        for (int x = 0; x < a.width; ++x) {
-            if (std::hypot(x - cx, y - cy) <= radius) continue;
-            const double p = a(x, y), q = b(x, y);
-            n += 1, sa += p, sb += q, saa += p * p, sbb += q * q, sab += p * q;
-        }
-    }
-    return (sab - sa * sb / n) / std::sqrt((saa - sa * sa / n) * (sbb - sb * sb / n));
-}
-
-Image<float> checker(int width, int height) {
-    Image<float> image(width, height);
-    for (int y = 0; y < height; ++y) {
-        for (int x = 0; x < width; ++x) image(x, y) = static_cast<float>((x + y) % 2);
-    }
-    return image;
 }
 
 TEST(PyramidHard, PY01_UniformImage) {
@@ -150,7 +124,7 @@ void expect_like_replaced(const Rgb& broken) {
 }
 
 TEST(PyramidHard, PY05_OneNanPixel) {
-    expect_like_replaced(Rgb(std::nanf(""), 0.5f, 0.5f));
+    expect_like_replaced(Rgb(float_nan, 0.5f, 0.5f));
 }
 
 TEST(PyramidHard, PY06_OneInfinitePixel) {
@@ -166,7 +140,7 @@ TEST(PyramidHard, PY07_FireflyDoesNotTakeTheWholeMap) {
     EXPECT_EQ(sanitize_estimate(firefly).clamped, 1u);
     const Image<float> expected = compute_perception(calm, frame.velocity, {}, {}, {}).saliency;
     const Image<float> found = compute_perception(firefly, frame.velocity, {}, {}, {}).saliency;
-    EXPECT_GT(correlation_away_from(found, expected, 400, 120, 16), 0.9);
+    EXPECT_GT(correlation(found, expected, {400, 120}, 16), 0.9);
 }
 
 TEST(PyramidHard, PY11_RoundingNoiseStandsOutNowhere) {
@@ -242,8 +216,8 @@ TEST(PyramidHard, PY17_OneAbsurdVelocityDoesNotTakeTheMotionMap) {
         velocity(400, 120) = absurd;
         const PerceptionMaps expected = with_everything(frame.estimate, frame.velocity);
         const PerceptionMaps found = with_everything(frame.estimate, velocity);
-        EXPECT_GT(correlation_away_from(found.saliency, expected.saliency, 400, 120, 16), 0.9);
-        EXPECT_GT(correlation_away_from(found.conspicuity_motion, expected.conspicuity_motion, 400, 120, 32), 0.9);
+        EXPECT_GT(correlation(found.saliency, expected.saliency, {400, 120}, 16), 0.9);
+        EXPECT_GT(correlation(found.conspicuity_motion, expected.conspicuity_motion, {400, 120}, 32), 0.9);
     }
 }
 

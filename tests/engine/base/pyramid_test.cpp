@@ -1,15 +1,10 @@
 // Gaussian pyramids against zero insertion and convolution in double (perception_reference.h).
 
 #include "engine/base/pyramid.h"
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-
 #include "engine/base/parallel.h"
 #include "engine/base/sampling.h"
 #include "tests/support/perception_reference.h"
+#include "tests/support/test.h"
 
 namespace aleph {
 namespace {

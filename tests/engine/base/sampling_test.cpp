@@ -1,13 +1,7 @@
 // Random numbers and sampling functions against known values.
 
 #include "engine/base/sampling.h"
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <limits>
-
+#include "tests/support/test.h"
 #include "tests/support/trial.h"
 
 namespace aleph {
@@ -99,17 +93,16 @@ TEST(Sampling, RC13_BasisIsOrthonormalAlsoAtThePoles) {
 }
 
 TEST(Sampling, MC12_PowerHeuristicAtItsEdges) {
-    const float inf = std::numeric_limits<float>::infinity();
     EXPECT_EQ(power_heuristic(0, 0), 0.0f);
     EXPECT_EQ(power_heuristic(1e20f, 1e20f), 0.5f);
     EXPECT_EQ(power_heuristic(1e-25f, 1e-25f), 0.5f);
-    EXPECT_EQ(power_heuristic(inf, 1), 1.0f);
-    EXPECT_EQ(power_heuristic(1, inf), 0.0f);
-    EXPECT_EQ(power_heuristic(inf, inf), 0.5f);
+    EXPECT_EQ(power_heuristic(float_infinity, 1), 1.0f);
+    EXPECT_EQ(power_heuristic(1, float_infinity), 0.0f);
+    EXPECT_EQ(power_heuristic(float_infinity, float_infinity), 0.5f);
     EXPECT_EQ(power_heuristic(1e-25f, 1e25f), 0.0f);
     EXPECT_EQ(power_heuristic(1e25f, 1e-25f), 1.0f);
-    for (const float a : {1e-25f, 1e-10f, .3f, 1.f, 7.f, 1e10f, 1e20f, inf}) {
-        for (const float b : {1e-25f, 1e-3f, 1.f, 3.f, 1e20f, inf})
+    for (const float a : {1e-25f, 1e-10f, .3f, 1.f, 7.f, 1e10f, 1e20f, float_infinity}) {
+        for (const float b : {1e-25f, 1e-3f, 1.f, 3.f, 1e20f, float_infinity})
             EXPECT_NEAR(double{power_heuristic(a, b)} + power_heuristic(b, a), 1.0, 0x1p-23) << a << " " << b;
     }
 }

@@ -1,16 +1,10 @@
 // Whole files: each loads, or is refused for the reason given; and what the models of tests/assets/gltf contain, by the
 // numbers of author_models.py.
-#include <gtest/gtest.h>
-
-#include <filesystem>
-#include <numbers>
-#include <string>
-
-#include "engine/base/errors.h"
 #include "engine/pose/pose.h"
 #include "tests/engine/gltf/model_files.h"
 #include "tests/support/files/gltf_draft.h"
 #include "tests/support/scratch_folder.h"
+#include "tests/support/test.h"
 #include "tests/support/warnings.h"
 
 namespace aleph {
@@ -73,8 +67,8 @@ TEST(GltfModels, TruckHasItsWheelsTwiceAndTurning) {
     ASSERT_EQ(wheels.size(), 2u);
     const Track<glm::dquat>& turn = scene.nodes[wheels[0]].rotation;
     EXPECT_EQ(turn.key_count(), 31u);
-    EXPECT_EQ(first_time(turn), 0.0);
-    EXPECT_EQ(last_time(turn), 1.25);
+    EXPECT_EQ(turn.sampling.times.front(), 0.0);
+    EXPECT_EQ(turn.sampling.times.back(), 1.25);
     // The wheels' axles lie where their parents' matrices put them, at every time; the front ones are steered.
     for (const double seconds : {0.0, 0.3, 1.25}) {
         const ScenePose frame = pose(scene, seconds);
@@ -251,7 +245,7 @@ TEST(GltfModels, SkinWithoutIndicesAndNormals) {
     EXPECT_EQ(scene.meshes[0].triangles.size(), 32u);
     EXPECT_TRUE(scene.meshes[0].normals.empty());
     const Track<glm::dquat>& knee = std::ranges::find(scene.nodes, "knee", &Node::name)->rotation;
-    EXPECT_EQ(last_time(knee), 2.0);
+    EXPECT_EQ(knee.sampling.times.back(), 2.0);
 }
 
 }  // namespace

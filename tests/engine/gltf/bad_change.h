@@ -1,12 +1,8 @@
 #pragma once
 // One change that breaks a rule of a glTF file that loads, and how the file must then be refused.
 
-#include <gtest/gtest.h>
-
-#include <functional>
-#include <string>
-
 #include "tests/support/files/gltf_draft.h"
+#include "tests/support/test.h"
 
 namespace aleph {
 

@@ -1,15 +1,9 @@
 // Broken and hostile glTF files: skins, morph targets, sparse values, cubic keys, instances, animation pointers.
 
-#include <gtest/gtest.h>
-
-#include <cstdint>
-#include <cstring>
-#include <limits>
-#include <vector>
-
 #include "tests/engine/gltf/bad_change.h"
-#include "tests/engine/gltf/bad_deform_draft.h"
 #include "tests/support/files/gltf_bad_input.h"
+#include "tests/support/files/gltf_deform_draft.h"
+#include "tests/support/test.h"
 
 namespace aleph {
 namespace {
@@ -55,8 +49,6 @@ Json& pointer(GltfDraft& d) {
     return d.json["animations"][2]["channels"][0]["target"]["extensions"]["KHR_animation_pointer"]["pointer"];
 }
 
-constexpr float nan = std::numeric_limits<float>::quiet_NaN();
-
 const std::vector<BadChange> bad_skins = {
     BAD("Joints", "/skins/0", "\"joints\" is missing", d.json["skins"][0].erase("joints")),
     BAD("JointsEmpty", "/skins/0/joints", "must not be empty", d.json["skins"][0]["joints"] = Json::array()),
@@ -72,7 +64,7 @@ const std::vector<BadChange> bad_skins = {
     BAD("BindsTooFew", "/skins/0/inverseBindMatrices", "1 inverse bind matrices for 2 joints",
         d.json["accessors"][4]["count"] = 1),
     BAD("BindsNotAffine", "/skins/0/inverseBindMatrices", "matrix 1 is not affine", put_float(d, 4, 16 + 3, 0.5f)),
-    BAD("BindsNaN", "/accessors/4", "element 0 is nan", put_float(d, 4, 5, nan)),
+    BAD("BindsNaN", "/accessors/4", "element 0 is nan", put_float(d, 4, 5, float_nan)),
     BAD("NodeSkinRange", "/nodes/0/skin", "no skin 1", d.json["nodes"][0]["skin"] = 1),
     BAD("NodeSkinWithoutMesh", "/nodes/0/skin", "needs a mesh", d.json["nodes"][0].erase("mesh")),
     BAD("NodeSkinOfRigidMesh", "/meshes/1/primitives/0/attributes", "no JOINTS_0", d.json["nodes"][0]["mesh"] = 1),
@@ -89,9 +81,8 @@ const std::vector<BadChange> bad_skins = {
     BAD("JointIndexRange", "/accessors/2", "element 1 is joint index 7, there are 2", joint_byte(d, 8) = 7),
     BAD("JointIndexHuge", "/accessors/2", "joint index 65280", joint_byte(d, 1) = 255),
     BAD("WeightNegative", "/accessors/3", "must not be negative", put_float(d, 3, 0, -1.0f)),
-    BAD("WeightNaN", "/accessors/3", "element 0 is nan", put_float(d, 3, 0, nan)),
-    BAD("WeightInfinite", "/accessors/3", "element 2 is inf",
-        put_float(d, 3, 8, std::numeric_limits<float>::infinity())),
+    BAD("WeightNaN", "/accessors/3", "element 0 is nan", put_float(d, 3, 0, float_nan)),
+    BAD("WeightInfinite", "/accessors/3", "element 2 is inf", put_float(d, 3, 8, float_infinity)),
 };
 
 const std::vector<BadChange> bad_morphs = {
@@ -105,7 +96,7 @@ const std::vector<BadChange> bad_morphs = {
         d.json["accessors"][7]["count"] = 2),
     BAD("TargetWithoutBase", "/meshes/1/primitives/0/targets/0/NORMAL", "itself has no NORMAL",
         morphed(d)["attributes"].erase("NORMAL")),
-    BAD("TargetNaN", "/accessors/6", "element 2 is nan", put_float(d, 6, 8, nan)),
+    BAD("TargetNaN", "/accessors/6", "element 2 is nan", put_float(d, 6, 8, float_nan)),
     BAD("TargetsUnequal", "/meshes/1/primitives/1", "1 morph targets, the mesh's first primitive has 2",
         Json other = morphed(d);
         other["targets"].erase(1); d.json["meshes"][1]["primitives"].push_back(other)),

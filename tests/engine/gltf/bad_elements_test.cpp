@@ -1,11 +1,8 @@
 // Broken and hostile glTF files: materials, cameras, lights, meshes and animations that break one rule each.
 
-#include <gtest/gtest.h>
-
-#include <vector>
-
 #include "tests/engine/gltf/bad_change.h"
 #include "tests/support/files/gltf_draft.h"
+#include "tests/support/test.h"
 
 namespace aleph {
 namespace {

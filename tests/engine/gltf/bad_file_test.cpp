@@ -1,12 +1,8 @@
 // Broken and hostile glTF files below the JSON: containers, text, key values, URIs, multiplication.
-#include <gtest/gtest.h>
 #include <sys/stat.h>
 
-#include <cstring>
-#include <functional>
-#include <limits>
-
 #include "tests/support/files/gltf_bad_input.h"
+#include "tests/support/test.h"
 
 namespace aleph {
 namespace {
@@ -115,7 +111,6 @@ TEST_F(GltfBadFile, S12_4_S13_1_Containers) {
 }
 
 TEST_F(GltfBadFile, S13_7_KF11_KeyTimes) {
-    const float infinity = std::numeric_limits<float>::infinity(), nan = std::numeric_limits<float>::quiet_NaN();
     const auto with_times = [](std::vector<float> times) {
         GltfDraft draft = triangle_draft();
         const std::vector<float> values(3 * times.size(), 1.0f);
@@ -125,8 +120,8 @@ TEST_F(GltfBadFile, S13_7_KF11_KeyTimes) {
     const std::string place = "/animations/0/samplers/0";
     expect_draft_refused(with_times({0, 2, 1}), place, "key 2 lies at 1 s, the one before at 2 s");
     expect_draft_refused(with_times({-1, 0}), place, "must not be negative");
-    expect_draft_refused(with_times({0, nan}), "/accessors/2", "element 1 is nan");
-    expect_draft_refused(with_times({0, infinity}), "/accessors/2", "element 1 is inf");
+    expect_draft_refused(with_times({0, float_nan}), "/accessors/2", "element 1 is nan");
+    expect_draft_refused(with_times({0, float_infinity}), "/accessors/2", "element 1 is inf");
 }
 
 TEST_F(GltfBadFile, KF10_DuplicateKeyTimes) {
@@ -140,7 +135,7 @@ TEST_F(GltfBadFile, KF05_ZeroOrNaNRotationKey) {
     draft.animate(0, "rotation", {0, 1}, {0, 0, 0, 1, 0, 0, 0, 0});
     expect_draft_refused(draft, "/animations/0/samplers/0: node 0 \"node0\" key 1", "is zero");
     GltfDraft nan = triangle_draft();
-    nan.animate(0, "rotation", {0, 1}, {0, 0, 0, 1, 0, std::numeric_limits<float>::quiet_NaN(), 0, 1});
+    nan.animate(0, "rotation", {0, 1}, {0, 0, 0, 1, 0, float_nan, 0, 1});
     expect_draft_refused(nan, "/accessors/3", "element 1 is nan");
 }
 
@@ -223,14 +218,8 @@ TEST_F(GltfBadFile, S13_4_S13_5_SmallFilesThatMultiply) {
     // 5000 nodes times 5000 primitives.
     GltfDraft draft = triangle_draft();
     const Json primitive = draft.primitive();
-    Json nodes = Json::array(), roots = Json::array();
-    for (int i = 0; i < 5000; ++i) {
-        draft.json["meshes"][0]["primitives"].push_back(primitive);
-        nodes.push_back({{"mesh", 0}});
-        roots.push_back(i);
-    }
-    draft.json["nodes"] = nodes;
-    draft.json["scenes"][0]["nodes"] = roots;
+    for (int i = 0; i < 5000; ++i) draft.json["meshes"][0]["primitives"].push_back(primitive);
+    repeat_node(draft, 5000, {{"mesh", 0}});
     expect_draft_refused(draft, "/nodes/1999", "more than 10000000 instances");
 
     // The same 50,000 vertices in every primitive: three gigabytes from one megabyte.

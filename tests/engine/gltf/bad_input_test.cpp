@@ -1,14 +1,8 @@
 // Broken and hostile glTF files: structure and data that break one rule each must end in an InputError with its place.
 
-#include <gtest/gtest.h>
-
-#include <cstdint>
-#include <filesystem>
-#include <string>
-#include <vector>
-
 #include "tests/engine/gltf/bad_change.h"
 #include "tests/support/files/gltf_bad_input.h"
+#include "tests/support/test.h"
 
 namespace aleph {
 namespace {

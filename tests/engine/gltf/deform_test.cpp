@@ -1,10 +1,7 @@
 // glTF reader: morph targets, skins, and meshes that are copied for each node.
-#include <gtest/gtest.h>
-
-#include <cmath>
-
 #include "tests/engine/gltf/fixture.h"
 #include "tests/support/files/gltf_deform_draft.h"
+#include "tests/support/test.h"
 
 namespace aleph {
 namespace {

@@ -1,13 +1,10 @@
 #pragma once
 // Loads drafts of glTF files from a folder of the test's own.
 
-#include <gtest/gtest.h>
-
-#include <string>
-
 #include "engine/gltf/gltf.h"
 #include "tests/support/files/gltf_draft.h"
 #include "tests/support/scratch_folder.h"
+#include "tests/support/test.h"
 #include "tests/support/warnings.h"
 
 namespace aleph {

@@ -1,11 +1,7 @@
 // glTF reader: scene graph, cameras, lights, files. Every expected value is worked out by hand.
-#include <gtest/gtest.h>
-
-#include <cmath>
-
-#include "engine/base/errors.h"
 #include "engine/pose/pose.h"
 #include "tests/engine/gltf/fixture.h"
+#include "tests/support/test.h"
 
 namespace aleph {
 namespace {

@@ -1,9 +1,7 @@
 // glTF reader: volumes, clear coats, sheen, anisotropy, normal maps, and extensions that are not supported.
-#include <gtest/gtest.h>
-
-#include "engine/base/errors.h"
 #include "engine/image/image_file.h"
 #include "tests/engine/gltf/fixture.h"
+#include "tests/support/test.h"
 
 namespace aleph {
 namespace {

@@ -1,10 +1,6 @@
 // glTF reader: how vertices become triangles, and where their values come from.
-#include <gtest/gtest.h>
-
-#include <cstring>
-
-#include "engine/base/errors.h"
 #include "tests/engine/gltf/fixture.h"
+#include "tests/support/test.h"
 
 namespace aleph {
 namespace {

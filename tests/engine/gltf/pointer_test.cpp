@@ -1,12 +1,8 @@
 // glTF reader: KHR_animation_pointer, and several animations of one property.
-#include <gtest/gtest.h>
-
-#include <cmath>
-
-#include "engine/base/errors.h"
 #include "engine/gltf/validate/pointer.h"
 #include "engine/pose/pose.h"
 #include "tests/engine/gltf/fixture.h"
+#include "tests/support/test.h"
 
 namespace aleph {
 namespace {

@@ -1,14 +1,8 @@
 // Poses of nodes, skins and morph targets of whole files, against tinygltf's raw parse and glTF's formulas.
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <filesystem>
-#include <glm/gtc/quaternion.hpp>
-
 #include "engine/pose/pose.h"
 #include "tests/engine/gltf/model_files.h"
 #include "tests/engine/gltf/raw_gltf.h"
+#include "tests/support/test.h"
 
 namespace aleph {
 namespace {

@@ -1,17 +1,9 @@
 #pragma once
 // glTF files as tinygltf parses them, and the poses that glTF 2.0 gives them, without the engine.
 
-#include <gtest/gtest.h>
 #include <tiny_gltf.h>
 
-#include <algorithm>
-#include <cmath>
-#include <cstring>
-#include <filesystem>
-#include <glm/gtc/quaternion.hpp>
-#include <glm/mat4x4.hpp>
-#include <string>
-#include <vector>
+#include "tests/support/test.h"
 
 namespace aleph {
 

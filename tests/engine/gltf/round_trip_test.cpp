@@ -1,19 +1,14 @@
 // A scene that is written as .glb by code of its own, and read again, gives the same hits and motion.
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <filesystem>
-
 #include "engine/image/image_file.h"
 #include "engine/load/load_scene.h"
 #include "engine/pose/camera_view.h"
 #include "engine/pose/pose.h"
-#include "engine/rays/first_hits.h"
 #include "engine/rays/ray_scene.h"
 #include "engine/scene_file/fields.h"
-#include "motion/model_motion.h"
 #include "tests/engine/gltf/glb_writer.h"
 #include "tests/support/paths.h"
+#include "tests/support/seen_motion.h"
+#include "tests/support/test.h"
 
 namespace aleph {
 namespace {
@@ -23,22 +18,9 @@ namespace fs = std::filesystem;
 /// The files stay: tests/gltf_validator reads them.
 const fs::path folder = build_folder() / "round_trip";
 
-struct View {
-    Image<Hit> hits;
-    MotionField motion;
-};
-
-View look(const Scene& scene, std::int64_t frame_number) {
+SeenMotion look(const Scene& scene, std::int64_t frame) {
     const FrameRate rate;
-    const int camera = find_camera(scene, scene.camera);
-    const PosedView now = make_posed_view(scene, rate.seconds_of(frame_number), camera, 320, 240);
-    const PosedView next = make_posed_view(scene, rate.seconds_of(frame_number + 1), camera, 320, 240);
-    RayScene rays(scene);
-    rays.update(now.pose, compute_anchor(now.view));
-    View seen;
-    seen.hits = cast_first_hits(rays, now.view);
-    seen.motion = compute_model_motion(scene, now, next, seen.hits);
-    return seen;
+    return {scene, rate.seconds_of(frame), rate.seconds_of(frame + 1), 320, 240, find_camera(scene, scene.camera)};
 }
 
 /// Nodes may come in another order: objects are compared by node name and position of the mesh under the node.
@@ -75,7 +57,7 @@ class PoolRoundTrip : public testing::TestWithParam<int> {
 std::unique_ptr<Scene> PoolRoundTrip::scene_, PoolRoundTrip::loaded_;
 
 TEST_P(PoolRoundTrip, FirstHitsAndMotionField) {
-    const View before = look(*scene_, GetParam()), after = look(*loaded_, GetParam());
+    const SeenMotion before = look(*scene_, GetParam()), after = look(*loaded_, GetParam());
     const auto names = object_names(*scene_), loaded_names = object_names(*loaded_);
     ASSERT_EQ(names.size(), loaded_names.size());
     std::size_t other_object = 0, other_validity = 0, compared = 0, moving = 0;
@@ -148,8 +130,7 @@ TEST(GltfRoundTrip, EveryPropertyOfAMaterial) {
     Scene scene;
     scene.file = (folder / "materials.json").string();
     scene.images.push_back({.name = "dot", .path = "dot.png", .bytes = {}, .floats = {}});
-    Material m;
-    m.name = "all";
+    Material m{.name = "all"};
     double value = 0.0;  // another one for each property
     const auto next = [&] { return value += 0.03125; };
     for (const auto& field : material_numbers) m.*field.member = next();
@@ -179,13 +160,11 @@ TEST(GltfRoundTrip, EveryPropertyOfAMaterial) {
 TEST(GltfRoundTrip, LightsAndCameras) {
     Scene scene;
     const auto light = [&](Light::Kind kind, double range) {
-        Light made;
-        made.name = std::string("light").append(std::to_string(scene.lights.size()));
-        made.kind = kind;
-        made.color = glm::dvec3(0.1, 0.2, 0.3);
-        made.intensity = 683.0;
-        made.range = range;
-        scene.lights.push_back(made);
+        scene.lights.push_back({.name = std::string("light").append(std::to_string(scene.lights.size())),
+                                .kind = kind,
+                                .color = glm::dvec3(0.1, 0.2, 0.3),
+                                .intensity = 683.0,
+                                .range = range});
     };
     light(Light::Kind::point, 2.5);
     light(Light::Kind::directional, 0.0);
@@ -196,14 +175,12 @@ TEST(GltfRoundTrip, LightsAndCameras) {
     scene.cameras[0] = Camera{.name = "a", .fov = 0.6};
     scene.cameras[1] = Camera{.name = "b", .orthographic = true, .half_height = 3.25};
     for (int i = 0; i < 3; ++i) {
-        Node node;
-        node.name = std::string("n").append(std::to_string(i));
-        node.parent = i - 1;
-        node.light = i;
-        node.camera = i < 2 ? i : no_index;
-        node.translation = glm::dvec3(0.1, 0.2, 0.3 * i);
-        node.rotation = glm::normalize(glm::dquat(1.0, 0.1, 0.2, 0.3));
-        scene.nodes.push_back(node);
+        scene.nodes.push_back({.name = std::string("n").append(std::to_string(i)),
+                               .parent = i - 1,
+                               .translation = glm::dvec3(0.1, 0.2, 0.3 * i),
+                               .rotation = glm::normalize(glm::dquat(1.0, 0.1, 0.2, 0.3)),
+                               .camera = i < 2 ? i : no_index,
+                               .light = i});
     }
     fs::create_directories(folder);
     write_glb(scene, folder / "lights.glb");

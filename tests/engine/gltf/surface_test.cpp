@@ -1,10 +1,7 @@
 // glTF reader: meshes, materials, textures.
-#include <gtest/gtest.h>
-
-#include <cstring>
-
 #include "engine/image/image_file.h"
 #include "tests/engine/gltf/fixture.h"
+#include "tests/support/test.h"
 
 namespace aleph {
 namespace {
@@ -18,6 +15,10 @@ class GltfSurface : public GltfFixture {
         image(1, 0) = Rgb(0, 0, 1);
         write_png(folder_ / "made.png", image);
         return read_regular_file(folder_ / "made.png", "made.png", "");
+    }
+    void add_texture(GltfDraft& draft) {
+        draft.json["images"] = {{{"bufferView", draft.add_view(png())}, {"mimeType", "image/png"}}};
+        draft.json["textures"] = {{{"source", 0}}};
     }
 };
 
@@ -104,9 +105,7 @@ TEST_F(GltfSurface, DefaultMaterialIsTheSpecifications) {
     draft.json["materials"] = {Json::object()};
     draft.primitive()["material"] = 0;
     const Scene scene = load(draft);
-    Material expected;
-    expected.name = "material0";
-    expected.include = 0;
+    Material expected{.name = "material0", .include = 0};
     ASSERT_EQ(scene.materials.size(), 1u);
     EXPECT_EQ(scene.materials[0], expected);
     EXPECT_EQ(scene.meshes[0].material, 0);
@@ -199,9 +198,7 @@ TEST_F(GltfSurface, ImagesFromFilesAndDataUris) {
 
 TEST_F(GltfSurface, OcclusionTexturesGiveOneWarningAndAreNotDecoded) {
     GltfDraft draft = triangle_draft();
-    const int view = draft.add_view(png());
-    draft.json["images"] = {{{"bufferView", view}, {"mimeType", "image/png"}}};
-    draft.json["textures"] = {{{"source", 0}}};
+    add_texture(draft);
     const Json material = {{"occlusionTexture", {{"index", 0}}}};
     draft.json["materials"] = {material, material};
     const Scene scene = load(draft);
@@ -225,9 +222,7 @@ TEST_F(GltfSurface, AlphaModesAndCutoff) {
 
 TEST_F(GltfSurface, TextureTransformsOfEveryTexture) {
     GltfDraft draft = triangle_draft();
-    const int view = draft.add_view(png());
-    draft.json["images"] = {{{"bufferView", view}, {"mimeType", "image/png"}}};
-    draft.json["textures"] = {{{"source", 0}}};
+    add_texture(draft);
     draft.json["extensionsUsed"] = {"KHR_texture_transform"};
     draft.json["extensionsRequired"] = {"KHR_texture_transform"};
     const auto info = [](double offset, Json more) {

@@ -1,18 +1,11 @@
 // Radiance pictures: what their 8 bits per channel change, and how much of that is counted.
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <limits>
-
 #include "engine/base/sampling.h"
 #include "engine/image/image_file.h"
 #include "tests/engine/image/output_files.h"
-#include "tests/support/numbers.h"
 #include "tests/support/read_bytes.h"
 #include "tests/support/scratch_folder.h"
+#include "tests/support/test.h"
 
 namespace aleph {
 namespace {

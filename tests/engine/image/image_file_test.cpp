@@ -1,22 +1,9 @@
 // Image files that are written and read again, and files that are refused.
 
 #include "engine/image/image_file.h"
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <cstdint>
-#include <filesystem>
-#include <fstream>
-#include <string>
-#include <vector>
-
-#include "engine/base/errors.h"
 #include "tests/support/read_bytes.h"
-#include "tests/support/refusal.h"
 #include "tests/support/scratch_folder.h"
+#include "tests/support/test.h"
 
 namespace aleph {
 namespace {

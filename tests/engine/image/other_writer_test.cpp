@@ -1,20 +1,11 @@
 // Pictures that OpenImageIO has written: straight alpha, grey, JPEG; and JPEG files that are refused.
 
 #include <OpenImageIO/imageio.h>
-#include <gtest/gtest.h>
 
-#include <algorithm>
-#include <array>
-#include <cstdint>
-#include <filesystem>
-#include <string>
-#include <vector>
-
-#include "engine/base/errors.h"
 #include "engine/image/image_file.h"
 #include "tests/support/read_bytes.h"
-#include "tests/support/refusal.h"
 #include "tests/support/scratch_folder.h"
+#include "tests/support/test.h"
 
 namespace aleph {
 namespace {

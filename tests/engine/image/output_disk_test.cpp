@@ -1,29 +1,23 @@
 // Output: full disks, folders and targets that refuse a file, and programs that are killed while they write.
 
 #include <fcntl.h>
-#include <gtest/gtest.h>
 #include <signal.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
-
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
-#include <filesystem>
-#include <fstream>
-#include <stdexcept>
-#include <string>
 #include <thread>
 
 #include "engine/base/atomic_file.h"
-#include "engine/base/errors.h"
 #include "engine/base/sampling.h"
 #include "engine/image/image_file.h"
 #include "tests/engine/image/output_files.h"
 #include "tests/support/read_bytes.h"
 #include "tests/support/scratch_folder.h"
+#include "tests/support/test.h"
 
 namespace aleph {
 namespace {

@@ -3,25 +3,17 @@
 #include <OpenEXR/ImfChannelList.h>
 #include <OpenEXR/ImfHeader.h>
 #include <OpenEXR/ImfInputFile.h>
-#include <gtest/gtest.h>
-
 #include <bit>
 #include <chrono>
-#include <cmath>
-#include <cstdint>
-#include <limits>
-#include <string>
 #include <thread>
-#include <utility>
-#include <vector>
 
 #include "engine/base/parallel.h"
 #include "engine/image/codec.h"
 #include "engine/image/image_file.h"
 #include "tests/engine/image/output_files.h"
-#include "tests/support/numbers.h"
 #include "tests/support/read_bytes.h"
 #include "tests/support/scratch_folder.h"
+#include "tests/support/test.h"
 
 namespace aleph {
 namespace {

@@ -1,13 +1,9 @@
 // The environment's picture as load_scene brings it, and what is said of surfaces that need texture coordinates.
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <limits>
-
 #include "engine/image/image_file.h"
 #include "engine/load/load_scene.h"
 #include "tests/engine/load/fixture.h"
+#include "tests/support/test.h"
 
 namespace aleph {
 namespace {
@@ -27,7 +23,7 @@ TEST_F(LoadEnvironment, APictureIsLightAndIsDecodedAsItIs) {
     Image<float> red(4, 2, 0.5f);
     red(0, 0) = -3.0f;
     red(1, 0) = 60000.0f;
-    red(2, 0) = std::numeric_limits<float>::quiet_NaN();
+    red(2, 0) = float_nan;
     write_sky(folder_ / "lib/sky.exr", red);
     const Scene scene = load_scene(write_scene(R"("environment_image": "lib/sky.exr")"));
     EXPECT_TRUE(scene.warnings.empty()) << scene.warnings[0];

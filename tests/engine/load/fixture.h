@@ -1,16 +1,9 @@
 #pragma once
 // Scene files in a folder of the test's own.
 
-#include <gtest/gtest.h>
-
-#include <filesystem>
-#include <fstream>
-#include <string>
-
-#include "engine/base/errors.h"
 #include "engine/load/load_scene.h"
-#include "tests/support/refusal.h"
 #include "tests/support/scratch_folder.h"
+#include "tests/support/test.h"
 #include "tests/support/warnings.h"
 
 namespace aleph {

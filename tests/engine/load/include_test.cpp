@@ -2,6 +2,7 @@
 
 #include "engine/pose/pose.h"
 #include "tests/engine/load/fixture.h"
+#include "tests/support/test.h"
 
 namespace aleph {
 namespace {

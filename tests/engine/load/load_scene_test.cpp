@@ -1,20 +1,12 @@
 // load_scene and save_scene on files: includes, pictures, the camera that is added, bad files.
 
 #include "engine/load/load_scene.h"
-
-#include <fmt/format.h>
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <filesystem>
-#include <fstream>
-
-#include "engine/base/errors.h"
 #include "engine/image/image_file.h"
 #include "engine/pose/camera_view.h"
 #include "engine/pose/pose.h"
 #include "tests/engine/load/fixture.h"
 #include "tests/support/paths.h"
+#include "tests/support/test.h"
 
 namespace aleph {
 namespace {
@@ -182,7 +174,7 @@ TEST_F(LoadScene, SaveIsAllOrNothing) {
     Scene scene;
     scene.name = "first";
     save_scene(scene, folder_ / "s.json");
-    scene.exposure = std::nan("");
+    scene.exposure = not_a_number;
     EXPECT_THROW(save_scene(scene, folder_ / "s.json"), InputError);
     EXPECT_EQ(load_scene(folder_ / "s.json").name, "first");
     scene.exposure.reset();

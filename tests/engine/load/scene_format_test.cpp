@@ -1,11 +1,9 @@
 // A format of the test's own, added by one row of the table: everything that knows formats knows it.
 
 #include "engine/load/scene_format.h"
-
-#include <sstream>
-
 #include "engine/base/files.h"
 #include "tests/engine/load/fixture.h"
+#include "tests/support/test.h"
 
 namespace aleph {
 namespace {

@@ -1,13 +1,10 @@
 // Files that load and show less than they seem to: each gets one warning that names the place, or is refused.
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
-#include <functional>
 
 #include "engine/load/load_scene.h"
 #include "tests/support/files/gltf_bad_input.h"
-#include "tests/support/refusal.h"
+#include "tests/support/test.h"
 
 namespace aleph {
 namespace {
@@ -159,7 +156,7 @@ TEST_F(SilentFiles, TextureCoordinatesThatSinglePrecisionCannotUse) {
     }
     GltfDraft infinite = quiet_draft(folder_);
     infinite.primitive()["attributes"]["TEXCOORD_0"] =
-        infinite.add_accessor<float>({0, 0, std::numeric_limits<float>::infinity(), 0, 0, 1}, "VEC2", 2);
+        infinite.add_accessor<float>({0, 0, float_infinity, 0, 0, 1}, "VEC2", 2);
     expect_refused(infinite, "/accessors/" + std::to_string(infinite.json["accessors"].size() - 1), "must be finite");
 }
 

@@ -1,20 +1,11 @@
 // Scenes made in code: what does not fit is named.
 
 #include "engine/load/validate_scene.h"
-
-#include <gtest/gtest.h>
-
-#include <functional>
-#include <limits>
-
-#include "engine/base/errors.h"
 #include "engine/surface/shapes.h"
-#include "tests/support/refusal.h"
+#include "tests/support/test.h"
 
 namespace aleph {
 namespace {
-
-constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 
 /// One of everything that can refer to something else.
 Scene make_full_scene() {
@@ -125,9 +116,9 @@ TEST(ValidateScene, NumbersAreFiniteAndInRange) {
                   s.cameras[0].shutter = {0.5, 0.0};
               }},
              {R"(mesh 0 "rigid": a position is not finite)",
-              [](Scene& s) { s.meshes[0].positions[1].z = std::numeric_limits<float>::infinity(); }},
+              [](Scene& s) { s.meshes[0].positions[1].z = float_infinity; }},
              {R"(point cache 0: a point is not finite)",
-              [](Scene& s) { s.point_caches[0].positions[1][0].x = std::numeric_limits<float>::quiet_NaN(); }}}) {
+              [](Scene& s) { s.point_caches[0].positions[1][0].x = float_nan; }}}) {
         expect_refused(fault);
     }
 }

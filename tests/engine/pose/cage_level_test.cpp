@@ -1,14 +1,9 @@
 // The level of a cage follows the size of its edges in the picture; it is one for the whole shot.
 #include "engine/pose/cage_level.h"
-
-#include <gtest/gtest.h>
-
-#include <glm/geometric.hpp>
-
-#include "engine/base/errors.h"
 #include "engine/pose/pose.h"
 #include "render/frame/sequence.h"
 #include "tests/support/cage_scenes.h"
+#include "tests/support/test.h"
 
 namespace aleph {
 namespace {

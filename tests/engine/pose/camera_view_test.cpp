@@ -1,33 +1,19 @@
 // Known answers of engine/pose/camera_view.h.
 
 #include "engine/pose/camera_view.h"
-
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <limits>
-
-#include "engine/base/errors.h"
 #include "engine/scene/transforms.h"
-#include "tests/support/expect_near.h"
-#include "tests/support/numbers.h"
+#include "tests/support/test.h"
 
 namespace aleph {
 namespace {
 
 CameraValues placed(const glm::dvec3& eye, const glm::dvec3& target) {
     const glm::dmat4 world = look_at(eye, target, {0.0, 1.0, 0.0});
-    CameraValues camera;
-    camera.position = eye;
-    camera.axes = glm::dmat3(world);
-    camera.fov = pi / 3.0;
-    camera.half_height = 2.5;
-    return camera;
+    return {.position = eye, .axes = glm::dmat3(world), .fov = pi / 3.0, .half_height = 2.5};
 }
 
 TEST(CameraView, FocalLengthInPixels) {
-    CameraValues camera;
-    camera.fov = pi / 2.0;
+    CameraValues camera{.fov = pi / 2.0};
     EXPECT_NEAR(make_camera_view(camera, 640, 480).pixels_per_unit, 240.0, 1e-12);
     EXPECT_NEAR(make_camera_view(camera, 64, 480).pixels_per_unit, 240.0, 1e-12);  // the field of view is vertical
     camera.orthographic = true;
@@ -36,8 +22,7 @@ TEST(CameraView, FocalLengthInPixels) {
 }
 
 TEST(CameraView, TheCentreLooksAlongMinusZAndRowsGoDown) {
-    CameraValues camera;
-    camera.fov = pi / 2.0;
+    CameraValues camera{.fov = pi / 2.0};
     const CameraView view = make_camera_view(camera, 8, 4);
     EXPECT_EQ(make_camera_ray(view, 4.0, 2.0).direction, glm::dvec3(0.0, 0.0, -1.0));
     const double s = std::sqrt(0.5);
@@ -101,32 +86,28 @@ TEST(CameraView, FilmOffsetIsACropOfALargerPicture) {
 }
 
 TEST(CameraView, FilmOffsetMovesTheCentreRightAndUp) {
-    CameraValues camera;
-    camera.fov = pi / 2.0;
-    camera.shift_x = 0.5;
-    camera.shift_y = 0.25;
+    CameraValues camera{.fov = pi / 2.0, .shift_x = 0.5, .shift_y = 0.25};
     const CameraView view = make_camera_view(camera, 200, 100);
     // Half the picture's height is 45 degrees: the centre looks at tan = (1, .5).
     const glm::dvec3 centre = make_camera_ray(view, 100.0, 50.0).direction;
     EXPECT_NEAR(centre.x / -centre.z, 1.0, 1e-14);
     EXPECT_NEAR(centre.y / -centre.z, 0.5, 1e-14);
-    for (const double bad : {std::numeric_limits<double>::infinity(), std::nan("")}) {
+    for (const double bad : {infinity, not_a_number}) {
         camera.shift_x = bad;
         EXPECT_THROW(make_camera_view(camera, 200, 100), InputError);
     }
 }
 
 TEST(CameraView, RefusesWhatIsNoCamera) {
-    const double infinity = std::numeric_limits<double>::infinity();
     CameraValues camera;
-    for (const double fov : {0.0, -0.0, -1.0, pi, 4.0, infinity, -infinity, std::nan(""), 5e-324}) {
+    for (const double fov : {0.0, -0.0, -1.0, pi, 4.0, infinity, -infinity, not_a_number, 5e-324}) {
         camera.fov = fov;
         EXPECT_THROW(make_camera_view(camera, 8, 8), InputError) << fov;
     }
     camera.fov = 3.14;
     EXPECT_GT(make_camera_view(camera, 8, 8).pixels_per_unit, 0.0);
     camera.orthographic = true;
-    for (const double half : {0.0, -1.0, infinity, std::nan(""), 5e-324}) {
+    for (const double half : {0.0, -1.0, infinity, not_a_number, 5e-324}) {
         camera.half_height = half;
         EXPECT_THROW(make_camera_view(camera, 8, 8), InputError) << half;
     }

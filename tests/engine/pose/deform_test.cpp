@@ -2,17 +2,10 @@
 // plan.h.
 
 #include "engine/pose/deform.h"
-
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <glm/gtc/matrix_transform.hpp>
-
 #include "engine/pose/plan.h"
 #include "engine/scene/points.h"
 #include "tests/support/deforming_scenes.h"
-#include "tests/support/expect_near.h"
-#include "tests/support/numbers.h"
+#include "tests/support/test.h"
 
 namespace aleph {
 namespace {

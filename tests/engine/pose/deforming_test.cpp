@@ -1,17 +1,9 @@
-// Motion of deforming meshes (RP-14 to RP-16): skins and morph targets with known displacements.
+// Motion of deforming meshes (RP-14, RP-15): skins and morph targets with known displacements.
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <glm/gtc/matrix_transform.hpp>
-#include <numbers>
-#include <optional>
-
-#include "engine/rays/first_hits.h"
-#include "engine/surface/limit_surface.h"
-#include "motion/model_motion.h"
 #include "motion/reprojection.h"
 #include "tests/support/deforming_scenes.h"
+#include "tests/support/seen_motion.h"
+#include "tests/support/test.h"
 
 namespace aleph {
 namespace {
@@ -21,28 +13,14 @@ constexpr int width = 64, height = 48;
 /// A camera at +z that sees the sheet.
 int add_camera(Scene& scene, double distance = 4.0) {
     scene.cameras.emplace_back();
-    Node node;
-    node.camera = 0;
-    node.translation = glm::dvec3(0.1, -0.2, distance);
-    scene.nodes.push_back(node);
+    scene.nodes.push_back({.translation = glm::dvec3(0.1, -0.2, distance), .camera = 0});
     return static_cast<int>(scene.nodes.size()) - 1;
 }
 
-struct Observed {
-    PosedView now, other;
-    Image<Hit> hits;
-    MotionField motion;
-};
+using Observed = SeenMotion;
 
 Observed observe(const Scene& scene, double from, double to) {
-    Observed seen;
-    seen.now = make_posed_view(scene, from, 0, width, height);
-    seen.other = make_posed_view(scene, to, 0, width, height);
-    RayScene rays(scene);
-    rays.update(seen.now.pose, compute_anchor(seen.now.view));
-    seen.hits = cast_first_hits(rays, seen.now.view);
-    seen.motion = compute_model_motion(scene, seen.now, seen.other, seen.hits);
-    return seen;
+    return {scene, from, to, width, height};
 }
 
 std::size_t count_hits(const Observed& seen) {
@@ -142,75 +120,6 @@ TEST(Deforming, RP15_NoMotionAcrossAChangeOfTopology) {
     }
 }
 
-/// A cage that bends: the square of make_sheet as a subdivision surface whose corners rise.
-Scene make_cage_scene(bool moves) {
-    Scene scene;
-    PointCache points;
-    points.sampling = {TimeSampling::Kind::acyclic, 0.0, 1.0, {0.0, 1.0}};
-    const Mesh sheet = make_sheet(3);
-    points.positions = {sheet.positions, sheet.positions};
-    if (moves)
-        for (glm::vec3& p : points.positions[1]) p += glm::vec3(0.2f * p.y, 0.3f, 0.5f * p.x * p.x);
-    scene.point_caches = {points};
-    Cage cage;
-    cage.name = "sheet";
-    for (int y = 0; y < 3; ++y) {
-        for (int x = 0; x < 3; ++x) {
-            const int a = 4 * y + x;
-            cage.face_sizes.push_back(4);
-            for (const int p : {a, a + 1, a + 5, a + 4}) cage.face_points.push_back(p);
-        }
-    }
-    cage.points = 0;
-    scene.cages = {cage};
-    Mesh mesh;
-    mesh.cage = 0;
-    scene.meshes = {mesh};
-    tessellate_cage(scene, 0);
-    scene.nodes.resize(1);
-    scene.nodes[0].meshes = {0};
-    return scene;
-}
-
-TEST(Deforming, RP16_CagesAreReprojectedOnTheLimitSurface) {
-    Scene scene = make_cage_scene(true);
-    add_camera(scene);
-    const Observed seen = observe(scene, 0.25, 0.75);
-    const LimitSurface& surface = *scene.meshes[0].limit.surface;
-    // The posed mesh against the limit surface itself.
-    const auto control = [&](double seconds) {
-        return surface.make_control_points(cage_points_at(scene, scene.cages[0], seconds));
-    };
-    const std::vector<glm::dvec3> from = control(0.25), to = control(0.75);
-    double largest = 0.0, moved = 0.0;
-    for (std::size_t i = 0; i < seen.hits.size(); ++i) {
-        const Hit& hit = seen.hits.pixels[i];
-        if (hit.instance == no_index) continue;
-        const glm::dvec2 uv = clamp_barycentrics(hit);
-        const glm::dvec2 expected = project(seen.other.view, surface.evaluate(0, to, hit.primitive, uv.x, uv.y)) -
-                                    project(seen.now.view, surface.evaluate(0, from, hit.primitive, uv.x, uv.y));
-        largest = std::max(largest, glm::length(expected - seen.motion.displacement.pixels[i]));
-        moved = std::max(moved, glm::length(expected));
-    }
-    EXPECT_GT(count_hits(seen), 500u);
-    EXPECT_GT(moved, 1.0);
-    EXPECT_LT(largest, 1e-9);
-}
-
-TEST(Deforming, RP16_AStaticCageStandsStillBitForBitAndIsRigid) {
-    Scene scene = make_cage_scene(false);
-    add_camera(scene);
-    const Observed seen = observe(scene, 0.25, 0.75);
-    EXPECT_GT(count_hits(seen), 500u);
-    EXPECT_TRUE(seen.now.pose.meshes[0].positions.empty());
-    for (const glm::dvec2& d : seen.motion.displacement.pixels) EXPECT_EQ(d, glm::dvec2(0.0));
-    Scene held = make_cage_scene(true);  // moves, but not between these times
-    add_camera(held);
-    const Observed late = observe(held, 1.5, 2.5);
-    EXPECT_FALSE(late.now.pose.meshes[0].control.empty());
-    for (const glm::dvec2& d : late.motion.displacement.pixels) EXPECT_EQ(d, glm::dvec2(0.0));
-}
-
 TEST(Deforming, SkinnedPointsTurnWithTheirJoint) {
     Scene scene = make_skin_scene();
     Track<double> angle = keyed<double>({0.0, 1.0}, {0.0, std::numbers::pi / 2.0});
@@ -292,8 +201,7 @@ TEST(Deforming, HiddenPointsAreFoundWhereTheyHaveMoved) {
         return p - glm::vec3(0.0f, 0.0f, sample == 1 ? 2.0f : 0.0f);
     });
     scene.meshes.push_back(make_sheet(1));
-    Node screen;
-    screen.meshes = {1};
+    Node screen{.meshes = {1}};
     screen.translation = glm::dvec3(1.3, 0.0, -1.0);  // before the sheet only once that has gone back
     scene.nodes.push_back(screen);
     add_camera(scene);

@@ -1,19 +1,10 @@
 // Known answers of engine/pose/pose.h.
 
 #include "engine/pose/pose.h"
-
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <glm/gtc/matrix_transform.hpp>
-
-#include "engine/base/errors.h"
 #include "engine/pose/plan.h"
 #include "tests/support/child_node.h"
-#include "tests/support/expect_near.h"
 #include "tests/support/keyed_track.h"
-#include "tests/support/numbers.h"
-#include "tests/support/refusal.h"
+#include "tests/support/test.h"
 
 namespace aleph {
 namespace {
@@ -41,9 +32,7 @@ TEST(Pose, MatrixStandsForTheWholeTransform) {
 TEST(Pose, AxisRotationSpinsMoreThanOnce) {
     Scene scene;
     scene.nodes.push_back(child_of(no_index));
-    AxisRotation spin;
-    spin.axis = {0.0, 2.0, 0.0};
-    spin.angle = keyed<double>({0.0, 1.0}, {0.0, 4.0 * pi});
+    AxisRotation spin{.axis = {0.0, 2.0, 0.0}, .angle = keyed<double>({0.0, 1.0}, {0.0, 4.0 * pi})};
     scene.nodes[0].axis_rotation = spin;
     for (double t = 0.0; t <= 1.0; t += 0.0625)
         expect_near(pose(scene, t).world[0][0], {std::cos(4.0 * pi * t), 0.0, -std::sin(4.0 * pi * t)}, 1e-13);
@@ -75,10 +64,9 @@ TEST(Pose, InstancesAreTheSameAtEveryTime) {
 
 TEST(Pose, LightsShineAlongMinusZWithoutTheirScale) {
     Scene scene;
-    Light light;
-    light.kind = Light::Kind::directional;
-    light.color = glm::dvec3(1.0, 0.5, 0.25);
-    light.intensity = keyed<double>({0.0, 1.0}, {10.0, 20.0});
+    Light light{.kind = Light::Kind::directional,
+                .color = glm::dvec3(1.0, 0.5, 0.25),
+                .intensity = keyed<double>({0.0, 1.0}, {10.0, 20.0})};
     scene.lights = {light};
     scene.nodes = {child_of(no_index, {1.0, 2.0, 3.0}), child_of(no_index)};
     scene.nodes[0].rotation = glm::angleAxis(-pi / 2.0, glm::dvec3(1.0, 0.0, 0.0));  // -z to -y
@@ -124,10 +112,9 @@ TEST(Pose, CamerasAreOrthonormalWhateverTheScale) {
 
 TEST(Pose, MaterialsStayInRangeWhereCubicKeysOvershoot) {
     Scene scene;
-    Material material;
-    material.roughness = keyed<double>({0.0, 1.0}, {0.0, 1.0, 9.0, -9.0, 1.0, 0.0}, Interpolation::cubic);
-    material.emission = glm::dvec3(1.0, 2.0, 3.0);
-    material.emission_strength = 4.0;
+    Material material{.roughness = keyed<double>({0.0, 1.0}, {0.0, 1.0, 9.0, -9.0, 1.0, 0.0}, Interpolation::cubic),
+                      .emission = glm::dvec3(1.0, 2.0, 3.0),
+                      .emission_strength = 4.0};
     scene.materials = {material};
     scene.environment = Track<glm::dvec3>(keyed<glm::dvec3>({0.0, 1.0}, {glm::dvec3(0.0), glm::dvec3(2.0)}));
     const ScenePose frame = pose(scene, 0.5);

@@ -1,15 +1,11 @@
 // Blended surfaces as a share of the rays that they stop.
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <random>
-
 #include "engine/base/parallel.h"
 #include "engine/rays/alpha_cutout.h"
 #include "engine/rays/ray_scene.h"
 #include "tests/engine/rays/ray_patterns.h"
 #include "tests/support/deforming_scenes.h"
+#include "tests/support/test.h"
 #include "tests/support/trial.h"
 
 namespace aleph {
@@ -141,8 +137,7 @@ TEST(AlphaBlend, NearlyEqualRaysAreIndependent) {
 
 TEST(AlphaBlend, TextureVertexColourAndFactorMultiply) {
     Scene scene = make_blended(0.8, 1);
-    SceneImage image;
-    image.bytes = Image<glm::u8vec4>(2, 1, glm::u8vec4(255));
+    SceneImage image{.bytes = Image<glm::u8vec4>(2, 1, glm::u8vec4(255))};
     image.bytes(0, 0).w = 51;  // .2 on the left, 1 on the right
     scene.images = {image};
     scene.materials[0].base_color_texture.image = 0;

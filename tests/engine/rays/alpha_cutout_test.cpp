@@ -1,15 +1,10 @@
 // Alpha masks: rays pass through the holes, first hits and shadows alike.
 
 #include "engine/rays/alpha_cutout.h"
-
-#include <gtest/gtest.h>
-
-#include <limits>
-#include <numbers>
-
 #include "engine/rays/ray_scene.h"
 #include "tests/engine/rays/ray_patterns.h"
 #include "tests/support/deforming_scenes.h"
+#include "tests/support/test.h"
 
 namespace aleph {
 namespace {
@@ -17,8 +12,7 @@ namespace {
 /// Two by two texels: only the left column is opaque.
 Scene make_masked_scene(Material::AlphaMode mode) {
     Scene scene = make_sheet_scene(1);
-    SceneImage image;
-    image.bytes = Image<glm::u8vec4>(2, 2, glm::u8vec4(255));
+    SceneImage image{.bytes = Image<glm::u8vec4>(2, 2, glm::u8vec4(255))};
     image.bytes(1, 0).w = image.bytes(1, 1).w = 0;
     scene.images = {image};
     scene.materials.resize(1);
@@ -31,22 +25,8 @@ Scene make_masked_scene(Material::AlphaMode mode) {
     return scene;
 }
 
-/// True where a ray hits something. A single ray, a packet and a shadow ray must agree.
 bool is_met(const RayScene& scene, float x, float y) {
-    Tracer tracer(scene);
-    const Ray ray = ray_down(x, y);
-    const bool met = tracer.intersect(ray).instance != no_index;
-    EXPECT_EQ(tracer.occluded(ray), met);
-    const std::vector<Ray> rays(21, ray);
-    for (const bool coherent : {false, true}) {
-        std::vector<Hit> hits(rays.size());
-        tracer.intersect(rays, hits, coherent);
-        for (const Hit& hit : hits) EXPECT_EQ(hit.instance != no_index, met);
-    }
-    std::vector<std::uint8_t> blocked(rays.size());
-    tracer.occluded(rays, blocked);
-    for (const std::uint8_t b : blocked) EXPECT_EQ(b != 0, met);
-    return met;
+    return instance_at(scene, x, y) != no_index;
 }
 
 TEST(AlphaCutout, RaysPassThroughHoles) {
@@ -130,7 +110,7 @@ TEST(AlphaCutout, TexturesAreReadAsTheirReferenceSays) {
     reference.uv_offset = {0.5, 0.0};
     EXPECT_FLOAT_EQ(at(0.9f, 0.25f), 0.0f);
     reference = scene.materials[0].base_color_texture;
-    EXPECT_EQ(at(std::numeric_limits<float>::quiet_NaN(), 0.0f), at(0.0f, 0.0f));
+    EXPECT_EQ(at(float_nan, 0.0f), at(0.0f, 0.0f));
 }
 
 }  // namespace

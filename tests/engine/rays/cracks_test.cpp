@@ -1,13 +1,8 @@
 // RC-03: rays from inside a closed surface must not escape between its triangles.
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <random>
-#include <vector>
-
 #include "engine/rays/ray_scene.h"
 #include "engine/surface/shapes.h"
+#include "tests/support/test.h"
 
 namespace aleph {
 namespace {
@@ -25,8 +20,7 @@ class ClosedSphere {
     glm::dvec3 in_world(const glm::dvec3& p) const { return glm::dvec3(posed_.world[0] * glm::dvec4(p, 1.0)); }
     /// A ray from a point inside, towards a point of the surface or, without one, anywhere.
     Ray make_ray(const glm::dvec3* target) {
-        Ray ray;
-        ray.origin = glm::vec3(in_world(0.8 * std::cbrt(number()) * direction()));
+        Ray ray{.origin = glm::vec3(in_world(0.8 * std::cbrt(number()) * direction()))};
         ray.direction = glm::vec3(target != nullptr ? in_world(*target) - glm::dvec3(ray.origin) : direction());
         return ray;
     }
@@ -44,10 +38,7 @@ class ClosedSphere {
 
   private:
     void make(bool turned) {
-        Shape shape;
-        shape.kind = Shape::Kind::sphere;
-        shape.radius = 1.0;
-        shape.segments = 64;
+        Shape shape{.kind = Shape::Kind::sphere, .radius = 1.0, .segments = 64};
         scene_.meshes = {make_shape_mesh(shape)};
         scene_.nodes.resize(1);
         scene_.nodes[0].meshes = {0};

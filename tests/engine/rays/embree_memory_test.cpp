@@ -1,13 +1,12 @@
 // Embree refuses an allocation: every step of a RayScene reports it as std::bad_alloc, and none ends the process.
 
-#include <gtest/gtest.h>
-
 #include <atomic>
 #include <new>
 
 #include "engine/rays/state.h"
 #include "tests/engine/rays/ray_patterns.h"
 #include "tests/support/deforming_scenes.h"
+#include "tests/support/test.h"
 
 namespace aleph {
 namespace {
@@ -40,9 +39,7 @@ Scene make_scene() {
 }
 
 int hit_instance(const RayScene& rays) {
-    Ray ray;
-    ray.origin = {0.1f, 0.2f, 5.0f};
-    ray.direction = {0.0f, 0.0f, -1.0f};
+    Ray ray{.origin = {0.1f, 0.2f, 5.0f}, .direction = {0.0f, 0.0f, -1.0f}};
     return Tracer(rays).intersect(ray).instance;
 }
 

@@ -1,24 +1,16 @@
 // The flat tree: what belongs to it, and that rays meet the same there as through an instance for every node.
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <memory>
-#include <random>
-
 #include "engine/rays/state.h"
 #include "engine/surface/shapes.h"
 #include "tests/engine/rays/ray_patterns.h"
 #include "tests/support/deforming_scenes.h"
+#include "tests/support/test.h"
 
 namespace aleph {
 namespace {
 
 Node make_node(int mesh, const glm::dvec3& place) {
-    Node node;
-    node.meshes = {mesh};
-    node.translation = place;
-    return node;
+    return {.translation = place, .meshes = {mesh}};
 }
 
 /// Spheres, boxes and masked sheets: turned, scaled, mirrored, some shared; the last node moves.
@@ -143,7 +135,7 @@ TEST(FlatTree, WhatCouldLosePrecisionStaysOutside) {
     scene.meshes = {make_sheet(2)};
     scene.nodes = {make_node(0, {0.0, 0.0, 0.0}),  make_node(0, {9.0, 0.0, 0.0}),         make_node(0, {0.0, 9.0, 0.0}),
                    make_node(0, {0.0, 3.0, 0.0}),  make_node(0, {1e3, 0.0, 0.0}),         make_node(0, {0.0, 0.0, 9.0}),
-                   make_node(0, {1e20, 0.0, 0.0}), make_node(0, {std::nan(""), 0.0, 0.0})};
+                   make_node(0, {1e20, 0.0, 0.0}), make_node(0, {not_a_number, 0.0, 0.0})};
     scene.nodes[3].scale = glm::dvec3(1e3);   // a floor of 2 km
     scene.nodes[5].scale = glm::dvec3(1e-3);  // 2 mm, 9 m away
     EXPECT_EQ(find_flat(scene), (std::vector<std::uint8_t>{1, 1, 1, 1, 0, 0, 0, 0}));

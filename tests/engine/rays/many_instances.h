@@ -47,7 +47,7 @@ class RandomRays {
                                 3.4e38f,
                                 float_infinity,
                                 -float_infinity,
-                                std::nanf(""),
+                                float_nan,
                                 uniform(-9.0f, 9.0f),
                                 uniform(-9.0f, 9.0f)};
         return values[std::uniform_int_distribution<std::size_t>(0, 15)(engine_)];

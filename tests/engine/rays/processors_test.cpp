@@ -1,15 +1,9 @@
 // RC-15: on processors of other kinds rays meet the same triangles at the same places, to the last bit.
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <memory>
-#include <random>
-#include <vector>
-
 #include "engine/rays/state.h"
 #include "engine/surface/shapes.h"
 #include "tests/engine/rays/ray_patterns.h"
+#include "tests/support/test.h"
 
 namespace aleph {
 namespace {

@@ -1,23 +1,32 @@
 #pragma once
 // Rays for the tests, and scenes of rays with a device of their own.
 
-#include <cstdint>
-#include <memory>
-#include <random>
-#include <utility>
-#include <vector>
-
 #include "engine/pose/plan.h"
 #include "engine/rays/state.h"
+#include "tests/support/test.h"
 
 namespace aleph {
 
 /// A ray straight down z at (x, y), from z = 5.
 inline Ray ray_down(float x, float y) {
-    Ray ray;
-    ray.origin = {x, y, 5.0f};
-    ray.direction = {0.0f, 0.0f, -1.0f};
-    return ray;
+    return {.origin = {x, y, 5.0f}, .direction = {0.0f, 0.0f, -1.0f}};
+}
+
+/// The instance that a ray meets, which must be the same alone and in packets, and for occlusion.
+inline int instance_at(const RayScene& scene, float x, float y) {
+    Tracer tracer(scene);
+    const std::vector<Ray> rays(17, ray_down(x, y));
+    const int alone = tracer.intersect(rays[0]).instance;
+    EXPECT_EQ(tracer.occluded(rays[0]), alone != no_index);
+    for (const bool coherent : {false, true}) {
+        std::vector<Hit> hits(rays.size());
+        tracer.intersect(rays, hits, coherent);
+        for (const Hit& hit : hits) EXPECT_EQ(hit.instance, alone);
+    }
+    std::vector<std::uint8_t> blocked(rays.size());
+    tracer.occluded(rays, blocked);
+    for (const std::uint8_t b : blocked) EXPECT_EQ(b != 0, alone != no_index);
+    return alone;
 }
 
 /// Rays from one origin through random points of a square of the plane z = 0.

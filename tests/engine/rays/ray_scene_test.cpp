@@ -1,17 +1,12 @@
 // Posed scenes for rays: updates of what moved, instances that are left out, meshes that are refused.
 
 #include "engine/rays/ray_scene.h"
-
-#include <gtest/gtest.h>
-
-#include <cmath>
-
-#include "engine/base/errors.h"
 #include "engine/pose/pose.h"
 #include "engine/surface/shapes.h"
 #include "tests/engine/rays/many_instances.h"
 #include "tests/support/keyed_track.h"
 #include "tests/support/render_scenes.h"
+#include "tests/support/test.h"
 
 namespace aleph {
 namespace {
@@ -53,19 +48,6 @@ TEST(RayScene, UpdateTouchesWhatMoved) {
         ASSERT_EQ(a.intersect(ray).primitive, b.intersect(ray).primitive);
     }
     EXPECT_EQ(c.intersect({{3.0f, 0.0f, 0.0f}, {0.0f, 0.0f, -1.0f}}).instance, 0);  // its own placement
-}
-
-TEST(RayScene, KF18_FlattenedInstancesAreLeftOutAndCounted) {
-    for (const glm::dvec3 scale : {glm::dvec3(1.0, 0.0, 1.0), glm::dvec3(0.0), glm::dvec3(1e-30, 1.0, 1.0),
-                                   glm::dvec3(1.0, 1.0, std::nan(""))}) {
-        Scene scene = make_many();
-        scene.nodes[0].scale = scale;
-        const Stage stage(scene);
-        EXPECT_EQ(stage.rays.skipped_instances(), 1u);
-        Tracer tracer(stage.rays);
-        const glm::vec3 anchor(stage.shading.anchor);
-        EXPECT_NE(tracer.intersect({-anchor, {0.0f, 0.0f, -1.0f}}).instance, 0);
-    }
 }
 
 TEST(RayScene, KF19_TinyInstancesWithVolumeAreMet) {
@@ -122,29 +104,6 @@ TEST(RayScene, HiddenNodesAreNotMet) {
     EXPECT_EQ(stage.rays.skipped_instances(), 0u);
     Tracer tracer(stage.rays);
     EXPECT_NE(tracer.intersect({-glm::vec3(stage.shading.anchor), {0.0f, 0.0f, -1.0f}}).instance, 0);
-}
-
-TEST(RayScene, DegenerateTrianglesAreCounted) {
-    Scene scene;
-    Mesh mesh = make_quad(1.0, 1.0, no_index);
-    mesh.triangles.emplace_back(0, 0, 1);
-    mesh.triangles.emplace_back(2, 2, 2);
-    add_mesh(scene, mesh);
-    EXPECT_EQ(Stage(scene).rays.degenerate_triangles(), 2u);
-}
-
-TEST(RayScene, RC08_BrokenMeshesAreRefused) {
-    Scene scene;
-    add_mesh(scene, make_quad(1.0, 1.0, no_index));
-    Scene broken = scene;
-    broken.meshes[0].positions[1].y = std::nanf("");
-    EXPECT_THROW(RayScene{broken}, InputError);
-    broken = scene;
-    broken.meshes[0].positions[1].y = 1e19f;
-    EXPECT_THROW(RayScene{broken}, InputError);
-    broken = scene;
-    broken.meshes[0].triangles[0].z = 4;
-    EXPECT_THROW(RayScene{broken}, InputError);
 }
 
 }  // namespace

@@ -1,14 +1,10 @@
 // RC-07, RC-06: which of several surfaces at one distance is hit depends neither on how Embree's trees were built nor
 // on whether rays are cast one by one or in packets.
 
-#include <gtest/gtest.h>
-
-#include <random>
-#include <vector>
-
 #include "engine/rays/ray_scene.h"
 #include "tests/engine/rays/ray_patterns.h"
 #include "tests/support/deforming_scenes.h"
+#include "tests/support/test.h"
 
 namespace aleph {
 namespace {
@@ -25,8 +21,7 @@ std::vector<Ray> make_edge_rays(unsigned cells) {
             const auto at = [&](unsigned k) {
                 return static_cast<float>(k) / (2.0f * static_cast<float>(cells)) - 1.0f;
             };
-            Ray ray;
-            ray.origin = {0.25f, 0.5f, 4.0f};
+            Ray ray{.origin = {0.25f, 0.5f, 4.0f}};
             ray.direction = glm::vec3(at(i), at(j), 0.0f) - ray.origin;
             rays.push_back(ray);
         }

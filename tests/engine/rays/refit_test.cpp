@@ -1,16 +1,10 @@
 // Rays through scenes whose meshes deform, come and go.
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <limits>
-#include <random>
-#include <vector>
-
 #include "engine/pose/plan.h"
 #include "engine/rays/ray_scene.h"
 #include "tests/engine/rays/ray_patterns.h"
 #include "tests/support/deforming_scenes.h"
+#include "tests/support/test.h"
 
 namespace aleph {
 namespace {
@@ -105,9 +99,7 @@ TEST(RayDeform, ScenesThatShareMeshesDeformAlone) {
     RayScene now(scene), next = now.share_meshes();
     EXPECT_EQ(now.update(pose(scene, 0.0), glm::dvec3(0.0)), 1u);
     EXPECT_EQ(next.update(pose(scene, 1.0), glm::dvec3(0.0)), 1u);
-    Ray ray;
-    ray.origin = {0.1f, 0.2f, 5.0f};
-    ray.direction = {0.0f, 0.0f, -1.0f};
+    Ray ray{.origin = {0.1f, 0.2f, 5.0f}, .direction = {0.0f, 0.0f, -1.0f}};
     EXPECT_FLOAT_EQ(Tracer(now).intersect(ray).distance, 5.0f);
     EXPECT_FLOAT_EQ(Tracer(next).intersect(ray).distance, 4.0f);
     EXPECT_EQ(next.update(pose(scene, 1.0), glm::dvec3(0.0)), 0u);
@@ -125,9 +117,7 @@ TEST(RayDeform, MeshesComeAndGoBesideOthersOfTheirNode) {
     scene.meshes[1].present = keyed<double>({0.0, 1.0}, {0.0, 1.0}, Interpolation::step);
     for (glm::vec3& p : scene.meshes[2].positions) p.z = -1.0f;
     RayScene rays(scene);
-    Ray ray;
-    ray.origin = {0.1f, 0.2f, 5.0f};
-    ray.direction = {0.0f, 0.0f, -1.0f};
+    Ray ray{.origin = {0.1f, 0.2f, 5.0f}, .direction = {0.0f, 0.0f, -1.0f}};
     for (const auto& [seconds, instance] : {std::pair(0.5, 0), {1.5, 1}, {0.0, 0}}) {
         rays.update(pose(scene, seconds), glm::dvec3(0.0));
         EXPECT_EQ(Tracer(rays).intersect(ray).instance, instance);
@@ -135,30 +125,10 @@ TEST(RayDeform, MeshesComeAndGoBesideOthersOfTheirNode) {
     }
 }
 
-TEST(RayDeform, PointsThatAreNotFiniteAreLeftOutAndCounted) {
-    Scene scene = make_sheet_scene();
-    add_cache(scene, 0, {0.0, 1.0}, [](const glm::vec3& p, std::size_t) { return p; });
-    scene.point_caches[0].positions[1][3].x = std::numeric_limits<float>::infinity();
-    RayScene rays(scene);
-    Ray ray;
-    ray.origin = {0.1f, 0.2f, 5.0f};
-    ray.direction = {0.0f, 0.0f, -1.0f};
-    for (int turn = 0; turn < 2; ++turn) {
-        rays.update(pose(scene, 0.0), glm::dvec3(0.0));
-        EXPECT_EQ(rays.skipped_instances(), 0u);
-        EXPECT_EQ(Tracer(rays).intersect(ray).instance, 0);
-        rays.update(pose(scene, 1.0), glm::dvec3(0.0));
-        EXPECT_EQ(rays.skipped_instances(), 1u);
-        EXPECT_EQ(Tracer(rays).intersect(ray).instance, no_index);
-    }
-}
-
 TEST(RayDeform, UpdatesTouchOnlyWhatMoves) {
     Scene scene = make_sheet_scene();
     for (int i = 0; i < 600; ++i) {
-        Node node;
-        node.meshes = {0};
-        node.translation = glm::dvec3(3.0 * (i % 30), 3.0 * (i / 30), -2.0);
+        Node node{.translation = glm::dvec3(3.0 * (i % 30), 3.0 * (i / 30), -2.0), .meshes = {0}};
         if (i % 100 == 7) node.translation = keyed<glm::dvec3>({0.0, 1.0}, {glm::dvec3(i), glm::dvec3(i + 1)});
         scene.nodes.push_back(node);
     }

@@ -1,20 +1,10 @@
 // Hard keys: almost equal, opposite, zero, misordered, far away in time (KF-01 to KF-16).
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <cstring>
-#include <glm/gtc/matrix_transform.hpp>
-#include <limits>
-#include <random>
-
-#include "engine/base/errors.h"
 #include "engine/pose/pose.h"
 #include "engine/scene/track.h"
 #include "engine/scene/transforms.h"
 #include "tests/support/keyed_track.h"
-#include "tests/support/numbers.h"
-#include "tests/support/refusal.h"
+#include "tests/support/test.h"
 
 namespace aleph {
 namespace {
@@ -94,7 +84,7 @@ TEST(Keyframes, KF04_CubicKeysOfAnyLengthKeepTheirShape) {
 }
 
 TEST(Keyframes, KF05_ZeroOrNanRotationIsRefusedByIndex) {
-    const glm::dquat q(1.0, 0.0, 0.0, 0.0), zero(0.0, 0.0, 0.0, 0.0), nan(std::nan(""), 0.0, 0.0, 1.0);
+    const glm::dquat q(1.0, 0.0, 0.0, 0.0), zero(0.0, 0.0, 0.0, 0.0), nan(not_a_number, 0.0, 0.0, 1.0);
     EXPECT_EQ(refusal(keyed<glm::dquat>({0, 1, 2}, {q, q, zero})),
               "ship.glb: /animations/2/samplers/5: key 2: its rotation is zero");
     EXPECT_EQ(refusal(keyed<glm::dquat>({0, 1, 2}, {q, nan, q})),
@@ -158,13 +148,12 @@ TEST(Keyframes, KF10_DuplicateTimesAreRefused) {
 }
 
 TEST(Keyframes, KF11_MisorderedAndInfiniteTimesAreRefusedByIndex) {
-    const double infinity = std::numeric_limits<double>::infinity();
     const auto reason = [](std::vector<double> times) {
         return refusal(keyed<double>(std::move(times), {0.0, 1.0, 2.0}));
     };
     const std::string place = "ship.glb: /animations/2/samplers/5: ";
     EXPECT_EQ(reason({0.0, 2.0, 1.0}), place + "key 2: its time 1 s lies before the key before it, 2 s");
-    EXPECT_EQ(reason({0.0, std::nan(""), 1.0}), place + "key 1: its time is nan; it must be finite");
+    EXPECT_EQ(reason({0.0, not_a_number, 1.0}), place + "key 1: its time is nan; it must be finite");
     EXPECT_EQ(reason({-infinity, 0.0, 1.0}), place + "key 0: its time is -inf; it must be finite");
     EXPECT_EQ(reason({0.0, 1.0, infinity}), place + "key 2: its time is inf; it must be finite");
     EXPECT_EQ(reason({0.0, 1.0}), place + "3 keys but only 2 times");
@@ -177,7 +166,6 @@ void expect_bits(const T& a, const T& b) {
 }
 
 TEST(Keyframes, KF12_TimesOutsideHoldTheFirstAndLastKey) {
-    const double infinity = std::numeric_limits<double>::infinity();
     const glm::dvec3 a(0.1, 0.2, 0.3), b(1.0 / 3.0, -0.7, 1e20);
     const auto linear = keyed<glm::dvec3>({0.1, 0.7}, {a, b});
     const auto cubic = keyed<glm::dvec3>({0.1, 0.7}, {b, a, b, a, b, a}, Interpolation::cubic);
@@ -186,7 +174,7 @@ TEST(Keyframes, KF12_TimesOutsideHoldTheFirstAndLastKey) {
             expect_bits(evaluate(track, t), a);
         for (const double t : {1.0, 1e9, std::numeric_limits<double>::max(), infinity})
             expect_bits(evaluate(track, t), b);
-        expect_bits(evaluate(track, std::nan("")), a);
+        expect_bits(evaluate(track, not_a_number), a);
     }
     const glm::dquat q = exact_turn(1.0L), r = exact_turn(2.0L);
     expect_bits(evaluate(keyed<glm::dquat>({0.0, 1.0}, {q, r}), -1.0), q);
@@ -263,8 +251,7 @@ TEST(Keyframes, EqualKeysPoseToTheSameBitsAtEveryTime) {
     const std::vector<double> times{-1.0, 0.1, 1.0 / 3.0, 2.7};
     Scene scene;
     for (int i = 0; i < 60; ++i) {
-        Node node;
-        node.parent = i - 1;
+        Node node{.parent = i - 1};
         const glm::dvec3 v(number(random), number(random), number(random)), zero(0.0);
         const glm::dquat q(number(random), number(random), number(random), number(random));
         const glm::dquat none(0.0, 0.0, 0.0, 0.0);

@@ -1,17 +1,7 @@
 #pragma once
 // Matrices for the tests of hard transforms, and how far two of them are apart.
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <glm/gtc/matrix_transform.hpp>
-#include <glm/gtc/quaternion.hpp>
-#include <numbers>
-#include <random>
-#include <vector>
-
-#include "tests/support/numbers.h"
+#include "tests/support/test.h"
 
 namespace aleph {
 

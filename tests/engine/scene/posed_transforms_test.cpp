@@ -1,17 +1,10 @@
 // Hard transforms between keys and in hierarchies: flattened, sheared, mirrored, deep, far away (KF-20 to KF-25).
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <glm/gtc/quaternion.hpp>
-#include <numbers>
-#include <vector>
-
 #include "engine/pose/camera_view.h"
 #include "engine/pose/pose.h"
 #include "engine/scene/transforms.h"
 #include "tests/engine/scene/matrices.h"
+#include "tests/support/test.h"
 
 namespace aleph {
 namespace {
@@ -87,9 +80,7 @@ Scene chain(int depth, double degrees) {
         Node& node = scene.nodes[i];
         node.parent = i - 1;
         node.translation = glm::dvec3(1.0, 0.0, 0.0);
-        AxisRotation turn;
-        turn.axis = {0.0, 0.0, 1.0};
-        turn.angle = degrees * pi / 180.0;
+        AxisRotation turn{.axis = {0.0, 0.0, 1.0}, .angle = degrees * pi / 180.0};
         node.axis_rotation = turn;
     }
     return scene;

@@ -1,16 +1,9 @@
-// Known answers of engine/scene/track.h.
+// Known answers of engine/scene/track.h and time_sampling.h.
 
 #include "engine/scene/track.h"
-
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <glm/gtc/matrix_transform.hpp>
-
-#include "engine/base/errors.h"
+#include "engine/scene/time_sampling.h"
 #include "tests/support/keyed_track.h"
-#include "tests/support/numbers.h"
-#include "tests/support/refusal.h"
+#include "tests/support/test.h"
 
 namespace aleph {
 namespace {
@@ -30,8 +23,6 @@ TEST(Track, AConstantHoldsForEver) {
     const Track<glm::dvec3> track = glm::dvec3(1.0, 2.0, 3.0);
     for (const double t : {-1e9, 0.0, 0.3, 1e9}) EXPECT_EQ(evaluate(track, t), glm::dvec3(1.0, 2.0, 3.0));
     EXPECT_FALSE(is_animated(track));
-    EXPECT_EQ(first_time(track), 0.0);
-    EXPECT_EQ(last_time(track), 0.0);
 }
 
 TEST(Track, Linear) {
@@ -40,7 +31,6 @@ TEST(Track, Linear) {
     EXPECT_DOUBLE_EQ(evaluate(track, 2.5), 0.0);
     EXPECT_EQ(evaluate(track, -1.0), 10.0);
     EXPECT_EQ(evaluate(track, 4.0), -20.0);
-    EXPECT_EQ(last_time(track), 3.0);
 }
 
 TEST(Track, StepTakesTheKeyAtOrBefore) {
@@ -117,17 +107,17 @@ TEST(Track, ValidateNamesTheBadKey) {
     EXPECT_EQ(refusal(Track<double>(1.0)), "");
     EXPECT_EQ(refusal(Track<double>()), "it has no keys");
     EXPECT_EQ(refusal(keyed<double>({0.0, 1.0}, Values{0.0, 1.0})), "");
-    EXPECT_EQ(refusal(keyed<double>({0.0, 1.0}, Values{0.0, std::nan("")})), "key 1: it holds nan");
+    EXPECT_EQ(refusal(keyed<double>({0.0, 1.0}, Values{0.0, not_a_number})), "key 1: it holds nan");
     EXPECT_EQ(refusal(keyed({0.0, 1.0}, Values(5, 1.0), Interpolation::cubic)),
               "5 values: a cubic key has three (in-tangent, value, out-tangent)");
-    EXPECT_EQ(refusal(keyed({0.0, 1.0}, Values{0.0, 1.0, 0.0, 0.0, 1.0, INFINITY}, Interpolation::cubic)),
+    EXPECT_EQ(refusal(keyed({0.0, 1.0}, Values{0.0, 1.0, 0.0, 0.0, 1.0, infinity}, Interpolation::cubic)),
               "key 1: it holds inf");
     EXPECT_EQ(refusal(keyed({0.0, 1.0}, std::vector<glm::dquat>{{1.0, 0.0, 0.0, 0.0}, {0.0, 0.0, 0.0, 0.0}})),
               "key 1: its rotation is zero");
     glm::dmat4 projective(1.0);
     projective[0].w = 0.5;
     EXPECT_EQ(refusal(Track<glm::dmat4>(projective)), "key 0: its matrix is not affine: the last row must be 0 0 0 1");
-    EXPECT_EQ(refusal(keyed<double>({std::nan("")}, Values{0.0})), "key 0: its time is nan; it must be finite");
+    EXPECT_EQ(refusal(keyed<double>({not_a_number}, Values{0.0})), "key 0: its time is nan; it must be finite");
 }
 
 TEST(Track, RP08_TurnsOver170DegreesCanBeFound) {
@@ -143,6 +133,108 @@ TEST(Track, RP08_TurnsOver170DegreesCanBeFound) {
     EXPECT_NEAR(largest({turn(0.0, z), turn(180.0, z)}), 180.0, 1e-9);
     EXPECT_EQ(largest({turn(30.0, z), turn(30.0, z)}), 0.0);
     EXPECT_EQ(largest({turn(30.0, z)}), 0.0);
+}
+
+using Kind = TimeSampling::Kind;
+
+TimeSampling acyclic(std::vector<double> times) {
+    return {Kind::acyclic, 0.0, 1.0, std::move(times)};
+}
+TimeSampling uniform(double start, double period) {
+    return {Kind::uniform, start, period, {}};
+}
+TimeSampling cyclic(double period, std::vector<double> times) {
+    return {Kind::cyclic, 0.0, period, std::move(times)};
+}
+
+void expect_span(const SampleSpan& span, std::size_t floor, std::size_t ceil, double fraction) {
+    EXPECT_EQ(span.floor, floor);
+    EXPECT_EQ(span.ceil, ceil);
+    EXPECT_DOUBLE_EQ(span.fraction, fraction);
+}
+
+std::string refusal(const TimeSampling& sampling, std::size_t count) {
+    const Refusal found = find_refusal([&] { validate(sampling, count, "a.json", "/nodes/3"); });
+    if (!found.message.empty()) {
+        EXPECT_EQ(found.file + found.place, "a.json/nodes/3");
+    }
+    return found.reason;
+}
+
+TEST(TimeSampling, TimesOfSamples) {
+    EXPECT_DOUBLE_EQ(sample_time(uniform(2.0, 0.25), 6), 3.5);
+    EXPECT_DOUBLE_EQ(sample_time(acyclic({0.0, 1.0, 5.0}), 2), 5.0);
+    const TimeSampling cycle = cyclic(10.0, {1.0, 4.0});
+    EXPECT_DOUBLE_EQ(sample_time(cycle, 1), 4.0);
+    EXPECT_DOUBLE_EQ(sample_time(cycle, 2), 11.0);
+    EXPECT_DOUBLE_EQ(sample_time(cycle, 7), 34.0);
+}
+
+TEST(TimeSampling, FindsTheSamplesAround) {
+    expect_span(find_samples(uniform(2.0, 0.5), 5, 2.875), 1, 2, 0.75);
+    expect_span(find_samples(acyclic({0.0, 1.0, 5.0}), 3, 2.0), 1, 2, 0.25);
+    expect_span(find_samples(acyclic({-3.0, -1.0}), 2, -2.5), 0, 1, 0.25);
+    expect_span(find_samples(cyclic(10.0, {1.0, 4.0}), 5, 12.5), 2, 3, 0.5);
+    expect_span(find_samples(cyclic(10.0, {1.0, 4.0}), 5, 7.5), 1, 2, 0.5);  // between two cycles
+}
+
+TEST(TimeSampling, HoldsOutside) {
+    const TimeSampling times = acyclic({1.0, 2.0, 4.0});
+    for (const double early : {-infinity, -1e300, -0.0, 0.0, 5e-324, 0.999, not_a_number})
+        expect_span(find_samples(times, 3, early), 0, 0, 0.0);
+    for (const double late : {4.0, 4.001, 1e300, infinity}) expect_span(find_samples(times, 3, late), 2, 2, 0.0);
+    expect_span(find_samples(times, 1, 3.0), 0, 0, 0.0);
+    expect_span(find_samples(times, 2, 3.0), 1, 1, 0.0);  // as many samples as the property has, not as the times
+}
+
+TEST(TimeSampling, SnapsToASampleWithinRounding) {
+    const TimeSampling times = acyclic({0.0, 2.0, 4.0});
+    expect_span(find_samples(times, 3, 2.0), 1, 1, 0.0);
+    expect_span(find_samples(times, 3, 2.0 + 1e-9), 1, 1, 0.0);
+    expect_span(find_samples(times, 3, 2.0 - 1e-9), 1, 1, 0.0);
+    EXPECT_EQ(find_samples(times, 3, 2.0 + 1e-8).ceil, 2u);
+    EXPECT_EQ(find_samples(times, 3, 2.0 - 1e-8).floor, 0u);
+    // Every frame of an hour at 24000/1001 fps finds its uniform sample, although the two times are computed in a
+    // different order.
+    const TimeSampling film = uniform(0.0, 1001.0 / 24000.0);
+    for (std::size_t frame = 0; frame < 86400; ++frame) {
+        const SampleSpan span = find_samples(film, 86400, static_cast<double>(frame) * 1001.0 / 24000.0);
+        ASSERT_EQ(span.floor, frame);
+        ASSERT_EQ(span.ceil, frame);
+    }
+}
+
+TEST(TimeSampling, NearestPrefersTheEarlierInATie) {
+    const TimeSampling times = acyclic({0.0, 1.0, 3.0});
+    EXPECT_EQ(nearest_sample(times, 3, 0.5), 0u);
+    EXPECT_EQ(nearest_sample(times, 3, 0.500001), 1u);
+    EXPECT_EQ(nearest_sample(times, 3, 1.999999), 1u);
+    EXPECT_EQ(nearest_sample(times, 3, 2.000001), 2u);
+    EXPECT_EQ(nearest_sample(times, 3, 1.0), 1u);
+    EXPECT_EQ(nearest_sample(times, 3, -9.0), 0u);
+    EXPECT_EQ(nearest_sample(times, 3, 9.0), 2u);
+}
+
+TEST(TimeSampling, AcceptsWhatIsSound) {
+    EXPECT_EQ(refusal(uniform(-4.0, 1.0 / 30.0), 1000), "");
+    EXPECT_EQ(refusal(acyclic({-1.0, 0.0, 2.0}), 3), "");
+    EXPECT_EQ(refusal(acyclic({0.0, 1.0, 2.0}), 2), "");
+    EXPECT_EQ(refusal(cyclic(2.0, {0.0, 1.9}), 100), "");
+}
+
+TEST(TimeSampling, RefusesWhatIsNot) {
+    EXPECT_EQ(refusal(uniform(0.0, 1.0), 0), "it has no keys");
+    EXPECT_EQ(refusal(uniform(0.0, 0.0), 2), "its period is 0 s; it must be positive");
+    EXPECT_EQ(refusal(uniform(0.0, -1.0), 2), "its period is -1 s; it must be positive");
+    EXPECT_EQ(refusal(uniform(0.0, not_a_number), 2), "its period is nan s; it must be positive");
+    EXPECT_EQ(refusal(uniform(infinity, 1.0), 2), "its start time is inf; it must be finite");
+    EXPECT_EQ(refusal(acyclic({0.0, 1.0}), 3), "3 keys but only 2 times");
+    EXPECT_EQ(refusal(cyclic(1.0, {}), 3), "its cycle has no times");
+    EXPECT_EQ(refusal(cyclic(1.0, {0.0, 1.0}), 3), "its times span more than the cycle's 1 s");
+    EXPECT_EQ(refusal(cyclic(0.0, {0.0}), 3), "its period is 0 s; it must be positive");
+    EXPECT_EQ(refusal(cyclic(9.0, {0.0, 3.0, 2.0}), 3), "key 2: its time 2 s lies before the key before it, 3 s");
+    EXPECT_EQ(refusal(acyclic({-1e308, 1e308}), 2), "key 1: its time is too large");
+    EXPECT_EQ(refusal(uniform(1e20, 1.0), 2), "key 1: its time cannot be told from the key before it");
 }
 
 }  // namespace

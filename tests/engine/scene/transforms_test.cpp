@@ -1,17 +1,11 @@
 // Hard transforms of one node: mirrored, flattened, tiny, sheared, without direction (KF-17 to KF-19, KF-26 to KF-28).
 
-#include "engine/scene/transforms.h"
-
-#include <gtest/gtest.h>
-
-#include <cmath>
 #include <glm/gtc/matrix_inverse.hpp>
-#include <limits>
-#include <utility>
-#include <vector>
 
 #include "engine/pose/pose.h"
+#include "engine/scene/transforms.h"
 #include "tests/engine/scene/matrices.h"
+#include "tests/support/test.h"
 
 namespace aleph {
 namespace {
@@ -48,10 +42,10 @@ TEST(Transforms, KF18_ZeroScaleStaysFiniteAndIsSeen) {
         EXPECT_TRUE(has_full_rank(turning(33, {1, 2, 3}) * m * turning(71, {-1, 0, 1})));
     }
     glm::dmat4 broken(1.0);
-    broken[1].y = std::nan("");
+    broken[1].y = not_a_number;
     EXPECT_FALSE(has_full_rank(broken));
     EXPECT_EQ(normal_matrix(broken), glm::dmat3(0.0));
-    broken[1].y = std::numeric_limits<double>::infinity();
+    broken[1].y = infinity;
     EXPECT_FALSE(has_full_rank(broken));
     EXPECT_EQ(orthonormal_axes(broken), glm::dmat3(1.0));
 }
@@ -112,7 +106,7 @@ TEST(Transforms, KF27_LookAtStraightDownAndAtItself) {
     const glm::dvec3 y(0.0, 1.0, 0.0);
     for (const glm::dvec3 target : {glm::dvec3(0, -5, 0), glm::dvec3(0, 5, 0), glm::dvec3(1e-12, -5, 0),
                                     glm::dvec3(1e-8, -5, 1e-8), glm::dvec3(0), glm::dvec3(0, -1e-300, 0)})
-        for (const glm::dvec3 up : {y, -y, glm::dvec3(0.0), y * 1e-30, y * 1e30, glm::dvec3(std::nan(""))}) {
+        for (const glm::dvec3 up : {y, -y, glm::dvec3(0.0), y * 1e-30, y * 1e30, glm::dvec3(not_a_number)}) {
             const glm::dmat4 world = look_at(glm::dvec3(0.0), target, up);
             expect_orthonormal(glm::dmat3(world), 8.0 * double_unit);
             const glm::dvec3 forward = target == glm::dvec3(0.0) ? glm::dvec3(0, 0, -1) : safe_normalize(target);
@@ -158,14 +152,13 @@ TEST(Transforms, KF28_NormalizeAnyLength) {
         EXPECT_LT(glm::length(safe_normalize(direction * length) - direction), 4.0 * double_unit) << length;
     for (const float length : {1e-38f, 1e-30f, 1.0f, 1e20f, 1e38f})
         EXPECT_LT(glm::length(safe_normalize(glm::vec3(direction) * length) - glm::vec3(direction)), 2e-7f) << length;
-    const double infinity = std::numeric_limits<double>::infinity(), nan = std::nan("");
-    for (const double none : {0.0, -0.0, 5e-324, infinity, -infinity, nan})
+    for (const double none : {0.0, -0.0, 5e-324, infinity, -infinity, not_a_number})
         EXPECT_EQ(safe_normalize(glm::dvec3(none, 0.0, 0.0)), glm::dvec3(0.0)) << none;
-    EXPECT_EQ(safe_normalize(glm::dvec3(1.0, nan, 0.0)), glm::dvec3(0.0));
+    EXPECT_EQ(safe_normalize(glm::dvec3(1.0, not_a_number, 0.0)), glm::dvec3(0.0));
     EXPECT_EQ(safe_normalize(glm::dvec3(std::numeric_limits<double>::max(), 0.0, 0.0)), glm::dvec3(1.0, 0.0, 0.0));
     const glm::dquat identity(1.0, 0.0, 0.0, 0.0);
     EXPECT_EQ(safe_normalize(glm::dquat(0.0, 0.0, 0.0, 0.0)), identity);
-    EXPECT_EQ(safe_normalize(glm::dquat(0.0, nan, 0.0, 1.0)), identity);
+    EXPECT_EQ(safe_normalize(glm::dquat(0.0, not_a_number, 0.0, 1.0)), identity);
     EXPECT_EQ(safe_normalize(glm::dquat(0.0, infinity, 0.0, 1.0)), identity);
     EXPECT_EQ(ScenePose{}.world.size(), 0u);
     Scene scene;

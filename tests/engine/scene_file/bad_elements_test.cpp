@@ -1,8 +1,7 @@
 // Broken elements of scene files: materials, cameras, lights, nodes, keys, shapes.
 
-#include <gtest/gtest.h>
-
 #include "tests/engine/scene_file/bad_scene_file.h"
+#include "tests/support/test.h"
 
 namespace aleph {
 namespace {

@@ -1,13 +1,11 @@
-// Broken scene files: each is refused with the file, the place in it and the reason.
+// Broken scene files: each is refused with the file, the place in it and the reason, and with advice about keys and
+// values that other programs have.
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
 #include <cstdlib>
-#include <memory>
 
 #include "tests/engine/scene_file/bad_scene_file.h"
-#include "tests/support/refusal.h"
+#include "tests/engine/scene_file/short_text.h"
+#include "tests/support/test.h"
 
 namespace aleph {
 namespace {
@@ -83,7 +81,7 @@ TEST(BadSceneFile, Limits) {
     EXPECT_THROW(read_scene_text({text.get(), too_large}, "broken.json"), InputError);
 }
 
-TEST(BadSceneFile, TopLevel) {
+TEST(BadSceneFile, RP21_TopLevel) {
     expect_all_refused({
         {"[]", "", "expected an aleph scene"},
         {"null", "", "found null"},
@@ -96,6 +94,7 @@ TEST(BadSceneFile, TopLevel) {
         scene("\"nodes\": [7]", "/nodes/0", "expected a node, found 7"),
         scene("\"name\": 5", "/name", "a name"),
         scene("\"fps\": 0", "/fps", "found 0"),
+        scene("\"fps\": \"0/1\"", "/fps", "found the text \"0/1\""),
         scene("\"fps\": -30", "/fps", "found -30"),
         scene("\"fps\": 23.976", "/fps", "30000/1001"),
         scene("\"fps\": \"30000/0\"", "/fps", "30000/1001"),
@@ -133,15 +132,6 @@ TEST(BadSceneFile, TopLevel) {
         scene("\"environment_map\": \"s.exr\"", "/environment_map", "did you mean"),
         scene("\"camera\": [\"main\"]", "/camera", "a name"),
         scene("\"include\": 5", "/include", "relative path"),
-    });
-}
-
-TEST(BadSceneFile, RP21_FrameRateAndPixelsPerDegreeOfZero) {
-    expect_all_refused({
-        scene("\"fps\": 0", "/fps", "found 0"),
-        scene("\"fps\": \"0/1\"", "/fps", "found the text \"0/1\""),
-        scene("\"viewing\": {\"pixels_per_degree\": 0}", "/viewing/pixels_per_degree", "above 0"),
-        {"{\"aleph\": 1, \"viewing\": {\"pixels_per_degree\": NaN}}", "line 1, column 47", "JSON"},
     });
 }
 
@@ -198,6 +188,42 @@ TEST(BadSceneFile, NamesAreEscapedAndShortened) {
     EXPECT_EQ(what.find('\x1b'), std::string::npos);
     EXPECT_NE(what.find("\\x1b"), std::string::npos);
     EXPECT_LT(what.size(), 500u);
+}
+
+std::string refusal(const std::string& body) {
+    const Refusal found = find_refusal([&] { read(", " + body); });
+    EXPECT_NE(found.message, "") << body << " was read";
+    return found.reason;
+}
+
+std::string node_refusal(const std::string& node) {
+    return refusal("\"nodes\": [{" + node + "}]");
+}
+
+void expect_advice(const std::string& reason, const std::string& advice) {
+    EXPECT_TRUE(reason.ends_with("; " + advice)) << reason;
+}
+
+TEST(Advice, KeysOfOtherPrograms) {
+    expect_advice(node_refusal(R"("rotation": {"axis": [0, 1, 0], "angle": 90})"),
+                  R"(the angle of a rotation is "degrees", that of a camera "fov", that of a spot "outer_cone")");
+    expect_advice(node_refusal(R"("light": {"type": "point", "power": 60})"),
+                  R"(the strength of a light is "intensity")");
+    expect_advice(node_refusal(R"("shape": {"type": "mesh", "file": "x.obj"})"),
+                  R"(meshes of other files are shown by "include": "FILE.glb")");
+    const std::string samples = refusal(R"("settings": {"samples": 64})");
+    expect_advice(samples, R"(the samples of a pixel are "spp")");
+    EXPECT_EQ(samples.find("light_samples"), std::string::npos) << "one advice is enough: " << samples;
+}
+
+TEST(Advice, ValuesOfAnotherKind) {
+    expect_advice(node_refusal(R"("shape": "sphere")"), R"(write {"type": "sphere"})");
+    expect_advice(node_refusal(R"("shape": {"type": "sphere", "size": 1})"),
+                  R"(a sphere, cylinder or torus has a "radius", a quad [x, y], a box [x, y, z])");
+    expect_advice(node_refusal(R"("translation": [[0, [0, 0, 0]], [10, [1, 0, 0]]])"),
+                  R"(keys are written as {"keys": [[0, ...], [10, ...]]})");
+    expect_advice(refusal(R"("environment": "sky.exr")"), R"(a picture is "environment_image")");
+    EXPECT_EQ(node_refusal(R"("translation": [0, 1])").find(';'), std::string::npos) << "a number is missing";
 }
 
 }  // namespace

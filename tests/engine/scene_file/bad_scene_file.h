@@ -1,14 +1,8 @@
 #pragma once
 // Broken scene files as short texts, with the expected place and reason of the error.
 
-#include <gtest/gtest.h>
-
-#include <string>
-#include <vector>
-
-#include "engine/base/errors.h"
 #include "engine/scene_file/scene_text.h"
-#include "tests/support/refusal.h"
+#include "tests/support/test.h"
 
 namespace aleph {
 

@@ -1,16 +1,8 @@
 // A scene with everything that a scene file can say comes back bit by bit, in every locale.
 
-#include <fmt/format.h>
-#include <gtest/gtest.h>
-
-#include <algorithm>
 #include <bit>
 #include <clocale>
-#include <cmath>
-#include <random>
 #include <type_traits>
-#include <utility>
-#include <vector>
 
 #include "engine/scene/operations.h"
 #include "engine/scene/visit.h"
@@ -19,6 +11,7 @@
 #include "engine/scene_file/tracks.h"
 #include "engine/surface/shapes.h"
 #include "tests/support/german_locale.h"
+#include "tests/support/test.h"
 
 namespace aleph {
 namespace {
@@ -110,10 +103,7 @@ Scene make_full_scene(Numbers& n) {
     scene.settings = {
         {"accuracy", n.unit()}, {"spp", 4.0}, {"neutral_opponent", false}, {"guide", std::string("none")}};
     for (const char* name : {"z", "a/b~c", "3"}) {
-        SceneImage image;
-        image.name = name;
-        image.path = std::string(name) + ".png";
-        scene.images.push_back(image);
+        scene.images.push_back({.name = name, .path = std::string(name) + ".png"});
     }
     for (int i = 0; i < 6; ++i) {
         Material material;
@@ -158,8 +148,7 @@ Scene make_full_scene(Numbers& n) {
         camera.aperture = n.track(unit);
         camera.focus_distance = n.track(positive);
         scene.cameras.push_back(camera);
-        Shape shape;
-        shape.kind = static_cast<Shape::Kind>(i);
+        Shape shape{.kind = static_cast<Shape::Kind>(i)};
         if (i == 0) shape.size = {n.positive(), n.positive(), 1.0};
         if (i == 1) shape.size = {n.positive(), n.positive(), n.positive()};
         if (i >= 2) shape.radius = n.positive();

@@ -1,34 +1,22 @@
 // Meshes, points over time and subdivision cages in scene files: the meaning of the keys, and what is refused.
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cstdint>
-#include <string>
-#include <vector>
-
-#include "engine/base/errors.h"
 #include "engine/pose/pose.h"
-#include "engine/scene_file/scene_text.h"
+#include "tests/engine/scene_file/short_text.h"
 #include "tests/engine/scene_file/written_again.h"
-#include "tests/support/refusal.h"
+#include "tests/support/test.h"
 
 namespace aleph {
 namespace {
-
-Scene read(const std::string& body) {
-    return read_scene_text("{\"aleph\": 1, " + body + "}", "test.json").scene;
-}
 
 const std::string cube_cage = R"("positions": [[-1,-1,1], [1,-1,1], [-1,1,1], [1,1,1], [-1,1,-1], [1,1,-1], [-1,-1,-1],
     [1,-1,-1]], "faces": [[0,1,3,2], [2,3,5,4], [4,5,7,6], [6,7,1,0], [1,7,5,3], [6,0,2,4]])";
 
 TEST(SceneJsonMeshes, ListsMayBeFlatOrInGroups) {
-    const Scene flat = read(R"("nodes": [{"name": "a", "shape": {"type": "mesh", "positions": [0,0,0, 1,0,0, 0,1,0],
+    const Scene flat = read(R"(, "nodes": [{"name": "a", "shape": {"type": "mesh", "positions": [0,0,0, 1,0,0, 0,1,0],
         "triangles": [0,1,2], "normals": [0,0,1, 0,0,1, 0,0,1], "uv": [0,1, 1,1, 0,0], "uv1": [0,0, 0,0, 0,0.5],
         "colors": [1,0,0,1, 0,1,0,1, 0,0,1,0.5]}}])");
     const Scene grouped =
-        read(R"("nodes": [{"name": "a", "shape": {"type": "mesh", "positions": [[0,0,0], [1,0,0], [0,1,0]],
+        read(R"(, "nodes": [{"name": "a", "shape": {"type": "mesh", "positions": [[0,0,0], [1,0,0], [0,1,0]],
         "triangles": [[0,1,2]], "normals": [[0,0,1], [0,0,1], [0,0,1]], "uv": [[0,1], [1,1], [0,0]],
         "uv1": [[0,0], [0,0], [0,0.5]], "colors": [[1,0,0,1], [0,1,0,1], [0,0,1,0.5]]}}])");
     EXPECT_EQ(flat, grouped);
@@ -46,7 +34,7 @@ TEST(SceneJsonMeshes, ListsMayBeFlatOrInGroups) {
 }
 
 TEST(SceneJsonMeshes, KeyedPositionsMove) {
-    const Scene scene = read(R"("fps": 10, "meshes": {"flag": {"shape": {"type": "mesh",
+    const Scene scene = read(R"(, "fps": 10, "meshes": {"flag": {"shape": {"type": "mesh",
         "positions": {"keys": [[0, [0,0,0, 1,0,0, 0,1,0]], [20, [0,0,4, 1,0,0, 0,3,0]]]}, "triangles": [0,1,2]}}},
         "nodes": [{"mesh": "flag"}])");
     ASSERT_EQ(scene.point_caches.size(), 1u);
@@ -65,7 +53,7 @@ TEST(SceneJsonMeshes, KeyedPositionsMove) {
 
 TEST(SceneJsonMeshes, PointsAreSharedByMeshes) {
     const Scene scene =
-        read(R"("points": {"cloth": {"values": [[0,0,0, 1,0,0, 0,1,0, 1,1,0], [0,0,1, 1,0,1, 0,1,1, 1,1,1]],
+        read(R"(, "points": {"cloth": {"values": [[0,0,0, 1,0,0, 0,1,0, 1,1,0], [0,0,1, 1,0,1, 0,1,1, 1,1,1]],
         "period": 0.5, "unit": "seconds", "velocities": [[0,0,2, 0,0,2, 0,0,2, 0,0,2], [0,0,2, 0,0,2, 0,0,2, 0,0,2]]}},
         "meshes": {"a": {"shape": {"type": "mesh", "points": "cloth", "vertex_points": [0,1,2,1], "triangles": [0,1,2],
           "normals": {"values": [[0,0,1, 0,0,1, 0,0,1, 0,0,1], [1,0,0, 1,0,0, 1,0,0, 1,0,0]], "period": 15}}},
@@ -82,7 +70,7 @@ TEST(SceneJsonMeshes, PointsAreSharedByMeshes) {
 }
 
 TEST(SceneJsonMeshes, CageBecomesItsLimitSurface) {
-    const Scene scene = read(R"("nodes": [{"name": "blob", "shape": {"type": "cage", "cage": {)" + cube_cage + R"(,
+    const Scene scene = read(R"(, "nodes": [{"name": "blob", "shape": {"type": "cage", "cage": {)" + cube_cage + R"(,
         "level": 3, "max_level": 5}}, "material": {}}])");
     ASSERT_EQ(scene.cages.size(), 1u);
     EXPECT_EQ(scene.cages[0].name, "blob");
@@ -102,7 +90,7 @@ TEST(SceneJsonMeshes, CageBecomesItsLimitSurface) {
 }
 
 TEST(SceneJsonMeshes, EverythingThatACageCanSay) {
-    const Scene scene = read(R"("cages": {"couch": {"points": "p", "scheme": "bilinear", "boundary": "edge_only",
+    const Scene scene = read(R"(, "cages": {"couch": {"points": "p", "scheme": "bilinear", "boundary": "edge_only",
         "uv_rule": "linear_all", "level": 1, "max_level": 4, "faces": [[0,1,3,2], [2,3,5,4], [4,5,7,6], [6,7,1,0], [1,7,5,3], [6,0,2,4]],
         "creases": [{"points": [0,1,3], "sharpness": 2.5}, {"points": [4,5], "sharpness": 10}],
         "corners": [{"point": 7, "sharpness": 0.1}], "holes": [5], "parts": [0,0,1,1,0,0], "uv": [0,0, 1,0, 1,1, 0,1],
@@ -131,7 +119,7 @@ TEST(SceneJsonMeshes, EverythingThatACageCanSay) {
 }
 
 TEST(SceneJsonMeshes, CageWarningsStayWithTheScene) {
-    const Scene scene = read(R"("nodes": [{"shape": {"type": "cage", "cage": {)" + cube_cage + R"(,
+    const Scene scene = read(R"(, "nodes": [{"shape": {"type": "cage", "cage": {)" + cube_cage + R"(,
         "creases": [{"points": [0, 5], "sharpness": 3}]}}}])");
     ASSERT_EQ(scene.warnings.size(), 1u);
     EXPECT_NE(scene.warnings[0].find("crease"), std::string::npos);
@@ -200,7 +188,7 @@ TEST(SceneJsonMeshes, WhatDoesNotFitTogetherIsRefusedAtItsPlace) {
         {cage(faces) + ", \"part\": 1", "/part", "must lie within"},
     };
     for (const BadShape& refused : bad) {
-        const Refusal found = find_refusal([&] { read("\"nodes\": [{\"shape\": {" + refused.shape + "}}]"); });
+        const Refusal found = find_refusal([&] { read(", \"nodes\": [{\"shape\": {" + refused.shape + "}}]"); });
         EXPECT_EQ(found.place, "/nodes/0/shape" + refused.place) << found.message << "\n  in " << refused.shape;
         EXPECT_NE(found.reason.find(refused.word), std::string::npos) << found.message << "\n  no " << refused.word;
     }
@@ -210,8 +198,9 @@ TEST(SceneJsonMeshes, TooManyTrianglesOfACageAreRefusedBeforeTheyAreMade) {
     std::string faces = "[0,1,2,3]";
     for (int i = 0; i < 20; ++i) faces += ", [0,1,2,3]";
     const Refusal found = find_refusal([&] {
-        read(R"("nodes": [{"shape": {"type": "cage", "cage": {"positions": [0,0,0, 1,0,0, 1,1,0, 0,1,0], "faces": [)" +
-             faces + R"(], "level": 10, "max_level": 10}}}])");
+        read(
+            R"(, "nodes": [{"shape": {"type": "cage", "cage": {"positions": [0,0,0, 1,0,0, 1,1,0, 0,1,0], "faces": [)" +
+            faces + R"(], "level": 10, "max_level": 10}}}])");
     });
     EXPECT_EQ(found.place, "/nodes/0/shape");
     EXPECT_NE(found.reason.find("lower the cage's \"level\""), std::string::npos) << found.message;

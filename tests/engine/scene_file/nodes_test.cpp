@@ -1,15 +1,10 @@
 // The scene file: the meaning of the keys of nodes, where they stand and what they show, and of values over time.
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <numbers>
-#include <vector>
-
 #include "engine/pose/pose.h"
 #include "engine/surface/shapes.h"
 #include "tests/engine/scene_file/short_text.h"
 #include "tests/engine/scene_file/written_again.h"
+#include "tests/support/test.h"
 
 namespace aleph {
 namespace {

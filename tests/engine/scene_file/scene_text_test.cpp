@@ -1,20 +1,11 @@
 // The scene file: the meaning of the keys of its head, materials, textures, cameras, lights and includes.
 
 #include "engine/scene_file/scene_text.h"
-
-#include <gtest/gtest.h>
-
-#include <cstdint>
-#include <numbers>
-#include <string>
-#include <vector>
-
-#include "engine/base/errors.h"
 #include "engine/pose/pose.h"
 #include "engine/scene_file/tracks.h"
 #include "tests/engine/scene_file/short_text.h"
 #include "tests/engine/scene_file/written_again.h"
-#include "tests/support/refusal.h"
+#include "tests/support/test.h"
 
 namespace aleph {
 namespace {
@@ -56,9 +47,7 @@ TEST(SceneJson, MaterialsStandInTheOrderOfTheFileAndMetalIsNotTheDefault) {
         "emission_strength": 10, "double_sided": true}})");
     ASSERT_EQ(scene.materials.size(), 2u);
     EXPECT_EQ(scene.materials[0].name, "z");
-    Material plain;
-    plain.name = "z";
-    plain.metallic = 0.0;
+    Material plain{.name = "z", .metallic = 0.0};
     EXPECT_EQ(scene.materials[0], plain);
     Material a;
     a.name = "a";

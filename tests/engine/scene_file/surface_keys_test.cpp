@@ -1,15 +1,11 @@
 // The scene file: keys of volumes, coats, sheen, anisotropy, normal maps, and of the environment and its picture.
 
-#include <gtest/gtest.h>
-
-#include <string>
-#include <vector>
-
 #include "engine/pose/pose.h"
 #include "engine/scene_file/fields.h"
 #include "engine/scene_file/tracks.h"
 #include "tests/engine/scene_file/short_text.h"
 #include "tests/engine/scene_file/written_again.h"
+#include "tests/support/test.h"
 
 namespace aleph {
 namespace {

@@ -1,16 +1,14 @@
 // How scenes are written as files: short for people, soon for programs; what the format cannot hold is refused.
+// Meshes that are written to scene files: every bit of their floats, short texts, and what is refused.
 
-#include <fmt/format.h>
-#include <gtest/gtest.h>
+#include <bit>
 
-#include <cmath>
-#include <limits>
-
-#include "engine/base/errors.h"
 #include "engine/scene_file/fields.h"
+#include "engine/scene_file/lists.h"
 #include "engine/scene_file/scene_text.h"
+#include "engine/surface/shapes.h"
 #include "tests/engine/scene_file/written_again.h"
-#include "tests/support/refusal.h"
+#include "tests/support/test.h"
 
 namespace aleph {
 namespace {
@@ -51,11 +49,8 @@ TEST(SceneJsonWrite, SavedTextIsForPeople) {
 TEST(SceneJsonWrite, KF24_ChainOfAHundredThousandNodes) {
     Scene scene;
     for (int i = 0; i < 100000; ++i) {
-        Node node;
-        node.name = fmt::format("n{}", i);
-        node.parent = i - 1;
-        node.translation = glm::dvec3(0.001 * i, 0.0, 0.0);
-        scene.nodes.push_back(node);
+        scene.nodes.push_back(
+            {.name = fmt::format("n{}", i), .parent = i - 1, .translation = glm::dvec3(0.001 * i, 0.0, 0.0)});
     }
     EXPECT_TRUE(again(scene) == scene);
 }
@@ -95,11 +90,10 @@ void expect_spoiled(const Spoil& spoil, const std::string& place, const std::str
 
 TEST(SceneJsonWrite, WhatTheFormatCannotSayIsRefused) {
     EXPECT_EQ(again(make_good_scene()), make_good_scene());
-    const double nan = std::numeric_limits<double>::quiet_NaN(), inf = std::numeric_limits<double>::infinity();
     expect_spoiled([](Scene& s) { s.meshes[0].points = 0; }, "mesh 0", "points");
     expect_spoiled([](Scene& s) { s.meshes[0].uv[0].pop_back(), s.meshes[0].shape.reset(); }, "/meshes/a/shape/uv",
                    "one for each");
-    expect_spoiled([](Scene& s) { s.meshes[0].shape.reset(), s.meshes[0].positions[3].x = NAN; }, "", "finite");
+    expect_spoiled([](Scene& s) { s.meshes[0].shape.reset(), s.meshes[0].positions[3].x = float_nan; }, "", "finite");
     expect_spoiled([](Scene& s) { s.point_caches.emplace_back().name = "p"; }, "\"p\"", "no positions");
     expect_spoiled([](Scene& s) { s.cages.emplace_back().name = "c"; }, "c", "no element -1");
     expect_spoiled(
@@ -123,10 +117,11 @@ TEST(SceneJsonWrite, WhatTheFormatCannotSayIsRefused) {
     expect_spoiled([](Scene& s) { s.nodes[0].meshes = {5}; }, "node 0", "mesh 5");
     expect_spoiled([](Scene& s) { s.nodes[1].camera = 5; }, "node 1", "camera 5");
     expect_spoiled([](Scene& s) { s.meshes[0].material = 1; }, "mesh 0", "material 1");
-    expect_spoiled([&](Scene& s) { s.nodes[0].translation = glm::dvec3(0.0, nan, 0.0); }, "translation", "nan");
-    expect_spoiled([&](Scene& s) { s.materials[0].roughness = inf; }, "roughness", "inf");
-    expect_spoiled([&](Scene& s) { s.exposure = nan; }, "", "finite");
-    expect_spoiled([&](Scene& s) { s.viewing.display_white = inf; }, "", "finite");
+    expect_spoiled([&](Scene& s) { s.nodes[0].translation = glm::dvec3(0.0, not_a_number, 0.0); }, "translation",
+                   "nan");
+    expect_spoiled([&](Scene& s) { s.materials[0].roughness = infinity; }, "roughness", "inf");
+    expect_spoiled([&](Scene& s) { s.exposure = not_a_number; }, "", "finite");
+    expect_spoiled([&](Scene& s) { s.viewing.display_white = infinity; }, "", "finite");
     expect_spoiled([](Scene& s) { s.materials[0].roughness = 2.0; }, "/materials/a/roughness", "between 0 and 1");
     expect_spoiled([](Scene& s) { s.nodes[0].rotation = glm::dquat(0, 0, 0, 0); }, "rotation", "zero");
     expect_spoiled([](Scene& s) { s.nodes[0].scale.values.clear(); }, "scale", "no keys");
@@ -135,9 +130,9 @@ TEST(SceneJsonWrite, WhatTheFormatCannotSayIsRefused) {
     expect_spoiled([](Scene& s) { s.frame_rate = {0, 1}; }, "/fps", "whole number");
     expect_spoiled([](Scene& s) { s.settings["unheard_of"] = 1.0; }, "/settings/unheard_of", "unknown");
     expect_spoiled([](Scene& s) { s.name = "\xff\xfe"; }, "", "UTF-8");
-    expect_spoiled([](Scene& s) { s.materials[0].normal_scale = NAN; }, "", "finite");
+    expect_spoiled([](Scene& s) { s.materials[0].normal_scale = not_a_number; }, "", "finite");
     expect_spoiled([](Scene& s) { s.materials[0].thickness = -1.0; }, "/materials/a/thickness", "at least 0");
-    expect_spoiled([](Scene& s) { s.materials[0].anisotropy_rotation = NAN; }, "anisotropy_rotation", "nan");
+    expect_spoiled([](Scene& s) { s.materials[0].anisotropy_rotation = not_a_number; }, "anisotropy_rotation", "nan");
     expect_spoiled([](Scene& s) { s.viewing.persistence = 2.0; }, "/viewing/persistence", "from 0 to 1");
     expect_spoiled([](Scene& s) { s.environment_image = 0, s.environment = glm::dvec3(1.0); }, "environment_image",
                    "no element 0");
@@ -158,6 +153,86 @@ TEST(SceneJsonWrite, WhatTheFormatCannotSayIsRefused) {
             s.nodes[0].scale.sampling.times = {0.0, 1.0};
         },
         "node 0", "exactly");
+}
+
+TEST(SceneJsonMeshes, FloatsOfEveryKindComeBack) {
+    std::mt19937 random(3);
+    Scene scene;
+    PointCache cache;
+    cache.name = "cache";
+    Mesh mesh;
+    mesh.name = "mesh";
+    const auto any = [&] {
+        for (;;) {
+            const auto value = std::bit_cast<float>(static_cast<std::uint32_t>(random()));
+            if (std::isfinite(value) && std::abs(value) <= 1e18f) return value;
+        }
+    };
+    for (int sample = 0; sample < 3; ++sample) {
+        auto& points = cache.positions.emplace_back();
+        for (int i = 0; i < 1000; ++i) points.emplace_back(any(), any(), any());
+        cache.sampling.times.push_back(sample * 0.1);
+    }
+    cache.sampling.kind = TimeSampling::Kind::acyclic;
+    mesh.points = 0;
+    mesh.positions = cache.positions[0];
+    for (int i = 0; i < 1000; ++i) {
+        mesh.normals.emplace_back(any(), any(), any());
+        mesh.uv[0].emplace_back(any(), any());
+        mesh.colors.emplace_back(any(), any(), any(), any());
+        mesh.triangles.emplace_back(random() % 1000, random() % 1000, random() % 1000);
+    }
+    scene.point_caches.push_back(cache);
+    scene.meshes.push_back(mesh);
+    const std::string text = write_scene_text(scene, "test.json");
+    EXPECT_TRUE(read_scene_text(text, "test.json").scene == scene);
+    std::size_t lines = 0, max_length = 0, last = 0;
+    for (std::size_t end = text.find('\n'); end != std::string::npos; end = text.find('\n', end + 1)) {
+        max_length = std::max(max_length, end - last);
+        last = end + 1;
+        ++lines;
+    }
+    EXPECT_LE(max_length, 112u);
+    EXPECT_LT(lines, text.size() / 90) << "long lists fill their lines";
+}
+
+TEST(SceneJsonMeshes, FloatsAreWrittenShort) {
+    EXPECT_EQ(widen(0.1f), 0.1);
+    EXPECT_EQ(widen(-1.0e-30f), -1.0e-30);
+    EXPECT_EQ(widen(16777216.0f), 16777216.0);
+    std::mt19937 random(5);
+    for (int i = 0; i < 100000; ++i) {
+        const auto value = std::bit_cast<float>(static_cast<std::uint32_t>(random()));
+        if (std::isfinite(value)) {
+            EXPECT_EQ(static_cast<float>(widen(value)), value);
+        }
+    }
+}
+
+TEST(SceneJsonMeshes, AMeshOfAProgramIsSavedAsLists) {
+    Scene scene;
+    Shape torus;
+    torus.kind = Shape::Kind::torus;
+    torus.segments = 12;
+    Mesh mesh = make_shape_mesh(torus, no_index, "bent");
+    mesh.shape.reset();
+    for (glm::vec3& p : mesh.positions) p.y += 0.1f * p.x * p.x;
+    scene.meshes.push_back(mesh);
+    EXPECT_EQ(again(scene), scene);
+}
+
+TEST(SceneJsonMeshes, MorphTargetsAndSkinsAreRefusedByName) {
+    Scene scene;
+    Mesh mesh = make_shape_mesh({}, no_index, "face");
+    mesh.targets.push_back({"smile", {}, {}});
+    mesh.target_weights.emplace_back(0.0);
+    scene.meshes.push_back(mesh);
+    const Refusal found = find_refusal([&] { write_scene_text(scene, "out.json"); });
+    EXPECT_NE(found.place.find("\"face\""), std::string::npos);
+    EXPECT_NE(found.reason.find(".glb"), std::string::npos);
+    scene.meshes.clear();
+    scene.skins.emplace_back().name = "bones";
+    EXPECT_THROW(write_scene_text(scene, "out.json"), InputError);
 }
 
 }  // namespace

@@ -1,18 +1,10 @@
 #pragma once
 // Allowed outcomes for a damaged cage: it is refused with a reason, or its surface is valid everywhere.
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <glm/geometric.hpp>
-#include <string>
-
-#include "engine/base/errors.h"
 #include "engine/surface/cage_checks.h"
 #include "engine/surface/limit_surface.h"
-#include "tests/support/refusal.h"
 #include "tests/support/subdivision_cages.h"
+#include "tests/support/test.h"
 
 namespace aleph {
 

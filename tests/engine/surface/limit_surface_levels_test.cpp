@@ -1,14 +1,9 @@
 // Subdivision surfaces as meshes: levels, holes and parts, places between the vertices (RP-16, RP-17).
-#include <gtest/gtest.h>
-
-#include <glm/geometric.hpp>
-#include <glm/mat3x3.hpp>
-#include <limits>
-
 #include "engine/surface/limit_surface.h"
 #include "tests/engine/surface/limit_checks.h"
 #include "tests/support/subdivision_cages.h"
 #include "tests/support/subdivision_reference.h"
+#include "tests/support/test.h"
 
 namespace aleph {
 namespace {
@@ -132,9 +127,8 @@ TEST(LimitSurface, RP17_ParametersOutsideTheTriangleAreClamped) {
     EXPECT_EQ(at(0.5, -3.0), at(0.5, 0.0));
     EXPECT_EQ(at(0.75, 0.75), at(0.75, 0.25));
     EXPECT_EQ(at(1e300, -1e300), at(1.0, 0.0));
-    const double nan = std::numeric_limits<double>::quiet_NaN();
-    EXPECT_THROW(at(nan, 0.0), std::logic_error);
-    EXPECT_THROW(at(0.0, nan), std::logic_error);
+    EXPECT_THROW(at(not_a_number, 0.0), std::logic_error);
+    EXPECT_THROW(at(0.0, not_a_number), std::logic_error);
     EXPECT_THROW(surface.evaluate(0, control, -1, 0.0, 0.0), std::logic_error);
     EXPECT_THROW(surface.evaluate(0, control, 48, 0.0, 0.0), std::logic_error);
     EXPECT_THROW(surface.evaluate(1, control, 0, 0.0, 0.0), std::logic_error);

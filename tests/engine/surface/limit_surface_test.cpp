@@ -1,17 +1,9 @@
 // Subdivision surfaces against closed forms: B-splines, limit masks, explicit subdivision.
 #include "engine/surface/limit_surface.h"
-
-#include <gtest/gtest.h>
-
-#include <array>
-#include <glm/geometric.hpp>
-#include <limits>
-#include <numbers>
-#include <set>
-
 #include "tests/engine/surface/limit_checks.h"
 #include "tests/support/subdivision_cages.h"
 #include "tests/support/subdivision_reference.h"
+#include "tests/support/test.h"
 
 namespace aleph {
 namespace {
@@ -21,7 +13,7 @@ double distance_between(const std::vector<glm::dvec3>& a, const std::vector<glm:
     double worst = 0.0;
     const auto one_way = [&](const auto& from, const auto& to) {
         for (const glm::dvec3& p : from) {
-            double nearest = std::numeric_limits<double>::infinity();
+            double nearest = infinity;
             for (const glm::dvec3& q : to) nearest = std::min(nearest, glm::length(p - q));
             worst = std::max(worst, nearest);
         }
@@ -58,24 +50,9 @@ double error_against_reference(const TestCage& from, int level) {
     return distance_between(distinct, limits);
 }
 
-std::array<double, 4> bspline(double t) {
-    const double r = 1.0 - t;
-    return {r * r * r / 6.0, (3.0 * t * t * t - 6.0 * t * t + 4.0) / 6.0,
-            (-3.0 * t * t * t + 3.0 * t * t + 3.0 * t + 1.0) / 6.0, t * t * t / 6.0};
-}
 std::array<double, 4> bspline_slope(double t) {
     const double r = 1.0 - t;
     return {-r * r / 2.0, (3.0 * t * t - 4.0 * t) / 2.0, (-3.0 * t * t + 2.0 * t + 1.0) / 2.0, t * t / 2.0};
-}
-
-/// Tensor product over 4 x 4 points.
-glm::dvec3 tensor(const std::vector<glm::dvec3>& points, const std::array<double, 4>& wx,
-                  const std::array<double, 4>& wy) {
-    glm::dvec3 sum(0.0);
-    for (std::size_t y = 0; y < 4; ++y) {
-        for (std::size_t x = 0; x < 4; ++x) sum += wx[x] * wy[y] * points[y * 4 + x];
-    }
-    return sum;
 }
 
 TestCage make_bspline_cage() {

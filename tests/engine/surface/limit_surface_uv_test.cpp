@@ -1,10 +1,7 @@
 // Texture coordinates of subdivision surfaces: what every face-varying rule does at seams, corners and junctions.
-#include <gtest/gtest.h>
-
-#include <glm/geometric.hpp>
-
 #include "engine/surface/limit_surface.h"
 #include "tests/support/subdivision_cages.h"
+#include "tests/support/test.h"
 
 namespace aleph {
 namespace {

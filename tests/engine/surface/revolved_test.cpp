@@ -1,16 +1,8 @@
 // Tori and lathes: analytic values, sharp edges where the profile has them, finite numbers for any profile.
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <glm/geometric.hpp>
-#include <limits>
-#include <numbers>
-
-#include "engine/base/errors.h"
 #include "engine/surface/revolved.h"
 #include "tests/engine/surface/shape_cases.h"
+#include "tests/support/test.h"
 
 namespace aleph {
 namespace {
@@ -160,8 +152,7 @@ TEST(Shapes, RepeatedPointsOfALatheAreEdges) {
 }
 
 TEST(Shapes, BadToriAndLathesAreRefused) {
-    const double inf = std::numeric_limits<double>::infinity(), nan = std::numeric_limits<double>::quiet_NaN();
-    for (const double bad : {0.0, -1.0, 0.8, 2.0, nan, inf}) {
+    for (const double bad : {0.0, -1.0, 0.8, 2.0, not_a_number, infinity}) {
         Shape torus = make_torus();
         torus.tube_radius = bad;
         EXPECT_THROW(make_shape_mesh(torus), InputError) << bad;
@@ -172,8 +163,8 @@ TEST(Shapes, BadToriAndLathesAreRefused) {
         {{1.0, 0.0}, {1.0, 0.0}},
         {{0.0, 0.0}, {0.0, 1.0}},
         {{-0.1, 0.0}, {1.0, 1.0}},
-        {{nan, 0.0}, {1.0, 1.0}},
-        {{1.0, 0.0}, {1.0, inf}},
+        {{not_a_number, 0.0}, {1.0, 1.0}},
+        {{1.0, 0.0}, {1.0, infinity}},
         {{1.0, 0.0}, {1e19, 1.0}},
     };
     for (const auto& profile : profiles) EXPECT_THROW(make_shape_mesh(make_lathe(profile, true)), InputError);

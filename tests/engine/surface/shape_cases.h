@@ -10,13 +10,7 @@
 namespace aleph {
 
 inline Shape make_shape(Shape::Kind kind, int segments = 48) {
-    Shape shape;
-    shape.kind = kind;
-    shape.segments = segments;
-    shape.size = {1.5, 0.75, 3.0};
-    shape.radius = 0.8;
-    shape.height = 2.5;
-    return shape;
+    return {.kind = kind, .size = {1.5, 0.75, 3.0}, .radius = 0.8, .height = 2.5, .segments = segments};
 }
 
 inline Shape make_torus(int segments = 48) {

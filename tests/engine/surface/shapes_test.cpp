@@ -1,20 +1,9 @@
 // Shapes: closed, outward, analytic normals, upright images.
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <glm/geometric.hpp>
-#include <limits>
-#include <map>
-#include <numbers>
-#include <set>
 #include <tuple>
 
-#include "engine/base/errors.h"
 #include "tests/engine/surface/shape_cases.h"
-#include "tests/support/refusal.h"
+#include "tests/support/test.h"
 
 namespace aleph {
 namespace {
@@ -167,8 +156,7 @@ TEST(Shapes, LargestAndSmallestSegmentsAreTaken) {
 }
 
 TEST(Shapes, SizesAreChecked) {
-    const double inf = std::numeric_limits<double>::infinity(), nan = std::numeric_limits<double>::quiet_NaN();
-    for (const double bad : {0.0, -0.0, -1.0, 5e-324, inf, -inf, nan, 1e19}) {
+    for (const double bad : {0.0, -0.0, -1.0, 5e-324, infinity, -infinity, not_a_number, 1e19}) {
         Shape quad = make_shape(Shape::Kind::quad), box = make_shape(Shape::Kind::box);
         Shape sphere = make_shape(Shape::Kind::sphere), cylinder = make_shape(Shape::Kind::cylinder);
         quad.size.y = bad;
@@ -178,7 +166,7 @@ TEST(Shapes, SizesAreChecked) {
         for (const Shape& shape : {quad, box, sphere, cylinder})
             EXPECT_THROW(make_shape_mesh(shape), InputError) << bad;
     }
-    for (const double bad : {inf, nan}) {
+    for (const double bad : {infinity, not_a_number}) {
         Shape quad = make_shape(Shape::Kind::quad);
         quad.uv_scale.x = bad;
         EXPECT_THROW(make_shape_mesh(quad), InputError);

@@ -1,16 +1,10 @@
 // Cages that OpenSubdiv would crash on are refused.
-#include <gtest/gtest.h>
-
-#include <limits>
-
 #include "tests/engine/surface/cage_checks.h"
 #include "tests/support/files/load_cost.h"
+#include "tests/support/test.h"
 
 namespace aleph {
 namespace {
-
-const float nan_value = std::numeric_limits<float>::quiet_NaN();
-const float infinity = std::numeric_limits<float>::infinity();
 
 TEST(SubdivisionHard, FacesOfFewerThanThreePointsAreRefused) {
     // OpenSubdiv overruns its memory on a face of one point.
@@ -94,8 +88,8 @@ TEST(SubdivisionHard, DamagedCreasesAreRefused) {
     expect_refused(with({3}, {0, 1}, {1.0f}), 8, "3 points");
     expect_refused(with({2147483647, 2147483647, 2}, {0, 1}, {1.0f, 1.0f, 1.0f}), 8, "points, but 2");
     expect_refused(with({2}, {0, 1}, {}), 8, "0 sharpnesses");
-    expect_refused(with({2}, {0, 1}, {nan_value}), 8, "not a finite");
-    expect_refused(with({2}, {0, 1}, {infinity}), 8, "not a finite");
+    expect_refused(with({2}, {0, 1}, {float_nan}), 8, "not a finite");
+    expect_refused(with({2}, {0, 1}, {float_infinity}), 8, "not a finite");
 }
 
 TEST(SubdivisionHard, DamagedCornersAreRefused) {
@@ -103,7 +97,7 @@ TEST(SubdivisionHard, DamagedCornersAreRefused) {
     add_corner(test.cage, 8, 1.0f);
     expect_refused(test.cage, 8, "corner 0 names point 8");
     test = make_cube_cage();
-    add_corner(test.cage, 1, nan_value);
+    add_corner(test.cage, 1, float_nan);
     expect_refused(test.cage, 8, "not a finite");
     test = make_cube_cage();
     test.cage.corner_points = {1, 2};
@@ -121,7 +115,7 @@ TEST(SubdivisionHard, DamagedTextureCoordinatesAreRefused) {
     test.cage.face_uv.assign(24, -1);
     expect_refused(test.cage, 8, "texture coordinate -1");
     test.cage.face_uv.assign(24, 0);
-    test.cage.uv[1].y = nan_value;
+    test.cage.uv[1].y = float_nan;
     expect_refused(test.cage, 8, "not finite");
 }
 
@@ -180,7 +174,7 @@ TEST(SubdivisionHard, TessellationRefusesPointsThatAreNotThere) {
     PointCache& cache = scene.point_caches[0];
     cache.positions.assign(2, std::vector<glm::vec3>(8, glm::vec3(1.0f)));
     EXPECT_EQ(reason(), "none");
-    cache.positions[1][3].y = nan_value;
+    cache.positions[1][3].y = float_nan;
     EXPECT_EQ(reason(), "one of its points is not finite");
     cache.positions[1].pop_back();
     EXPECT_EQ(reason(), "its number of points changes");

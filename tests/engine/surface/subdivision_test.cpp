@@ -1,11 +1,6 @@
 // Odd and damaged cages, and surfaces at their limits (RP-16, RP-17).
-#include <gtest/gtest.h>
-
-#include <array>
-#include <numbers>
-#include <random>
-
 #include "tests/engine/surface/cage_checks.h"
+#include "tests/support/test.h"
 
 namespace aleph {
 namespace {

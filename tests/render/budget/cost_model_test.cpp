@@ -1,19 +1,11 @@
 // Predicted cost of frames, and the error that a budget chooses.
 
 #include "render/budget/cost_model.h"
-
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <limits>
-#include <stdexcept>
-
 #include "render/budget/cost_pilot.h"
+#include "tests/support/test.h"
 
 namespace aleph {
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 constexpr CostCoefficients coefficients = {
     .shade = 0.8, .overlap = 2.0, .fill = 0.1, .keyframes = 0.5, .shade_exponent = 2.0, .light_exponent = 1.0};
@@ -88,14 +80,13 @@ TEST(CostModel, NeverFallsWhereTheErrorDoes) {
 }
 
 TEST(CostModel, RefusesWhatIsNoCost) {
-    const double nan = std::nan("");
     PilotSeconds none = two_errors();
     none.parts.clear();
     EXPECT_THROW(predict_seconds(none, {}, coefficients, 1.0), std::invalid_argument);
-    for (const double error : {0.0, -1.0, nan, infinity}) {
+    for (const double error : {0.0, -1.0, not_a_number, infinity}) {
         EXPECT_THROW(predict_seconds(two_errors(), {}, coefficients, error), std::invalid_argument) << error;
     }
-    for (const double seconds : {-1.0, nan, infinity}) {
+    for (const double seconds : {-1.0, not_a_number, infinity}) {
         PilotSeconds part = two_errors(), light = two_errors(), before = two_errors(), start = two_errors();
         part.parts[1].shade = seconds;
         light.light[0].keyframes = seconds;
@@ -121,7 +112,7 @@ TEST(ChooseError, StaysInItsRange) {
     EXPECT_EQ(choose_error(two_errors(), {}, coefficients, infinity), least_budget_error);
     EXPECT_EQ(choose_error(two_errors(), {}, coefficients, 1e-9), most_budget_error);
     EXPECT_EQ(choose_error(two_errors(), {}, coefficients, -5.0), most_budget_error);
-    EXPECT_EQ(choose_error(two_errors(), {}, coefficients, std::nan("")), most_budget_error);
+    EXPECT_EQ(choose_error(two_errors(), {}, coefficients, not_a_number), most_budget_error);
 }
 
 TEST(CostPilot, TakesFramesFromTheWholeList) {

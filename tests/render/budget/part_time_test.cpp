@@ -1,12 +1,11 @@
 // Parts of pictures, and what is timed of them.
 
-#include <gtest/gtest.h>
-
 #include "engine/load/load_scene.h"
 #include "render/frame/sequence.h"
 #include "render/pixels/picture_part.h"
 #include "tests/support/paths.h"
 #include "tests/support/quick_settings.h"
+#include "tests/support/test.h"
 
 namespace aleph {
 namespace {

@@ -1,17 +1,11 @@
 // Surfaces of the picture and those that rays from them meet, and bounds of caches, by hand.
 
 #include "render/cache/bounce_places.h"
-
-#include <gtest/gtest.h>
-
-#include <cmath>
-
 #include "render/cache/further_bounces.h"
 #include "render/cache/gather_at.h"
 #include "tests/support/directions.h"
-#include "tests/support/expect_near.h"
-#include "tests/support/indirect_stage.h"
-#include "tests/support/numbers.h"
+#include "tests/support/indirect_pictures.h"
+#include "tests/support/test.h"
 
 namespace aleph {
 namespace {

@@ -1,15 +1,13 @@
 // Filling in rounds needs at most 3 % more records than a sequential fill. Gathers that are not finite make no records.
 
-#include "render/cache/cache_fill.h"
-
-#include <gtest/gtest.h>
-
 #include <cstdio>
 
 #include "engine/load/load_scene.h"
+#include "render/cache/cache_fill.h"
 #include "render/cache/gather_at.h"
-#include "tests/support/indirect_stage.h"
+#include "tests/support/indirect_pictures.h"
 #include "tests/support/paths.h"
+#include "tests/support/test.h"
 
 namespace aleph {
 namespace {

@@ -1,16 +1,9 @@
 // Direct light from a grid of cells: the cells, and gathers with it against gathers without.
 
 #include "render/cache/direct_grid.h"
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <iterator>
-#include <numbers>
-#include <set>
-
-#include "tests/support/cluttered_room.h"
 #include "tests/support/directions.h"
+#include "tests/support/render_scenes.h"
+#include "tests/support/test.h"
 
 namespace aleph {
 namespace {
@@ -25,7 +18,7 @@ TEST(DirectGrid, CellsAreAsWideAsTheRaysFootprint) {
     }
     EXPECT_NE(key(glm::vec3(0.01f), 0.088f), key(glm::vec3(0.01f), 0.089f));
     // Widths and places of any size have cells.
-    for (const float width : {0.0f, 1e-30f, 1e30f, std::numeric_limits<float>::infinity()}) {
+    for (const float width : {0.0f, 1e-30f, 1e30f, float_infinity}) {
         for (const float place : {0.0f, -1e9f, 1e30f}) EXPECT_NE(key(glm::vec3(place), width), 0u);
     }
 }
@@ -149,7 +142,7 @@ TEST(DirectGrid, SamplesAddUp) {
         const DirectSample samples[] = {{mix_bits(i) | 1, Rgb(1.0f)}, {mix_bits(i) | 1, Rgb(static_cast<float>(i))}};
         grid.insert(samples);
     }
-    const DirectSample bad[] = {{7, Rgb(std::nanf(""))}, {7, Rgb(std::numeric_limits<float>::infinity())}};
+    const DirectSample bad[] = {{7, Rgb(float_nan)}, {7, Rgb(float_infinity)}};
     grid.insert(bad);
     EXPECT_EQ(grid.size(), cells);
     EXPECT_EQ(grid.samples(), 2 * cells);

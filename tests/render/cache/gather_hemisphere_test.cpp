@@ -1,8 +1,7 @@
 // Gathers at smooth-shaded facets, where a part of the hemisphere about the shading normal is below the surface.
 
-#include <gtest/gtest.h>
-
 #include "tests/support/render_scenes.h"
+#include "tests/support/test.h"
 
 namespace aleph {
 namespace {
@@ -14,10 +13,7 @@ struct BallInRoom {
     static Scene make_scene(int segments) {
         Scene scene;
         const int white = add_lambert(scene, glm::dvec3(0.6), glm::dvec3(0.0), true);
-        Shape ball;
-        ball.kind = Shape::Kind::sphere;
-        ball.radius = radius;
-        ball.segments = segments;
+        Shape ball{.kind = Shape::Kind::sphere, .radius = radius, .segments = segments};
         add_mesh(scene, make_shape_mesh(ball, white));
         add_mesh(scene, make_box(glm::dvec3(6.0), white));
         for (int i = 0; i < 8; ++i) {

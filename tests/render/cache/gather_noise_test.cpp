@@ -1,8 +1,7 @@
 // A gather's estimate of its own noise against the spread over seeds.
 
-#include <gtest/gtest.h>
-
-#include "tests/support/cluttered_room.h"
+#include "tests/support/render_scenes.h"
+#include "tests/support/test.h"
 #include "tests/support/trial.h"
 
 namespace aleph {

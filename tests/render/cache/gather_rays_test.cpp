@@ -1,16 +1,8 @@
 // Strata of the hemisphere, and the ray of each, against formulas in double.
 
 #include "render/cache/gather_rays.h"
-
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <set>
-#include <utility>
-
-#include "tests/support/expect_near.h"
-#include "tests/support/numbers.h"
 #include "tests/support/render_scenes.h"
+#include "tests/support/test.h"
 
 namespace aleph {
 namespace {

@@ -1,13 +1,7 @@
 // The summary of a hemisphere against its formulas, written anew in double.
 
 #include "render/cache/gather_summary.h"
-
-#include <gtest/gtest.h>
-
-#include <cmath>
-
-#include "tests/support/expect_near.h"
-#include "tests/support/numbers.h"
+#include "tests/support/test.h"
 
 namespace aleph {
 namespace {

@@ -2,14 +2,9 @@
 // against differences of closed forms.
 
 #include "render/cache/gather.h"
-
-#include <gtest/gtest.h>
-
-#include <functional>
-
 #include "tests/support/directions.h"
-#include "tests/support/numbers.h"
 #include "tests/support/render_scenes.h"
+#include "tests/support/test.h"
 #include "tests/support/trial.h"
 
 namespace aleph {
@@ -160,7 +155,7 @@ TEST(Gather, InTheOpenTheDistanceIsInfinite) {
     Gathering gathering(
         make_lit_ceiling([](int m) { return make_disc_facing_down(1.0f, 16, m); }, {0.0, 1.0, 0.0}, 0.6, 5.0));
     const IrradianceSample sample = gathering.at({0.0f, 2.0f, 0.0f}, up, 64);
-    EXPECT_EQ(sample.harmonic_mean_distance, std::numeric_limits<float>::infinity());
+    EXPECT_EQ(sample.harmonic_mean_distance, float_infinity);
     EXPECT_EQ(sample.irradiance, Rgb(0.0f));
     EXPECT_EQ(sample.translation_gradient[0], glm::vec3(0.0f));
     EXPECT_EQ(gathering.task.counts.gather, 64u);

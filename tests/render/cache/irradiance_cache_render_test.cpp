@@ -1,9 +1,9 @@
 // The irradiance cache in pictures: corners, open scenes, winding, tiny accuracies, threads.
 
-#include <gtest/gtest.h>
-
 #include "engine/base/parallel.h"
+#include "tests/support/first_hits.h"
 #include "tests/support/render_scenes.h"
+#include "tests/support/test.h"
 
 namespace aleph {
 namespace {

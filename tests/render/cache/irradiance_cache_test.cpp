@@ -1,13 +1,9 @@
 // Irradiance records and their index: queries at a record, small angles, corners, walls, opposite normals, large
 // caches.
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <random>
-
-#include "tests/support/numbers.h"
+#include "tests/support/directions.h"
 #include "tests/support/render_scenes.h"
+#include "tests/support/test.h"
 
 namespace aleph {
 namespace {
@@ -33,11 +29,7 @@ class Randoms {
 
 IrradianceRecord make_plain_record(const glm::vec3& position, const glm::vec3& normal, float radius,
                                    float irradiance = 1.0f) {
-    IrradianceRecord record;
-    record.position = position;
-    record.normal = normal;
-    record.radius = radius;
-    record.irradiance = Rgb(irradiance);
+    IrradianceRecord record{.position = position, .radius = radius, .normal = normal, .irradiance = Rgb(irradiance)};
     record.accuracy = 1e-3f;  // for every query
     return record;
 }
@@ -82,7 +74,6 @@ TEST(IrradianceCache, IC02_SmallAnglesKeepTheirSize) {
 
 TEST(IrradianceCache, IC03_AtTheRecordItsOwnValueComesBack) {
     IrradianceCache cache(glm::vec3(-1.0f), glm::vec3(1.0f));
-    const glm::vec3 up(0.0f, 1.0f, 0.0f);
     cache.insert(make_plain_record(glm::vec3(0.0f), up, 1.0f, 7.0f));
     const std::optional<Rgb> found = cache.interpolate({glm::vec3(0.0f), up, 0.1f});
     ASSERT_TRUE(found.has_value());
@@ -95,9 +86,7 @@ TEST(IrradianceCache, IC03_AtTheRecordItsOwnValueComesBack) {
 }
 
 TEST(IrradianceCache, IC04_RadiiStayWithinTheirBounds) {
-    const glm::vec3 up(0.0f, 1.0f, 0.0f);
-    IrradianceSample corner;
-    corner.irradiance = Rgb(1.0f);
+    IrradianceSample corner{.irradiance = Rgb(1.0f)};
     corner.nearest_distance = 0.0f;
     EXPECT_EQ(make_record(glm::vec3(0.0f), up, 1.0f, corner, {0.01f, 5.0f})->radius, 0.01f);
     corner.nearest_distance = float_infinity;
@@ -144,7 +133,6 @@ TEST(IrradianceCache, IC07_GradientsNextToAWallStayBounded) {
         const Stage stage(std::move(scene));
         RayTask task(stage.rays);
         GatherScratch scratch;
-        const glm::vec3 up(0.0f, 1.0f, 0.0f);
         const IrradianceSample sample =
             gather_irradiance(stage.lighting(), task, make_point(glm::vec3(0.0f), up), {choose_strata(1024)}, scratch);
         ASSERT_GT(sample.irradiance.x, 0.0f) << distance;
@@ -162,20 +150,18 @@ TEST(IrradianceCache, IC07_GradientsNextToAWallStayBounded) {
         }
     }
     // An float_infinity gradient, as from a distance of 0, counts as 0.
-    IrradianceSample broken;
-    broken.irradiance = Rgb(1.0f);
+    IrradianceSample broken{.irradiance = Rgb(1.0f)};
     broken.nearest_distance = 1.0f;
     broken.translation_gradient.fill(glm::vec3(float_infinity, 0.0f, 0.0f));
-    broken.rotation_gradient.fill(glm::vec3(std::nanf(""), 0.0f, 0.0f));
+    broken.rotation_gradient.fill(glm::vec3(float_nan, 0.0f, 0.0f));
     const IrradianceRecord record = make_record(glm::vec3(0.0f), {0.0f, 1.0f, 0.0f}, 1.0f, broken, any_radius).value();
     EXPECT_EQ(extrapolate(record, glm::vec3(0.1f), {1.0f, 0.0f, 0.0f}), Rgb(1.0f));
 }
 
 TEST(IrradianceCache, IrradianceThatIsNotFiniteMakesNoRecord) {
-    const glm::vec3 up(0.0f, 1.0f, 0.0f);
     IrradianceSample sample;
     sample.nearest_distance = 1.0f;
-    for (const float bad : {std::nanf(""), float_infinity, -float_infinity}) {
+    for (const float bad : {float_nan, float_infinity, -float_infinity}) {
         for (int c = 0; c < 3; ++c) {
             sample.irradiance = Rgb(1.0f);
             sample.irradiance[c] = bad;
@@ -187,7 +173,6 @@ TEST(IrradianceCache, IrradianceThatIsNotFiniteMakesNoRecord) {
 }
 
 TEST(IrradianceCache, IC08_RecordsInFrontOfThePointAreRefused) {
-    const glm::vec3 up(0.0f, 1.0f, 0.0f);
     const IrradianceRecord above = make_plain_record({0.0f, 0.1f, 0.0f}, up, 1.0f);
     EXPECT_EQ(interpolation_error(above, glm::vec3(0.0f), up),
               float_infinity);  // the record is on a step above the point
@@ -245,7 +230,6 @@ TEST(IrradianceCache, IC11_TheIndexFindsWhatALinearSearchFinds) {
 TEST(IrradianceCache, IC11_NeighbouringRadiiDifferByNoMoreThanTheirDistance) {
     Randoms random;
     IrradianceCache cache(glm::vec3(-1.0f), glm::vec3(1.0f));
-    const glm::vec3 up(0.0f, 1.0f, 0.0f);
     for (int i = 0; i < 500; ++i) {
         cache.insert(make_plain_record(random.in_cube(1.0f), up, std::exp(random.uniform(-5.0f, 1.0f))));
     }
@@ -258,7 +242,6 @@ TEST(IrradianceCache, IC11_NeighbouringRadiiDifferByNoMoreThanTheirDistance) {
 
 TEST(IrradianceCache, IC15_EmptyAndOneRecord) {
     IrradianceCache cache(glm::vec3(-1.0f), glm::vec3(1.0f));
-    const glm::vec3 up(0.0f, 1.0f, 0.0f);
     EXPECT_FALSE(cache.covers({glm::vec3(0.0f), up, 1.0f}));
     EXPECT_FALSE(cache.interpolate({glm::vec3(0.0f), up, 1.0f}).has_value());
     cache.insert(make_plain_record(glm::vec3(0.5f), up, 0.5f, 2.0f));

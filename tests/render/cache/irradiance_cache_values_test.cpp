@@ -1,13 +1,8 @@
 // Caches of two or three records, with weights, radii and averages by hand.
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-
 #include "tests/support/directions.h"
-#include "tests/support/expect_near.h"
-#include "tests/support/numbers.h"
 #include "tests/support/render_scenes.h"
+#include "tests/support/test.h"
 
 namespace aleph {
 namespace {
@@ -15,14 +10,12 @@ namespace {
 constexpr glm::vec3 origin(1.0f, 2.0f, -3.0f);
 
 IrradianceRecord make_record_at(float x, float radius, float irradiance = 1.0f, float accuracy = 0.5f) {
-    IrradianceRecord record;
-    record.position = origin + glm::vec3(x, 0.0f, 0.0f);
-    record.normal = up;
-    record.tangent = make_basis(up).tangent;
-    record.radius = radius;
-    record.irradiance = Rgb(irradiance);
-    record.accuracy = accuracy;
-    return record;
+    return {.position = origin + glm::vec3(x, 0.0f, 0.0f),
+            .radius = radius,
+            .normal = up,
+            .irradiance = Rgb(irradiance),
+            .tangent = make_basis(up).tangent,
+            .accuracy = accuracy};
 }
 
 IrradianceCache make_empty_cache() {

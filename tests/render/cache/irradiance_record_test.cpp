@@ -1,14 +1,8 @@
 // Irradiance records one by one and in pairs, with values by hand.
 
 #include "render/cache/irradiance_record.h"
-
-#include <gtest/gtest.h>
-
-#include <cmath>
-
 #include "tests/support/directions.h"
-#include "tests/support/expect_near.h"
-#include "tests/support/numbers.h"
+#include "tests/support/test.h"
 
 namespace aleph {
 namespace {
@@ -17,8 +11,7 @@ constexpr RadiusBounds wide_bounds{0.01f, 10.0f, 0.2f};
 
 /// Grey light of 2 with gradients of the length 5.
 IrradianceSample make_steep_sample(float nearest = 1.0f) {
-    IrradianceSample sample;
-    sample.irradiance = Rgb(2.0f);
+    IrradianceSample sample{.irradiance = Rgb(2.0f)};
     sample.translation_gradient.fill({3.0f, 0.0f, 4.0f});
     sample.rotation_gradient.fill({3.0f, 0.0f, 4.0f});
     sample.nearest_distance = nearest;
@@ -74,12 +67,7 @@ TEST(IrradianceRecord, SlopeIsTheLuminances) {
 }
 
 IrradianceRecord make_unit_record(float irradiance = 1.0f) {
-    IrradianceRecord record;
-    record.normal = up;
-    record.radius = 1.0f;
-    record.irradiance = Rgb(irradiance);
-    record.tangent = make_basis(up).tangent;
-    return record;
+    return {.radius = 1.0f, .normal = up, .irradiance = Rgb(irradiance), .tangent = make_basis(up).tangent};
 }
 
 TEST(IrradianceRecord, ErrorIsTheLargestOfThree) {

@@ -1,14 +1,8 @@
 // Places that mirrors show: a mirror faces a wall behind the camera.
 
 #include "render/cache/mirror_places.h"
-
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <functional>
-
-#include "tests/support/expect_near.h"
 #include "tests/support/render_scenes.h"
+#include "tests/support/test.h"
 
 namespace aleph {
 namespace {
@@ -25,11 +19,8 @@ struct Mirror {
     Scene make_scene() const {
         Scene scene;
         const int white = add_lambert(scene, glm::dvec3(0.5));
-        Material metal;
-        metal.base_color = glm::dvec3(reflectance);
-        metal.roughness = roughness;
-        metal.anisotropy = anisotropy;
-        scene.materials.push_back(metal);
+        scene.materials.push_back(
+            {.base_color = glm::dvec3(reflectance), .roughness = roughness, .anisotropy = anisotropy});
         add_mesh(scene, make_quad(40.0, 40.0, 1), {0.0, 0.0, -4.0});
         add_mesh(scene, make_quad(400.0, 400.0, white), {0.0, 0.0, 3.0},
                  glm::angleAxis(std::numbers::pi, glm::dvec3(0.0, 1.0, 0.0)));

@@ -1,25 +1,20 @@
 // Records that correct each other: reach by disagreement, less noise by averaging; and how many rays a record takes.
 
-#include <gtest/gtest.h>
-
-#include <random>
-
 #include "render/cache/gather_at.h"
 #include "render/cache/irradiance_cache.h"
 #include "tests/support/directions.h"
+#include "tests/support/test.h"
 
 namespace aleph {
 namespace {
 
 IrradianceRecord make_flat_record(const glm::vec3& position, float irradiance, float noise) {
-    IrradianceRecord record;
-    record.position = position;
-    record.normal = up;
-    record.irradiance = Rgb(irradiance);
-    record.radius = 1.0f;
-    record.relative_error = noise;
-    record.accuracy = 0.2f;
-    return record;
+    return {.position = position,
+            .radius = 1.0f,
+            .normal = up,
+            .irradiance = Rgb(irradiance),
+            .relative_error = noise,
+            .accuracy = 0.2f};
 }
 
 TEST(RecordCorrection, RecordsThatDisagreeReachLessFar) {
@@ -95,8 +90,7 @@ TEST(RecordCorrection, VarianceIsExpectedFromRecordsAround) {
 
 TEST(RecordCorrection, ContactsHaveNoGradientBeyondThem) {
     const auto gradient = [](float nearest) {
-        IrradianceSample sample;
-        sample.irradiance = Rgb(1.0f);
+        IrradianceSample sample{.irradiance = Rgb(1.0f)};
         sample.translation_gradient.fill({0.5f, 0.0f, 0.0f});
         sample.nearest_distance = nearest;
         return make_record(glm::vec3(0.0f), up, 0.2f, sample, {0.7f, 10.0f, 0.01f})->translation_gradient[0].x;

@@ -1,12 +1,9 @@
 // The octree of records: its cells, and which of them a look-up enters.
 
-#include "render/cache/record_index.h"
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
 #include <numeric>
-#include <set>
+
+#include "render/cache/record_index.h"
+#include "tests/support/test.h"
 
 namespace aleph {
 namespace {

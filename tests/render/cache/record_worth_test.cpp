@@ -5,7 +5,6 @@
 #include <gtest/gtest.h>
 
 #include "render/cache/cache_fill.h"
-#include "tests/support/cluttered_room.h"
 #include "tests/support/render_scenes.h"
 
 namespace aleph {

@@ -1,18 +1,11 @@
 // `aleph render --budget`.
 
-#include "render/cli/budget.h"
-
-#include <fmt/format.h>
-#include <gtest/gtest.h>
-
-#include <filesystem>
 #include <nlohmann/json.hpp>
-#include <sstream>
 
-#include "engine/base/errors.h"
-#include "render/cli/commands.h"
+#include "render/cli/budget.h"
 #include "tests/support/read_bytes.h"
-#include "tests/support/render_command.h"
+#include "tests/support/run_command.h"
+#include "tests/support/test.h"
 
 namespace aleph {
 namespace {
@@ -22,17 +15,13 @@ namespace fs = std::filesystem;
 class Budgets : public RenderCommand {
   protected:
     /// @return the exit code
-    int run(const std::vector<std::string>& more) {
-        std::vector<std::string> words = {"--size", "24x18", "-t", "1"};
-        words.insert(words.end(), more.begin(), more.end());
-        return RenderCommand::run(words);
-    }
+    int run(const std::vector<std::string>& more) { return RenderCommand::run({"--size", "24x18", "-t", "1"}, more); }
 };
 
 TEST_F(Budgets, WrongOnesAreRefused) {
     for (const char* text : {"0", "-1", "nan", "inf", "", "1 s", "1e-400x"}) {
         EXPECT_EQ(run({"--frames", "0", "-o", file("a.exr"), "--budget", text}), exit_bad_input) << text;
-        EXPECT_NE(errors.str().find("--budget"), std::string::npos) << errors.str();
+        EXPECT_NE(errors.find("--budget"), std::string::npos) << errors;
         EXPECT_FALSE(fs::exists(file("a.exr"))) << text;
     }
 }
@@ -43,7 +32,7 @@ TEST_F(Budgets, ChooseTheErrorAlone) {
         std::vector<std::string> words = {"--frames", "0", "-o", file("a.exr"), "--budget", "5"};
         words.insert(words.end(), beside.begin(), beside.end());
         EXPECT_EQ(run(words), exit_bad_input) << beside.front();
-        EXPECT_NE(errors.str().find("give one of the two"), std::string::npos) << errors.str();
+        EXPECT_NE(errors.find("give one of the two"), std::string::npos) << errors;
         EXPECT_FALSE(fs::exists(file("a.exr")));
     }
 }
@@ -51,7 +40,7 @@ TEST_F(Budgets, ChooseTheErrorAlone) {
 TEST_F(Budgets, TheErrorMakesTheSameBytesAgain) {
     for (const char* budget : {"1e-9", "1e9"}) {
         ASSERT_EQ(run({"--frames", "3", "--budget", budget, "-o", file("a.exr"), "--stats", file("a.json")}), exit_done)
-            << errors.str();
+            << errors;
         const auto json = nlohmann::json::parse(read_bytes(file("a.json")));
         const double error = json.at("budget").at("error");
         EXPECT_EQ(error, std::string(budget) == "1e9" ? least_budget_error : most_budget_error);

@@ -1,17 +1,12 @@
 // The EXR channels of a frame, the table in render/output/README.md and `aleph maps --help` name the same channels.
 
-#include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <gtest/gtest.h>
-
-#include <fstream>
-#include <set>
-#include <sstream>
 
 #include "render/cli/commands.h"
 #include "render/output/channel_table.h"
 #include "render/output/frame_files.h"
 #include "tests/support/paths.h"
+#include "tests/support/test.h"
 
 namespace aleph {
 namespace {

@@ -1,20 +1,14 @@
 // Options, progress and exit codes, without starting the program.
 
-#include <fmt/format.h>
-#include <gtest/gtest.h>
 #include <stdlib.h>
 
-#include <array>
-#include <fstream>
-#include <sstream>
-
-#include "engine/base/errors.h"
 #include "render/cli/commands.h"
 #include "render/cli/progress.h"
 #include "render/cli/scene_options.h"
 #include "render/settings/scene_numbers.h"
 #include "render/settings/setting_table.h"
 #include "tests/support/scratch_folder.h"
+#include "tests/support/test.h"
 
 namespace aleph {
 namespace {

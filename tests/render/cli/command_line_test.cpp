@@ -1,22 +1,20 @@
 // The built program: exit codes, messages, and the files it leaves.
 
 #include <fcntl.h>
-#include <gtest/gtest.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
-
-#include <fstream>
-#include <limits>
 #include <nlohmann/json.hpp>
 
 #include "engine/base/sampling.h"
 #include "engine/image/image_file.h"
 #include "render/cli/options.h"
 #include "tests/support/german_locale.h"
+#include "tests/support/grey_image.h"
 #include "tests/support/paths.h"
 #include "tests/support/read_bytes.h"
 #include "tests/support/scratch_folder.h"
+#include "tests/support/test.h"
 
 namespace aleph {
 namespace {
@@ -48,12 +46,6 @@ Outcome run_aleph(std::vector<std::string> arguments, rlim_t file_limit = RLIM_I
     int status = 0;
     ::waitpid(child, &status, 0);
     return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, read_bytes(out), read_bytes(err)};
-}
-
-ChannelImage grey_image(int width, int height, float value) {
-    ChannelImage image;
-    for (const char* name : {"R", "G", "B"}) image.channels.push_back({name, Image<float>(width, height, value)});
-    return image;
 }
 
 /// Two pictures, .5 apart by `step` in one green pixel.
@@ -121,7 +113,7 @@ TEST(CommandLine, CompareNeverPassesNan) {
     const ScratchFolder folder;
     ChannelImage image = grey_image(4, 4, 0.5f);
     write_exr(folder / "clean.exr", image);
-    image.channels[0].values(1, 1) = std::numeric_limits<float>::quiet_NaN();
+    image.channels[0].values(1, 1) = float_nan;
     write_exr(folder / "nan.exr", image);
     const std::string clean = folder / "clean.exr", nan = folder / "nan.exr";
     for (const auto& [a, b] : {std::pair{nan, clean}, {nan, nan}}) {
@@ -135,7 +127,7 @@ TEST(CommandLine, MapsOfPicturesWithNanWarnOnce) {
     const ScratchFolder folder;
     ChannelImage image = grey_image(40, 30, 0.5f);
     write_exr(folder / "f.0001.exr", image);
-    image.channels[0].values(7, 8) = std::numeric_limits<float>::quiet_NaN();
+    image.channels[0].values(7, 8) = float_nan;
     write_exr(folder / "f.0002.exr", image);
     write_exr(folder / "f.0003.exr", image);
     const std::string pattern = folder / "f.####.exr";

@@ -1,20 +1,13 @@
 // `aleph compare` of sequences, without starting the program.
 
-#include <fmt/format.h>
-#include <gtest/gtest.h>
-
-#include <filesystem>
-#include <fstream>
-#include <limits>
 #include <nlohmann/json.hpp>
 
-#include "engine/base/errors.h"
 #include "engine/image/image_file.h"
 #include "render/cli/frame_pattern.h"
 #include "tests/support/grey_image.h"
-#include "tests/support/refusal.h"
-#include "tests/support/run_compare.h"
+#include "tests/support/run_command.h"
 #include "tests/support/scratch_folder.h"
+#include "tests/support/test.h"
 
 namespace aleph {
 namespace {
@@ -38,10 +31,9 @@ struct Sequences {
             const std::string number = fmt::format("{:04}", frames[i]);
             write_exr(a + "/new." + number + ".exr", grey(0.5f + steps[i]));
             write_exr(b + "/old." + number + ".exr", grey(0.5f));
-            write_exr(maps + "/m." + number + ".exr",
-                      {{flat("forward.u", 0.0f), flat("forward.v", 0.0f), flat("motion.valid", 1.0f),
-                        flat("threshold.Y", 1.0f)},
-                       {}});
+            write_exr(maps + "/m." + number + ".exr", {{flat("forward.u", 0.0f), flat("forward.v", 0.0f),
+                                                        flat("motion.valid", 1.0f), flat("threshold.Y", 1.0f)},
+                                                       {}});
         }
     }
 };
@@ -49,16 +41,16 @@ struct Sequences {
 TEST(CompareFrames, PatternsAndFoldersArePairedByNumber) {
     const Sequences s({8, 9, 10}, {0.0f, 0.25f, 0.0f});
     for (const auto& [first, second] : {std::pair{s.pattern_a, s.pattern_b}, {s.a, s.b}, {s.a, s.pattern_b}}) {
-        const CompareOutcome outcome = run_compare({first, second});
+        const Ran outcome = run_command({"compare"}, {first, second});
         EXPECT_EQ(outcome.code, 1) << outcome.errors;
         EXPECT_NE(outcome.out.find("1 of 3 frames differ; the largest difference is in frame 9"), std::string::npos)
             << outcome.out;
         EXPECT_TRUE(outcome.out.ends_with("different\n"));
     }
-    EXPECT_EQ(run_compare({s.a, s.b, "--tolerance", "0.25"}).code, 0);
-    EXPECT_EQ(run_compare({s.a, s.b, "--tolerance", "0.25", "--max-rms", "0.2"}).code, 1);
-    EXPECT_EQ(run_compare({s.a, s.b, "-q"}).out, "");
-    const CompareOutcome limits = run_compare({s.a, s.b, "--share", "100", "--max-error", "0.2"});
+    EXPECT_EQ(run_command({"compare"}, {s.a, s.b, "--tolerance", "0.25"}).code, 0);
+    EXPECT_EQ(run_command({"compare"}, {s.a, s.b, "--tolerance", "0.25", "--max-rms", "0.2"}).code, 1);
+    EXPECT_EQ(run_command({"compare"}, {s.a, s.b, "-q"}).out, "");
+    const Ran limits = run_command({"compare"}, {s.a, s.b, "--share", "100", "--max-error", "0.2"});
     EXPECT_NE(limits.out.find("different (--max-error)"), std::string::npos) << limits.out;
 }
 
@@ -66,12 +58,12 @@ TEST(CompareFrames, MissingPartnersAreNamed) {
     const Sequences s({1, 2, 3, 4, 5, 6}, {0, 0, 0, 0, 0, 0});
     for (const char* gone : {"a/new.0005.exr", "b/old.0001.exr", "b/old.0002.exr", "b/old.0004.exr", "maps/m.0003.exr"})
         fs::remove(s.folder / gone);
-    CompareOutcome outcome = run_compare({s.a, s.b});
+    Ran outcome = run_command({"compare"}, {s.a, s.b});
     EXPECT_EQ(outcome.code, 2);
     EXPECT_NE(outcome.errors.find("b' has no frame 1-2, 4; '"), std::string::npos) << outcome.errors;
     EXPECT_NE(outcome.errors.find("a' has no frame 5"), std::string::npos) << outcome.errors;
     EXPECT_EQ(outcome.out, "");
-    outcome = run_compare({s.b, s.b, "--threshold", s.pattern_maps});
+    outcome = run_command({"compare"}, {s.b, s.b, "--threshold", s.pattern_maps});
     EXPECT_EQ(outcome.code, 2);
     EXPECT_NE(outcome.errors.find("m.####.exr' has no frame 3"), std::string::npos) << outcome.errors;
 }
@@ -81,8 +73,8 @@ TEST(CompareFrames, VisibleDifferencesAsJsonTextAndPictures) {
     ChannelImage dark = grey(0.9f);
     for (Channel& channel : dark.channels) channel.values(3, 2) = 0.1f;
     write_exr(s.a + "/new.0004.exr", dark);
-    const CompareOutcome outcome =
-        run_compare({s.a, s.b, "--seen", s.maps, "--json", "--seen-out", s.folder / "seen.####.exr"});
+    const Ran outcome =
+        run_command({"compare"}, {s.a, s.b, "--seen", s.maps, "--json", "--seen-out", s.folder / "seen.####.exr"});
     EXPECT_EQ(outcome.code, 1) << outcome.errors;
     const auto json = nlohmann::json::parse(outcome.out);
     ASSERT_EQ(json["frames"].size(), 3u);
@@ -94,11 +86,11 @@ TEST(CompareFrames, VisibleDifferencesAsJsonTextAndPictures) {
     EXPECT_GT(seen.find("seen.Y")->operator()(3, 2), 1.0f);
     EXPECT_NE(seen.find("flicker.Y"), nullptr);
     EXPECT_NE(seen.find("lasting.Y"), nullptr);
-    const CompareOutcome text = run_compare({s.a, s.b, "--seen", s.maps});
+    const Ran text = run_command({"compare"}, {s.a, s.b, "--seen", s.maps});
     EXPECT_NE(text.out.find("seen   flicker   lasting   noticed"), std::string::npos) << text.out;
-    EXPECT_EQ(run_compare({s.a, s.b, "--seen", s.maps, "--share", "100"}).code, 0);
+    EXPECT_EQ(run_command({"compare"}, {s.a, s.b, "--seen", s.maps, "--share", "100"}).code, 0);
     const std::string a = s.a + "/new.0004.exr", b = s.b + "/old.0004.exr", maps = s.maps + "/m.0004.exr";
-    const CompareOutcome one = run_compare({a, b, "--seen", maps, "--seen-out", s.folder / "seen.png"});
+    const Ran one = run_command({"compare"}, {a, b, "--seen", maps, "--seen-out", s.folder / "seen.png"});
     EXPECT_EQ(one.code, 1);
     EXPECT_NE(one.out.find("a difference is seen in  100 % of the pixels"), std::string::npos) << one.out;
     EXPECT_TRUE(fs::exists(s.folder / "seen.png"));
@@ -122,12 +114,12 @@ TEST(CompareFrames, WrongKindsAreRefused) {
         {{s.a, s.b, "--max-rms", "-1"}, "--max-rms"},
         {{s.a, s.b, "--standard-errors", "3"}, "variance.Y"}};
     for (const auto& [arguments, part] : cases) {
-        const CompareOutcome outcome = run_compare(arguments);
+        const Ran outcome = run_command({"compare"}, arguments);
         EXPECT_EQ(outcome.code, 2) << part;
         EXPECT_NE(outcome.errors.find(part), std::string::npos) << outcome.errors;
     }
     write_exr(s.b + "/old.0002.exr", grey(0.5f, 7, 5));
-    const CompareOutcome outcome = run_compare({s.a, s.b});
+    const Ran outcome = run_command({"compare"}, {s.a, s.b});
     EXPECT_EQ(outcome.code, 2);
     EXPECT_NE(outcome.errors.find("new.0002.exr: the pictures differ in size"), std::string::npos) << outcome.errors;
 }
@@ -136,14 +128,14 @@ TEST(CompareFrames, ExistingFilesArePicturesWhateverTheirName) {
     const ScratchFolder folder;
     const std::string odd = folder / "take #2.exr";
     write_exr(odd, grey(0.5f));
-    const CompareOutcome outcome = run_compare({odd, odd});
+    const Ran outcome = run_command({"compare"}, {odd, odd});
     EXPECT_EQ(outcome.code, 0) << outcome.errors;
     EXPECT_EQ(outcome.out.find("frames"), std::string::npos) << outcome.out;
 }
 
 TEST(CompareFrames, DifferencesOfEveryFrame) {
     const Sequences s({1, 2}, {0.0f, 0.25f});
-    run_compare({s.a, s.b, "-q", "--diff", s.folder / "diff.##.png"});
+    run_command({"compare"}, {s.a, s.b, "-q", "--diff", s.folder / "diff.##.png"});
     EXPECT_TRUE(fs::exists(s.folder / "diff.01.png"));
     EXPECT_TRUE(fs::exists(s.folder / "diff.02.png"));
 }
@@ -155,13 +147,13 @@ TEST(CompareFrames, NoiseOfTheReferenceIsPrinted) {
     write_exr(folder / "b.exr", reference);
     write_exr(folder / "a.exr", grey(0.52f));
     write_exr(folder / "maps.exr", {{{"threshold.Y", Image<float>(6, 5, 1.0f)}}, {}});
-    const CompareOutcome outcome =
-        run_compare({folder / "a.exr", folder / "b.exr", "--threshold", folder / "maps.exr"});
+    const Ran outcome =
+        run_command({"compare"}, {folder / "a.exr", folder / "b.exr", "--threshold", folder / "maps.exr"});
     EXPECT_EQ(outcome.code, 1);
     EXPECT_NE(outcome.out.find("0 % by more than 3 standard errors; by noise alone 61.7"), std::string::npos)
         << outcome.out;
     EXPECT_NE(outcome.out.find("bias 4 %"), std::string::npos) << outcome.out;
-    EXPECT_EQ(run_compare({folder / "a.exr", folder / "b.exr", "--standard-errors", "2"}).code, 0);
+    EXPECT_EQ(run_command({"compare"}, {folder / "a.exr", folder / "b.exr", "--standard-errors", "2"}).code, 0);
 }
 
 TEST(FramePattern, FoldersHoldOneSequence) {

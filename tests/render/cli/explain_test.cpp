@@ -1,20 +1,12 @@
 // `aleph explain` on scenes whose description is known.
 
 #include "render/cli/explain/explain.h"
-#include "render/surface/node_paths.h"
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <fstream>
-#include <numbers>
-
-#include "engine/base/errors.h"
 #include "engine/load/load_scene.h"
 #include "engine/surface/shapes.h"
 #include "render/cli/commands.h"
+#include "render/surface/node_paths.h"
 #include "tests/support/scratch_folder.h"
+#include "tests/support/test.h"
 
 namespace aleph {
 namespace {
@@ -45,10 +37,7 @@ Scene make_scene() {
     carrier.axis_rotation->angle.sampling = {
         .kind = TimeSampling::Kind::uniform, .start = 0.0, .period = 0.5, .times = {}};
     carrier.axis_rotation->angle.values = {0.0, std::numbers::pi / 2.0};
-    Node on;
-    on.name = "box";
-    on.parent = 0;
-    on.meshes = {0};
+    Node on{.name = "box", .parent = 0, .meshes = {0}};
     Node twin = on;
     Node hidden = on;
     hidden.name = "hidden";

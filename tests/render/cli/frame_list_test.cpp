@@ -1,16 +1,11 @@
 // Frame lists and output names.
 
-#include "render/settings/frame_list.h"
-
-#include <gtest/gtest.h>
-
 #include <climits>
-#include <fstream>
 
-#include "engine/base/errors.h"
 #include "render/cli/output_path.h"
-#include "tests/support/refusal.h"
+#include "render/settings/frame_list.h"
 #include "tests/support/scratch_folder.h"
+#include "tests/support/test.h"
 
 namespace aleph {
 namespace {

@@ -1,20 +1,15 @@
 // Work that grows no faster than the scene: bytes allocated for deep and for wide scenes of n and 2n nodes.
 
-#include <gtest/gtest.h>
-
 #include <atomic>
 #include <cstdlib>
-#include <fstream>
-#include <functional>
 #include <new>
-#include <set>
-#include <string>
 
 #include "engine/load/load_scene.h"
 #include "render/cli/explain/explain.h"
 #include "render/output/frame_files.h"
 #include "render/surface/node_paths.h"
 #include "tests/support/scratch_folder.h"
+#include "tests/support/test.h"
 
 namespace {
 
@@ -126,10 +121,7 @@ TEST(Growth, TwiceTheNodesCostAtMostTwiceTheBytesAndATenth) {
 TEST(Growth, LongPathsAreShortenedInTheMiddleAndStillDiffer) {
     Scene scene;
     for (int i = 0; i < 200; ++i) {
-        Node node;
-        node.name = "é" + std::to_string(i);
-        node.parent = i - 1;
-        scene.nodes.push_back(node);
+        scene.nodes.push_back({.name = "é" + std::to_string(i), .parent = i - 1});
     }
     scene.nodes.push_back(scene.nodes.back());
     const NodePaths paths(scene);

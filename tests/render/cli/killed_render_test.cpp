@@ -1,21 +1,18 @@
 // A render that is killed: the frames before it stay whole, and a second run completes the shot.
+// Standard output and standard error that cannot be written.
 
 #include <fcntl.h>
-#include <gtest/gtest.h>
 #include <poll.h>
 #include <signal.h>
+#include <stdlib.h>
 #include <sys/inotify.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <algorithm>
-#include <fstream>
-#include <string>
-#include <vector>
-
 #include "tests/support/paths.h"
 #include "tests/support/read_bytes.h"
 #include "tests/support/scratch_folder.h"
+#include "tests/support/test.h"
 
 namespace aleph {
 namespace {
@@ -132,6 +129,24 @@ TEST(KilledRender, OU07_EarlierFramesStayWholeAndASecondRunCompletesThem) {
         ASSERT_EQ(wait_for(start_render(folder / "scene.json", output.path(), frames)), 0);
         for (const std::string& name : names_in(again.path())) expect_equal(name);
     }
+}
+
+TEST(LostOutput, HelpThatIsLostIsAFailure) {
+    if (!std::filesystem::exists("/dev/full")) GTEST_SKIP() << "there is no /dev/full here";
+    for (const char* words : {"--help", "--version", "render --help", "study --help"}) {
+        const std::string command = "'" + program_path("aleph") + "' " + words + " >/dev/full 2>/dev/null";
+        EXPECT_EQ(WEXITSTATUS(::system(command.c_str())), 1) << words;
+    }
+}
+
+TEST(LostOutput, ProgressThatIsLostDoesNotEndARender) {
+    if (!std::filesystem::exists("/dev/full")) GTEST_SKIP() << "there is no /dev/full here";
+    const ScratchFolder folder;
+    const std::string command =
+        "'" + program_path("aleph") + "' render '" + (source_folder() / "scenes/cornell/scene.json").string() +
+        "' --frames 0-2 --size 16x12 --spp 1 -o '" + folder.path().string() + "/' 2>/dev/full >/dev/null";
+    EXPECT_EQ(WEXITSTATUS(::system(command.c_str())), 0);
+    EXPECT_TRUE(std::filesystem::exists(folder / "cornell.0002.exr"));
 }
 
 }  // namespace

@@ -1,39 +1,16 @@
 #pragma once
 // Runs `aleph maps` on pictures of a texture that moves.
 
-#include <filesystem>
-#include <sstream>
-#include <string>
-#include <utility>
-#include <vector>
-
 #include "engine/image/image_file.h"
-#include "render/cli/commands.h"
 #include "render/cli/frame_pattern.h"
 #include "tests/support/image_patterns.h"
+#include "tests/support/run_command.h"
 #include "tests/support/scratch_folder.h"
 
 namespace aleph {
 
-struct Ran {
-    int code = 0;
-    std::string errors;
-};
-
-/// `aleph maps -q ...` without starting a program.
-inline Ran run_maps(std::vector<std::string> arguments) {
-    CLI::App app{"test"};
-    Command command;
-    app.require_subcommand(0, 1);
-    add_maps_command(app, command);
-    arguments.insert(arguments.begin(), {"aleph", "maps", "-q"});
-    std::vector<const char*> argv;
-    for (const std::string& argument : arguments) argv.push_back(argument.c_str());
-    std::ostringstream errors;
-    Ran ran;
-    ran.code = run_program(app, command, static_cast<int>(argv.size()), argv.data(), errors);
-    ran.errors = errors.str();
-    return ran;
+inline Ran run_maps(const std::vector<std::string>& arguments) {
+    return run_command({"maps", "-q"}, arguments);
 }
 
 inline constexpr int width = 72, height = 56;

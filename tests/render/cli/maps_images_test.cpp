@@ -1,15 +1,7 @@
 // `aleph maps --images`: maps of pictures without a scene.
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <fstream>
 #include <nlohmann/json.hpp>
-#include <string>
 #include <variant>
-#include <vector>
 
 #include "engine/image/image_file.h"
 #include "motion/image_motion.h"
@@ -17,6 +9,7 @@
 #include "tests/render/cli/maps_images.h"
 #include "tests/support/read_bytes.h"
 #include "tests/support/scratch_folder.h"
+#include "tests/support/test.h"
 
 namespace aleph {
 namespace {
@@ -156,8 +149,8 @@ TEST(MapsImages, OneChannelIsGrey) {
 TEST(MapsImages, BadPixelsAreCountedNotSpread) {
     const Frames frames(1, 2);
     Image<Rgb> damaged = picture(1);
-    damaged(10, 10) = Rgb(NAN);
-    damaged(40, 30) = Rgb(INFINITY, 0.0f, 0.0f);
+    damaged(10, 10) = Rgb(float_nan);
+    damaged(40, 30) = Rgb(float_infinity, 0.0f, 0.0f);
     frames.write(1, damaged);
     const std::string stats = (frames.folder / "stats.json").string();
     ASSERT_EQ(run_maps({"--images", frames.pattern(), "-o", frames.out(), "--stats", stats}).code, 0);

@@ -1,12 +1,9 @@
 // `aleph maps --images`: pictures of other programs, with layers, motion and depth of their own.
 
-#include <gtest/gtest.h>
-
-#include <limits>
-
 #include "engine/image/image_file.h"
 #include "render/images/image_sequence.h"
 #include "tests/render/cli/maps_images.h"
+#include "tests/support/test.h"
 
 namespace aleph {
 namespace {
@@ -51,7 +48,7 @@ TEST(MapsLayers, BlendersPassesAreReadWithTheirSigns) {
         ChannelImage file = blender_frame(frame);
         channel(file, "ViewLayer.Vector.Z")(0, 0) = channel(file, "ViewLayer.Vector.W")(0, 0) = 0.0f;
         channel(file, "ViewLayer.Depth.Z")(0, 0) = 1e10f;
-        channel(file, "ViewLayer.Vector.Z")(5, 5) = std::numeric_limits<float>::quiet_NaN();
+        channel(file, "ViewLayer.Vector.Z")(5, 5) = float_nan;
         return file;
     });
     ASSERT_EQ(ran.code, 0) << ran.errors;

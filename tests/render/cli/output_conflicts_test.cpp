@@ -1,19 +1,12 @@
 // No output replaces a file that the same command reads, or another output.
 
 #include "render/cli/output_conflicts.h"
-
-#include <gtest/gtest.h>
-
-#include <filesystem>
-#include <map>
-#include <sstream>
-
-#include "engine/base/errors.h"
 #include "engine/image/image_file.h"
-#include "render/cli/commands.h"
 #include "tests/support/files/gltf_draft.h"
 #include "tests/support/read_bytes.h"
+#include "tests/support/run_command.h"
 #include "tests/support/scratch_folder.h"
+#include "tests/support/test.h"
 
 namespace aleph {
 namespace {
@@ -44,23 +37,17 @@ class Conflicts : public testing::Test {
     std::string file(const std::string& name) const { return (folder_ / name).string(); }
 
     int run(const std::vector<std::string>& words) {
-        CLI::App app{"aleph"};
-        Command command;
-        app.require_subcommand(0, 1);
-        for (const auto add : {add_render_command, add_maps_command, add_compare_command, add_study_command})
-            add(app, command);
-        std::vector<const char*> argv{"aleph"};
-        for (const std::string& word : words) argv.push_back(word.c_str());
-        errors_.str("");
-        return run_program(app, command, static_cast<int>(argv.size()), argv.data(), errors_);
+        const Ran ran = run_command(words);
+        errors_ = ran.errors;
+        return ran.code;
     }
 
     /// The command is refused, its message has the text, and every file is as before.
     void expect_refused(const std::vector<std::string>& words, const std::string& text) {
         const auto before = contents();
         EXPECT_EQ(run(words), exit_bad_input) << text;
-        EXPECT_NE(errors_.str().find(text), std::string::npos) << errors_.str();
-        EXPECT_NE(errors_.str().find("give another name"), std::string::npos) << errors_.str();
+        EXPECT_NE(errors_.find(text), std::string::npos) << errors_;
+        EXPECT_NE(errors_.find("give another name"), std::string::npos) << errors_;
         EXPECT_EQ(contents(), before) << text;
     }
 
@@ -80,7 +67,7 @@ class Conflicts : public testing::Test {
     }
 
     ScratchFolder folder_;
-    std::ostringstream errors_;
+    std::string errors_;
 };
 
 TEST_F(Conflicts, NoOutputReplacesAFileOfTheScene) {
@@ -134,7 +121,7 @@ TEST_F(Conflicts, OtherNamesAreTaken) {
     EXPECT_EQ(run({"render", file("sc.json"), "-q", "--size", "8x8", "--spp", "1", "--frames", "0", "-o",
                    file("out.png"), "--stats", file("out.json")}),
               exit_done)
-        << errors_.str();
+        << errors_;
     EXPECT_TRUE(fs::exists(file("out.png")));
 }
 

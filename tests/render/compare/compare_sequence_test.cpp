@@ -1,14 +1,8 @@
 // Sequences of small pictures with known differences.
 
 #include "render/compare/compare_sequence.h"
-
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <limits>
-
-#include "engine/base/errors.h"
 #include "tests/support/grey_image.h"
+#include "tests/support/test.h"
 
 namespace aleph {
 namespace {
@@ -114,8 +108,7 @@ TEST(CompareSequence, SharesAreWeighedBySaliency) {
     ChannelImage maps = still_maps(), picture = checkers(0.0f), reference = checkers(0.0f);
     maps.channels.push_back({"saliency.Y", Image<float>(picture_width, picture_height, 0.25f)});
     maps.channels.back().values(0, 0) = 1.0f;
-    for (ChannelImage* each : {&picture, &reference})
-        each->channels[0].values(0, 0) = std::numeric_limits<float>::quiet_NaN();
+    for (ChannelImage* each : {&picture, &reference}) each->channels[0].values(0, 0) = float_nan;
     const VisibleMaps seen = compare_stills(picture, reference, maps);
     VisibleCount count;
     count.add(seen, maps.find("saliency.Y"));
@@ -127,7 +120,7 @@ TEST(CompareSequence, NanIsDifferent) {
     SequenceComparison sequence({.share = 100.0});
     const ChannelImage maps = still_maps();
     ChannelImage broken = grey(0.5f);
-    broken.channels[1].values(2, 2) = std::numeric_limits<float>::quiet_NaN();
+    broken.channels[1].values(2, 2) = float_nan;
     sequence.add(0, broken, grey(0.5f), {.threshold = &maps});
     EXPECT_FALSE(sequence.frames().back().same);
     EXPECT_EQ(sequence.frames().back().result.threshold->beyond, 1u);

@@ -1,16 +1,8 @@
 // The numbers of compare_images against values worked out by hand.
 
 #include "render/compare/compare.h"
-
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <limits>
-
-#include "engine/base/errors.h"
 #include "tests/support/grey_image.h"
-#include "tests/support/numbers.h"
-#include "tests/support/refusal.h"
+#include "tests/support/test.h"
 
 namespace aleph {
 namespace {
@@ -64,7 +56,7 @@ TEST(Compare, ToleranceRelativeAndShare) {
 
 TEST(Compare, ReferenceZeroEverywhereIsInfinitelyFar) {
     const auto zero = one_channel("Z", {0.0f, 0.0f}), one = one_channel("Z", {0.0f, 1.0f});
-    EXPECT_EQ(compare_images(one, zero).all.relative_mse, std::numeric_limits<double>::infinity());
+    EXPECT_EQ(compare_images(one, zero).all.relative_mse, infinity);
     EXPECT_EQ(compare_images(zero, zero).all.relative_mse, 0.0);
 }
 

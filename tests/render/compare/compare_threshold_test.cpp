@@ -2,19 +2,9 @@
 // distribution.
 
 #include "render/compare/compare_threshold.h"
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <limits>
-#include <numbers>
-#include <random>
-
-#include "engine/base/errors.h"
 #include "render/compare/compare.h"
 #include "tests/support/grey_image.h"
-#include "tests/support/numbers.h"
+#include "tests/support/test.h"
 #include "tests/support/trial.h"
 
 namespace aleph {
@@ -174,9 +164,9 @@ TEST(CompareNoise, NothingIsCertainOfABrokenVariance) {
     const ChannelImage a = grey_image(4, 1, 0.9f);
     ChannelImage b = grey_image(4, 1, 0.5f);
     add_channel(b, "variance.Y", 0.0f);
-    b.channels[3].values(1, 0) = std::numeric_limits<float>::quiet_NaN();
+    b.channels[3].values(1, 0) = float_nan;
     b.channels[3].values(2, 0) = -1.0f;
-    b.channels[3].values(3, 0) = std::numeric_limits<float>::infinity();
+    b.channels[3].values(3, 0) = float_infinity;
     const ChannelImage map{{{"threshold.Y", Image<float>(4, 1, 1.0f)}}, {}};
     const CompareResult result = compare_images(a, b, {}, &map);
     EXPECT_EQ(result.threshold->beyond, 4u);

@@ -1,10 +1,7 @@
 // Tracks along known motion.
 
 #include "render/compare/surface_track.h"
-
-#include <gtest/gtest.h>
-
-#include <cmath>
+#include "tests/support/test.h"
 
 namespace aleph::surface_track_test {
 namespace {

@@ -1,18 +1,9 @@
 // Visible differences, against castleCSF and what must be so by construction.
 
 #include "render/compare/visible_difference.h"
-
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <functional>
-#include <limits>
-#include <numbers>
-#include <random>
-
-#include "engine/base/errors.h"
 #include "perception/castle.h"
 #include "perception/display_hold.h"
+#include "tests/support/test.h"
 
 namespace aleph::visible_difference_test {
 namespace {
@@ -37,9 +28,7 @@ Pattern grating(double cycles_per_degree, double contrast) {
     return [=](double x, double) { return contrast * std::cos(radians * x); };
 }
 
-Pattern flat() {
-    return [](double, double) { return 0.0; };
-}
+const Pattern flat = [](double, double) { return 0.0; };
 
 MotionMaps uniform_motion(float u, float v = 0.0f) {
     return {Image<float>(width, height, u), Image<float>(width, height, v), Image<float>(width, height, 1.0f),
@@ -82,6 +71,11 @@ Frames still(const Pattern& pattern) {
     return [=](int) { return picture_of(pattern); };
 }
 
+/// Moves right by so many pixels a frame.
+Frames drifting(const Pattern& pattern, double pixels) {
+    return [=](int frame) { return picture_of([=](double x, double y) { return pattern(x - pixels * frame, y); }); };
+}
+
 double area(double frequency) {
     return std::numbers::pi * 2.25 / (frequency * frequency);
 }
@@ -99,7 +93,7 @@ TEST(VisibleDifference, EqualPicturesDifferNowhere) {
 
 TEST(VisibleDifference, GratingAtItsThresholdIsOneVisibleDifference) {
     for (const double frequency : {0.5, 0.9, 1.6, 2.5, 4.0, 6.0, 9.0, 12.0}) {
-        const Shown shown = show(still(grating(frequency, threshold(frequency))), still(flat()));
+        const Shown shown = show(still(grating(frequency, threshold(frequency))), still(flat));
         EXPECT_NEAR(shown.seen, 1.0, 0.16) << frequency;
         EXPECT_NEAR(shown.lasting, shown.seen, 1e-3) << frequency;
         EXPECT_LT(shown.flicker, 1e-3) << frequency;
@@ -107,8 +101,8 @@ TEST(VisibleDifference, GratingAtItsThresholdIsOneVisibleDifference) {
 }
 
 TEST(VisibleDifference, GrowsInProportionWhereNothingMasks) {
-    const double one = show(still(grating(3.0, 0.01)), still(flat())).seen;
-    EXPECT_NEAR(show(still(grating(3.0, 0.04)), still(flat())).seen, 4.0 * one, 1e-3 * one);
+    const double one = show(still(grating(3.0, 0.01)), still(flat)).seen;
+    EXPECT_NEAR(show(still(grating(3.0, 0.04)), still(flat)).seen, 4.0 * one, 1e-3 * one);
 }
 
 TEST(VisibleDifference, FlickerHasTheSensitivityOfItsFrequencyOverTime) {
@@ -116,13 +110,13 @@ TEST(VisibleDifference, FlickerHasTheSensitivityOfItsFrequencyOverTime) {
     const int reach = filter_reach(settings.frame_rate), count = 2 * reach + 1;
     const double rate = settings.frame_rate.per_second(), frequency = 2.0, contrast = 0.02;
     const auto sinc = [](double x) { return std::sin(std::numbers::pi * x) / (std::numbers::pi * x); };
-    const double lasting = show(still(grating(frequency, contrast)), still(flat())).seen;
+    const double lasting = show(still(grating(frequency, contrast)), still(flat)).seen;
     for (const int cycles : {1, 2, 3}) {
         const auto pictures = [&](int frame) {
             const double phase = 2.0 * std::numbers::pi * cycles * (frame - reach) / count;
             return picture_of(grating(frequency, contrast * std::cos(phase)));
         };
-        const Shown shown = show(pictures, still(flat()));
+        const Shown shown = show(pictures, still(flat));
         const double omega = cycles * rate / count, mirror = rate - omega;
         // A display that holds frames shows each frequency with its mirror.
         const double expected = std::hypot(sinc(omega / rate) / threshold(frequency, omega),
@@ -141,11 +135,11 @@ TEST(VisibleDifference, ErrorThatRidesOnAFollowedSurfaceLasts) {
         return [=](double x, double y) { return 0.03 * std::cos(0.9 * (x - 3.0 * frame)) * std::cos(0.4 * y); };
     };
     const auto pictures = [&](int frame) { return picture_of(pattern(frame)); };
-    const Shown moving = show(pictures, still(flat()), 3.0f, settings);
-    const Shown at_rest = show(still(pattern(0)), still(flat()), 0.0f, settings);
+    const Shown moving = show(pictures, still(flat), 3.0f, settings);
+    const Shown at_rest = show(still(pattern(0)), still(flat), 0.0f, settings);
     EXPECT_LT(moving.flicker, 0.12 * moving.seen) << "bands of half size are not quite the same at odd pixels";
     EXPECT_NEAR(moving.seen, at_rest.seen, 0.03 * at_rest.seen);
-    EXPECT_GT(show(pictures, still(flat()), 0.0f, settings).flicker, 3.0 * moving.flicker)
+    EXPECT_GT(show(pictures, still(flat), 0.0f, settings).flicker, 3.0 * moving.flicker)
         << "an eye at rest sees it change";
 }
 
@@ -154,13 +148,10 @@ TEST(VisibleDifference, MotionThatIsNotFollowedShiftsFrequencies) {
     settings.tracking = 0.0;
     const double frequency = 1.59, contrast = 0.01;
     const double pixels = 2.0, velocity = pixels / pixels_per_degree * settings.frame_rate.per_second();
-    const auto pictures = [&](int frame) {
-        const Pattern at_rest = grating(frequency, contrast);
-        return picture_of([=](double x, double y) { return at_rest(x - pixels * frame, y); });
-    };
-    const double lasting = show(still(grating(frequency, contrast)), still(flat())).seen;
+    const Frames pictures = drifting(grating(frequency, contrast), pixels);
+    const double lasting = show(still(grating(frequency, contrast)), still(flat)).seen;
     const double expected = threshold(frequency) / threshold(frequency, frequency * velocity);
-    EXPECT_NEAR(show(pictures, still(flat()), static_cast<float>(pixels), settings).lasting / lasting, expected,
+    EXPECT_NEAR(show(pictures, still(flat), static_cast<float>(pixels), settings).lasting / lasting, expected,
                 0.2 * expected);
 }
 
@@ -168,14 +159,11 @@ TEST(VisibleDifference, DisplayThatHoldsFramesBlursWhatIsFollowed) {
     const ViewingSettings settings;
     const double frequency = 2.0, pixels = 4.0;
     const double followed = tracking_efficiency * pixels / pixels_per_degree * settings.frame_rate.per_second();
-    const auto pictures = [&](int frame) {
-        const Pattern at_rest = grating(frequency, 0.02);
-        return picture_of([=](double x, double y) { return at_rest(x - pixels * frame, y); });
-    };
+    const Frames pictures = drifting(grating(frequency, 0.02), pixels);
     ViewingSettings strobed = settings;
     strobed.viewing.persistence = 0.05;
-    const double held = show(pictures, still(flat()), static_cast<float>(pixels), settings).lasting;
-    const double sharp = show(pictures, still(flat()), static_cast<float>(pixels), strobed).lasting;
+    const double held = show(pictures, still(flat), static_cast<float>(pixels), settings).lasting;
+    const double sharp = show(pictures, still(flat), static_cast<float>(pixels), strobed).lasting;
     const double expected = hold_transfer(frequency, followed, 1.0, settings.frame_rate) /
                             hold_transfer(frequency, followed, 0.05, settings.frame_rate);
     EXPECT_NEAR(held / sharp, expected, 0.15 * expected);
@@ -188,8 +176,8 @@ TEST(VisibleDifference, NoiseThatIsNewInEveryFrameFlickers) {
         std::normal_distribution<double> normal(0.0, 0.05);
         noise.push_back(picture_of([&](double, double) { return normal(generator); }));
     }
-    const Shown fresh = show([&](int frame) { return noise[static_cast<std::size_t>(frame)]; }, still(flat()));
-    const Shown frozen = show([&](int) { return noise[0]; }, still(flat()));
+    const Shown fresh = show([&](int frame) { return noise[static_cast<std::size_t>(frame)]; }, still(flat));
+    const Shown frozen = show([&](int) { return noise[0]; }, still(flat));
     EXPECT_LT(frozen.flicker, 1e-3);
     EXPECT_GT(fresh.flicker, 0.5 * fresh.lasting);
     EXPECT_LT(fresh.seen, 0.75 * frozen.seen) << "the eye averages over time";
@@ -221,39 +209,36 @@ TEST(VisibleDifference, NoiseOfTheReferenceIsTakenOff) {
     };
     const double by_noise = energy(false, 0.0);
     EXPECT_LT(energy(true, 0.0), 0.35 * by_noise) << "what chance leaves above zero";
-    const double exact = std::pow(show(still(grating(2.0, 0.02)), still(flat())).seen, 2.0);
+    const double exact = std::pow(show(still(grating(2.0, 0.02)), still(flat)).seen, 2.0);
     EXPECT_NEAR(energy(true, 0.02), exact, 0.1 * exact);
 }
 
 TEST(VisibleDifference, ContrastOfBothPicturesMasks) {
     const auto both = [](double contrast) {
-        return [=](double x, double y) {
-            const double mask = 0.6 * std::cos(0.8 * x);
-            return mask + contrast * std::cos(0.8 * y);
-        };
+        return [=](double x, double y) { return 0.6 * std::cos(0.8 * x) + contrast * std::cos(0.8 * y); };
     };
     const double masked = show(still(both(0.01)), still(both(0.0))).seen;
-    const double alone = show(still([](double, double y) { return 0.01 * std::cos(0.8 * y); }), still(flat())).seen;
+    const double alone = show(still([](double, double y) { return 0.01 * std::cos(0.8 * y); }), still(flat)).seen;
     EXPECT_LT(masked, 0.6 * alone);
     EXPECT_GT(masked, 0.15 * alone);
     // A pattern of one picture alone does not mask itself.
-    const double lost = show(still(flat()), still(both(0.0))).seen;
-    EXPECT_NEAR(lost, show(still(both(0.0)), still(flat())).seen, 0.05 * lost);
+    const double lost = show(still(flat), still(both(0.0))).seen;
+    EXPECT_NEAR(lost, show(still(both(0.0)), still(flat)).seen, 0.05 * lost);
 }
 
 TEST(VisibleDifference, ChangesOfHueAreSeenAtEqualLuminance) {
-    Image<Rgb> redder = picture_of(flat());
+    Image<Rgb> redder = picture_of(flat);
     for (int y = 0; y < height; ++y) {
         for (int x = 0; x < width; ++x) {
             const auto shift = static_cast<float>(0.05 * std::cos(2.0 * std::numbers::pi * x / pixels_per_degree));
             redder(x, y) += Rgb{shift, -0.2126f / 0.7152f * shift, 0.0f};
         }
     }
-    const double hue = show([&](int) { return redder; }, still(flat())).seen;
-    const double brightness = show(still(grating(1.0, 0.05)), still(flat())).seen;
+    const double hue = show([&](int) { return redder; }, still(flat)).seen;
+    const double brightness = show(still(grating(1.0, 0.05)), still(flat)).seen;
     EXPECT_GT(hue, 1.0);
     EXPECT_GT(brightness, 1.0);
-    const VisualChannels grey_channels = compute_visual_channels(picture_of(flat()), 100.0);
+    const VisualChannels grey_channels = compute_visual_channels(picture_of(flat), 100.0);
     EXPECT_NEAR(grey_channels[0](0, 0), 50.0, 3.0);
     EXPECT_NEAR(grey_channels[1](0, 0), 0.0, 0.6);
     EXPECT_NEAR(grey_channels[2](0, 0), 0.0, 0.6);
@@ -267,10 +252,10 @@ TEST(VisibleDifference, DisplayShowsNothingAboveWhite) {
 }
 
 TEST(VisibleDifference, ValuesThatAreNotFiniteAreSeen) {
-    Image<Rgb> broken = picture_of(flat());
-    broken(10, 20).y = std::numeric_limits<float>::quiet_NaN();
+    Image<Rgb> broken = picture_of(flat);
+    broken(10, 20).y = float_nan;
     VisibleDifference difference{{}};
-    difference.add(0, {broken, picture_of(flat())}, uniform_motion(0.0f));
+    difference.add(0, {broken, picture_of(flat)}, uniform_motion(0.0f));
     const auto maps = difference.finish();
     ASSERT_EQ(maps.size(), 1u);
     EXPECT_TRUE(std::isinf(maps[0].seen(10, 20)));
@@ -281,8 +266,8 @@ TEST(VisibleDifference, ShotsEndAtCutsAndGaps) {
     const Image<Rgb> dark = picture_of(grating(2.0, 0.2)), light = picture_of(grating(2.0, -0.2));
     const auto flicker = [&](std::int64_t second, bool cut) {
         VisibleDifference difference{{}};
-        auto maps = difference.add(0, {dark, picture_of(flat())}, uniform_motion(0.0f));
-        for (VisibleMaps& done : difference.add(second, {light, picture_of(flat())}, uniform_motion(0.0f), cut))
+        auto maps = difference.add(0, {dark, picture_of(flat)}, uniform_motion(0.0f));
+        for (VisibleMaps& done : difference.add(second, {light, picture_of(flat)}, uniform_motion(0.0f), cut))
             maps.push_back(std::move(done));
         for (VisibleMaps& done : difference.finish()) maps.push_back(std::move(done));
         EXPECT_EQ(maps.size(), 2u);
@@ -295,8 +280,8 @@ TEST(VisibleDifference, ShotsEndAtCutsAndGaps) {
 
 TEST(VisibleDifference, RefusesPicturesOfOtherSizes) {
     VisibleDifference difference{{}};
-    EXPECT_THROW(difference.add(0, {Image<Rgb>(4, 4), picture_of(flat())}, uniform_motion(0.0f)), InputError);
-    difference.add(0, {picture_of(flat()), picture_of(flat())}, uniform_motion(0.0f));
+    EXPECT_THROW(difference.add(0, {Image<Rgb>(4, 4), picture_of(flat)}, uniform_motion(0.0f)), InputError);
+    difference.add(0, {picture_of(flat), picture_of(flat)}, uniform_motion(0.0f));
     const Image<Rgb> small(16, 16);
     const MotionMaps still{Image<float>(16, 16), Image<float>(16, 16), Image<float>(16, 16, 1.0f), {}};
     EXPECT_THROW(difference.add(1, {small, small}, still), InputError);

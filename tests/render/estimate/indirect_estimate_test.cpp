@@ -1,10 +1,5 @@
 // Indirect light of the quick estimate: its amount, its smoothness, and the thresholds of vision that it gives.
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-
 #include "engine/load/load_scene.h"
 #include "perception/sanitize.h"
 #include "perception/threshold.h"
@@ -12,6 +7,7 @@
 #include "render/frame/sequence.h"
 #include "tests/support/paths.h"
 #include "tests/support/render_scenes.h"
+#include "tests/support/test.h"
 #include "tests/support/with_threads.h"
 
 namespace aleph {

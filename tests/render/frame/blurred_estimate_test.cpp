@@ -1,14 +1,11 @@
 // Maps of a frame whose shutter or lens is open: motion at the shutter's centre, an estimate blurred as the picture is.
 
 #include "render/frame/blurred_estimate.h"
-
-#include <gtest/gtest.h>
-
 #include "render/frame/sequence.h"
-#include "tests/support/flat_view.h"
 #include "tests/support/keyed_track.h"
 #include "tests/support/quick_settings.h"
 #include "tests/support/render_scenes.h"
+#include "tests/support/test.h"
 
 namespace aleph {
 namespace {

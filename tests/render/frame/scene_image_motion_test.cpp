@@ -1,11 +1,10 @@
 // Motion of a scene's frames from their quick estimates (--motion image).
 
-#include <gtest/gtest.h>
-
 #include "engine/load/load_scene.h"
 #include "motion/image_motion.h"
 #include "render/frame/sequence.h"
 #include "tests/support/paths.h"
+#include "tests/support/test.h"
 
 namespace aleph {
 namespace {

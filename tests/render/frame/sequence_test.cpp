@@ -1,16 +1,10 @@
 // A sequence of frames as C++ programs use it.
 
 #include "render/frame/sequence.h"
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <memory>
-
-#include "engine/base/errors.h"
-#include "tests/support/ones_vision.h"
+#include "tests/support/perception_scene.h"
 #include "tests/support/quick_settings.h"
 #include "tests/support/render_scenes.h"
+#include "tests/support/test.h"
 
 namespace aleph {
 namespace {

@@ -1,14 +1,10 @@
 // Frames in which nothing changes are rendered once.
 
 #include "render/frame/static_spans.h"
-
-#include <gtest/gtest.h>
-
-#include <map>
-
 #include "render/frame/sequence.h"
 #include "tests/support/quick_settings.h"
 #include "tests/support/render_scenes.h"
+#include "tests/support/test.h"
 
 namespace aleph {
 namespace {

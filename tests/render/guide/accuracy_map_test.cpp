@@ -2,17 +2,10 @@
 // changes.
 
 #include "render/guide/accuracy_map.h"
-#include "tests/support/numbers.h"
-
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <limits>
+#include "tests/support/test.h"
 
 namespace aleph {
 namespace {
-
-const double nan_value = std::nan("");
 
 TEST(AccuracyMap, CompressIsTheAmbientAccuracyWhereNothingIsTolerated) {
     for (const double a : {1e-6, 0.05, 0.1, 0.5, 1.0}) EXPECT_DOUBLE_EQ(compress_accuracy(a, 1.0), a);
@@ -27,9 +20,9 @@ TEST(AccuracyMap, CompressKnownAnswers) {
 TEST(AccuracyMap, CompressAtItsEnds) {
     EXPECT_EQ(compress_accuracy(0.1, infinity), 1.0);
     EXPECT_EQ(compress_accuracy(1.0, 77.0), 1.0);
-    for (const double n : {0.0, 1.0, 250.0, infinity, nan_value}) EXPECT_EQ(compress_accuracy(0.0, n), 0.0);
-    for (const double n : {0.0, -5.0, nan_value, -infinity}) EXPECT_DOUBLE_EQ(compress_accuracy(0.1, n), 0.1);
-    EXPECT_EQ(compress_accuracy(nan_value, 2.0), 0.0);
+    for (const double n : {0.0, 1.0, 250.0, infinity, not_a_number}) EXPECT_EQ(compress_accuracy(0.0, n), 0.0);
+    for (const double n : {0.0, -5.0, not_a_number, -infinity}) EXPECT_DOUBLE_EQ(compress_accuracy(0.1, n), 0.1);
+    EXPECT_EQ(compress_accuracy(not_a_number, 2.0), 0.0);
     EXPECT_LE(compress_accuracy(0.3, 1e300), 1.0);
 }
 
@@ -56,13 +49,13 @@ TEST(AccuracyMap, ScaleAddKnownAnswers) {
     EXPECT_EQ(scale_add_accuracy(0.1, 250.0, 100.0), 1.0);  // the equation gives 2.6
     EXPECT_EQ(scale_add_accuracy(0.1, infinity, 100.0), 1.0);
     EXPECT_EQ(scale_add_accuracy(1.0, 1.0, 100.0), 1.0);
-    for (const double n : {0.0, -3.0, nan_value}) EXPECT_DOUBLE_EQ(scale_add_accuracy(0.1, n, 100.0), 0.11);
-    for (const double n : {1.0, infinity, nan_value}) EXPECT_EQ(scale_add_accuracy(0.0, n, 100.0), 0.0);
+    for (const double n : {0.0, -3.0, not_a_number}) EXPECT_DOUBLE_EQ(scale_add_accuracy(0.1, n, 100.0), 0.11);
+    for (const double n : {1.0, infinity, not_a_number}) EXPECT_EQ(scale_add_accuracy(0.0, n, 100.0), 0.0);
 }
 
 TEST(AccuracyMap, MapPixelByPixel) {
     Image<float> aleph(2, 2);
-    aleph.pixels = {1.0f, 10.0f, std::numeric_limits<float>::infinity(), std::nanf("")};
+    aleph.pixels = {1.0f, 10.0f, float_infinity, float_nan};
     RenderSettings settings;
     settings.cache.accuracy = 0.1;
     settings.perception.guide = Guide::saliency;

@@ -1,18 +1,11 @@
 // Progressive sampling on pixels whose samples are known distributions: stages, decisions, tolerances, unbiased means.
 
 #include "render/guide/stopping_rule.h"
-
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <functional>
-#include <limits>
-#include <set>
-
 #include "engine/base/sampling.h"
 #include "render/shade/error_budget.h"
 #include "render/shade/progressive.h"
 #include "tests/support/render_scenes.h"
+#include "tests/support/test.h"
 #include "tests/support/trial.h"
 
 namespace aleph {
@@ -111,7 +104,7 @@ TEST(StoppingRule, MC17_BlackPixelsStopAtTheLeastNumber) {
 }
 
 TEST(StoppingRule, ToleranceThatIsNotANumberSamplesToTheEnd) {
-    const SamplingPlan plan = make_plan(Sampling::threshold, 64, 4, 3, std::numeric_limits<float>::quiet_NaN());
+    const SamplingPlan plan = make_plan(Sampling::threshold, 64, 4, 3, float_nan);
     const Image<PixelSamples> pixels = sample_picture(plan, 4, 3, 0, [](RandomStream& r) { return r.next(); });
     for (const PixelSamples& pixel : pixels.pixels) EXPECT_EQ(pixel.taken(), 64);
 }
@@ -182,8 +175,8 @@ TEST(StoppingRule, TheProtocolDividesTheMostSamplesByAleph) {
     EXPECT_EQ(protocol_samples(250.0, 512), 16);
     EXPECT_EQ(protocol_samples(0.2, 512), 512);
     EXPECT_EQ(protocol_samples(100.0, 8), 8);
-    EXPECT_EQ(protocol_samples(std::numeric_limits<double>::quiet_NaN(), 64), 64);
-    EXPECT_EQ(protocol_samples(std::numeric_limits<double>::infinity(), 64), 16);
+    EXPECT_EQ(protocol_samples(not_a_number, 64), 64);
+    EXPECT_EQ(protocol_samples(infinity, 64), 16);
 }
 
 TEST(PixelSamples, HalvesTellTheErrorOfTheMean) {

@@ -1,13 +1,9 @@
 // The tree over the lights: its bounds, and lights chosen by it.
 
 #include "render/light/light_tree.h"
-
-#include <gtest/gtest.h>
-
-#include <random>
-
 #include "render/light/light_cut.h"
 #include "tests/support/path_estimates.h"
+#include "tests/support/test.h"
 
 namespace aleph {
 namespace {
@@ -116,8 +112,7 @@ TEST(LightTree, NoNodeBringsMoreThanItsBound) {
 TEST(LightTree, TheBoundOfATexturedLampIsThatOfItsBrightestTexel) {
     for (const float value : {1.0f, 20.0f}) {
         Scene scene;
-        SceneImage image;
-        image.floats = Image<glm::vec4>(2, 2);
+        SceneImage image{.floats = Image<glm::vec4>(2, 2)};
         for (glm::vec4& texel : image.floats.pixels) texel = glm::vec4(0.5f * value);
         image.floats(1, 1) = glm::vec4(value);
         scene.images.push_back(image);

@@ -1,16 +1,11 @@
 // Lights: emissive instances as lists of triangles, their densities, punctual lights, the environment.
 
 #include "render/light/lights.h"
-#include "render/light/spherical_triangle.h"
-
-#include <gtest/gtest.h>
-
-#include <random>
-
 #include "engine/base/sampling.h"
+#include "render/light/spherical_triangle.h"
 #include "tests/support/directions.h"
-#include "tests/support/numbers.h"
 #include "tests/support/render_scenes.h"
+#include "tests/support/test.h"
 #include "tests/support/trial.h"
 
 namespace aleph {
@@ -36,17 +31,14 @@ TEST(Lights, NumberedEmittersThenPunctualThenEnvironment) {
     EXPECT_EQ(stage.lights.count(), 3);
     EXPECT_EQ(stage.lights.emitter_of_instance, (std::vector<int>{0, no_index}));
     const LightSample sky = sample_light(stage.shading, stage.lights, 2, {glm::vec3(0.0f), up}, {0.3f, 0.6f});
-    EXPECT_EQ(sky.distance, std::numeric_limits<float>::infinity());
+    EXPECT_EQ(sky.distance, float_infinity);
     EXPECT_NEAR(sky.pdf, glm::dot(sky.direction, up) / pi, 1e-6);
     EXPECT_NEAR(sky.incoming.x * sky.pdf, 0.5f, 1e-6f);
 }
 
 TEST(Lights, AreaAndNormalsFollowTheInstance) {
     Scene scene;
-    Shape ball;
-    ball.kind = Shape::Kind::sphere;
-    ball.radius = 1.0;
-    ball.segments = 64;
+    Shape ball{.kind = Shape::Kind::sphere, .radius = 1.0, .segments = 64};
     const int lamp = add_lambert(scene, glm::dvec3(0.0), glm::dvec3(1.0));
     const int node = add_mesh(scene, make_shape_mesh(ball, lamp));
     scene.nodes[node].scale = glm::dvec3(-2.0, 2.0, 2.0);
@@ -162,8 +154,7 @@ TEST(Lights, TexturedLampHasTheTexturesMeanPower) {
 /// The quick estimate's few points represent the whole lamp: its texture is averaged over their shares.
 TEST(Lights, ASharesTextureIsAveraged) {
     Scene scene = make_lamp_scene(2.0, 1.5);
-    SceneImage image;
-    image.floats = Image<glm::vec4>(64, 64);
+    SceneImage image{.floats = Image<glm::vec4>(64, 64)};
     for (int y = 0; y < 64; ++y) {
         for (int x = 0; x < 64; ++x) image.floats(x, y) = glm::vec4((x + y) % 2 == 0 ? 1.0f : 0.0f);
     }

@@ -1,17 +1,13 @@
 // Frames as files: their channels, motion to the last bit, statistics that add up.
 
-#include "render/output/frame_files.h"
-
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <glm/gtc/matrix_transform.hpp>
 #include <nlohmann/json.hpp>
 
 #include "engine/load/load_scene.h"
 #include "render/frame/sequence.h"
+#include "render/output/frame_files.h"
 #include "tests/support/paths.h"
 #include "tests/support/scratch_folder.h"
+#include "tests/support/test.h"
 
 namespace aleph {
 namespace {

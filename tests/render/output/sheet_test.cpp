@@ -1,15 +1,10 @@
 // Sheets of pictures and maps, read back from their files.
 
 #include "render/output/sheet.h"
-
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <limits>
-
 #include "engine/image/image_file.h"
 #include "render/output/map_preview.h"
 #include "tests/support/scratch_folder.h"
+#include "tests/support/test.h"
 
 namespace aleph {
 namespace {
@@ -42,10 +37,9 @@ TEST(Sheet, PanelsStandInRowsBelowTheirCaptions) {
 }
 
 TEST(Sheet, ColoursAreClampedAndInvalidOnesBlack) {
-    const float infinity = std::numeric_limits<float>::infinity();
     Image<Rgb> picture(3, 1);
     picture(0, 0) = Rgb(7.0f, -2.0f, 0.5f);
-    picture(1, 0) = Rgb(NAN, infinity, 0.0031308f);
+    picture(1, 0) = Rgb(float_nan, float_infinity, 0.0031308f);
     picture(2, 0) = Rgb(0.18f);
     const Panel panel = color_panel("", picture);
     EXPECT_FLOAT_EQ(panel.display(0, 0).x, 1.0f);
@@ -70,7 +64,7 @@ TEST(Sheet, AMapRunsFromBlackOverRedToYellow) {
     expect_color(steps.display(2, 0), {0.736f, 0.216f, 0.330f});
     expect_color(steps.display(3, 0), {0.988f, 0.998f, 0.645f});
     Image<float> linear(4, 1);
-    linear(0, 0) = 2.0f, linear(1, 0) = 4.0f, linear(2, 0) = 3.0f, linear(3, 0) = NAN;
+    linear(0, 0) = 2.0f, linear(1, 0) = 4.0f, linear(2, 0) = 3.0f, linear(3, 0) = float_nan;
     const Panel middle = map_panel("", linear, {2.0, 4.0, false});
     for (int i = 0; i < 3; ++i) expect_color(middle.display(i, 0), steps.display(std::array{1, 3, 2}[i], 0));
     EXPECT_EQ(middle.display(3, 0), middle.display(0, 0));

@@ -1,14 +1,10 @@
 // Direct light against closed forms: point, directional, area and environment light; multiple importance sampling.
 
 #include "render/path/direct_light.h"
-
-#include <gtest/gtest.h>
-
-#include <random>
-
 #include "tests/support/directions.h"
-#include "tests/support/numbers.h"
+#include "tests/support/lobes.h"
 #include "tests/support/render_scenes.h"
+#include "tests/support/test.h"
 #include "tests/support/trial.h"
 
 namespace aleph {
@@ -157,26 +153,6 @@ TEST(DirectLight, EnvironmentOnAnOpenLambertPlaneIsAlbedoTimesRadiance) {
     EXPECT_NEAR(found.z, 0.3f, 1e-5f);
 }
 
-/// Directional albedo of a white metal by summing its lobe over a grid of half vectors.
-double albedo_of(const SurfaceMaterial& material, const glm::vec3& view) {
-    constexpr int steps = 400;
-    double sum = 0.0;
-    for (int i = 0; i < steps; ++i) {
-        const double u = (i + 0.5) / steps, ratio = std::sqrt(u / (1.0 - u)), tangent = material.alpha * ratio;
-        const double cosine = 1.0 / std::sqrt(1.0 + tangent * tangent), sine = tangent * cosine;
-        const double ring = sine * cosine * cosine * material.alpha / (2.0 * ratio * (1.0 - u) * (1.0 - u)) / steps;
-        for (int k = 0; k < steps; ++k) {
-            const double azimuth = 2.0 * pi * (k + 0.5) / steps;
-            const glm::dvec3 h(sine * std::cos(azimuth), sine * std::sin(azimuth), cosine), v(view);
-            const double vh = glm::dot(v, h);
-            const glm::dvec3 light = 2.0 * vh * h - v;
-            if (vh <= 0.0 || light.z <= 0.0) continue;
-            sum += evaluate_glossy(material, view, glm::vec3(light)).x * light.z * 4.0 * vh * ring * 2.0 * pi / steps;
-        }
-    }
-    return sum;
-}
-
 TEST(DirectLight, WhiteMetalInAWhiteFurnace) {
     Scene scene;
     scene.environment = Track<glm::dvec3>(glm::dvec3(1.0));
@@ -185,7 +161,9 @@ TEST(DirectLight, WhiteMetalInAWhiteFurnace) {
         for (const float cosine : {1.0f, 0.6f, 0.15f}) {
             const SurfaceMaterial metal = make_metal(alpha);
             const glm::vec3 view(std::sqrt(1.0f - cosine * cosine), cosine, 0.0f);
-            const double expected = albedo_of(metal, make_basis(up).to_local(view));
+            const glm::vec3 local = make_basis(up).to_local(view);
+            const double expected = integrate_around_lobe(
+                alpha, local, [&](const glm::vec3& light) { return evaluate_glossy(metal, local, light).x * light.z; });
             EXPECT_TRUE(holds([&](Trial& trial) {
                 const Mean mean = lighting.mean_of(metal, view, 64, trial.times(200), trial.seed);
                 trial.near(mean, expected, 1e-3);

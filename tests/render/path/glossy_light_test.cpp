@@ -1,12 +1,9 @@
 // Irradiance in place of the light of wide lobes.
 
 #include "render/path/glossy_light.h"
-
-#include <gtest/gtest.h>
-
 #include "render/cache/gather.h"
 #include "tests/support/lobes.h"
-#include "tests/support/numbers.h"
+#include "tests/support/test.h"
 #include "tests/support/trial.h"
 
 namespace aleph {
@@ -109,14 +106,7 @@ Scene make_two_coloured_room() {
     Scene scene;
     const int white = add_lambert(scene, glm::dvec3(0.75), glm::dvec3(0.0), true);
     const int dark = add_lambert(scene, glm::dvec3(0.15), glm::dvec3(0.0), true);
-    const int lamp = add_lambert(scene, glm::dvec3(0.0), glm::dvec3(9.0));
-    const glm::dvec3 y(0.0, 1.0, 0.0);
-    add_mesh(scene, make_quad(2.0, 2.0, white), {0.0, -1.0, 0.0}, z_to_up);
-    add_mesh(scene, make_quad(2.0, 2.0, white), {0.0, 1.0, 0.0}, z_to_down);
-    add_mesh(scene, make_quad(2.0, 2.0, white), {0.0, 0.0, -1.0});
-    add_mesh(scene, make_quad(2.0, 2.0, dark), {-1.0, 0.0, 0.0}, glm::angleAxis(std::numbers::pi / 2, y));
-    add_mesh(scene, make_quad(2.0, 2.0, white), {1.0, 0.0, 0.0}, glm::angleAxis(-std::numbers::pi / 2, y));
-    add_mesh(scene, make_quad(0.5, 0.5, lamp), {0.0, 0.98, 0.0}, z_to_down);
+    add_small_room(scene, white, dark, glm::dvec3(9.0), 0.5);
     add_camera(scene, {0.0, 0.0, 3.4}, glm::dvec3(0.0), 0.62);
     return scene;
 }

@@ -1,14 +1,11 @@
 // Paths that look up irradiance where it is known: in rooms whose light is known exactly, and from a filled cache.
 
 #include "render/path/known_irradiance.h"
-
-#include <gtest/gtest.h>
-
 #include "render/cache/mirror_places.h"
 #include "render/shade/frame_irradiance.h"
 #include "tests/support/lobes.h"
-#include "tests/support/numbers.h"
 #include "tests/support/path_estimates.h"
+#include "tests/support/test.h"
 
 namespace aleph {
 namespace {
@@ -158,10 +155,7 @@ Scene make_mirror_room() {
     Scene scene;
     add_mesh(scene, make_box({4.0, 2.0, 4.0}, add_lambert(scene, glm::dvec3(0.7), glm::dvec3(0.0), true)));
     add_light(scene, Light::Kind::point, glm::dvec3(1.0), {0.6, 0.2, 0.0});
-    Material mirror;
-    mirror.metallic = 1.0;
-    mirror.roughness = 0.0;
-    scene.materials.push_back(mirror);
+    scene.materials.push_back({.metallic = 1.0, .roughness = 0.0});
     add_mesh(scene, make_quad(1.6, 1.2, 1), {0.0, 0.0, -1.9});
     add_camera(scene, {-0.3, 0.1, 0.6}, {0.0, 0.0, -1.9}, 0.8);
     return scene;

@@ -1,8 +1,7 @@
 // Paths against a dense gather at every sample, and against the cache: the same picture.
 
-#include <gtest/gtest.h>
-
 #include "tests/support/path_estimates.h"
+#include "tests/support/test.h"
 
 namespace aleph {
 namespace {
@@ -13,15 +12,9 @@ Scene make_box_scene(Walls walls) {
     Scene scene;
     const int white = add_lambert(scene, glm::dvec3(0.75), glm::dvec3(0.0), true);
     const int red = add_lambert(scene, {0.6, 0.1, 0.1}, glm::dvec3(0.0), true);
-    const int lamp = add_lambert(scene, glm::dvec3(0.0), glm::dvec3(9.0, 8.0, 6.0));
-    const glm::dvec3 y(0.0, 1.0, 0.0);
-    add_mesh(scene, make_quad(2.0, 2.0, white), {0.0, -1.0, 0.0}, z_to_up);
-    add_mesh(scene, make_quad(2.0, 2.0, white), {0.0, 1.0, 0.0}, z_to_down);
-    add_mesh(scene, make_quad(2.0, 2.0, white), {0.0, 0.0, -1.0});
-    add_mesh(scene, make_quad(2.0, 2.0, red), {-1.0, 0.0, 0.0}, glm::angleAxis(std::numbers::pi / 2, y));
-    add_mesh(scene, make_quad(2.0, 2.0, white), {1.0, 0.0, 0.0}, glm::angleAxis(-std::numbers::pi / 2, y));
-    add_mesh(scene, make_quad(0.6, 0.6, lamp), {0.0, 0.98, 0.0}, z_to_down);
-    add_mesh(scene, make_box({0.6, 0.8, 0.6}, white), {0.3, -0.6, -0.2}, glm::angleAxis(0.4, y));
+    add_small_room(scene, white, red, {9.0, 8.0, 6.0}, 0.6);
+    add_mesh(scene, make_box({0.6, 0.8, 0.6}, white), {0.3, -0.6, -0.2},
+             glm::angleAxis(0.4, glm::dvec3(0.0, 1.0, 0.0)));
     if (walls == Walls::glossy) {
         scene.materials[0].specular = 1.0;
         scene.materials[0].roughness = 0.5;
@@ -33,11 +26,10 @@ Scene make_box_scene(Walls walls) {
         glass.metallic = glass.roughness = 0.0;
         glass.transmission = 1.0;
         scene.materials.push_back(glass);
-        add_mesh(scene, make_quad(1.2, 1.2, lamp + 1), {0.0, 0.6, 0.0}, z_to_down);
+        add_mesh(scene, make_quad(1.2, 1.2, 3), {0.0, 0.6, 0.0}, z_to_down);
     }
     if (walls == Walls::textured) {
-        SceneImage image;
-        image.floats = Image<glm::vec4>(8, 8);
+        SceneImage image{.floats = Image<glm::vec4>(8, 8)};
         for (int i = 0; i < 64; ++i) image.floats.pixels[i] = glm::vec4((i + i / 8) % 2 == 0 ? 1.0f : 0.3f);
         scene.images.push_back(image);
         scene.materials[0].base_color_texture.image = 0;

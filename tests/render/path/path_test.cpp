@@ -2,11 +2,9 @@
 // pixels.
 
 #include "render/path/path.h"
-
-#include <gtest/gtest.h>
-
 #include "tests/support/path_estimates.h"
-#include "tests/support/pixel_mean.h"
+#include "tests/support/render_scenes.h"
+#include "tests/support/test.h"
 
 namespace aleph {
 namespace {
@@ -68,16 +66,14 @@ TEST(Path, MC14_WithoutLossTheDepthIsTheLight) {
 
 /// Every lobe at once, without textures.
 Material make_layered(double roughness) {
-    Material material;
-    material.base_color = glm::dvec3(0.8, 0.6, 0.9);
-    material.metallic = 0.3;
-    material.roughness = roughness;
-    material.transmission = 0.4;
-    material.clearcoat = 0.7;
-    material.clearcoat_roughness = 0.4;
-    material.sheen_color = glm::dvec3(0.3);
-    material.sheen_roughness = 0.6;
-    return material;
+    return {.base_color = glm::dvec3(0.8, 0.6, 0.9),
+            .metallic = 0.3,
+            .roughness = roughness,
+            .transmission = 0.4,
+            .clearcoat = 0.7,
+            .clearcoat_roughness = 0.4,
+            .sheen_color = glm::dvec3(0.3),
+            .sheen_roughness = 0.6};
 }
 
 TEST(Path, MC14_AWallOfAllLobesGainsNoLight) {
@@ -110,12 +106,7 @@ TEST(Path, MC14_AWallOfAllLobesGainsNoLight) {
 
 TEST(Path, MC19_ABoxOfMirrorsEndsByDepth) {
     Scene scene;
-    Material mirror;
-    mirror.metallic = 1.0;
-    mirror.roughness = 0.0;
-    mirror.emission = glm::dvec3(0.1);
-    mirror.double_sided = true;
-    scene.materials.push_back(mirror);
+    scene.materials.push_back({.metallic = 1.0, .roughness = 0.0, .emission = glm::dvec3(0.1), .double_sided = true});
     add_mesh(scene, make_box({2.0, 3.0, 4.0}, 0));
     const Stage stage(std::move(scene), 16, 12);
     for (const int depth : {0, 1, 32, 500}) {

@@ -1,8 +1,7 @@
 // Paths weigh light sampling against lobe sampling: the mean must be that of either alone.
 
-#include <gtest/gtest.h>
-
 #include "tests/support/path_estimates.h"
+#include "tests/support/test.h"
 
 namespace aleph {
 namespace {
@@ -57,11 +56,7 @@ SurfaceMaterial make_plastic() {
 }
 
 SurfaceMaterial make_rough_sheet() {
-    SurfaceMaterial material;
-    material.glass = 0.9f;
-    material.glass_tint = Rgb(0.9f, 0.8f, 0.7f);
-    material.alpha = 0.3f;
-    return material;
+    return {.alpha = 0.3f, .glass = 0.9f, .glass_tint = Rgb(0.9f, 0.8f, 0.7f)};
 }
 
 SurfaceMaterial make_coated() {
@@ -163,12 +158,8 @@ Scene make_sheet_scene(double roughness) {
     Scene scene;
     const int lamp = add_lambert(scene, glm::dvec3(0.0), glm::dvec3(6.0), true);
     add_mesh(scene, make_quad(1.0, 1.0, lamp), {0.0, 2.0, 0.0}, z_to_down);
-    Material glass;
-    glass.base_color = glm::dvec3(0.9, 0.7, 0.8);
-    glass.metallic = 0.0;
-    glass.roughness = roughness;
-    glass.transmission = 1.0;
-    scene.materials.push_back(glass);
+    scene.materials.push_back(
+        {.base_color = glm::dvec3(0.9, 0.7, 0.8), .metallic = 0.0, .roughness = roughness, .transmission = 1.0});
     add_mesh(scene, make_quad(6.0, 6.0, 1), {0.0, 1.0, 0.0}, z_to_up);
     return scene;
 }

@@ -1,16 +1,11 @@
 // A moving truck and a lit box, our own models (tests/assets/gltf/author_models.py) and, where they are there, those
 // that other programs wrote: they move and render.
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <filesystem>
-
 #include "engine/load/load_scene.h"
 #include "render/frame/sequence.h"
 #include "tests/support/paths.h"
 #include "tests/support/quick_settings.h"
+#include "tests/support/test.h"
 
 namespace aleph {
 namespace {

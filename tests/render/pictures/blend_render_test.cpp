@@ -1,8 +1,7 @@
 // Blended surfaces in a picture: what the camera sees, their shadow, and lamps that are blended themselves.
 
-#include <gtest/gtest.h>
-
 #include "tests/support/path_estimates.h"
+#include "tests/support/test.h"
 
 namespace aleph {
 namespace {
@@ -61,8 +60,7 @@ TEST(BlendRender, LampsWithHolesGiveTheirShareOfLight) {
         Scene scene;
         add_mesh(scene, make_quad(2.0, 2.0, add_blended(scene, 0.0, 4.0)), {0.0, 1.0, 0.0}, z_to_down);
         if (masked) {
-            SceneImage image;
-            image.floats = Image<glm::vec4>(2, 2, glm::vec4(1.0f, 1.0f, 1.0f, 0.0f));
+            SceneImage image{.floats = Image<glm::vec4>(2, 2, glm::vec4(1.0f, 1.0f, 1.0f, 0.0f))};
             image.floats(0, 0).w = 1.0f;
             scene.images.push_back(image);
             scene.materials[0].alpha_mode = Material::AlphaMode::mask;

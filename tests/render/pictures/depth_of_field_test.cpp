@@ -1,10 +1,8 @@
 // A thin lens against the closed form of its circle of confusion, and at the ends of its range.
 
-#include <gtest/gtest.h>
-
-#include "engine/base/errors.h"
 #include "render/frame/sequence.h"
 #include "tests/support/render_scenes.h"
+#include "tests/support/test.h"
 
 namespace aleph {
 namespace {

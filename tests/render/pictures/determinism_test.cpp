@@ -1,16 +1,9 @@
 // Frames have the same bytes for any number of threads, in any order, in every run, and in any floating-point mode of
 // the caller.
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
 #include <bit>
-#include <cmath>
 #include <condition_variable>
-#include <limits>
 #include <mutex>
-#include <random>
-#include <set>
 #include <thread>
 
 #include "engine/base/parallel.h"
@@ -19,6 +12,7 @@
 #include "perception/threshold.h"
 #include "tests/support/frame_bytes.h"
 #include "tests/support/paths.h"
+#include "tests/support/test.h"
 #include "tests/support/with_threads.h"
 
 namespace aleph {

@@ -1,8 +1,7 @@
 // White furnaces: closed emissive bodies seen from inside. Their radiance is a geometric series.
 
-#include <gtest/gtest.h>
-
 #include "tests/support/render_scenes.h"
+#include "tests/support/test.h"
 #include "tests/support/trial.h"
 
 namespace aleph {

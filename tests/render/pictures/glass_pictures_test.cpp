@@ -1,23 +1,20 @@
 // Glass with a known appearance: slabs, balls and sheets, from outside and inside, one in the other.
 
-#include <gtest/gtest.h>
-
 #include "render/path/path.h"
 #include "tests/support/lobes.h"
+#include "tests/support/test.h"
 
 namespace aleph {
 namespace {
 
 int add_glass(Scene& scene, double ior, double thickness, double attenuation_distance = 0.0) {
-    Material material;
-    material.metallic = 0.0;
-    material.roughness = 0.0;
-    material.transmission = 1.0;
-    material.ior = ior;
-    material.thickness = thickness;
-    material.attenuation_distance = attenuation_distance;
-    material.attenuation_color = glm::dvec3(0.5);
-    scene.materials.push_back(material);
+    scene.materials.push_back({.metallic = 0.0,
+                               .roughness = 0.0,
+                               .ior = ior,
+                               .transmission = 1.0,
+                               .thickness = thickness,
+                               .attenuation_distance = attenuation_distance,
+                               .attenuation_color = glm::dvec3(0.5)});
     return static_cast<int>(scene.materials.size()) - 1;
 }
 

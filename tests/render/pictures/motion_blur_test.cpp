@@ -1,13 +1,11 @@
 // Pictures while the shutter is open, against the exact shape at 4096 times.
 
-#include <gtest/gtest.h>
-
 #include "engine/load/load_scene.h"
 #include "render/frame/sequence.h"
-#include "tests/support/flat_view.h"
 #include "tests/support/keyed_track.h"
 #include "tests/support/paths.h"
 #include "tests/support/render_scenes.h"
+#include "tests/support/test.h"
 #include "tests/support/trial.h"
 
 namespace aleph {
@@ -46,7 +44,8 @@ bool is_in_square(const glm::dvec2& p) {
 }
 
 /// Renders frame 0 with many seeds. The truth is the mean over 4096 times and places in the pixel.
-void expect_coverage(const Scene& scene, const glm::dvec2& shutter, const Shape2d& covers) {
+void expect_coverage(const Scene& scene, const Shape2d& covers) {
+    const glm::dvec2 shutter = scene.cameras[0].shutter;
     constexpr std::uint32_t seeds = 16;
     constexpr int times = 4096;
     EXPECT_TRUE(holds([&](Trial& trial) {
@@ -65,26 +64,25 @@ void expect_coverage(const Scene& scene, const glm::dvec2& shutter, const Shape2
         }
         int beyond = 0;
         double truth_sum = 0.0;
-        for (int y = 0; y < height; ++y) {
-            for (int x = 0; x < width; ++x) {
-                int inside = 0;
-                for (int t = 0; t < times; ++t) {
-                    const glm::vec2 offset = lattice_point(t, times, {0.0f, 0.5f});
-                    const glm::dvec2 point((x + offset.x - 0.5 * width) / pixels_per_metre,
-                                           (0.5 * height - y - offset.y) / pixels_per_metre);
-                    const double time = std::fmod((t + 0.5) * 0.41421356237309505, 1.0);
-                    if (covers(point, shutter.x + (shutter.y - shutter.x) * time)) ++inside;
-                }
-                const double truth = static_cast<double>(inside) / times;
-                const double variance = truth * (1.0 - truth) / spp;  // of independent samples
-                truth_sum += truth;
-                const Mean& found = coverage[static_cast<std::size_t>(y) * width + x];
-                // Where few seeds met the square, their spread says little.
-                const double tolerance = 3.0 * std::max(found.error(), std::sqrt(variance / trial.times(seeds))) + 1e-3;
-                if (std::abs(found.mean() - truth) > tolerance) ++beyond;
-                EXPECT_NEAR(found.mean(), truth, 2.0 * tolerance) << x << " " << y;
-                EXPECT_NEAR(red[static_cast<std::size_t>(y) * width + x].mean(), 2.0 * found.mean(), 1e-5);
+        for (std::size_t i = 0; i < coverage.size(); ++i) {
+            const int x = static_cast<int>(i) % width, y = static_cast<int>(i) / width;
+            int inside = 0;
+            for (int t = 0; t < times; ++t) {
+                const glm::vec2 offset = lattice_point(t, times, {0.0f, 0.5f});
+                const glm::dvec2 point((x + offset.x - 0.5 * width) / pixels_per_metre,
+                                       (0.5 * height - y - offset.y) / pixels_per_metre);
+                const double time = std::fmod((t + 0.5) * 0.41421356237309505, 1.0);
+                if (covers(point, shutter.x + (shutter.y - shutter.x) * time)) ++inside;
             }
+            const double truth = static_cast<double>(inside) / times;
+            const double variance = truth * (1.0 - truth) / spp;  // of independent samples
+            truth_sum += truth;
+            const Mean& found = coverage[i];
+            // Where few seeds met the square, their spread says little.
+            const double tolerance = 3.0 * std::max(found.error(), std::sqrt(variance / trial.times(seeds))) + 1e-3;
+            if (std::abs(found.mean() - truth) > tolerance) ++beyond;
+            EXPECT_NEAR(found.mean(), truth, 2.0 * tolerance) << x << " " << y;
+            EXPECT_NEAR(red[i].mean(), 2.0 * found.mean(), 1e-5);
         }
         trial.at_most(beyond, 0.0, width * height / 100);
         trial.near(all, truth_sum, 2e-3 * truth_sum);
@@ -93,10 +91,9 @@ void expect_coverage(const Scene& scene, const glm::dvec2& shutter, const Shape2
 }
 
 TEST(MotionBlur, MC27_AMovingSquareCoversItsShareOfTheTime) {
-    const glm::dvec2 shutter(0.0, 2.0);
-    Scene scene = make_square_scene(shutter);
+    Scene scene = make_square_scene({0.0, 2.0});
     scene.nodes[0].translation = keyed<glm::dvec3>({0.0, at(2)}, {{-1.5, 0.0, 0.0}, {1.5, 0.5, 0.0}});
-    expect_coverage(scene, shutter, [](glm::dvec2 p, double frame) {
+    expect_coverage(scene, [](glm::dvec2 p, double frame) {
         return is_in_square(p - glm::dvec2(-1.5 + 1.5 * frame, 0.25 * frame));
     });
 }
@@ -124,16 +121,13 @@ TEST(MotionBlur, MC27_FewSamplesShowNoCopies) {
 }
 
 TEST(MotionBlur, MC27_TurnsFollowTheArc) {
-    const glm::dvec2 shutter(-0.5, 0.5);
     for (const double degrees : {0.0, 179.0, 540.0}) {
         SCOPED_TRACE(degrees);
         const double turn = degrees * std::numbers::pi / 180.0;
-        Scene scene = make_square_scene(shutter);
-        AxisRotation rotation;
-        rotation.axis = {0.0, 0.0, 1.0};
-        rotation.angle = keyed<double>({at(-0.5), at(0.5)}, {0.2, 0.2 + turn});
-        scene.nodes[0].axis_rotation = rotation;
-        expect_coverage(scene, shutter, [&](glm::dvec2 p, double frame) {
+        Scene scene = make_square_scene({-0.5, 0.5});
+        scene.nodes[0].axis_rotation =
+            AxisRotation{{0.0, 0.0, 1.0}, keyed<double>({at(-0.5), at(0.5)}, {0.2, 0.2 + turn})};
+        expect_coverage(scene, [&](glm::dvec2 p, double frame) {
             const double angle = 0.2 + turn * (frame + 0.5), c = std::cos(angle), s = std::sin(angle);
             return is_in_square({c * p.x + s * p.y, c * p.y - s * p.x});
         });
@@ -141,26 +135,21 @@ TEST(MotionBlur, MC27_TurnsFollowTheArc) {
 }
 
 TEST(MotionBlur, MC27_AScaleThroughZero) {
-    const glm::dvec2 shutter(0.0, 1.0);
-    Scene scene = make_square_scene(shutter);
+    Scene scene = make_square_scene({0.0, 1.0});
     scene.nodes[0].scale = keyed<glm::dvec3>({0.0, at(1)}, {{1.5, 1.0, 1.0}, {-1.5, 1.0, 1.0}});
-    expect_coverage(scene, shutter, [](glm::dvec2 p, double frame) {
-        return is_in_square({p.x / (1.5 - 3.0 * frame), p.y});
-    });
+    expect_coverage(scene, [](glm::dvec2 p, double frame) { return is_in_square({p.x / (1.5 - 3.0 * frame), p.y}); });
 }
 
 TEST(MotionBlur, MC27_AVisibilitySwitch) {
-    const glm::dvec2 shutter(0.0, 1.0);
-    Scene scene = make_square_scene(shutter);
+    Scene scene = make_square_scene({0.0, 1.0});
     scene.nodes[0].visible = keyed<double>({0.0, at(0.7)}, {0.0, 1.0}, Interpolation::step);
-    expect_coverage(scene, shutter, [](glm::dvec2 p, double frame) { return frame >= 0.7 && is_in_square(p); });
+    expect_coverage(scene, [](glm::dvec2 p, double frame) { return frame >= 0.7 && is_in_square(p); });
 }
 
 TEST(MotionBlur, MC27_AShutterOfTenFrames) {
-    const glm::dvec2 shutter(-5.0, 5.0);
-    Scene scene = make_square_scene(shutter);
+    Scene scene = make_square_scene({-5.0, 5.0});
     scene.nodes[0].translation = keyed<glm::dvec3>({at(-5), at(0), at(5)}, {{-2, -1, 0}, {0, 1, 0}, {2, -1, 0}});
-    expect_coverage(scene, shutter, [](glm::dvec2 p, double frame) {
+    expect_coverage(scene, [](glm::dvec2 p, double frame) {
         return is_in_square(p - glm::dvec2(0.4 * frame, 1.0 - 0.4 * std::abs(frame)));
     });
 }
@@ -231,24 +220,30 @@ TEST(MotionBlur, FX15_LightThatChangesWhereNothingInViewMoves) {
     }
 }
 
-TEST(MotionBlur, FX15_ALampThatIsDarkAtTheShuttersCentreCastsShadows) {
-    // The lamp shines in the last quarter of the shutter. A plate keeps its light from the floor at the origin.
+/// A wall, and a lamp that shines in the last quarter of the shutter.
+Scene make_late_lamp(double albedo) {
     Scene scene;
     scene.exposure = 1.0;
     scene.range = FrameRange{0, 10};
-    add_mesh(scene, make_quad(50.0, 50.0, add_lambert(scene, glm::dvec3(1.0), glm::dvec3(0.0), true)));
+    add_mesh(scene, make_quad(50.0, 50.0, add_lambert(scene, glm::dvec3(albedo), glm::dvec3(0.0), true)));
     const int shining = add_lambert(scene, glm::dvec3(0.0), glm::dvec3(1.0), true);
     scene.materials[shining].emission_strength = keyed<double>({0.0, at(0.75)}, {0.0, 100.0}, Interpolation::step);
     add_mesh(scene, make_quad(1.0, 1.0, shining), {4.0, 0.0, 6.0});
-    add_mesh(scene, make_quad(2.0, 2.0, 0), {2.0, 0.0, 3.0});
     add_camera(scene, {0.0, 0.0, 5.0}, glm::dvec3(0.0));
     scene.cameras[0].shutter = {0.0, 1.0};
+    return scene;
+}
+
+TEST(MotionBlur, FX15_ALampThatIsDarkAtTheShuttersCentreCastsShadows) {
+    // A plate keeps the lamp's light from the floor at the origin.
+    Scene scene = make_late_lamp(1.0);
+    const int plate = add_mesh(scene, make_quad(2.0, 2.0, 0), {2.0, 0.0, 3.0});
     RenderSettings settings = blur_settings(0);
     const Image<Rgb> planned = Sequence(scene, settings).render(0).shaded.color;
     settings.effects.plan = EffectsPlanning::off;
     const Image<Rgb> all = Sequence(scene, settings).render(0).shaded.color;
     EXPECT_EQ(planned.pixels, all.pixels);
-    scene.nodes[2].visible = false;
+    scene.nodes[plate].visible = false;
     const Image<Rgb> open = Sequence(scene, settings).render(0).shaded.color;
     EXPECT_LT(all(width / 2, height / 2).x, 0.5f * open(width / 2, height / 2).x);
     EXPECT_GT(open(width / 2, height / 2).x, 0.01f);
@@ -256,15 +251,7 @@ TEST(MotionBlur, FX15_ALampThatIsDarkAtTheShuttersCentreCastsShadows) {
 
 /// Rays of a record are not those of a sample that has none.
 TEST(MotionBlur, SamplesWithoutARecordDoNotCastTheRaysOfOne) {
-    Scene scene;
-    scene.exposure = 1.0;
-    scene.range = FrameRange{0, 10};
-    add_mesh(scene, make_quad(50.0, 50.0, add_lambert(scene, glm::dvec3(0.5), glm::dvec3(0.0), true)));
-    const int shining = add_lambert(scene, glm::dvec3(0.0), glm::dvec3(1.0), true);
-    scene.materials[shining].emission_strength = keyed<double>({0.0, at(0.75)}, {0.0, 100.0}, Interpolation::step);
-    add_mesh(scene, make_quad(1.0, 1.0, shining), {4.0, 0.0, 6.0});
-    add_camera(scene, {0.0, 0.0, 5.0}, glm::dvec3(0.0));
-    scene.cameras[0].shutter = {0.0, 1.0};
+    const Scene scene = make_late_lamp(0.5);
     std::vector<std::uint64_t> rays;
     for (const int gather : {4, 256}) {
         RenderSettings settings = blur_settings(1);

@@ -1,11 +1,9 @@
 // Outlines of fast things before a detailed wall at rest: samples there show both, so the wall's threshold holds.
 
-#include <gtest/gtest.h>
-
 #include "render/frame/sequence.h"
-#include "tests/support/flat_view.h"
 #include "tests/support/keyed_track.h"
 #include "tests/support/render_scenes.h"
+#include "tests/support/test.h"
 
 namespace aleph {
 namespace {

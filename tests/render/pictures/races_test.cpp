@@ -1,10 +1,9 @@
 // Work of several threads at once (DT-08). tests/sanitizers.sh thread runs these tests under ThreadSanitizer; otherwise
 // they compare the results with those of one thread.
 
-#include <gtest/gtest.h>
-
 #include "tests/support/frame_bytes.h"
 #include "tests/support/shot_scenes.h"
+#include "tests/support/test.h"
 #include "tests/support/with_threads.h"
 
 namespace aleph {
@@ -25,7 +24,7 @@ TEST(Races, DT08_EveryStageOfAFrameWithItsCache) {
 }
 
 /// Light of lighting keyframes, of two bounces, read while the shutter is open: by the cache, and by paths.
-TEST(Races, DT08_KeyMomentsAndAnOpenShutter) {
+TEST(Races, DT01_DT08_KeyMomentsAndAnOpenShutter) {
     Scene scene = make_shot_with_mover();
     scene.cameras[0].shutter = {-0.5, 0.5};
     RenderSettings settings = tiny_settings();
@@ -36,6 +35,7 @@ TEST(Races, DT08_KeyMomentsAndAnOpenShutter) {
     for (const Integrator integrator : {Integrator::cache, Integrator::path}) {
         settings.light.integrator = integrator;
         EXPECT_TRUE(frame_bytes(4, scene, settings, {3, 7}) == frame_bytes(1, scene, settings, {3, 7}));
+        EXPECT_TRUE(frame_bytes(2, scene, settings, {9, 3}).back() == frame_bytes(1, scene, settings, {3}).back());
     }
 }
 

@@ -1,13 +1,9 @@
 // Rays that leave a surface start above it, by little: they neither meet it again nor start behind other surfaces.
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <random>
-
 #include "engine/base/sampling.h"
 #include "tests/support/deforming_scenes.h"
 #include "tests/support/render_scenes.h"
+#include "tests/support/test.h"
 
 namespace aleph {
 namespace {
@@ -256,7 +252,7 @@ TEST(SelfHits, RC12_APointOfATriangleWithoutAreaHasNormals) {
 }
 
 TEST(SelfHits, RC08_BoundsOfPointsThatAreNotFiniteAreFinite) {
-    const float bad_values[] = {std::nanf(""), std::numeric_limits<float>::infinity(), -1e30f};
+    const float bad_values[] = {float_nan, float_infinity, -1e30f};
     for (const float bad : bad_values) {
         Scene scene;
         add_mesh(scene, make_quad(2.0, 2.0, no_index));

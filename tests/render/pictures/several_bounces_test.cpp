@@ -1,13 +1,12 @@
 // Light of several bounces from irradiance caches: every bounce counts once.
 
-#include <gtest/gtest.h>
-
 #include "render/cache/cache_fill.h"
 #include "render/cache/further_bounces.h"
 #include "render/cache/light_transport.h"
 #include "tests/support/frame_bytes.h"
-#include "tests/support/pixel_mean.h"
+#include "tests/support/render_scenes.h"
 #include "tests/support/shot_scenes.h"
+#include "tests/support/test.h"
 #include "tests/support/trial.h"
 #include "tests/support/with_threads.h"
 

@@ -1,12 +1,7 @@
 // Which pixels show more than one thing: objects, steps, creases, contrasts; and which of them move differently.
 
 #include "render/pixels/outlines.h"
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <functional>
+#include "tests/support/test.h"
 
 namespace aleph {
 namespace {

@@ -1,13 +1,8 @@
 // The default pixel filter against its window: places, a step, a point, and the border of the picture.
 
 #include "render/pixels/pixel_filter.h"
-
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <numbers>
-
 #include "tests/support/render_scenes.h"
+#include "tests/support/test.h"
 
 namespace aleph {
 namespace {

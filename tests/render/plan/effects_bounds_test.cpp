@@ -1,10 +1,9 @@
 // The bounds of the effects plan: leaving an effect out changes no pixel by more.
 
-#include <gtest/gtest.h>
-
 #include "render/plan/effects_plan.h"
 #include "tests/support/keyed_track.h"
 #include "tests/support/planned_scenes.h"
+#include "tests/support/test.h"
 
 namespace aleph {
 namespace {
@@ -148,9 +147,7 @@ TEST(EffectsBounds, FX13_AFarSmallBodySendsHardlyAnyLight) {
 TEST(EffectsBounds, FX13_AMirrorOutOfViewThatLightsWhatIsInView) {
     Scene scene = make_lit_square();
     scene.nodes.back().translation = glm::dvec3(0.0, 4.0, 0.5);
-    Material mirror;
-    mirror.roughness = 0.0;
-    scene.materials.push_back(mirror);
+    scene.materials.push_back({.roughness = 0.0});
     add_mesh(scene, make_quad(3.0, 3.0, 1), {4.0, 0.0, 1.0},
              glm::angleAxis(-0.5 * std::numbers::pi, glm::dvec3(0.0, 1.0, 0.0)));
     const int lamp = add_lambert(scene, glm::dvec3(0.0), glm::dvec3(40.0));

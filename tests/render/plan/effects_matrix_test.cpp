@@ -3,11 +3,10 @@
 // lasts, indirect light; saliency motion. The others are alone with the light that shows them. Subdivision and
 // deformation are in effects_plan_test.cpp (FX-07, FX-08).
 
-#include <gtest/gtest.h>
-
 #include "render/plan/effects_plan.h"
 #include "tests/support/keyed_track.h"
 #include "tests/support/planned_scenes.h"
+#include "tests/support/test.h"
 
 namespace aleph {
 namespace {
@@ -64,10 +63,7 @@ std::vector<Case> make_cases() {
     scene.meshes[0].material = add_material(scene, 1.0, 0.0);
     make_surroundings(scene, 1.0);
     add("a mirror", scene, {"direct_light", "environment", "mirror_reflection"});
-    Material glass;
-    glass.metallic = 0.0;
-    glass.roughness = 0.0;
-    glass.transmission = 1.0;
+    Material glass{.metallic = 0.0, .roughness = 0.0, .transmission = 1.0};
     scene.materials.push_back(glass);
     scene.meshes[0].material = static_cast<int>(scene.materials.size()) - 1;
     add("glass", scene, {"direct_light", "environment", "refraction"});

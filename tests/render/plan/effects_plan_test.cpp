@@ -1,14 +1,12 @@
 // The effects plan: scenes that could mislead it.
 
 #include "render/plan/effects_plan.h"
-
-#include <gtest/gtest.h>
-
 #include "engine/surface/limit_surface.h"
 #include "tests/support/deforming_scenes.h"
 #include "tests/support/keyed_track.h"
 #include "tests/support/planned_scenes.h"
 #include "tests/support/subdivision_cages.h"
+#include "tests/support/test.h"
 
 namespace aleph {
 namespace {
@@ -167,11 +165,7 @@ TEST(EffectsPlan, FX11_ABlackEnvironmentIsNone) {
 TEST(EffectsPlan, FX17_GlassBeforeABrightWindow) {
     Scene scene = make_lit_square();
     scene.environment = Track<glm::dvec3>(glm::dvec3(20.0));
-    Material pane;
-    pane.base_color = glm::dvec3(1.0);
-    pane.metallic = 0.0;
-    pane.roughness = 0.0;
-    pane.transmission = 1.0;
+    Material pane{.base_color = glm::dvec3(1.0), .metallic = 0.0, .roughness = 0.0, .transmission = 1.0};
     scene.materials.push_back(pane);
     const int node = add_mesh(scene, make_quad(0.5, 0.5, 1), {0.0, 0.0, 8.0});
     EXPECT_FALSE(effects_of(scene).contains("refraction")) << "behind the camera";

@@ -1,18 +1,13 @@
 // The table of settings, scene.schema.json and AUTHORING.md say the same about every render setting.
 
-#include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <gtest/gtest.h>
 
-#include <cmath>
-#include <fstream>
-
-#include "engine/base/errors.h"
 #include "engine/scene_file/scene_text.h"
 #include "engine/scene_file/schema.h"
 #include "render/settings/setting_table.h"
 #include "tests/support/paths.h"
 #include "tests/support/read_bytes.h"
+#include "tests/support/test.h"
 
 namespace aleph {
 namespace {

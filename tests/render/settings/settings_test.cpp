@@ -1,15 +1,8 @@
 // Render settings: every key there and back, and a refusal that names key and values for everything else.
 
 #include "render/settings/setting_table.h"
-
-#include <gtest/gtest.h>
-
-#include <limits>
-#include <set>
-
-#include "engine/base/errors.h"
-#include "tests/support/ones_vision.h"
-#include "tests/support/refusal.h"
+#include "tests/support/perception_scene.h"
+#include "tests/support/test.h"
 
 namespace aleph {
 namespace {
@@ -179,18 +172,17 @@ TEST(Settings, SeveralBouncesForEveryIntegrator) {
 }
 
 TEST(Settings, MC20_NumbersOutOfRangeOfAnyKind) {
-    const double nan_value = std::nan(""), infinite = std::numeric_limits<double>::infinity();
-    const std::map<std::string, std::vector<double>> bad{{"accuracy", {-0.01, 1.01, nan_value, infinite, -infinite}},
-                                                         {"adapter_k", {0.0, -1.0, nan_value, infinite}},
-                                                         {"gather", {-1.0, -4.0, 1048577.0, 10.5, nan_value}},
-                                                         {"bounces", {-1.0, 0.5, nan_value}},
-                                                         {"path_depth", {0.0, 2.5, nan_value}},
-                                                         {"spp", {0.0, 1.5, 65537.0, nan_value, infinite}},
-                                                         {"light_samples", {0.0, nan_value, 1e9}},
-                                                         {"seed", {-1.0, 4294967296.0, 0.5, nan_value}},
-                                                         {"min_radius_pixels", {0.0, -1.0, 1001.0, nan_value}},
-                                                         {"light_step", {-1.0, 1001.0, 2.5, nan_value}},
-                                                         {"subdivision_level", {-2.0, 11.0, 0.5, nan_value}}};
+    const std::map<std::string, std::vector<double>> bad{{"accuracy", {-0.01, 1.01, not_a_number, infinity, -infinity}},
+                                                         {"adapter_k", {0.0, -1.0, not_a_number, infinity}},
+                                                         {"gather", {-1.0, -4.0, 1048577.0, 10.5, not_a_number}},
+                                                         {"bounces", {-1.0, 0.5, not_a_number}},
+                                                         {"path_depth", {0.0, 2.5, not_a_number}},
+                                                         {"spp", {0.0, 1.5, 65537.0, not_a_number, infinity}},
+                                                         {"light_samples", {0.0, not_a_number, 1e9}},
+                                                         {"seed", {-1.0, 4294967296.0, 0.5, not_a_number}},
+                                                         {"min_radius_pixels", {0.0, -1.0, 1001.0, not_a_number}},
+                                                         {"light_step", {-1.0, 1001.0, 2.5, not_a_number}},
+                                                         {"subdivision_level", {-2.0, 11.0, 0.5, not_a_number}}};
     for (const auto& [key, values] : bad) {
         for (const double value : values) EXPECT_NE(refusal(key, value).find(" from "), std::string::npos) << key;
         EXPECT_NE(refusal(key, "1").find(" from "), std::string::npos) << key << " as text";
@@ -223,7 +215,7 @@ TEST(Settings, UnknownKeysListTheKnown) {
 TEST(Settings, ValidateChecksStructsFilledByHand) {
     RenderSettings settings;
     EXPECT_NO_THROW(validate(settings));
-    settings.cache.accuracy = std::nan("");
+    settings.cache.accuracy = not_a_number;
     EXPECT_THROW(validate(settings), InputError);
     settings = {};
     settings.picture.width = 0;

@@ -2,11 +2,9 @@
 // flattened scenes.
 
 #include "render/shade/frame.h"
-
-#include <gtest/gtest.h>
-
 #include "render/frame/sequence.h"
 #include "tests/support/render_scenes.h"
+#include "tests/support/test.h"
 #include "tests/support/trial.h"
 
 namespace aleph {
@@ -19,17 +17,10 @@ Scene make_everything(bool mirrored = false) {
     scene.environment = Track<glm::dvec3>(glm::dvec3(0.2, 0.25, 0.3));
     const int white = add_lambert(scene, glm::dvec3(0.7), glm::dvec3(0.0), true);
     const int lamp = add_lambert(scene, glm::dvec3(0.0), glm::dvec3(8.0, 7.0, 5.0));
-    Material glossy;
-    glossy.base_color = glm::dvec3(0.8, 0.3, 0.2);
-    glossy.metallic = 0.2;
-    glossy.roughness = 0.3;
-    scene.materials.push_back(glossy);
+    scene.materials.push_back({.base_color = glm::dvec3(0.8, 0.3, 0.2), .metallic = 0.2, .roughness = 0.3});
     const int root = add_node(scene, glm::dvec3(0.0), no_turn);
     if (mirrored) scene.nodes[0].scale = glm::dvec3(-1.0, 1.0, 1.0);
-    Shape ball;
-    ball.kind = Shape::Kind::sphere;
-    ball.radius = 0.6;
-    ball.segments = 32;
+    Shape ball{.kind = Shape::Kind::sphere, .radius = 0.6, .segments = 32};
     add_mesh(scene, make_quad(6.0, 6.0, white), glm::dvec3(0.0), z_to_up, root);
     add_mesh(scene, make_shape_mesh(ball, 2), {0.7, 0.6, 0.2}, no_turn, root);
     add_mesh(scene, make_box({0.8, 1.4, 0.8}, white), {-0.8, 0.7, -0.6}, glm::angleAxis(0.5, glm::dvec3(0.0, 1.0, 0.0)),

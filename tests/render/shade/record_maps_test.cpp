@@ -1,10 +1,9 @@
 // Channels about the records that a picture's indirect light comes from.
 
-#include <gtest/gtest.h>
-
 #include "render/cache/irradiance_cache.h"
 #include "tests/support/perception_scene.h"
 #include "tests/support/shot_scenes.h"
+#include "tests/support/test.h"
 
 namespace aleph {
 namespace {
@@ -12,13 +11,11 @@ namespace {
 const FrameRequest everything{.frame = true, .maps = true, .progress = {}};
 
 IrradianceRecord make_flat_record(float x, float radius) {
-    IrradianceRecord record;
-    record.position = {x, 0.0f, 0.0f};
-    record.normal = {0.0f, 1.0f, 0.0f};
-    record.radius = radius;
-    record.irradiance = Rgb(1.0f);
-    record.accuracy = 0.5f;
-    return record;
+    return {.position = {x, 0.0f, 0.0f},
+            .radius = radius,
+            .normal = {0.0f, 1.0f, 0.0f},
+            .irradiance = Rgb(1.0f),
+            .accuracy = 0.5f};
 }
 
 TEST(RecordMaps, LookUpsCountTheRecordsTheyUse) {

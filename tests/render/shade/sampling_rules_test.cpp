@@ -1,11 +1,10 @@
 // Pictures with a closed form under every rule that ends the sampling of a pixel, and at an error that is asked for.
 
-#include <gtest/gtest.h>
-
 #include "render/frame/sequence.h"
-#include "tests/support/flat_view.h"
 #include "tests/support/keyed_track.h"
 #include "tests/support/penumbra.h"
+#include "tests/support/render_scenes.h"
+#include "tests/support/test.h"
 #include "tests/support/trial.h"
 
 namespace aleph {
@@ -236,9 +235,8 @@ TEST_P(SamplingRules, MC27_ATurningSquareWhileTheShutterIsOpen) {
     Scene scene = make_scene_seen_along_z(0.5 * shape_height * shape_pixel);
     scene.cameras[0].shutter = {-0.5, 0.5};
     const int node = add_mesh(scene, make_quad(2.0, 1.0, add_lambert(scene, glm::dvec3(0.0), glm::dvec3(1.0), true)));
-    AxisRotation rotation;
-    rotation.axis = {0.0, 0.0, 1.0};
-    rotation.angle = keyed<double>({-0.5 / frame_rate, 0.5 / frame_rate}, {0.2, 0.2 + turn});
+    AxisRotation rotation{.axis = {0.0, 0.0, 1.0},
+                          .angle = keyed<double>({-0.5 / frame_rate, 0.5 / frame_rate}, {0.2, 0.2 + turn})};
     scene.nodes[node].axis_rotation = rotation;
     const Truth truth = [turn](int x, int y) {
         constexpr int times = 4096;

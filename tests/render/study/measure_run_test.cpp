@@ -1,10 +1,10 @@
 // Errors of pictures whose differences are known.
+// References as means of passes, and their exposure.
 
 #include "render/study/measure_run.h"
-
-#include <gtest/gtest.h>
-
+#include "render/study/reference_picture.h"
 #include "tests/support/grey_image.h"
+#include "tests/support/test.h"
 
 namespace aleph {
 namespace {
@@ -69,6 +69,36 @@ TEST(MeasureErrors, ExposureAndIndirectLight) {
     for (std::size_t c = 3; c < 6; ++c) picture.channels[c].values.pixels[0] = 0.6f;
     const MetricValues changed = measure_errors(picture, truth_of(grey(0.5f, true), 0.0), all_metrics(1));
     EXPECT_NEAR(changed.at("relative_mse_indirect"), 0.01 / 0.25 / 100.0, 1e-6);
+}
+
+ChannelImage grey_picture(const std::vector<float>& values) {
+    ChannelImage picture;
+    Image<float> grey(static_cast<int>(values.size()), 1);
+    grey.pixels = values;
+    for (const char* name : {"R", "G", "B"}) picture.channels.push_back({name, grey});
+    picture.metadata["exposureFactor"] = 1.0;
+    return picture;
+}
+
+TEST(ReferencePicture, IsTheMeanOfItsPassesWithItsVariance) {
+    ChannelImage mean;
+    add_pass(mean, grey_picture({1.0f, 5.0f}));
+    EXPECT_TRUE(std::isinf(mean.find("variance.Y")->pixels[0]));
+    for (const float value : {4.0f, 1.0f, 2.0f}) add_pass(mean, grey_picture({value, 5.0f}));
+    EXPECT_EQ(reference_passes(mean), 4.0);
+    EXPECT_NEAR(mean.find("G")->pixels[0], 2.0, 1e-6);
+    EXPECT_NEAR(mean.find("variance.Y")->pixels[0], 6.0 / 3.0 / 4.0, 1e-6);
+    EXPECT_NEAR(mean.find("variance.Y")->pixels[1], 0.0, 1e-12);
+    EXPECT_NEAR(mean.find("noise.B")->pixels[0], (1.0 - 4.0 + 1.0 - 2.0) / 4.0, 1e-6);
+    EXPECT_NEAR(mean.find("noise.B")->pixels[1], 0.0, 1e-6);
+}
+
+TEST(ReferencePicture, FollowsTheExposure) {
+    ChannelImage mean;
+    for (const float value : {1.0f, 3.0f}) add_pass(mean, grey_picture({value}));
+    const ChannelImage brighter = with_exposure(mean, 2.0);
+    EXPECT_NEAR(brighter.find("R")->pixels[0], 4.0, 1e-6);
+    EXPECT_NEAR(brighter.find("variance.Y")->pixels[0], 4.0 * mean.find("variance.Y")->pixels[0], 1e-6);
 }
 
 }  // namespace

@@ -1,16 +1,10 @@
 // Ranks, crowding and fronts of points made by hand.
 
 #include "render/study/pareto.h"
-
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <limits>
+#include "tests/support/test.h"
 
 namespace aleph {
 namespace {
-
-constexpr double infinite = std::numeric_limits<double>::infinity();
 
 TEST(Pareto, OnlyLessOfOneDominates) {
     EXPECT_TRUE(dominates({1.0, 2.0}, {1.0, 3.0}));
@@ -34,12 +28,12 @@ TEST(Pareto, CrowdingIsTheExtentOfTheNeighboursInLogarithms) {
     const std::vector<int> ranks = rank_points(points);
     EXPECT_EQ(ranks, (std::vector<int>{0, 0, 0, 0, 1, 1}));
     const std::vector<double> distances = crowding_distances(points, ranks);
-    EXPECT_EQ(distances[0], infinite);
-    EXPECT_EQ(distances[1], infinite);
+    EXPECT_EQ(distances[0], infinity);
+    EXPECT_EQ(distances[1], infinity);
     EXPECT_NEAR(distances[2], 2.0 / 3.0 + std::log10(100.0 / 5.0) / 3.0, 1e-12);
     EXPECT_NEAR(distances[3], 2.0 / 3.0 + std::log10(10.0 / 0.1) / 3.0, 1e-12);
-    EXPECT_EQ(distances[4], infinite);
-    EXPECT_EQ(distances[5], infinite);
+    EXPECT_EQ(distances[4], infinity);
+    EXPECT_EQ(distances[5], infinity);
 }
 
 TEST(Pareto, CrowdingTakesErrorsBelowTheLeastAsEqual) {

@@ -1,16 +1,9 @@
 // Studies of a small picture: what is run, what is kept, and that a stopped study ends with the same numbers.
 
 #include "render/study/run_study.h"
-
-#include <gtest/gtest.h>
-
-#include <fstream>
-#include <stdexcept>
-
-#include "engine/base/errors.h"
 #include "tests/support/paths.h"
-#include "tests/support/refusal.h"
 #include "tests/support/scratch_folder.h"
+#include "tests/support/test.h"
 
 namespace aleph {
 namespace {

@@ -1,15 +1,8 @@
 // Which settings a search tries, and how its rounds grow.
 
 #include "render/study/search_candidates.h"
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <map>
-#include <set>
-
 #include "render/study/study_file.h"
-#include "tests/support/refusal.h"
+#include "tests/support/test.h"
 
 namespace aleph {
 namespace {

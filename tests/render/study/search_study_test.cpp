@@ -1,17 +1,12 @@
 // Searches of tiny pictures: what is run, what is left, and that a stopped search goes on.
 
-#include "render/study/search_study.h"
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
 #include <nlohmann/json.hpp>
-#include <stdexcept>
 
+#include "render/study/search_study.h"
 #include "render/study/study_files.h"
 #include "tests/support/paths.h"
-#include "tests/support/refusal.h"
 #include "tests/support/scratch_folder.h"
+#include "tests/support/test.h"
 
 namespace aleph {
 namespace {

@@ -1,58 +1,14 @@
 // The surface model: reciprocity, densities, weights, energy.
 
 #include "render/surface/bsdf.h"
-
-#include <gtest/gtest.h>
-
-#include <random>
-
-#include "tests/support/numbers.h"
-#include "tests/support/render_scenes.h"
-#include "tests/support/trial.h"
+#include "tests/support/lobes.h"
+#include "tests/support/test.h"
 
 namespace aleph {
 namespace {
 
 const std::vector<float> widths{1e-3f, 0.02f, 0.1f, 0.3f, 0.7f, 1.0f};
 const std::vector<float> cosines{1.0f, 0.9f, 0.5f, 0.2f, 0.05f};
-
-glm::vec3 direction_of(float cosine, float azimuth = 0.7f) {
-    const float sine = std::sqrt(std::max(0.0f, 1.0f - cosine * cosine));
-    return {sine * std::cos(azimuth), sine * std::sin(azimuth), cosine};
-}
-
-/// Integrates f(light) over the upper hemisphere along half vectors spread like the lobe of this width, so that narrow
-/// lobes are resolved: tan = width sqrt(u / (1 - u)).
-template <class F>
-double integrate_around_lobe(float width, const glm::vec3& view, const F& f, int steps = 512) {
-    double sum = 0.0;
-    for (int i = 0; i < steps; ++i) {
-        const double u = (i + 0.5) / steps, ratio = std::sqrt(u / (1.0 - u)), tangent = width * ratio;
-        const double cosine = 1.0 / std::sqrt(1.0 + tangent * tangent), sine = tangent * cosine;
-        // d tan / du = width / (2 ratio (1 - u)^2); d theta = cos^2 d tan
-        const double ring = sine * cosine * cosine * width / (2.0 * ratio * (1.0 - u) * (1.0 - u)) / steps;
-        for (int k = 0; k < steps; ++k) {
-            const double azimuth = 2.0 * pi * (k + 0.5) / steps;
-            const glm::dvec3 h(sine * std::cos(azimuth), sine * std::sin(azimuth), cosine), v(view);
-            const double vh = glm::dot(v, h);
-            if (vh <= 0.0) continue;
-            const glm::dvec3 light = 2.0 * vh * h - v;
-            if (light.z <= 0.0) continue;
-            sum += f(glm::vec3(light)) * 4.0 * vh * ring * 2.0 * pi / steps;
-        }
-    }
-    return sum;
-}
-
-SurfaceMaterial make_plastic(float alpha) {
-    SurfaceMaterial material;
-    material.diffuse = Rgb(1.0f);
-    material.f0 = Rgb(0.04f);
-    material.f0_max = 0.04f;
-    material.f90 = 1.0f;
-    material.alpha = alpha;
-    return material;
-}
 
 TEST(Bsdf, MC15_Reciprocity) {
     std::mt19937 engine(1);
@@ -63,7 +19,7 @@ TEST(Bsdf, MC15_Reciprocity) {
     };
     for (const float alpha : widths) {
         for (const float stretch : {0.0f, 0.5f}) {
-            SurfaceMaterial material = make_plastic(alpha);
+            SurfaceMaterial material = make_white_plastic(alpha);
             material.stretch = stretch;
             int lit = 0;
             for (int i = 0; i < 4000; ++i) {
@@ -82,7 +38,7 @@ TEST(Bsdf, MC15_Reciprocity) {
 }
 
 TEST(Bsdf, NothingBelowTheSurface) {
-    const SurfaceMaterial material = make_plastic(0.3f);
+    const SurfaceMaterial material = make_white_plastic(0.3f);
     const glm::vec3 above = direction_of(0.5f), below(above.x, above.y, -above.z);
     for (const auto& [view, light] : {std::pair(above, below), std::pair(below, above), std::pair(below, below)}) {
         EXPECT_EQ(evaluate_glossy(material, view, light), Rgb(0.0f));
@@ -195,7 +151,7 @@ TEST(Bsdf, MC08_SampleWeightsDoNotExceedOne) {
 
 TEST(Bsdf, FresnelStaysBetweenZeroAndOne) {
     for (const float f0 : {0.0f, 0.04f, 1.0f}) {
-        SurfaceMaterial material = make_plastic(0.5f);
+        SurfaceMaterial material = make_white_plastic(0.5f);
         material.f0_max = f0;
         for (int i = 0; i <= 100; ++i) {
             const float transmission = diffuse_transmission(material, static_cast<float>(i) / 100.0f);
@@ -224,7 +180,7 @@ TEST(Bsdf, EnergyIsNotCreated) {
                     [&](const auto& l) { return static_cast<double>(evaluate_glossy(m, view, l).x) * l.z; }, 256);
             };
             EXPECT_LE(albedo(make_metal(alpha)), 1.002) << alpha << ' ' << cosine;
-            const SurfaceMaterial plastic = make_plastic(alpha);
+            const SurfaceMaterial plastic = make_white_plastic(alpha);
             // Under uniform light of radiance 1, irradiance is pi. The Lambert layer's share has a closed form.
             const double diffuse = diffuse_radiance(plastic, cosine, Rgb(static_cast<float>(pi))).x;
             EXPECT_LE(albedo(plastic) + diffuse, 1.002) << alpha << ' ' << cosine;

@@ -1,15 +1,9 @@
 // Pictures around a scene: what is cleaned, look-ups at seam and poles, the density of samples, and their light.
 
 #include "render/surface/environment_map.h"
-
-#include <gtest/gtest.h>
-
-#include <limits>
-#include <random>
-
-#include "tests/support/numbers.h"
 #include "tests/support/path_estimates.h"
-#include "tests/support/pixel_mean.h"
+#include "tests/support/render_scenes.h"
+#include "tests/support/test.h"
 
 namespace aleph {
 namespace {
@@ -66,8 +60,8 @@ TEST(EnvironmentMap, MC24_DensitiesOfManyRowsAreExactAtBothPoles) {
 
 TEST(EnvironmentMap, MC24_BadTexelsAreCleanedAndCounted) {
     Image<Rgb> picture(4, 2, Rgb(1.0f));
-    picture(0, 0) = Rgb(std::numeric_limits<float>::quiet_NaN(), 0.25f, 1.0f);
-    picture(1, 1) = Rgb(1.0f, std::numeric_limits<float>::infinity(), 1.0f);
+    picture(0, 0) = Rgb(float_nan, 0.25f, 1.0f);
+    picture(1, 1) = Rgb(1.0f, float_infinity, 1.0f);
     picture(3, 1) = Rgb(-5.0f, -1.0f, 0.5f);
     const EnvironmentMap map = make_map(picture);
     EXPECT_EQ(map.cleaned, 3u);

@@ -1,15 +1,10 @@
 // Dielectric interfaces: reflectance, refraction, reciprocity, nested media.
 
 #include "render/surface/glass.h"
-
-#include <gtest/gtest.h>
-
-#include <limits>
-#include <random>
-
 #include "render/path/path.h"
 #include "render/surface/fresnel.h"
 #include "tests/support/lobes.h"
+#include "tests/support/test.h"
 
 namespace aleph {
 namespace {

@@ -1,12 +1,10 @@
 // The short way to a Lambert surface that a gather ray meets finds what the full one does.
 
 #include "render/surface/lambert_hit.h"
-
-#include <gtest/gtest.h>
-
 #include "render/surface/surface_material.h"
 #include "tests/support/keyed_track.h"
 #include "tests/support/render_scenes.h"
+#include "tests/support/test.h"
 
 namespace aleph {
 namespace {

@@ -1,9 +1,10 @@
 // glTF's material extensions against the formulas of their specifications, in double, at a few directions.
+// Surface materials from glTF materials: unlit, Lambert, dielectric and metal; vertex colours, textures, emission.
 
-#include <gtest/gtest.h>
-
+#include "render/surface/bsdf.h"
 #include "tests/support/lobes.h"
-#include "tests/support/numbers.h"
+#include "tests/support/render_scenes.h"
+#include "tests/support/test.h"
 
 namespace aleph {
 namespace {
@@ -43,9 +44,7 @@ void expect_equal(double found, double expected) {
 }
 
 TEST(Layers, AnisotropicLobe) {
-    Material material;
-    material.roughness = 0.5;
-    material.base_color = glm::dvec3(0.8);
+    Material material{.base_color = glm::dvec3(0.8), .roughness = 0.5};
     SurfaceMaterial brushed = evaluate_plain(material);
     // strength 0.6 along x
     brushed.stretch = 0.36f;
@@ -60,20 +59,12 @@ TEST(Layers, AnisotropicLobe) {
 TEST(Layers, AnisotropyTurnsWithItsAngle) {
     // Unit texture coordinates on a unit quad, so that the tangent is x.
     for (const double angle : {0.0, 0.5, 2.0}) {
-        Scene scene;
-        Material material;
-        material.anisotropy = 0.6;
-        material.anisotropy_rotation = angle;
-        scene.materials.push_back(material);
-        add_mesh(scene, make_quad(1.0, 1.0, 0));
-        const Stage stage(std::move(scene));
-        SurfacePoint point = make_point(glm::vec3(0.0f), {0.0f, 0.0f, 1.0f});
-        point.material = 0;
-        point.edges[0] = {1.0f, 0.0f, 0.0f};
-        point.edges[1] = {0.0f, 1.0f, 0.0f};
-        point.uv_edges[0][0] = {1.0f, 0.0f};
-        point.uv_edges[0][1] = {0.0f, -1.0f};  // glTF's v grows downwards
-        const SurfaceMaterial surface = evaluate_material(stage.shading, point, {});
+        MaterialStage square({.anisotropy = 0.6, .anisotropy_rotation = angle});
+        square.point.edges[0] = {1.0f, 0.0f, 0.0f};
+        square.point.edges[1] = {0.0f, 1.0f, 0.0f};
+        square.point.uv_edges[0][0] = {1.0f, 0.0f};
+        square.point.uv_edges[0][1] = {0.0f, -1.0f};  // glTF's v grows downwards
+        const SurfaceMaterial surface = square.evaluate();
         EXPECT_NEAR(surface.stretch, 0.36f, 1e-6f);
         EXPECT_NEAR(surface.tangent.x, std::cos(angle), 1e-6);
         EXPECT_NEAR(surface.tangent.y, std::sin(angle), 1e-6);
@@ -81,12 +72,8 @@ TEST(Layers, AnisotropyTurnsWithItsAngle) {
 }
 
 TEST(Layers, Clearcoat) {
-    Material material;
-    material.base_color = glm::dvec3(0.6);
-    material.metallic = 0.0;
-    material.specular = 0.0;
-    material.clearcoat = 0.7;
-    material.clearcoat_roughness = 0.5;
+    Material material{
+        .base_color = glm::dvec3(0.6), .metallic = 0.0, .specular = 0.0, .clearcoat = 0.7, .clearcoat_roughness = 0.5};
     const SurfaceMaterial coated = evaluate_plain(material);
     for (const Directions& d : some_directions()) {
         // mix(base, D V, clearcoat * fresnel(0.04, N.V))
@@ -96,12 +83,11 @@ TEST(Layers, Clearcoat) {
 }
 
 TEST(Layers, Sheen) {
-    Material material;
-    material.base_color = glm::dvec3(0.0);
-    material.metallic = 0.0;
-    material.specular = 0.0;
-    material.sheen_color = glm::dvec3(0.3);
-    material.sheen_roughness = 0.6;
+    Material material{.base_color = glm::dvec3(0.0),
+                      .metallic = 0.0,
+                      .specular = 0.0,
+                      .sheen_color = glm::dvec3(0.3),
+                      .sheen_roughness = 0.6};
     const SurfaceMaterial cloth = evaluate_plain(material);
     for (const Directions& d : some_directions()) {
         const double cos_h = d.half().z, n = 1.0 / 0.36;
@@ -113,11 +99,7 @@ TEST(Layers, Sheen) {
 
 /// KHR_materials_transmission: the light's direction is mirrored at the surface; 1 - F of it passes, tinted.
 TEST(Layers, Transmission) {
-    Material material;
-    material.base_color = glm::dvec3(0.6);
-    material.metallic = 0.0;
-    material.roughness = 0.6;
-    material.transmission = 1.0;
+    Material material{.base_color = glm::dvec3(0.6), .metallic = 0.0, .roughness = 0.6, .transmission = 1.0};
     const SurfaceMaterial frosted = evaluate_plain(material);
     EXPECT_FALSE(frosted.has_diffuse());
     EXPECT_FALSE(frosted.has_glossy());
@@ -139,13 +121,12 @@ TEST(Layers, Transmission) {
 
 /// KHR_materials_volume: transmittance is colour^(distance / attenuation distance).
 TEST(Layers, Volume) {
-    Material material;
-    material.transmission = 1.0;
-    material.metallic = 0.0;
-    material.roughness = 0.0;
-    material.ior = 1.4;
-    material.attenuation_color = glm::dvec3(0.5, 0.25, 1.0);
-    material.attenuation_distance = 0.2;
+    Material material{.metallic = 0.0,
+                      .roughness = 0.0,
+                      .ior = 1.4,
+                      .transmission = 1.0,
+                      .attenuation_distance = 0.2,
+                      .attenuation_color = glm::dvec3(0.5, 0.25, 1.0)};
     const SurfaceMaterial sheet = evaluate_plain(material);
     EXPECT_FALSE(sheet.volume);
     EXPECT_EQ(sheet.attenuation, Rgb(0.0f));
@@ -165,6 +146,77 @@ TEST(Layers, Volume) {
     material.attenuation_distance = 1.0;
     material.attenuation_color = glm::dvec3(0.0);
     EXPECT_NEAR(evaluate_plain(material).attenuation.x, 13.8155f, 1e-3f);
+}
+
+/// KHR_materials_unlit: a constant base colour; all other properties are ignored.
+TEST(SurfaceMaterial, UnlitShowsItsBaseColourAndReflectsNothing) {
+    Material material{
+        .base_color = glm::dvec3(0.5, 0.25, 0.75), .metallic = 0.5, .emission = glm::dvec3(9.0), .unlit = true};
+    for (const bool front : {true, false}) {
+        const SurfaceMaterial surface = evaluate_plain(material, front, {0.5f, 1.0f, 1.0f, 1.0f});
+        EXPECT_EQ(surface.emission, Rgb(0.25f, 0.25f, 0.75f));
+        EXPECT_FALSE(surface.has_diffuse());
+        EXPECT_FALSE(surface.has_glossy());
+    }
+}
+
+TEST(SurfaceMaterial, SpecularZeroIsPureLambert) {
+    Material material{.base_color = glm::dvec3(0.2, 0.5, 0.8), .metallic = 0.0, .specular = 0.0};
+    const SurfaceMaterial surface = evaluate_plain(material);
+    EXPECT_FALSE(surface.has_glossy());
+    EXPECT_EQ(surface.diffuse, Rgb(0.2f, 0.5f, 0.8f));
+    for (const float cosine : {1.0f, 0.9f, 0.5f, 0.2f, 0.05f}) {
+        EXPECT_EQ(evaluate_diffuse(surface, cosine, 0.3f).y, 0.5f / std::numbers::pi_v<float>);
+        EXPECT_NEAR(diffuse_radiance(surface, cosine, Rgb(std::numbers::pi_v<float>)).z, 0.8f, 1e-6f);
+    }
+}
+
+TEST(SurfaceMaterial, GltfNumbersBecomeTheTwoLayers) {
+    Material plastic{.base_color = glm::dvec3(0.5), .metallic = 0.0, .roughness = 0.5};
+    SurfaceMaterial surface = evaluate_plain(plastic);
+    EXPECT_NEAR(surface.f0.x, 0.04f, 1e-6f);  // index 1.5
+    EXPECT_EQ(surface.f90, 1.0f);
+    EXPECT_EQ(surface.alpha, 0.25f);
+    EXPECT_EQ(surface.diffuse.x, 0.5f);
+
+    Material metal{.base_color = glm::dvec3(0.9, 0.6, 0.2), .roughness = 0.0};
+    surface = evaluate_plain(metal);
+    EXPECT_EQ(surface.f0, Rgb(0.9f, 0.6f, 0.2f));
+    EXPECT_FALSE(surface.has_diffuse());
+    EXPECT_EQ(surface.alpha, 0.0f);
+    EXPECT_TRUE(surface.is_mirror());
+
+    plastic.specular_color = glm::dvec3(2.0, 1.0, 0.5);  // above 1 is allowed, F0 stays at most 1
+    plastic.ior = 2.0;
+    surface = evaluate_plain(plastic);
+    EXPECT_NEAR(surface.f0.x, 2.0f / 9.0f, 1e-6f);
+    EXPECT_NEAR(surface.f0.z, 0.5f / 9.0f, 1e-6f);
+    EXPECT_NEAR(surface.f0_max, 2.0f / 9.0f, 1e-6f);
+
+    surface = evaluate_plain(metal, true, {0.5f, 1.0f, 1.0f, 1.0f});
+    EXPECT_NEAR(surface.f0.x, 0.45f, 1e-6f);  // vertex colours multiply
+}
+
+TEST(SurfaceMaterial, EmissionLeavesTheFrontAndBothSidesIfDoubleSided) {
+    Material lamp{.emission = glm::dvec3(1.0, 2.0, 3.0), .emission_strength = 2.0};
+    EXPECT_EQ(evaluate_plain(lamp, true).emission, Rgb(2.0f, 4.0f, 6.0f));
+    EXPECT_EQ(evaluate_plain(lamp, false).emission, Rgb(0.0f));
+    lamp.double_sided = true;
+    EXPECT_EQ(evaluate_plain(lamp, false).emission, Rgb(2.0f, 4.0f, 6.0f));
+}
+
+TEST(SurfaceMaterial, TexturesMultiplyTheFactors) {
+    Material material{.emission = glm::dvec3(10.0)};
+    material.base_color_texture.image = material.metallic_roughness_texture.image = 0;
+    material.emission_texture.image = material.specular_texture.image = 0;
+    const SurfaceMaterial surface =
+        MaterialStage(material, {{.bytes = Image<glm::u8vec4>(1, 1, glm::u8vec4(255, 128, 51, 0))}}).evaluate();
+    const float rough = 128.0f / 255.0f, metal = 51.0f / 255.0f, green = srgb_to_linear(128.0f / 255.0f);
+    EXPECT_NEAR(surface.alpha, rough * rough, 1e-6f);
+    EXPECT_NEAR(surface.diffuse.y, green * (1.0f - metal), 1e-6f);
+    EXPECT_NEAR(surface.f0.x, metal, 1e-6f);  // specular 0 by the texture's A: only the metal's share is left
+    EXPECT_NEAR(surface.f90, metal, 1e-6f);
+    EXPECT_NEAR(surface.emission.y, 10.0f * green, 1e-5f);
 }
 
 }  // namespace

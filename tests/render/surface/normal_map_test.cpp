@@ -1,12 +1,8 @@
 // Shading normals that disagree with the surface: normal maps, bad vertex normals, narrow triangles.
 
-#include <gtest/gtest.h>
-
-#include <limits>
-#include <random>
-
 #include "render/light/light_choice.h"
 #include "tests/support/lobes.h"
+#include "tests/support/test.h"
 
 namespace aleph {
 namespace {
@@ -40,8 +36,7 @@ std::vector<Kind> list_kinds() {
 /// A quad that faces +z, with the texel as the normal map of its surface and of its coat; a lamp is behind it.
 Scene make_mapped_quad(Material material, const glm::u8vec4& texel) {
     Scene scene;
-    SceneImage image;
-    image.bytes = Image<glm::u8vec4>(1, 1, texel);
+    SceneImage image{.bytes = Image<glm::u8vec4>(1, 1, texel)};
     scene.images.push_back(image);
     material.normal_texture.image = material.clearcoat_normal_texture.image = 0;
     scene.materials.push_back(std::move(material));
@@ -115,9 +110,8 @@ TEST(NormalMap, MC26_KeepVisibleKeepsViewerAndMirrorDirectionAbove) {
 }
 
 TEST(NormalMap, RC11_BadVertexNormalsFallBackToTheSurface) {
-    constexpr float nan = std::numeric_limits<float>::quiet_NaN(), infinite = std::numeric_limits<float>::infinity();
-    const std::vector<glm::vec3> bad{{0.0f, 0.0f, 0.0f},   {nan, 0.0f, 1.0f},     {0.0f, infinite, 1.0f},
-                                     {0.0f, 0.0f, -1.0f},  {1.0f, 0.0f, -0.2f},   {0.99f, 0.0f, 0.1f},
+    const std::vector<glm::vec3> bad{{0.0f, 0.0f, 0.0f},   {float_nan, 0.0f, 1.0f}, {0.0f, float_infinity, 1.0f},
+                                     {0.0f, 0.0f, -1.0f},  {1.0f, 0.0f, -0.2f},     {0.99f, 0.0f, 0.1f},
                                      {-0.7f, 0.7f, 0.05f}, {1e-30f, 0.0f, 1e-30f}};
     for (const Kind& kind : list_kinds()) {
         for (const glm::vec3& normal : bad) {
@@ -159,14 +153,8 @@ TEST(NormalMap, MC18_TangentsOfNarrowTriangles) {
     std::mt19937 engine(5);
     std::uniform_real_distribution<float> unit(0.1f, 1.0f), wide(1.0f, 2.0f);
     std::uniform_int_distribution<int> ulps(-8, 8);
-    Scene scene;
-    Material material;
-    material.anisotropy = 1.0;
-    scene.materials.push_back(material);
-    add_mesh(scene, make_quad(1.0, 1.0, 0));
-    const Stage stage(std::move(scene));
-    SurfacePoint point = make_point(glm::vec3(0.0f), {0.0f, 0.0f, 1.0f});
-    point.material = 0;
+    MaterialStage square({.anisotropy = 1.0});
+    SurfacePoint& point = square.point;
     int narrow = 0;
     for (int i = 0; i < 5000; ++i) {
         // Two edges that are almost parallel, in space and in the texture: all products nearly cancel.
@@ -178,7 +166,7 @@ TEST(NormalMap, MC18_TangentsOfNarrowTriangles) {
         d2 = {nudge(d1.x), nudge(d1.y)};
         point.edges[0] = {unit(engine), unit(engine), 0.0f};
         point.edges[1] = {nudge(point.edges[0].x), nudge(point.edges[0].y), 0.0f};
-        const SurfaceMaterial surface = evaluate_material(stage.shading, point, {});
+        const SurfaceMaterial surface = square.evaluate();
         if (static_cast<double>(d1.x) * d2.y == static_cast<double>(d1.y) * d2.x) {
             EXPECT_EQ(surface.stretch, 0.0f) << "no area";
             continue;

@@ -1,12 +1,9 @@
 // All lobes together: energy, known albedos, and two independent ways to the same integral.
 
 #include "render/surface/scatter.h"
-
-#include <gtest/gtest.h>
-
 #include "render/surface/sheen.h"
 #include "tests/support/lobes.h"
-#include "tests/support/numbers.h"
+#include "tests/support/test.h"
 
 namespace aleph {
 namespace {
@@ -20,15 +17,14 @@ struct NamedMaterial {
 
 /// Every lobe of a material of glTF that has them all.
 SurfaceMaterial make_mixture(bool volume, bool front, double roughness) {
-    Material material;
-    material.metallic = 0.3;
-    material.roughness = roughness;
-    material.transmission = 0.5;
-    material.thickness = volume ? 1.0 : 0.0;
-    material.clearcoat = 0.7;
-    material.clearcoat_roughness = 0.6;
-    material.sheen_color = glm::dvec3(0.5);
-    material.sheen_roughness = 0.4;
+    Material material{.metallic = 0.3,
+                      .roughness = roughness,
+                      .transmission = 0.5,
+                      .thickness = volume ? 1.0 : 0.0,
+                      .clearcoat = 0.7,
+                      .clearcoat_roughness = 0.6,
+                      .sheen_color = glm::dvec3(0.5),
+                      .sheen_roughness = 0.4};
     return evaluate_plain(material, front);
 }
 

@@ -1,19 +1,13 @@
 // Texture look-up over a footprint: pyramids, anisotropy, wrapping at every level.
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <limits>
-#include <random>
-
 #include "render/surface/texture.h"
+#include "tests/support/test.h"
 
 namespace aleph {
 namespace {
 
 SceneImage make_noise(int width, int height, unsigned seed) {
-    SceneImage image;
-    image.bytes = Image<glm::u8vec4>(width, height);
+    SceneImage image{.bytes = Image<glm::u8vec4>(width, height)};
     std::mt19937 random(seed);
     for (glm::u8vec4& texel : image.bytes.pixels) {
         for (int c = 0; c < 4; ++c) texel[c] = static_cast<std::uint8_t>(random() % 256u);
@@ -22,9 +16,7 @@ SceneImage make_noise(int width, int height, unsigned seed) {
 }
 
 SceneImage make_constant(int width, int height, const glm::u8vec4& value) {
-    SceneImage image;
-    image.bytes = Image<glm::u8vec4>(width, height, value);
-    return image;
+    return {.bytes = Image<glm::u8vec4>(width, height, value)};
 }
 
 TextureSet make_set(const SceneImage& image, TextureSpace space = TextureSpace::srgb) {
@@ -79,8 +71,7 @@ TEST(TextureFilter, EveryLevelHasTheSameMean) {
 
 TEST(TextureFilter, OddSizesKeepEveryTexelsPlace) {
     // A ramp stays a ramp: a coarse texel has the mean of the ramp over its own extent.
-    SceneImage image;
-    image.floats = Image<glm::vec4>(7, 1);
+    SceneImage image{.floats = Image<glm::vec4>(7, 1)};
     for (int x = 0; x < 7; ++x) image.floats(x, 0) = glm::vec4(static_cast<float>(x) + 0.5f);
     const Texture texture = make_texture(image, TextureSpace::linear);
     ASSERT_EQ(texture.coarse.size(), 2u);
@@ -134,7 +125,7 @@ TEST(TextureFilter, TheWholePictureIsItsMean) {
     const glm::dvec4 mean = mean_of(set);
     for (const Wrap wrap : {Wrap::repeat, Wrap::mirror, Wrap::clamp}) {
         for (const bool round : {false, true}) {
-            for (const float size : {1.5f, 3.7f, 1e3f, 1e20f, std::numeric_limits<float>::infinity(), std::nanf("")}) {
+            for (const float size : {1.5f, 3.7f, 1e3f, 1e20f, float_infinity, float_nan}) {
                 expect_near(sample_texture(set, make_use(wrap), {0.41f, 0.77f}, {{size, 0.0f}, {0.0f, size}, round}),
                             mean, 1e-5);
             }
@@ -144,8 +135,7 @@ TEST(TextureFilter, TheWholePictureIsItsMean) {
 
 /// A long footprint must not blur across its length: stripes along it are kept, stripes across it average out.
 TEST(TextureFilter, LongFootprintsBlurOnlyAlongThemselves) {
-    SceneImage image;
-    image.bytes = Image<glm::u8vec4>(64, 64);
+    SceneImage image{.bytes = Image<glm::u8vec4>(64, 64)};
     for (int y = 0; y < 64; ++y) {
         for (int x = 0; x < 64; ++x) image.bytes(x, y) = glm::u8vec4((y / 4) % 2 == 0 ? 255 : 0);
     }
@@ -165,8 +155,7 @@ TEST(TextureFilter, LongFootprintsBlurOnlyAlongThemselves) {
 
 TEST(TextureFilter, DiagonalAxesAreFound) {
     // Stripes along the diagonal u + v: a footprint along u - v keeps them.
-    SceneImage image;
-    image.bytes = Image<glm::u8vec4>(64, 64);
+    SceneImage image{.bytes = Image<glm::u8vec4>(64, 64)};
     for (int y = 0; y < 64; ++y) {
         for (int x = 0; x < 64; ++x) {
             image.bytes(x, y) = glm::u8vec4(static_cast<int>(127.5 + 127.0 * std::sin((x + y) * std::numbers::pi / 8)));
@@ -189,8 +178,7 @@ TEST(TextureFilter, DiagonalAxesAreFound) {
 
 TEST(TextureFilter, WrapModesAtEveryLevelsBorders) {
     // Left half black, right half white. At u = 0, repeat averages both; clamp and mirror find black only.
-    SceneImage image;
-    image.bytes = Image<glm::u8vec4>(64, 64, glm::u8vec4(0));
+    SceneImage image{.bytes = Image<glm::u8vec4>(64, 64, glm::u8vec4(0))};
     for (int y = 0; y < 64; ++y) {
         for (int x = 32; x < 64; ++x) image.bytes(x, y) = glm::u8vec4(255);
     }
@@ -227,8 +215,7 @@ TEST(TextureFilter, TheReferencesTransformMovesTheFootprint) {
 }
 
 TEST(TextureFilter, AlphaIsFilteredLikeColourAndNeverDecoded) {
-    SceneImage image;
-    image.bytes = Image<glm::u8vec4>(2, 2, glm::u8vec4(255, 255, 255, 0));
+    SceneImage image{.bytes = Image<glm::u8vec4>(2, 2, glm::u8vec4(255, 255, 255, 0))};
     image.bytes(0, 0).w = image.bytes(1, 1).w = 255;
     const TextureSet set = make_set(image);
     EXPECT_EQ(sample_texture(set, make_use(Wrap::repeat), {0.2f, 0.4f}, {{1.5f, 0.0f}, {0.0f, 1.5f}}),
@@ -236,9 +223,8 @@ TEST(TextureFilter, AlphaIsFilteredLikeColourAndNeverDecoded) {
 }
 
 TEST(TextureFilter, TexelsThatAreNoNumbersDoNotSpread) {
-    SceneImage image;
-    image.floats = Image<glm::vec4>(4, 4, glm::vec4(1.0f));
-    image.floats(1, 2) = glm::vec4(std::nanf(""), std::numeric_limits<float>::infinity(), 1.0f, 1.0f);
+    SceneImage image{.floats = Image<glm::vec4>(4, 4, glm::vec4(1.0f))};
+    image.floats(1, 2) = glm::vec4(float_nan, float_infinity, 1.0f, 1.0f);
     const Texture texture = make_texture(image, TextureSpace::linear);
     EXPECT_EQ(texture.coarse.back()(0, 0), glm::vec4(15.0f / 16.0f, 15.0f / 16.0f, 1.0f, 1.0f));
 }

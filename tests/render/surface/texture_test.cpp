@@ -2,13 +2,8 @@
 // coordinates that are not finite. texture_filter_test.cpp tests footprints.
 
 #include "render/surface/texture.h"
-
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <limits>
-
 #include "engine/base/color.h"
+#include "tests/support/test.h"
 
 namespace aleph {
 namespace {
@@ -16,8 +11,7 @@ namespace {
 /// Float image of one row: texel i holds i.
 Scene make_ramp(int width, int height = 1) {
     Scene scene;
-    SceneImage image;
-    image.floats = Image<glm::vec4>(width, height);
+    SceneImage image{.floats = Image<glm::vec4>(width, height)};
     for (int y = 0; y < height; ++y) {
         for (int x = 0; x < width; ++x) image.floats(x, y) = glm::vec4(x, y, 0.0f, 1.0f);
     }
@@ -91,8 +85,7 @@ TEST(Texture, NearestTakesTheTexelThatHolds) {
 
 TEST(Texture, EightBitColoursAreDecodedBeforeInterpolating) {
     Scene scene;
-    SceneImage image;
-    image.bytes = Image<glm::u8vec4>(2, 1);
+    SceneImage image{.bytes = Image<glm::u8vec4>(2, 1)};
     image.bytes(0, 0) = glm::u8vec4(0, 0, 0, 0);
     image.bytes(1, 0) = glm::u8vec4(255, 188, 10, 128);
     scene.images.push_back(image);
@@ -109,10 +102,9 @@ TEST(Texture, EightBitColoursAreDecodedBeforeInterpolating) {
 
 TEST(Texture, CoordinatesThatAreNoPlaces) {
     const Scene scene = make_ramp(4, 3);
-    const float infinite = std::numeric_limits<float>::infinity();
     for (const Wrap wrap : {Wrap::repeat, Wrap::clamp, Wrap::mirror}) {
         const float at_zero = look_up(scene, wrap, 0.0f, false, 0.0f);
-        for (const float bad : {std::nanf(""), infinite, -infinite, 3e38f, -3e38f, 1e12f}) {
+        for (const float bad : {float_nan, float_infinity, -float_infinity, 3e38f, -3e38f, 1e12f}) {
             EXPECT_EQ(look_up(scene, wrap, bad, false, 0.0f), at_zero);
             EXPECT_EQ(look_up(scene, wrap, 0.0f, true, bad), look_up(scene, wrap, 0.0f, true, 0.0f));
         }

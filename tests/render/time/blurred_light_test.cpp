@@ -1,9 +1,8 @@
 // Indirect light while the shutter is open: the picture of the cache against the one of paths.
 
-#include <gtest/gtest.h>
-
 #include "tests/support/frame_bytes.h"
 #include "tests/support/shot_scenes.h"
+#include "tests/support/test.h"
 #include "tests/support/trial.h"
 #include "tests/support/with_threads.h"
 
@@ -126,18 +125,6 @@ TEST(MotionBlur, MC27_IndirectLightOfAFadeIsThatOfItsMean) {
     EXPECT_LE(beyond, 4);  // of 192; by chance 0.6
     EXPECT_LT(deviation(found_sum, expected_sum), 3.0);
     EXPECT_LT(std::hypot(found_sum.error(), expected_sum.error()), 0.02 * expected_sum.mean());
-}
-
-TEST(MotionBlur, DT01_BlurredFramesAreEqualForAnyNumberOfThreadsAndAlone) {
-    Scene scene = make_sliding_box();
-    scene.cameras[0].shutter = {-0.5, 0.5};
-    RenderSettings settings = small_settings();
-    settings.picture.width = 32;
-    settings.picture.height = 24;
-    settings.cache.light_step = 10;
-    const std::string one = frame_bytes(1, scene, settings, {3}).back();
-    EXPECT_TRUE(frame_bytes(4, scene, settings, {3}).back() == one);
-    EXPECT_TRUE(frame_bytes(2, scene, settings, {7, 2, 3}).back() == one);
 }
 
 }  // namespace

@@ -1,22 +1,18 @@
 // The file that keeps the light of lighting keyframes: damaged, of something else, written twice.
 
-#include "render/time/cache_file.h"
-
 #include <fcntl.h>
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 #include <signal.h>
 #include <sys/wait.h>
 #include <unistd.h>
-
 #include <cstdlib>
 
 #include "engine/base/atomic_file.h"
-#include "engine/base/errors.h"
 #include "engine/scene/scene_hash.h"
+#include "render/time/cache_file.h"
 #include "tests/support/frame_bytes.h"
-#include "tests/support/refusal.h"
 #include "tests/support/shot_scenes.h"
+#include "tests/support/test.h"
 
 namespace aleph {
 namespace {

@@ -1,11 +1,10 @@
 // Light at lighting keyframes: frames do not depend on their order, no light is stale, and nothing flickers.
 
-#include <gtest/gtest.h>
-
 #include <cstdio>
 
 #include "tests/support/frame_bytes.h"
 #include "tests/support/shot_scenes.h"
+#include "tests/support/test.h"
 #include "tests/support/with_threads.h"
 
 namespace aleph {

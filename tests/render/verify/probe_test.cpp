@@ -1,20 +1,13 @@
 // Probes: their places, what they are judged over, and their answers.
 
 #include "render/verify/probe.h"
-
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <limits>
-#include <map>
-#include <set>
-
 #include "engine/base/parallel.h"
 #include "engine/load/load_scene.h"
 #include "render/settings/reference_settings.h"
 #include "render/verify/continued_error.h"
 #include "tests/support/paths.h"
 #include "tests/support/quick_settings.h"
+#include "tests/support/test.h"
 
 namespace aleph {
 namespace {
@@ -70,7 +63,7 @@ TEST(ContinuedError, IsEvenWhereItIsEvenInThePart) {
     for (int y = 8; y < 20; ++y) {
         for (int x = 4; x < 18; ++x) part(x, y) = 1, error(x, y) = {0.25f, -0.5f, 1.0f};
     }
-    error(6, 10).x = std::numeric_limits<float>::quiet_NaN();
+    error(6, 10).x = float_nan;
     const Image<Rgb> all = continue_error(error, part);
     for (int y = 0; y < 30; ++y) {
         for (int x = 0; x < 40; ++x) {
@@ -80,7 +73,8 @@ TEST(ContinuedError, IsEvenWhereItIsEvenInThePart) {
         }
     }
     EXPECT_TRUE(std::isnan(all(6, 10).x));
-    for (const Rgb& none : continue_error(error, PicturePart(40, 30, std::uint8_t{0})).pixels) EXPECT_EQ(none, Rgb(0.0f));
+    for (const Rgb& none : continue_error(error, PicturePart(40, 30, std::uint8_t{0})).pixels)
+        EXPECT_EQ(none, Rgb(0.0f));
 }
 
 TEST(PictureKeeper, DropsWhatWasNotUsedForLongest) {

@@ -1,12 +1,7 @@
 // Shares and their intervals from counts in blocks.
 
 #include "render/verify/share_interval.h"
-
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <random>
-#include <vector>
+#include "tests/support/test.h"
 
 namespace aleph {
 namespace {

@@ -1,15 +1,11 @@
 // `aleph render --verify`.
 
-#include <gtest/gtest.h>
-
-#include <filesystem>
 #include <nlohmann/json.hpp>
-#include <sstream>
 
-#include "render/cli/commands.h"
 #include "render/cli/verify.h"
 #include "tests/support/read_bytes.h"
-#include "tests/support/render_command.h"
+#include "tests/support/run_command.h"
+#include "tests/support/test.h"
 
 namespace aleph {
 namespace {
@@ -20,30 +16,25 @@ class VerifyCommand : public RenderCommand {
   protected:
     /// @return the exit code
     int run(const std::vector<std::string>& more) {
-        std::vector<std::string> words = {"--size", "16x12", "--fps", "8", "--frames", "20", "-o", file("a.exr")};
-        words.insert(words.end(), more.begin(), more.end());
-        return RenderCommand::run(words);
+        return RenderCommand::run({"--size", "16x12", "--fps", "8", "--frames", "20", "-o", file("a.exr")}, more);
     }
 };
 
 TEST_F(VerifyCommand, WrongOnesAreRefused) {
     for (const char* text : {"0", "-1", "nan", "inf", "", "8 probes"}) {
         EXPECT_EQ(run({"--verify", text}), exit_bad_input) << text;
-        EXPECT_NE(errors.str().find("--verify"), std::string::npos) << errors.str();
+        EXPECT_NE(errors.find("--verify"), std::string::npos) << errors;
         EXPECT_FALSE(fs::exists(file("a.exr"))) << text;
     }
     EXPECT_EQ(run({"--verify", "1", "--integrator", "path"}), exit_bad_input);
-    EXPECT_NE(errors.str().find("give one of the two"), std::string::npos) << errors.str();
+    EXPECT_NE(errors.find("give one of the two"), std::string::npos) << errors;
     EXPECT_FALSE(fs::exists(file("a.exr")));
 }
 
 TEST_F(VerifyCommand, PrintsAndKeepsWhatItFound) {
-    testing::internal::CaptureStdout();
-    const int code = run({"--error", "2", "--verify", "0.01", "--stats", file("a.json")});
-    const std::string printed = testing::internal::GetCapturedStdout();
-    ASSERT_EQ(code, exit_done) << errors.str();
-    EXPECT_NE(printed.find("aleph: verified: "), std::string::npos) << printed;
-    EXPECT_NE(printed.find("4 blocks in 1 frame"), std::string::npos) << printed;
+    ASSERT_EQ(run({"--error", "2", "--verify", "0.01", "--stats", file("a.json")}), exit_done) << errors;
+    EXPECT_NE(out.find("aleph: verified: "), std::string::npos) << out;
+    EXPECT_NE(out.find("4 blocks in 1 frame"), std::string::npos) << out;
     const auto verified = nlohmann::json::parse(read_bytes(file("a.json"))).at("verified");
     EXPECT_EQ(verified.at("error"), 2.0);
     EXPECT_EQ(verified.at("blocks"), 4);

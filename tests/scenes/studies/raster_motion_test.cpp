@@ -1,11 +1,9 @@
 // Motion from quantized coordinates: its error is half a step of a colour channel, seen in the picture.
 
 #include "scenes/studies/raster_motion.h"
-
-#include <gtest/gtest.h>
-
 #include "render/frame/sequence.h"
 #include "tests/support/render_scenes.h"
+#include "tests/support/test.h"
 
 namespace aleph {
 namespace {

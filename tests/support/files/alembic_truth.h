@@ -2,16 +2,10 @@
 // Archives and the values that the reference library reads from them. The project's own archives are in
 // tests/assets/abc, others in assets_folder(), which may be absent.
 
-#include <gtest/gtest.h>
-
-#include <cstdint>
-#include <filesystem>
-#include <fstream>
 #include <nlohmann/json.hpp>
-#include <string>
-#include <vector>
 
 #include "tests/support/paths.h"
+#include "tests/support/test.h"
 
 namespace aleph {
 

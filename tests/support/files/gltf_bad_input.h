@@ -1,17 +1,12 @@
 #pragma once
 // The file that the bad-input tests of the glTF reader break, and how a refusal must look.
 
-#include <gtest/gtest.h>
-
-#include <filesystem>
-#include <string>
-
-#include "engine/base/errors.h"
 #include "engine/gltf/gltf.h"
 #include "engine/image/image_file.h"
 #include "tests/support/files/gltf_draft.h"
 #include "tests/support/files/load_cost.h"
 #include "tests/support/scratch_folder.h"
+#include "tests/support/test.h"
 
 namespace aleph {
 
@@ -50,6 +45,14 @@ inline GltfDraft textured_draft(const ScratchFolder& folder, bool from_file) {
     draft.json["textures"] = {{{"source", 0}, {"sampler", 0}}};
     draft.json["materials"][0]["pbrMetallicRoughness"]["baseColorTexture"] = {{"index", 0}};
     return draft;
+}
+
+/// Makes so many root nodes like this one the only nodes.
+inline void repeat_node(GltfDraft& draft, int times, const Json& node) {
+    Json roots = Json::array();
+    for (int i = 0; i < times; ++i) roots.push_back(i);
+    draft.json["nodes"] = std::vector<Json>(static_cast<std::size_t>(times), node);
+    draft.json["scenes"][0]["nodes"] = roots;
 }
 
 /// Expects this place and reason within the limits, and an unchanged scene.

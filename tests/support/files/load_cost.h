@@ -1,12 +1,8 @@
 #pragma once
 // The cost of reading a file, counted: hostile files must end within limits.
 
-#include <gtest/gtest.h>
-
-#include <string>
-
 #include "tests/support/allocations.h"
-#include "tests/support/refusal.h"
+#include "tests/support/test.h"
 
 namespace aleph {
 

@@ -1,17 +1,48 @@
-// The scene `boomerang`: its generator reproduces the files, its solid is closed, and it moves as its README says.
+// The scenes antique-room and boomerang: their generators reproduce the files; only the camera of the one moves, and it
+// is closed and glossy; the solid of the other is closed, and it moves as its README says.
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <glm/geometric.hpp>
-#include <map>
-
+#include "scenes/antique-room/antique_room.h"
 #include "scenes/boomerang/boomerang_scene.h"
 #include "tests/scenes/authored_scenes.h"
 #include "tests/support/paths.h"
+#include "tests/support/test.h"
 
 namespace aleph {
 namespace {
+
+TEST(AntiqueRoom, ProgramReproducesTheFiles) {
+    expect_generated(program_path("make_antique_room"), 1u + 13u);
+    expect_same_scene(loaded("antique-room"), make_antique_room("textures/"));
+}
+
+TEST(AntiqueRoom, OnlyTheCameraMoves) {
+    const Scene& scene = loaded("antique-room");
+    EXPECT_EQ(frame_range(scene), (FrameRange{0, 119}));
+    EXPECT_FALSE(is_world_animated(scene));
+    const ScenePose first = pose(scene, 0.0), last = pose(scene, 119.0 / 30.0);
+    EXPECT_GT(glm::distance(first.cameras[0].position, last.cameras[0].position), 1.5);
+    for (const Instance& instance : first.instances)
+        EXPECT_TRUE(world_of(first, instance.node) == world_of(last, instance.node));
+}
+
+TEST(AntiqueRoom, IsClosedSmallAndGlossy) {
+    const Scene& scene = loaded("antique-room");
+    EXPECT_LT(folder_size(scenes_folder / "antique-room"), 2'000'000u);
+    std::size_t pixels = 0, glossy = 0;
+    for (const int frame : {0, 40, 80, 119}) {
+        const ScenePose now = pose(scene, frame / 30.0);
+        for (const Hit& hit : cast(scene, now, make_camera_view(now.cameras.front(), 160, 120)).pixels) {
+            ASSERT_NE(hit.instance, no_index) << frame;
+            EXPECT_GT(hit.distance, 0.3) << frame;
+            const Instance& instance = now.instances[hit.instance];
+            const int material = scene.meshes[instance.mesh].material;
+            const MaterialValues& values = now.materials[material];
+            ++pixels;
+            glossy += values.specular > 0.0f && values.roughness >= 0.1f && values.roughness <= 0.3f ? 1 : 0;
+        }
+    }
+    EXPECT_GT(static_cast<double>(glossy) / static_cast<double>(pixels), 0.3);
+}
 
 TEST(BoomerangScene, ComesFromItsGeneratorByteForByte) {
     expect_generated(program_path("make_boomerang"), 1u + 4u);
@@ -55,13 +86,13 @@ struct Moving {
 Moving measure(int frame) {
     constexpr int width = 320, height = 240;  // half the size that the README speaks of
     const Scene& scene = loaded("boomerang");
-    const auto [hits, field, instances] = compute_motion(scene, frame, width, height);
+    const auto [now, other, hits, field] = compute_motion(scene, frame, width, height);
     Moving moving;
     int background = 0;
     for (std::size_t i = 0; i < hits.size(); ++i) {
         EXPECT_NE(hits.pixels[i].instance, no_index);  // a closed room
         if (hits.pixels[i].instance == no_index) continue;
-        const auto& instance = instances[hits.pixels[i].instance];
+        const auto& instance = now.pose.instances[hits.pixels[i].instance];
         const double speed = 2.0 * glm::length(field.displacement.pixels[i]);
         if (scene.nodes[instance.node].name == "boomerang") {
             moving.boomerang_share += 1.0 / static_cast<double>(hits.size());

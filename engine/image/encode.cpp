@@ -1,0 +1,90 @@
+// 8-bit PNG files, and Radiance pictures (.hdr): RGBE, three mantissas of 8 bits with one exponent (Ward 1991, "Real
+// Pixels", Graphics Gems II).
+
+#include <OpenImageIO/filesystem.h>
+#include <OpenImageIO/imageio.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "engine/base/errors.h"
+#include "engine/image/codec.h"
+
+namespace aleph {
+
+namespace {
+
+constexpr float too_large = 0x1p127f;  // the exponent has a byte, with 128 for 1
+constexpr float largest = 0xffp119f;
+
+/// @param changed  increased by the values that the format cannot hold
+Rgb replace_unfit(const Rgb& given, std::size_t& changed) {
+    Rgb fit = given;
+    for (int c = 0; c < 3; ++c) {
+        if (given[c] >= 0.0f && given[c] < too_large) continue;
+        fit[c] = given[c] > 0.0f ? largest : 0.0f;  // NaN gives 0
+        ++changed;
+    }
+    return fit;
+}
+
+/// The nearest that the format holds; encoders cut the rest off.
+Rgb round_to_rgbe(const Rgb& color) {
+    const float brightest = std::max({color.x, color.y, color.z});
+    if (brightest < 0x1p-120f) return Rgb(0.0f);
+    int exponent = 0;
+    std::frexp(brightest, &exponent);
+    const auto round = [&](float v) {
+        return std::min(std::ldexp(std::nearbyint(std::ldexp(v, 8 - exponent)), exponent - 8), largest);
+    };
+    return {round(color.x), round(color.y), round(color.z)};
+}
+
+/// sRGB of [0,1] in 0 .. 255, rounded. Values outside are clamped; NaN gives 0.
+std::uint8_t encode_srgb8(float linear) {
+    if (!(linear > 0.0f)) return 0;  // NaN too
+    if (linear >= 1.0f) return 255;
+    return static_cast<std::uint8_t>(std::lround(255.0f * linear_to_srgb(linear)));
+}
+
+/// @param extension  of the format, without a dot
+std::string encode(const std::string& extension, const OIIO::ImageSpec& spec, const void* pixels) {
+    const auto output = OIIO::ImageOutput::create(extension);
+    if (!output) throw InputError("", "", fmt::format("OpenImageIO cannot write {}: {}", extension, OIIO::geterror()));
+    std::vector<unsigned char> bytes;
+    OIIO::Filesystem::IOVecOutput memory(bytes);
+    // Some failures are reported by geterror() only.
+    const bool done = output->set_ioproxy(&memory) && output->open("memory." + extension, spec) &&
+                      output->write_image(spec.format, pixels) && output->close();
+    const std::string error = output->geterror();
+    if (!done || !error.empty())
+        throw InputError("", "", printable(error.empty() ? extension + ": failed" : error, 400));
+    return {bytes.begin(), bytes.end()};
+}
+
+}  // namespace
+
+std::string encode_hdr(const Image<Rgb>& linear, std::size_t& changed) {
+    check_size(linear.width, linear.height, "");
+    changed = 0;
+    Image<Rgb> encoded(linear.width, linear.height);
+    for (std::size_t i = 0; i < linear.size(); ++i)
+        encoded.pixels[i] = round_to_rgbe(replace_unfit(linear.pixels[i], changed));
+    return encode("hdr", {linear.width, linear.height, 3, OIIO::TypeDesc::FLOAT}, encoded.pixels.data());
+}
+
+std::string encode_png(const Image<Rgb>& linear) {
+    check_size(linear.width, linear.height, "");
+    Image<std::array<std::uint8_t, 3>> encoded(linear.width, linear.height);
+    for (std::size_t i = 0; i < linear.size(); ++i) {
+        const Rgb& c = linear.pixels[i];
+        encoded.pixels[i] = {encode_srgb8(c.x), encode_srgb8(c.y), encode_srgb8(c.z)};
+    }
+    OIIO::ImageSpec spec(linear.width, linear.height, 3, OIIO::TypeDesc::UINT8);
+    spec.attribute("oiio:ColorSpace", "sRGB");
+    return encode("png", spec, encoded.pixels.data());
+}
+
+}  // namespace aleph
