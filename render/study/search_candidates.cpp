@@ -54,6 +54,11 @@ SettingMap make_candidate(const Study& study, const std::vector<std::size_t>& ch
         settings.erase("adapter");
         settings.erase("adapter_k");
     }
+    const auto accuracy = all.find("accuracy");
+    if (accuracy != all.end() && accuracy->second == SettingValue(0.0)) {  // nothing is kept that these speak of
+        for (const char* const key : {"gather", "light_step", "adapter", "adapter_k"}) settings.erase(key);
+        settings["guide"] = std::string("none");
+    }
     settings["sampling"] = std::string("uniform");
     settings["error"] = 0.0;
     return settings;
@@ -91,7 +96,7 @@ StudySearch default_search() {
     StudySearch search;
     search.settings = {{"guide", {Text("none"), Text("saliency")}},
                        {"adapter", {Text("compress"), Text("scale-add")}},
-                       {"accuracy", {0.05, 0.1, 0.15, 0.3, 0.5}},
+                       {"accuracy", {0.0, 0.05, 0.1, 0.15, 0.3, 0.5}},
                        {"gather", {64.0, 128.0, 256.0, 512.0}},
                        {"spp", {4.0, 8.0, 16.0, 32.0, 64.0, 128.0}},
                        {"light_samples", {Text("spp"), 16.0}},

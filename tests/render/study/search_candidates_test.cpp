@@ -20,8 +20,14 @@ TEST(SearchCandidates, DefaultsAreFixedSettingsThatDiffer) {
     ASSERT_EQ(candidates.size(), 48u);
     std::set<SettingMap> different;
     std::map<SettingValue, int> spp;
+    int without_records = 0;
     for (const StudyVariant& candidate : candidates) {
         const SettingMap& settings = candidate.settings;
+        const bool records = settings.at("accuracy") != SettingValue(0.0);
+        EXPECT_EQ(settings.contains("gather"), records);
+        EXPECT_EQ(settings.contains("light_step"), records);
+        EXPECT_TRUE(records || settings.at("guide") == none);
+        without_records += records ? 0 : 1;
         EXPECT_TRUE(different.insert(settings).second) << candidate.name;
         EXPECT_EQ(settings.at("sampling"), SettingValue(std::string("uniform")));
         EXPECT_EQ(settings.at("error"), SettingValue(0.0));
@@ -30,6 +36,7 @@ TEST(SearchCandidates, DefaultsAreFixedSettingsThatDiffer) {
         EXPECT_TRUE(light == settings.at("spp") || light == SettingValue(16.0));
         ++spp[settings.at("spp")];
     }
+    EXPECT_NEAR(without_records, 8, 2);
     ASSERT_EQ(spp.size(), 6u);
     for (const auto& [value, count] : spp) EXPECT_NEAR(count, 8, 3) << "dealt evenly, but for equal candidates";
 }
