@@ -123,7 +123,8 @@ void Sequence::load_light(const std::filesystem::path& path) {
     if (!s.shot_light) {
         throw InputError(
             path.string(), "",
-            "a cache file needs lighting keyframes: the integrator cache, a light_step and an accuracy above 0");
+            "a cache file needs lighting keyframes: the integrator cache, an accuracy and a light_step above 0 (beside "
+            "error, set light_step too)");
     }
     s.shot_light->keep_records(read_cache_file(path, s.fingerprint()));
 }
