@@ -55,7 +55,8 @@ bool needs_record(const IrradianceCache& cache, const IndirectContext& context, 
     const float accuracy = context.accuracy(pixel.x, pixel.y);
     const auto expected = cache.expect({point.position, point.normal, accuracy}, context.max_radius);
     if (!expected) return true;
-    return is_worth_record(*expected, point.footprint, accuracy, point.reflected, (*context.tolerance)(pixel.x, pixel.y),
+    return is_worth_record(*expected, point.footprint, accuracy, point.reflected,
+                           (*context.tolerance)(pixel.x, pixel.y),
                            choose_rays(context.settings, accuracy, expected->ray_variance));
 }
 
@@ -113,15 +114,12 @@ std::vector<Candidate> accept_candidates(const IrradianceCache& cache, const Ind
         record.normal = candidate.query.normal;
         record.accuracy = candidate.query.accuracy;
         record.min_radius = candidate.bounds.min;
-        record.radius =
-            std::max(cache.radius_bound(record.position, record.normal, context.max_radius), record.min_radius);
+        const auto known = cache.expect(candidate.query, context.max_radius);
+        record.radius = std::max(known ? known->reach.radius : context.max_radius, record.min_radius);
         expected.insert(record);
-        candidate.rays = rays;
-        if (rays == 0) {
-            const auto known = cache.expect(candidate.query, context.max_radius);
-            candidate.rays = choose_rays(context.settings, candidate.query.accuracy,
-                                         known ? std::optional(known->ray_variance) : std::nullopt);
-        }
+        candidate.rays = rays > 0 ? rays
+                                  : choose_rays(context.settings, candidate.query.accuracy,
+                                                known ? std::optional(known->ray_variance) : std::nullopt);
         accepted.push_back(candidate);
     }
     waiting = std::move(later);

@@ -8,7 +8,7 @@ namespace aleph {
 /// The surface of a pixel's sample.
 struct FillPoint {
     glm::vec3 position{0.0f};  ///< m, relative to the anchor of IndirectContext::lighting
-    float footprint = -1.0f;   ///< m, of the pixel; negative: no light is needed here, or it is known (CarriedLight)
+    float footprint = -1.0f;   ///< m, of the pixel; negative: no record is needed, or light is known (CarriedLight)
     glm::vec3 normal{0.0f};    ///< unit
     float reflected = 0.0f;    ///< luminance of radiance over irradiance
 };

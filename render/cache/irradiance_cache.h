@@ -108,7 +108,7 @@ class IrradianceCache {
 
     std::vector<IrradianceRecord> records_;
     RecordIndex index_;
-    float max_accuracy_ = 0.0f;  ///< of the records
+    float max_accuracy_ = 0.0f;                       ///< of the records
     double ray_variances_ = 0.0, irradiances_ = 0.0;  ///< sums over the records
 };
 

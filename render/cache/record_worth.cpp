@@ -2,6 +2,8 @@
 
 #include <numbers>
 
+#include "render/guide/stopping_rule.h"
+
 namespace aleph {
 
 namespace {
@@ -12,16 +14,13 @@ constexpr double sample_cost = 6.0, ray_cost = 1.5;
 /// Samples that a pixel takes for the sake of other light.
 constexpr double usual_samples = 20.0;
 
-/// Root mean square errors that a pixel's tolerance holds (error_deviations, stopping_rule.h).
-constexpr double deviations = 1.6;
-
 }  // namespace
 
 bool is_worth_record(const ExpectedRecord& expected, float footprint, float accuracy, float reflected, float tolerance,
                      int rays) {
     const double reach = expected.reach.at(accuracy) / footprint;
     const double pixels = std::numbers::pi * reach * reach;
-    const double light = reflected * expected.irradiance * deviations / tolerance;
+    const double light = reflected * expected.irradiance * error_deviations / tolerance;
     const double more_samples = expected.ray_variance * light * light / sample_rays;
     const double rays_cost = sample_rays * ray_cost;
     return rays <= pixels * (usual_samples * rays_cost + more_samples * (sample_cost + rays_cost));

@@ -1,11 +1,10 @@
 #pragma once
 // Where a record costs less than the rays of samples that do without one.
 //
-// A record casts hundreds of rays, and is read within its reach. Beside small things its reach is a pixel or two, and the
-// few rays that every sample of these pixels would cast by itself cost less: unless their light varies so much with
+// A record casts hundreds of rays, and is read within its reach. Beside small things its reach is a pixel or two, and
+// the few rays that every sample of these pixels would cast by itself cost less: unless their light varies so much with
 // direction that the pixels would need many more samples.
 
-#include "render/cache/fill_points.h"
 #include "render/cache/irradiance_cache.h"
 
 namespace aleph {

@@ -8,8 +8,8 @@
 
 namespace aleph {
 
-/// What is seen is the error's energy around a pixel, a sum of some eight independent parts. It is within this many times
-/// its own root mean square at 99 % of the pixels (chi-square of 8 degrees of freedom).
+/// What is seen is the error's energy around a pixel, a sum of some eight independent parts. It is within this many
+/// times its own root mean square at 99 % of the pixels (chi-square of 8 degrees of freedom).
 inline constexpr double error_deviations = 1.585;
 
 /// How much more error of samples goes unseen than of noise that is independent from pixel to pixel: pixel_sequence.h

@@ -16,8 +16,8 @@ namespace aleph {
 
 namespace {
 
-constexpr double fill_share = 0.3;          // of a frame's time, for progress only
-constexpr std::size_t task_ranges = 64;     // pixels of a task
+constexpr double fill_share = 0.3;                      // of a frame's time, for progress only
+constexpr std::size_t task_ranges = 64;                 // pixels of a task
 constexpr std::size_t slice_ranges = 64 * task_ranges;  // between reports of progress
 
 class FrameShading {

@@ -39,7 +39,7 @@ struct IntegratorInput {
     const IndirectContext& context;
     const SampleOptions& options;
     ShadedFrame& out;
-    std::uint32_t noise_key = 0;  ///< SamplePlace::noise_key
+    std::uint32_t noise_key = 0;             ///< SamplePlace::noise_key
     const Image<float>& sampling_tolerance;  ///< SamplingPlan::tolerance
     /// Errors that do not fall with the number of samples; empty: nothing may be left out.
     const std::optional<SystematicTolerance>& tolerance;

@@ -112,7 +112,8 @@ std::optional<Rgb> ShutterLight::find(const PixelSurface& surface, float accurac
     const float turn = glm::length(surface.point.normal - point->normal) / std::numbers::sqrt2_v<float>;
     if (!(turn <= accuracy)) return std::nullopt;
     const glm::vec3 moved = surface.point.position + shift_ - point->position;
-    if (find_hidden_change(movers_, point->position, moved, surface.hit.instance, accuracy) > accuracy) return std::nullopt;
+    const float hidden = find_hidden_change(movers_, point->position, moved, surface.hit.instance, accuracy);
+    if (hidden > accuracy) return std::nullopt;
     PixelSurface still = surface;
     still.point = *point;
     RecordUse of_these;

@@ -58,7 +58,8 @@ class ShutterLight {
     /// Irradiance at a surface of the sample's time, where it is known to this accuracy. Any thread may call it.
     /// @param task  casts rays at the shutter's centre
     /// @param used  increased by the records that are used; may be null
-    std::optional<Rgb> find(const PixelSurface& surface, float accuracy, RayTask& task, RecordUse* used = nullptr) const;
+    std::optional<Rgb> find(const PixelSurface& surface, float accuracy, RayTask& task,
+                            RecordUse* used = nullptr) const;
 
   private:
     std::optional<Rgb> read(const PixelSurface& still, float accuracy, RayTask& task, RecordUse& used) const;

@@ -2,10 +2,12 @@
 
 #include "render/cache/record_worth.h"
 
-#include <gtest/gtest.h>
-
+#include "engine/load/load_scene.h"
 #include "render/cache/cache_fill.h"
+#include "render/frame/sequence.h"
+#include "tests/support/paths.h"
 #include "tests/support/render_scenes.h"
+#include "tests/support/test.h"
 
 namespace aleph {
 namespace {
@@ -58,6 +60,36 @@ TEST(RecordWorth, ATolerantPictureHasFewerRecordsAndAStrictOneAll) {
     EXPECT_GE(few, 20u) << "large tiles have records in any case";
     EXPECT_LT(few * 2, all);
     EXPECT_GT(most, all * 8 / 10);
+}
+
+/// Rays of samples are without bias, and records nearly: the mixture has the light of traced paths.
+TEST(RecordWorth, FramesMixRecordsAndRaysOfSamples) {
+    const Scene scene = load_scene(source_folder() / "scenes/cornell/scene.json");
+    RenderSettings settings;
+    settings.picture.width = 48;
+    settings.picture.height = 36;
+    follow_error(settings, 1.0);
+    settings.light.bounces = 2;
+    const FrameOutput mixed = Sequence(scene, settings).render(15);
+    EXPECT_GT(mixed.shaded.counts.records, 10u);
+    EXPECT_GT(mixed.shaded.counts.rays.path, 1000u) << "samples cast rays";
+
+    settings.error = 0.0;  // the same records, without a tolerance: everywhere
+    settings.sampling.rule = Sampling::uniform;
+    settings.sampling.spp = 1;
+    const FrameOutput records = Sequence(scene, settings).render(15);
+    EXPECT_LT(mixed.shaded.counts.records, records.shaded.counts.records);
+
+    settings.light.integrator = Integrator::path;
+    settings.sampling.spp = 256;
+    settings.seed = 7;
+    const FrameOutput traced = Sequence(scene, settings).render(15);
+    double of_mixed = 0.0, of_traced = 0.0;
+    for (std::size_t i = 0; i < traced.shaded.color.size(); ++i) {
+        of_mixed += luminance(mixed.shaded.color.pixels[i]);
+        of_traced += luminance(traced.shaded.color.pixels[i]);
+    }
+    EXPECT_NEAR(of_mixed / of_traced, 1.0, 0.01);
 }
 
 }  // namespace

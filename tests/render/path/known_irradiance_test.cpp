@@ -89,6 +89,13 @@ TEST(KnownIrradianceTest, ItCountsForItsOwnBouncesOnly) {
         estimate(stage, mirror, 50, by_lobe_rays(one_bounce(&known)));
         EXPECT_EQ(known.lookups, 0) << held;
     }
+    // What knows fewer bounces is asked in the place of what knows more.
+    ConstantIrradiance more(2);
+    const ConstantIrradiance fewer(1);
+    more.fewer = &fewer;
+    estimate(stage, mirror, 50, by_lobe_rays(one_bounce(&more)));
+    EXPECT_EQ(more.lookups, 0);
+    EXPECT_GT(fewer.lookups, 0);
     // The surface that the path begins at, and those behind a turn at a Lambert layer, are not looked up.
     const ConstantIrradiance known(1);
     const auto from_lambert = [&](const Stage& s, RayTask& task, const ViewedSurface& surface, RandomStream& random) {

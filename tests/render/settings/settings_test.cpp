@@ -96,6 +96,7 @@ TEST(Settings, AnErrorChoosesWhatCostsAndTheRestOverridesIt) {
     EXPECT_EQ(settings.light.bounces, 16);
     EXPECT_EQ(settings.sampling.spp, 4096);
     EXPECT_EQ(settings.cache.gather, 100);
+    EXPECT_EQ(settings.cache.light_step, 0);
     apply_settings(settings, {{"spp", 64.0}}, "test");  // as the command line after the scene's file
     EXPECT_EQ(settings.sampling.spp, 64);
     EXPECT_EQ(settings.error, 2.0);
