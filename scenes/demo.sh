@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# The whole renderer in one command: set-up, build, two frames of `pool`, with samples spread evenly and by what a viewer sees, a table, pictures and a page.
+# The whole renderer in one command: set-up, build, four frames of `pool`, with samples spread evenly and by what a viewer sees, a table, pictures and a page.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 bash scenes/setup.sh
