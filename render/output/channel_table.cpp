@@ -53,8 +53,7 @@ std::vector<ChannelInfo> picture_channels() {
         {{"cache.count"},
          "cache records that indirect light is from (render)",
          "records that indirect light was interpolated from, per sample, those of lighting keyframes included; 0 where "
-         "it was "
-         "gathered; render only",
+         "samples cast rays; render only",
          "count, 0 and up",
          "0"},
         {{"cache.radius"},
