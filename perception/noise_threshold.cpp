@@ -7,9 +7,11 @@
 
 #include "engine/base/errors.h"
 #include "engine/base/parallel.h"
+#include "engine/base/pyramid.h"
 #include "perception/castle.h"
 #include "perception/display_hold.h"
 #include "perception/luminance_curve.h"
+#include "perception/visible_bands.h"
 
 namespace aleph {
 
@@ -62,7 +64,8 @@ struct Annulus {
 /// Annuli evenly spaced in the logarithm of frequency, cut by the square of the pixel grid's frequencies.
 std::array<Annulus, frequency_nodes> annuli() {
     std::array<Annulus, frequency_nodes> out;
-    const double highest = std::numbers::sqrt2 / 2.0, ratio = std::pow(highest / lowest_frequency, 1.0 / frequency_nodes);
+    const double highest = std::numbers::sqrt2 / 2.0,
+                 ratio = std::pow(highest / lowest_frequency, 1.0 / frequency_nodes);
     for (int i = 0; i < frequency_nodes; ++i) {
         const double inner = lowest_frequency * std::pow(ratio, i), f = inner * std::sqrt(ratio);
         const double arc = f <= 0.5 ? 2.0 * std::numbers::pi : 2.0 * std::numbers::pi - 8.0 * std::acos(0.5 / f);
@@ -71,69 +74,121 @@ std::array<Annulus, frequency_nodes> annuli() {
     return out;
 }
 
+/// The band of a frequency, cycles per pixel: bands meet at the geometric mean of their frequencies.
+std::size_t band_of(double frequency, const std::vector<BandShape>& shapes) {
+    std::size_t band = 0;
+    while (band + 1 < noise_bands && frequency * frequency < shapes[band].frequency * shapes[band + 1].frequency)
+        ++band;
+    return band;
+}
+
+/// Sensitivities to a frequency at a luminance.
+struct Sensitivities {
+    double rho = 0.0, sustained = 0.0, transient = 0.0, luminance = 0.0;  ///< rho: cycles per degree
+
+    Sensitivities(double frequency, double adapted) : rho(frequency), luminance(adapted) {
+        const double radius = 1.5 / rho, area = std::numbers::pi * radius * radius;
+        sustained = castle_sustained(rho, luminance, area);
+        transient = castle_transient(rho, luminance, area);
+    }
+    /// To what changes at omega Hz on the retina.
+    double at(double omega) const {
+        return castle_sustained_response(omega) * sustained + castle_transient_response(omega, luminance) * transient;
+    }
+};
+
+/// Contrasts of the picture's finest bands at each pixel, amplitudes over the luminance that the eye is adapted to.
+std::vector<BandContrasts> find_contrasts(const Image<Rgb>& picture, double white, const Image<float>& adaptation) {
+    std::vector<BandContrasts> contrasts(picture.size(), BandContrasts{});
+    const std::vector<BandShape> shapes = visible_bands(picture.width, picture.height);
+    const std::vector<LevelSize> sizes = pyramid_sizes(picture.width, picture.height, shapes.back().level + 1);
+    const std::vector<Image<float>> bands = split_bands(compute_visual_channels(picture, white)[0]);
+    for (std::size_t b = 0; b < std::min<std::size_t>(noise_bands, bands.size()); ++b) {
+        const Image<float> amplitude = expand_to_level(local_amplitude(bands[b], shapes[b]), sizes, shapes[b].level, 0);
+        for (std::size_t i = 0; i < contrasts.size(); ++i)
+            contrasts[i][b] = std::max(0.0f, amplitude.pixels[i]) / clamp_threshold_luminance(adaptation.pixels[i]);
+    }
+    return contrasts;
+}
+
 }  // namespace
 
-NoiseVisibility::NoiseVisibility(const ViewingConditions& viewing, const FrameRate& frame_rate,
-                                 NoiseOverTime over_time)
+NoiseVisibility::NoiseVisibility(const ViewingConditions& viewing, const FrameRate& frame_rate, NoiseOverTime over_time)
     : sensitivity_(static_cast<std::size_t>(luminance_nodes * velocity_nodes * velocity_nodes)) {
     const std::array<Annulus, frequency_nodes> space = annuli();
+    const std::vector<BandShape> shapes = visible_bands(256, 256);
     const int times = over_time == NoiseOverTime::fresh ? time_nodes : 1;
     parallel_for(luminance_nodes, 1, [&](std::size_t l, std::size_t) {
         const double luminance = node_luminance(static_cast<int>(l));
         for (int r = 0; r < velocity_nodes; ++r) {
-            std::array<double, frequency_nodes> squares{};  // sensitivity over time
-            std::array<double, frequency_nodes> rho{};
+            std::array<double, frequency_nodes> squares{}, rho{};  // sensitivity over time; cycles per degree
             for (int i = 0; i < frequency_nodes; ++i) {
                 rho[i] = space[i].frequency * viewing.pixels_per_degree;
-                const double radius = 1.5 / rho[i], area = std::numbers::pi * radius * radius;
-                const double sustained = castle_sustained(rho[i], luminance, area);
-                const double transient = castle_transient(rho[i], luminance, area);
+                const Sensitivities sensitivities(rho[i], luminance);
                 const double shift = rho[i] * node_velocity(r);
                 for (int t = 0; t < times; ++t) {
                     const double omega = times == 1 ? 0.0 : 0.5 * frame_rate.per_second() * (t + 0.5) / times;
-                    for (const double shifted : {omega + shift, std::abs(omega - shift)}) {
-                        const double s = castle_sustained_response(shifted) * sustained +
-                                         castle_transient_response(shifted, luminance) * transient;
-                        squares[i] += 0.5 * s * s / times;
-                    }
+                    for (const double shifted : {omega + shift, std::abs(omega - shift)})
+                        squares[i] += 0.5 * std::pow(sensitivities.at(shifted), 2.0) / times;
                 }
             }
+            std::array<double, noise_bands> pattern{}, pattern_rho{};
+            for (std::size_t b = 0; b < noise_bands; ++b) {
+                pattern_rho[b] = shapes[b].frequency * viewing.pixels_per_degree;
+                pattern[b] = Sensitivities(pattern_rho[b], luminance).at(pattern_rho[b] * node_velocity(r));
+            }
             for (int f = 0; f < velocity_nodes; ++f) {
-                double energy = 0.0;
-                for (int i = 0; i < frequency_nodes; ++i) {
-                    const double held = hold_transfer(rho[i], node_velocity(f), viewing.persistence, frame_rate);
-                    energy += space[i].energy * squares[i] * held * held;
-                }
+                const auto held = [&](double at) {
+                    return hold_transfer(at, node_velocity(f), viewing.persistence, frame_rate);
+                };
+                std::array<double, noise_bands> energy{};
+                for (int i = 0; i < frequency_nodes; ++i)
+                    energy[band_of(space[i].frequency, shapes)] +=
+                        space[i].energy * squares[i] * std::pow(held(rho[i]), 2.0);
                 const std::size_t at = (l * velocity_nodes + static_cast<std::size_t>(r)) * velocity_nodes;
-                sensitivity_[at + static_cast<std::size_t>(f)] = static_cast<float>(std::sqrt(2.0 * energy));
+                Bands& bands = sensitivity_[at + static_cast<std::size_t>(f)];
+                for (std::size_t b = 0; b < noise_bands; ++b)
+                    bands[b] = {static_cast<float>(std::sqrt(2.0 * energy[b])),
+                                static_cast<float>(pattern[b] * held(pattern_rho[b]))};
             }
         }
     });
 }
 
-float NoiseVisibility::threshold(float luminance, float retinal, float tracked) const {
+float NoiseVisibility::threshold(float luminance, float retinal, float tracked, const BandContrasts& contrasts) const {
     const Place l = luminance_place(luminance), r = velocity_place(retinal), f = velocity_place(tracked);
-    float sum = 0.0f;
+    Bands sum{};
     for (int i = 0; i < 8; ++i) {
         const int a = i & 1, b = (i >> 1) & 1, c = i >> 2;
         const float weight = (a ? l.fraction : 1.0f - l.fraction) * (b ? r.fraction : 1.0f - r.fraction) *
                              (c ? f.fraction : 1.0f - f.fraction);
         const int at = ((l.node + a) * velocity_nodes + r.node + b) * velocity_nodes + f.node + c;
-        sum += weight * sensitivity_[static_cast<std::size_t>(at)];
+        for (std::size_t band = 0; band < noise_bands; ++band) {
+            sum[band].noise += weight * sensitivity_[static_cast<std::size_t>(at)][band].noise;
+            sum[band].pattern += weight * sensitivity_[static_cast<std::size_t>(at)][band].pattern;
+        }
     }
-    return clamp_threshold_luminance(luminance) / std::max(1.0f, sum);
+    float visible2 = 0.0f;
+    for (std::size_t band = 0; band < noise_bands; ++band) {
+        const float masked = sum[band].noise / contrast_masking(sum[band].pattern * contrasts[band], 0);
+        visible2 += masked * masked;
+    }
+    return clamp_threshold_luminance(luminance) / std::max(1.0f, std::sqrt(visible2));
 }
 
-Image<float> compute_noise_threshold(const NoiseVisibility& noise, const Image<float>& adaptation_luminance,
-                                     const Image<float>& retinal, const Image<float>& velocity) {
-    if (!same_size(adaptation_luminance, retinal) || !(velocity.empty() || same_size(retinal, velocity)))
-        throw InputError("", "noise threshold", "adaptation luminance and velocities differ in size");
+Image<float> compute_noise_threshold(const NoiseVisibility& noise, const Image<Rgb>& picture, double white,
+                                     const Image<float>& adaptation_luminance, const Image<float>& retinal,
+                                     const Image<float>& velocity) {
+    if (!same_size(adaptation_luminance, retinal) || !same_size(picture, retinal) ||
+        !(velocity.empty() || same_size(retinal, velocity)))
+        throw InputError("", "noise threshold", "picture, adaptation luminance and velocities differ in size");
+    const std::vector<BandContrasts> contrasts = find_contrasts(picture, white, adaptation_luminance);
     Image<float> out(retinal.width, retinal.height);
     parallel_for(out.size(), 4096, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
             const float moved = retinal.pixels[i], seen = velocity.empty() ? 0.0f : velocity.pixels[i];
-            out.pixels[i] =
-                noise.threshold(adaptation_luminance.pixels[i], moved, seen > moved ? seen - moved : 0.0f);
+            out.pixels[i] = noise.threshold(adaptation_luminance.pixels[i], moved, seen > moved ? seen - moved : 0.0f,
+                                            contrasts[i]);
         }
     });
     return out;

@@ -1,8 +1,10 @@
 #pragma once
 // Noise of single pixels that goes unseen.
 
+#include <array>
 #include <vector>
 
+#include "engine/base/color.h"
 #include "engine/base/frame_rate.h"
 #include "engine/base/image.h"
 #include "engine/base/viewing.h"
@@ -15,10 +17,15 @@ enum class NoiseOverTime {
     lasts,  ///< once: it is the same in every frame
 };
 
+/// Bands in which noise and contrast are looked at: the finest of visible_bands.h; the last stands for all below it.
+inline constexpr int noise_bands = 4;
+using BandContrasts = std::array<float, noise_bands>;
+
 /// Visibility of noise that is independent from pixel to pixel, by castleCSF (castle.h): in just visible differences,
-/// D^2 = 2 (sigma / L)^2 times the mean of S^2 over the frequencies that the noise has in space, the square of half a
-/// cycle per pixel either way, and over time. S is the sensitivity to a patch of 1.5 cycles at the frequency that a
-/// pattern has on the retina, times what a display that holds its frames passes of what the eye follows.
+/// D^2 = 2 (sigma / L)^2 times the mean of (S / M)^2 over the frequencies that the noise has in space, the square of
+/// half a cycle per pixel either way, and over time. S is the sensitivity to a patch of 1.5 cycles at the frequency
+/// that a pattern has on the retina, times what a display that holds its frames passes of what the eye follows; M is
+/// how much the contrast of the picture masks in the band (contrast_masking).
 class NoiseVisibility {
   public:
     NoiseVisibility(const ViewingConditions& viewing, const FrameRate& frame_rate, NoiseOverTime over_time);
@@ -28,17 +35,26 @@ class NoiseVisibility {
     /// @param luminance  that the eye is adapted to, cd/m2; NaN and values below 1e-3 count as 1e-3
     /// @param retinal    motion over the retina, deg/s; NaN and negative values count as 0
     /// @param tracked    what the eye follows, deg/s, likewise
-    float threshold(float luminance, float retinal, float tracked) const;
+    /// @param contrasts  amplitudes of the picture's bands over that luminance, finite, 0 and up
+    float threshold(float luminance, float retinal, float tracked, const BandContrasts& contrasts = {}) const;
 
   private:
-    std::vector<float> sensitivity_;  ///< D L / sigma by luminance, retinal and tracked velocity
+    struct Band {
+        float noise = 0.0f;    ///< D L / sigma
+        float pattern = 0.0f;  ///< sensitivity to a pattern of the band that stands still on what moves
+    };
+    using Bands = std::array<Band, noise_bands>;
+    std::vector<Bands> sensitivity_;  ///< by luminance, retinal and tracked velocity
 };
 
 /// NoiseVisibility::threshold of every pixel.
+/// @param picture   what is shown; white = 1
+/// @param white     luminance of the display's white, cd/m2
 /// @param retinal   deg/s (perception.h)
 /// @param velocity  image velocity, deg/s: what is not retinal motion is tracked; empty: nothing is
 /// @throws InputError if the sizes differ
-Image<float> compute_noise_threshold(const NoiseVisibility& noise, const Image<float>& adaptation_luminance,
-                                     const Image<float>& retinal, const Image<float>& velocity);
+Image<float> compute_noise_threshold(const NoiseVisibility& noise, const Image<Rgb>& picture, double white,
+                                     const Image<float>& adaptation_luminance, const Image<float>& retinal,
+                                     const Image<float>& velocity);
 
 }  // namespace aleph

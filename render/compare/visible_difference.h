@@ -14,8 +14,8 @@
 #include <vector>
 
 #include "perception/retinal_velocity.h"
+#include "perception/visible_bands.h"
 #include "render/compare/surface_track.h"
-#include "render/compare/visible_bands.h"
 #include "render/compare/visible_filters.h"
 
 namespace aleph {

@@ -5,7 +5,7 @@
 
 #include "engine/base/frame_rate.h"
 #include "engine/base/viewing.h"
-#include "render/compare/visible_bands.h"
+#include "perception/visible_bands.h"
 
 namespace aleph {
 

@@ -23,7 +23,8 @@ std::array<float, 4> cubic_weights(float t) {
 float sample(const Image<float>& image, float x, float y) {
     const float left = std::floor(x), top = std::floor(y);
     const int column = static_cast<int>(left), row = static_cast<int>(top);
-    if (x == left && y == top && column >= 0 && row >= 0 && column < image.width && row < image.height) return image(column, row);
+    if (x == left && y == top && column >= 0 && row >= 0 && column < image.width && row < image.height)
+        return image(column, row);
     const auto wx = cubic_weights(x - left), wy = cubic_weights(y - top);
     float sum = 0.0f;
     for (int j = 0; j < 4; ++j) {
@@ -63,7 +64,8 @@ Image<float> image_velocity(const MotionMaps& motion, const TrackImage* before, 
             if (motion.valid.pixels[i] == 1.0f) {
                 pixels = std::hypot(motion.u.pixels[i], motion.v.pixels[i]);
             } else if (before && !std::isnan(before->pixels[i].x)) {
-                pixels = std::hypot(before->pixels[i].x - static_cast<float>(x), before->pixels[i].y - static_cast<float>(y));
+                pixels = std::hypot(before->pixels[i].x - static_cast<float>(x),
+                                    before->pixels[i].y - static_cast<float>(y));
             }
             velocity.pixels[i] = std::isfinite(pixels) ? static_cast<float>(scale * pixels) : 0.0f;
         }
@@ -92,7 +94,8 @@ SignalParts filter_band(const BandWindow& window, const VisibleFilter& filter, c
         std::array<float, most_frames> weights{};
         for (int y = begin; y < end; ++y) {
             for (int x = 0; x < width; ++x) {
-                const std::size_t pixel = velocity.index(x << window.level, y << window.level), i = background.index(x, y);
+                const std::size_t pixel = velocity.index(x << window.level, y << window.level),
+                                  i = background.index(x, y);
                 track.values[reach] = window.current->pixels[i];
                 look_up(track, 1, window.next, *window.after, pixel);
                 look_up(track, -1, window.previous, *window.before, pixel);
@@ -117,13 +120,10 @@ SignalParts filter_band(const BandWindow& window, const VisibleFilter& filter, c
 
 Image<float> masking_elevation(const Image<float>& masker, const Image<float>& background,
                                const Image<float>& sensitivity, int channel) {
-    constexpr float k = 0.160141f, p = 2.264355f;  // k = 10^-.795497
-    constexpr float q[visual_channels] = {1.302623f, 2.888591f, 3.680771f};
-    constexpr float w[visual_channels] = {0.876909f, 1.269330f, 0.697693f};  // 2^-.189501, 2^.344067, 2^-.519338
     Image<float> elevation(masker.width, masker.height);
     for (std::size_t i = 0; i < masker.size(); ++i) {
         const float contrast = sensitivity.pixels[i] * masker.pixels[i] / std::max(darkest, background.pixels[i]);
-        elevation.pixels[i] = std::pow(1.0f + w[channel] * std::pow(k * contrast, q[channel]), 1.0f / p);
+        elevation.pixels[i] = contrast_masking(contrast, channel);
     }
     return elevation;
 }

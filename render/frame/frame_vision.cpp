@@ -21,8 +21,8 @@ bool follows_motion(Guide guide) {
 
 }  // namespace
 
-void compute_frame_vision(FrameOutput& out, const Scene& shot, const RenderSettings& settings, const NoiseVisibility& noise,
-                          bool maps, StageClock& clock) {
+void compute_frame_vision(FrameOutput& out, const Scene& shot, const RenderSettings& settings,
+                          const NoiseVisibility& noise, bool maps, StageClock& clock) {
     StageSeconds& seconds = out.statistics.seconds;
     out.velocity = compute_image_velocity(out.motion, shot.viewing, shot.frame_rate);
     clock.add_to(seconds.motion);
@@ -32,9 +32,9 @@ void compute_frame_vision(FrameOutput& out, const Scene& shot, const RenderSetti
     Image<float>& adaptation = out.perception.adaptation;
     if (adaptation.empty()) adaptation = compute_adaptation_luminance(out.estimate, shot.viewing);
     out.threshold = compute_threshold(out.perception.aleph, adaptation, *settings.perception.vision);
-    out.threshold_noise =
-        compute_noise_threshold(noise, adaptation, out.perception.retinal_velocity,
-                                follows_motion(settings.perception.guide) ? out.velocity : Image<float>());
+    out.threshold_noise = compute_noise_threshold(
+        noise, out.estimate, shot.viewing.display_white, adaptation, out.perception.retinal_velocity,
+        follows_motion(settings.perception.guide) ? out.velocity : Image<float>());
     out.alpha = compute_accuracy_map(out.perception.aleph, settings);
     clock.add_to(seconds.perception);
 }

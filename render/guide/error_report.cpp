@@ -5,6 +5,7 @@
 
 #include "engine/base/parallel.h"
 #include "render/guide/accuracy_map.h"
+#include "render/guide/mean_around.h"
 #include "render/guide/stopping_rule.h"
 
 namespace aleph {
@@ -86,7 +87,7 @@ ErrorMaps estimate_errors(const ErrorInput& input) {
                 double total = 0.0;
                 for (std::size_t i = 0; i < errors.size(); ++i) {
                     const bool cached = i == static_cast<std::size_t>(ErrorCause::indirect);
-                    const double limit = cached ? input.threshold(x, y) : fine_grain * input.noise(x, y);
+                    const double limit = cached ? input.threshold(x, y) : noise_allowance * input.noise(x, y);
                     const double units = limit > 0.0 ? std::sqrt(errors[i]) * input.luminance_scale / limit : 0.0;
                     total += units * units;
                     maps.by_cause[i](x, y) = static_cast<float>(units);
@@ -100,8 +101,11 @@ ErrorMaps estimate_errors(const ErrorInput& input) {
 
 ErrorShares count_errors(const ErrorMaps& maps, double asked) {
     const auto mean_share = [asked](const Image<float>& map) {
+        Image<float> energy = map;
+        for (float& value : energy.pixels) value *= value;
         double sum = 0.0;
-        for (const float deviation : map.pixels) sum += share_beyond(deviation, asked);
+        for (const float around : mean_around(energy, true).pixels)
+            sum += share_beyond(std::sqrt(static_cast<double>(around)), asked);
         return map.empty() ? 0.0 : sum / static_cast<double>(map.size());
     };
     ErrorShares shares{asked, mean_share(maps.total)};

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "render/guide/mean_around.h"
+
 namespace aleph {
 
 namespace {
@@ -54,6 +56,17 @@ MeanEstimate estimate_mean(const Image<PixelSamples>& pixels, const Image<Outlin
     return estimate;
 }
 
+Image<float> deviations_around(const Image<PixelSamples>& pixels) {
+    constexpr float normal = 0.797884561f;  // mean size of a normal number: the halves of a pixel tell one
+    Image<float> deviations(pixels.width, pixels.height);
+    for (std::size_t i = 0; i < pixels.size(); ++i) {
+        const PixelSamples::Error& error = pixels.pixels[i].error();
+        deviations.pixels[i] =
+            error.samples == 0 ? -1.0f : std::sqrt(error.total * static_cast<float>(error.samples)) / normal;
+    }
+    return mean_around(deviations, false);
+}
+
 bool is_enough(Sampling rule, VarianceTest test, const MeanEstimate& mean, double tolerance) {
     const double tolerated2 = tolerance > 0.0 ? tolerance * tolerance : 0.0;
     switch (rule) {
@@ -65,7 +78,8 @@ bool is_enough(Sampling rule, VarianceTest test, const MeanEstimate& mean, doubl
         case Sampling::variance:
             return (test == VarianceTest::deviation ? mean.variance : mean.variance / mean.samples) <= tolerated2;
         case Sampling::threshold:
-            return error_deviations * error_deviations * mean.error2 <= tolerated2;
+            return error_deviations * error_deviations * std::sqrt(mean.error2 / mean.samples) * mean.around <=
+                   tolerated2;
     }
     return true;
 }

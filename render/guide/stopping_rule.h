@@ -12,10 +12,10 @@ namespace aleph {
 /// times its own root mean square at 99 % of the pixels (chi-square of 8 degrees of freedom).
 inline constexpr double error_deviations = 1.585;
 
-/// How much more error of samples goes unseen than of noise that is independent from pixel to pixel: pixel_sequence.h
-/// spreads samples evenly over neighbouring pixels, so that most of their error is fine grain. Measured in pool and
-/// art-gallery with the instrument of compare/visible_difference.h (scenes/studies/README.md).
-inline constexpr double fine_grain = 1.8;
+/// What error of samples goes unseen, over what noise of single pixels does (NoiseVisibility): pixel_sequence.h makes
+/// it finer than such noise, but halves of few samples tell too little of it. Measured in pool and art-gallery with the
+/// instrument of compare/visible_difference.h (scenes/studies/README.md).
+inline constexpr double noise_allowance = 0.9;
 
 /// The mean of a pixel's samples, as its neighbours tell it. A pixel's own samples never decide when it stops: a pixel
 /// whose first samples happen to agree would stop early, more often at a value that is too low than at one that is too
@@ -24,7 +24,12 @@ struct MeanEstimate {
     int samples = 0;
     double error2 = 0.0;    ///< squared error of the mean luminance, from halves (PixelSamples)
     double variance = 0.0;  ///< of one sample's luminance
+    double around = 0.0;    ///< deviation of one sample of the pixels around (deviations_around), luminance
 };
+
+/// Mean over the pixels around, without the pixel itself (mean_around), of the standard deviation of their samples'
+/// luminance: of independent samples with as much error as theirs.
+Image<float> deviations_around(const Image<PixelSamples>& pixels);
 
 /// The larger of what the eight pixels around (x, y) tell, and the 24. Only those count that have an outline as it has,
 /// or have none as it has none: beside an outline the noise is another. Where there is no such pixel, all eight
@@ -36,7 +41,10 @@ MeanEstimate estimate_mean(const Image<PixelSamples>& pixels, const Image<Outlin
 /// consecutive (6.10): the means of this stage and of the one before differ by less than the tolerance.
 /// variance (6.12): the standard error of independent samples is below the tolerance; or as printed their standard
 /// deviation, which does not fall with their number.
-/// threshold: error_deviations standard errors are within the tolerance.
+/// threshold: n samples are enough if error_deviations^2 s S / n is within the tolerance squared, with s the deviation
+/// of the pixel's samples and S that of those around. The energy of the errors in seen_reach is then within it, with
+/// the fewest samples in all (Neyman 1934): where deviations are equal, when error_deviations standard errors are
+/// within the tolerance; at a lone outline with fewer samples, around it with more.
 /// @param tolerance  of luminance, in the samples' unit. 0 or less is met by an error of 0 only
 bool is_enough(Sampling rule, VarianceTest test, const MeanEstimate& mean, double tolerance);
 

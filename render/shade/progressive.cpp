@@ -28,12 +28,14 @@ std::vector<PixelRange> first_ranges(const SamplingPlan& plan, const Image<Pixel
 std::vector<PixelRange> next_ranges(const SamplingPlan& plan, const Image<PixelSamples>& pixels,
                                     const std::vector<PixelRange>& stage) {
     std::vector<std::uint8_t> goes_on(stage.size());
+    const Image<float> around = plan.rule == Sampling::threshold ? deviations_around(pixels) : Image<float>();
     parallel_for(stage.size(), 4096, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
             const PixelRange& range = stage[i];
             if (range.last >= plan.most) continue;
-            goes_on[i] = !is_enough(plan.rule, plan.test, estimate_mean(pixels, plan.outlines, range.x, range.y),
-                                    plan.tolerance(range.x, range.y));
+            MeanEstimate mean = estimate_mean(pixels, plan.outlines, range.x, range.y);
+            if (!around.empty()) mean.around = static_cast<double>(around(range.x, range.y));
+            goes_on[i] = !is_enough(plan.rule, plan.test, mean, plan.tolerance(range.x, range.y));
         }
     });
     std::vector<PixelRange> next;

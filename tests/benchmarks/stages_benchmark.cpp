@@ -157,7 +157,7 @@ void threshold_noise(benchmark::State& state) {
     const NoiseVisibility noise({}, {}, NoiseOverTime::fresh);
     const Image<float>& velocity = inputs().velocity;
     for (auto _ : state)
-        benchmark::DoNotOptimize(compute_noise_threshold(noise, luminance, velocity, velocity).pixels.data());
+        benchmark::DoNotOptimize(compute_noise_threshold(noise, inputs().estimate, 100.0, luminance, velocity, velocity).pixels.data());
 }
 
 /// Copies each image once: what a stage reads and writes, without its arithmetic.

@@ -3,6 +3,7 @@
 #include "perception/noise_threshold.h"
 #include "perception/castle.h"
 #include "perception/display_hold.h"
+#include "perception/visible_bands.h"
 #include "tests/support/test.h"
 
 namespace aleph::noise_threshold_test {
@@ -72,11 +73,54 @@ TEST(NoiseThreshold, EveryInputHasAPositiveResult) {
         }
     }
     const Image<float> a(3, 2, 10.0f), b(2, 3, 1.0f);
-    EXPECT_THROW(compute_noise_threshold(noise, a, b, b), InputError);
-    EXPECT_THROW(compute_noise_threshold(noise, a, a, b), InputError);
-    const Image<float> moving = compute_noise_threshold(noise, a, Image<float>(3, 2, 0.15f), a);
-    const Image<float> still = compute_noise_threshold(noise, a, Image<float>(3, 2, 0.15f), {});
+    const Image<Rgb> shown(3, 2, Rgb(0.1f));
+    EXPECT_THROW(compute_noise_threshold(noise, shown, 100.0, a, b, b), InputError);
+    EXPECT_THROW(compute_noise_threshold(noise, shown, 100.0, a, a, b), InputError);
+    EXPECT_THROW(compute_noise_threshold(noise, Image<Rgb>(2, 3, Rgb(0.1f)), 100.0, a, a, a), InputError);
+    const Image<float> moving = compute_noise_threshold(noise, shown, 100.0, a, Image<float>(3, 2, 0.15f), a);
+    const Image<float> still = compute_noise_threshold(noise, shown, 100.0, a, Image<float>(3, 2, 0.15f), {});
     EXPECT_GT(moving(0, 0), still(0, 0)) << "a display that holds frames blurs what is followed";
+}
+
+TEST(NoiseThreshold, ContrastOfABandMasksTheNoiseInIt) {
+    const NoiseVisibility noise({}, thirty, NoiseOverTime::fresh);
+    const float bare = noise.threshold(50.0f, 0.15f, 0.0f);
+    BandContrasts all{};
+    float last = bare;
+    for (std::size_t band = 0; band < noise_bands; ++band) {
+        all[band] = 1.0f;
+        const float more = noise.threshold(50.0f, 0.15f, 0.0f, all);
+        EXPECT_GT(more, 1.01f * last) << band;
+        last = more;
+    }
+    // Contrast of 1 is many thresholds: the constants of contrast_masking bound what it may hide.
+    EXPECT_GT(last, 2.0f * bare);
+    EXPECT_LT(last, contrast_masking(150.0f, 0) * bare);
+    EXPECT_EQ(noise.threshold(50.0f, 0.15f, 0.0f, {0.0f, 0.0f, 0.0f, 0.0f}), bare);
+    // k = .160, q = 1.303, w = .877, p = 2.264, by hand at ten thresholds.
+    EXPECT_NEAR(contrast_masking(10.0f, 0), std::pow(1.0 + 0.876909 * std::pow(1.60141, 1.302623), 1.0 / 2.264355), 1e-4);
+    EXPECT_EQ(contrast_masking(0.0f, 0), 1.0f);
+    EXPECT_EQ(contrast_masking(float_nan, 2), 1.0f);
+}
+
+TEST(NoiseThreshold, APictureMasksWhereItHasContrast) {
+    constexpr int width = 64, height = 32;
+    Image<Rgb> picture(width, height, Rgb(0.5f));
+    for (int y = 0; y < height; ++y) {
+        for (int x = 0; x < width / 2; ++x) picture(x, y) = Rgb(x / 4 % 2 == 0 ? 0.3f : 0.7f);  // an eighth of a cycle a pixel
+    }
+    const Image<float> adaptation(width, height, 50.0f), retinal(width, height, 0.15f);
+    const NoiseVisibility noise({}, thirty, NoiseOverTime::fresh);
+    const Image<float> threshold = compute_noise_threshold(noise, picture, 100.0, adaptation, retinal, {});
+    const float bare = noise.threshold(50.0f, 0.15f, 0.0f);
+    EXPECT_GT(threshold(12, 16), 1.5f * bare);
+    EXPECT_NEAR(threshold(60, 16), bare, 0.02f * bare) << "coarse bands reach far";
+    picture(3, 3) = Rgb(float_nan);
+    picture(4, 3) = Rgb(float_infinity);
+    for (const float value : compute_noise_threshold(noise, picture, 100.0, adaptation, retinal, {}).pixels) {
+        EXPECT_TRUE(std::isfinite(value));
+        EXPECT_GE(value, 0.999f * bare);
+    }
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 
 #include "render/guide/stopping_rule.h"
 #include "engine/base/sampling.h"
+#include "render/guide/mean_around.h"
 #include "render/shade/error_budget.h"
 #include "render/shade/progressive.h"
 #include "tests/support/render_scenes.h"
@@ -161,6 +162,69 @@ TEST(StoppingRule, PixelsWithAnOutlineAreJudgedByOthersWithOne) {
     EXPECT_GT(estimate_mean(pixels, {}, 2, 1).error2, 0.0);
 }
 
+/// Every pixel's two samples differ by twice its deviation.
+Image<PixelSamples> pixels_of_deviations(int width, int height, const std::function<float(int, int)>& deviation) {
+    Image<PixelSamples> pixels(width, height);
+    for (int y = 0; y < height; ++y) {
+        for (int x = 0; x < width; ++x) {
+            for (const float sign : {-1.0f, 1.0f}) pixels(x, y).add(grey(10.0f + sign * deviation(x, y)));
+        }
+    }
+    return pixels;
+}
+
+TEST(StoppingRule, DeviationsAroundAreMeansOfOtherPixels) {
+    Image<PixelSamples> pixels = pixels_of_deviations(12, 7, [](int x, int) { return x < 6 ? 1.0f : 3.0f; });
+    const double one = std::sqrt(2.0) / std::sqrt(2.0 / std::numbers::pi);  // halves of one sample each
+    const Image<float> around = deviations_around(pixels);
+    EXPECT_NEAR(around(0, 3), one, 1e-5);
+    EXPECT_NEAR(around(11, 0), one * 3.0, 1e-5);
+    EXPECT_NEAR(around(5, 6), one * (5.0 * 5.0 + 4.0 * 5.0 * 3.0 - 1.0) / (9.0 * 5.0 - 1.0), 1e-5);
+    pixels(0, 0) = PixelSamples();  // not known
+    for (const float value : {0.0f, 100.0f}) pixels(1, 0).add(grey(value));
+    EXPECT_NEAR(deviations_around(pixels)(6, 6), around(6, 6), 1e-6) << "beyond reach";
+    EXPECT_NEAR(deviations_around(pixels_of_deviations(1, 1, [](int, int) { return 2.0f; }))(0, 0), 2.0 * one, 1e-5);
+    Image<float> values(20, 1, 1.0f);
+    values(10, 0) = 9.0f;
+    EXPECT_EQ(mean_around(values, false)(10, 0), 1.0f);
+    EXPECT_FLOAT_EQ(mean_around(values, true)(10, 0), 17.0f / 9.0f);
+    EXPECT_LT(mean_around(Image<float>(3, 3, -1.0f), true)(1, 1), 0.0f);
+}
+
+TEST(StoppingRule, AnOutlineNeedsFewerSamplesThanItsOwnErrorSays) {
+    // Columns of deviation 8 in a picture of deviation 1: the energy within reach is within the tolerance with a third of
+    // the samples that each pixel's own error asks for.
+    constexpr int width = 45, height = 45, period = 9;
+    constexpr float tolerance = 0.5f;
+    SamplingPlan plan = make_plan(Sampling::threshold, 1 << 14, width, height, tolerance);
+    plan.outlines = Image<Outline>(width, height, Outline::none);
+    for (int y = 0; y < height; ++y) {
+        for (int x = 4; x < width; x += period) plan.outlines(x, y) = Outline::still;
+    }
+    Image<PixelSamples> pixels(width, height);
+    sample_by_stages(plan, pixels, [&](std::span<const PixelRange> ranges) {
+        for (const auto& [x, y, first, last] : ranges) {
+            for (int i = first; i < last; ++i) {
+                RandomStream random({1, 0, static_cast<std::uint32_t>(pixels.index(x, y)), static_cast<std::uint32_t>(i)});
+                const double deviation = plan.outlines(x, y) == Outline::none ? 1.0 : 8.0;
+                pixels(x, y).add(grey(static_cast<float>(10.0 + deviation * std::sqrt(12.0) * (random.next() - 0.5))));
+            }
+        }
+    });
+    double taken = 0.0, energy = 0.0, alone = 0.0;
+    for (int y = 0; y < height; ++y) {
+        for (int x = 0; x < width; ++x) {
+            const double deviation = plan.outlines(x, y) == Outline::none ? 1.0 : 8.0;
+            taken += pixels(x, y).taken();
+            energy += std::pow(luminance(pixels(x, y).mean()) - 10.0, 2.0) / (width * height);
+            alone += std::pow(error_deviations * deviation / tolerance, 2.0);
+        }
+    }
+    EXPECT_LT(std::sqrt(energy) * error_deviations, 1.1 * tolerance);
+    EXPECT_LT(taken, 0.7 * alone);
+    EXPECT_GT(pixels(22, 4).taken(), pixels(20, 4).taken());
+}
+
 TEST(StoppingRule, TheVarianceRuleReadsDeviationOrError) {
     const MeanEstimate mean{64, 0.0, 0.04};
     EXPECT_TRUE(is_enough(Sampling::variance, VarianceTest::standard_error, mean, 0.026));
@@ -263,7 +327,7 @@ TEST(ErrorBudget, SamplesKeepToTheNoiseThatGoesUnseen) {
     RenderSettings settings;
     follow_error(settings, 1.5);
     const double white = limits.viewing.display_white;
-    EXPECT_NEAR(compute_sampling_tolerance(limits, settings, 2.0)(1, 1), 1.5 * fine_grain * 5.0 / white / 2.0, 1e-7);
+    EXPECT_NEAR(compute_sampling_tolerance(limits, settings, 2.0)(1, 1), 1.5 * noise_allowance * 5.0 / white / 2.0, 1e-7);
     ASSERT_TRUE(compute_systematic_tolerance(limits, settings, 1.0).has_value());
     settings.error = 0.0;
     EXPECT_FALSE(compute_systematic_tolerance(limits, settings, 1.0).has_value());

@@ -1,5 +1,5 @@
 #pragma once
-// Pictures as a display shows them, in bands of spatial frequency: what visible_difference.h compares.
+// Pictures as a display shows them, in bands of spatial frequency, and how much their contrast hides.
 
 #include <array>
 #include <vector>
@@ -23,7 +23,7 @@ VisualChannels compute_visual_channels(const Image<Rgb>& picture, double white);
 struct BandShape {
     double frequency = 0.0;  ///< at which sensitivity is taken, cycles per pixel of the picture
     double gain = 1.0;       ///< amplitudes times gain add up, as squares, to the amplitude of any grating
-    int signal_level = 0;    ///< of its signal: at least 4 pixels a cycle from the third band on, for tracks between pixels
+    int signal_level = 0;    ///< of its signal: 4 pixels a cycle or more from the third band on, to be read between pixels
     int level = 0;           ///< of its amplitude
     int blurs = 0;           ///< passes of low_pass that average energy over about half a cycle
 };
@@ -37,5 +37,10 @@ std::vector<Image<float>> split_bands(const Image<float>& channel);
 
 /// Amplitude of a band's signal around each pixel of its level: sqrt(2 mean of squares), times the band's gain.
 Image<float> local_amplitude(Image<float> signal, const BandShape& band);
+
+/// How many times contrast that is there raises the threshold of what is added to it in its band and channel, 1 and up
+/// (Mantiuk et al. 2024, "ColorVideoVDP": the constants of its version 0.5.4).
+/// @param contrast  of the amplitude of what is there, in thresholds, 0 and up
+float contrast_masking(float contrast, int channel);
 
 }  // namespace aleph

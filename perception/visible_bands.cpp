@@ -1,9 +1,10 @@
-#include "render/compare/visible_bands.h"
+#include "perception/visible_bands.h"
 
 #include <algorithm>
 #include <cmath>
 
 #include "engine/base/pyramid.h"
+#include "perception/fast_math.h"
 
 namespace aleph {
 
@@ -51,7 +52,8 @@ Image<float> soften(const Image<float>& image) {
         }
     }
     for (int y = 0; y < image.height; ++y) {
-        const float *above = rows.row(reflect_101(y - 1, image.height)), *below = rows.row(reflect_101(y + 1, image.height));
+        const float *above = rows.row(reflect_101(y - 1, image.height)),
+                    *below = rows.row(reflect_101(y + 1, image.height));
         for (int x = 0; x < image.width; ++x) out(x, y) = 0.5f * rows(x, y) + 0.25f * (above[x] + below[x]);
     }
     return out;
@@ -71,8 +73,9 @@ VisualChannels compute_visual_channels(const Image<Rgb>& picture, double white) 
         out[c] = Image<float>(picture.width, picture.height);
         for (std::size_t i = 0; i < picture.size(); ++i) {
             const Rgb& p = picture.pixels[i];
-            out[c].pixels[i] = static_cast<float>(white * (matrix[c][0] * displayed(p.x) + matrix[c][1] * displayed(p.y) +
-                                                           matrix[c][2] * displayed(p.z)));
+            out[c].pixels[i] =
+                static_cast<float>(white * (matrix[c][0] * displayed(p.x) + matrix[c][1] * displayed(p.y) +
+                                            matrix[c][2] * displayed(p.z)));
         }
     }
     return out;
@@ -83,7 +86,8 @@ std::vector<BandShape> visible_bands(int width, int height) {
     // 31 pixels per degree.
     std::vector<BandShape> bands{{0.4762, 1.247, 0, 0, 1}, {0.2595, 2.098, 0, 0, 4}};
     const int levels = static_cast<int>(std::floor(std::log2(std::max(4, std::min(width, height)) / 4.0)));
-    for (int level = 1; level <= levels; ++level) bands.push_back({std::ldexp(0.2027, -level), 1.635, level - 1, level, 4});
+    for (int level = 1; level <= levels; ++level)
+        bands.push_back({std::ldexp(0.2027, -level), 1.635, level - 1, level, 4});
     return bands;
 }
 
@@ -112,6 +116,15 @@ Image<float> local_amplitude(Image<float> signal, const BandShape& band) {
     const auto gain = static_cast<float>(band.gain);
     for (float& value : signal.pixels) value = gain * std::sqrt(2.0f * std::max(0.0f, value));
     return signal;
+}
+
+float contrast_masking(float contrast, int channel) {
+    constexpr float log2_k = -2.642585f, p = 2.264355f;  // k = 10^-.795497
+    constexpr float q[visual_channels] = {1.302623f, 2.888591f, 3.680771f};
+    constexpr float w[visual_channels] = {0.876909f, 1.269330f, 0.697693f};  // 2^-.189501, 2^.344067, 2^-.519338
+    if (!(contrast > 0.0f)) return 1.0f;
+    const float sum = 1.0f + w[channel] * fast_exp2(q[channel] * (fast_log2(contrast) + log2_k));
+    return fast_exp2(fast_log2(sum) / p);
 }
 
 }  // namespace aleph
