@@ -168,7 +168,7 @@ void print_sizes(const Scene& scene, const ScenePose& posed, const Built& flat, 
         flat_triangles += flat.rays->is_flat(static_cast<int>(i)) ? count : 0;
     }
     fmt::print("{} instances with {} triangles, of which {} with {} triangles are flat\n", shown, triangles,
-               flat.meshes->flat_count, flat_triangles);
+               flat.meshes->flat.count, flat_triangles);
     fmt::print("building: flat {:.3f} s, {:.1f} MB; nodes {:.3f} s, {:.1f} MB\n", flat.seconds,
                1e-6 * static_cast<double>(flat.bytes), nodes.seconds, 1e-6 * static_cast<double>(nodes.bytes));
 }
