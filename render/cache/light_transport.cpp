@@ -202,9 +202,9 @@ class LightTransport {
         const auto lit = make_record(record.position, record.normal, record.accuracy, sample, bounds);
         if (!lit) return;
         record.irradiance = lit->irradiance;
-        record.rotation_gradient = lit->rotation_gradient;
-        record.translation_gradient = lit->translation_gradient;
-        record.relative_error = lit->relative_error;
+        record.gradients.rotation = lit->gradients.rotation;
+        record.gradients.translation = lit->gradients.translation;
+        record.noise.error = lit->noise.error;
     }
 
     const IndirectContext& context_;
