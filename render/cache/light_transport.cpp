@@ -158,8 +158,8 @@ class LightTransport {
             thread_local GatherScratch scratch;
             RayTask task(context_.lighting.rays);
             const GatherOptions options{
-                .depth = std::max(0, context_.settings.light.path_depth - 2 - context_.bounces_before),
-                .multi_bounce = context_.multi_bounce};
+                .depth = std::max(0, context_.settings.light.path_depth - 2 - context_.bounces.before),
+                .multi_bounce = context_.bounces.further};
             for (std::size_t i = begin; i < end; ++i) {
                 added[i].direct =
                     gather_irradiance(context_.lighting, task, lit[i]->place, {{}, lit[i]->key}, scratch, options)

@@ -85,9 +85,8 @@ TEST(SeveralBounces, IC23_EachCountsWithoutRecordsAround) {
                                       .settings = settings,
                                       .accuracy = accuracy,
                                       .progress = {},
-                                      .multi_bounce = {.bounces = bounces - 1, .noted = true},
-                                      .bounces_before = 1};
-        const GatherOptions options{.depth = 8, .multi_bounce = context.multi_bounce};
+                                      .bounces = {.further = {.bounces = bounces - 1, .noted = true}, .before = 1}};
+        const GatherOptions options{.depth = 8, .multi_bounce = context.bounces.further};
         IrradianceCache cache = make_cache(stage.shading);
         std::vector<GatheredRays> gathered;
         for (std::uint32_t i = 0; i < 64; ++i) {
