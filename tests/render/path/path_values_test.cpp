@@ -11,7 +11,7 @@ namespace {
 SampleLight make_sample(const Rgb& light, bool hit = true) {
     SampleLight sample;
     sample[LightPart::direct] = light;
-    sample.instance = hit ? 0 : no_index;
+    sample.place.instance = hit ? 0 : no_index;
     return sample;
 }
 
