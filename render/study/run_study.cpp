@@ -46,8 +46,8 @@ class StudyRunner {
         for (const PreparedStudyScene& scene : prepared_.scenes) truths_.push_back(prepare_truths(scene));
         std::vector<std::vector<std::vector<MeasuredRun>>> runs(
             prepared_.variants.size(), std::vector<std::vector<MeasuredRun>>(prepared_.scenes.size()));
-        for (int repeat = 0; repeat < study_.repeats; ++repeat) {
-            for (const std::uint32_t seed : study_.seeds) {
+        for (int repeat = 0; repeat < study_.runs.repeats; ++repeat) {
+            for (const std::uint32_t seed : study_.runs.seeds) {
                 for (std::size_t v = 0; v < runs.size(); ++v) {
                     for (std::size_t s = 0; s < prepared_.scenes.size(); ++s)
                         runs[v][s].push_back(find_or_make(v, s, seed, repeat));
@@ -60,7 +60,7 @@ class StudyRunner {
                 std::ranges::move(summarize_runs(prepared_.scenes[s].name, runs[v][s]),
                                   std::back_inserter(result.frames));
             average_frames(result);
-            if (study_.seeds.size() > 1)
+            if (study_.runs.seeds.size() > 1)
                 add_seed_metrics(results_.frames, pictures_of(runs[v], 0), pictures_of(runs[v], 1), result);
             results_.variants.push_back(std::move(result));
         }
@@ -79,7 +79,7 @@ class StudyRunner {
     }
 
     std::size_t runs_of_scene() const {
-        return prepared_.variants.size() * study_.seeds.size() * static_cast<std::size_t>(study_.repeats);
+        return prepared_.variants.size() * study_.runs.seeds.size() * static_cast<std::size_t>(study_.runs.repeats);
     }
 
     void show(double more, const std::string& what) const {

@@ -165,8 +165,8 @@ Json study_json(const PreparedStudy& prepared, const StudyResults& results, cons
                          {"note", describe_reference(prepared, results)}};
     for (const StudyViewer& viewer : study.viewers)
         json["viewers"].push_back({{"name", viewer.name}, {"settings", settings_json(viewer.settings)}});
-    json["repeats"] = study.repeats;
-    json["seeds"] = study.seeds;
+    json["repeats"] = study.runs.repeats;
+    json["seeds"] = study.runs.seeds;
     json["axes"] = axes_json(study.sweep);
     if (study.search) {
         json["search"] = search_json(prepared, results);
