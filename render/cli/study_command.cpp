@@ -151,7 +151,7 @@ int run(const StudyCommandOptions& options, const std::string& command_line) {
     for (const std::string& variant : options.extras.errors) check_variant_name(prepared, variant);
     if (!options.quiet) {
         for (const PreparedStudyScene& scene : prepared.scenes) {
-            for (const std::string& warning : scene.scene.warnings)
+            for (const std::string& warning : scene.scene.source.warnings)
                 std::cerr << "aleph: warning: " << printable(warning, 400) << "\n";
         }
     }

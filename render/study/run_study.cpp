@@ -23,9 +23,9 @@ constexpr double frames_per_pass = 4.0;
 void add_bands(const FrameOutput& output, const Scene& scene, const RenderSettings& settings, JudgingFrame& frame) {
     PerceptionSettings perception = settings.perception;
     if (output.perception.saliency.empty()) perception.guide = Guide::full;  // nothing moves, or all is alike
-    PerceptionMaps maps = compute_perception(output.estimate, output.velocity, scene.viewing, scene.frame_rate,
-                                             perception, {.bands = true});
-    frame.frequencies = band_frequencies(perception.bands, scene.viewing.pixels_per_degree);
+    PerceptionMaps maps = compute_perception(output.estimate, output.velocity, scene.film.viewing,
+                                             scene.film.frame_rate, perception, {.bands = true});
+    frame.frequencies = band_frequencies(perception.bands, scene.film.viewing.pixels_per_degree);
     for (std::size_t i = 0; i < maps.responses.size(); ++i) {
         frame.maps.channels.push_back({fmt::format("band.{}", i), std::move(maps.responses[i])});
         frame.maps.channels.push_back({fmt::format("elevation.{}", i), std::move(maps.elevations[i])});
@@ -97,7 +97,7 @@ class StudyRunner {
             request.maps = true;
             for (std::size_t i = 0; i < scene.frames.size(); ++i) {
                 FrameOutput output = sequence.render(scene.frames[i], request);
-                truths[i].thresholds.push_back(output.threshold);
+                truths[i].thresholds.push_back(output.limits.threshold);
                 if (truths[i].thresholds.size() > 1) continue;
                 JudgingFrame& frame = results_.frames.emplace_back();
                 frame.scene = scene.name;
@@ -168,8 +168,8 @@ class StudyRunner {
         }
         std::size_t first = 0;
         for (std::size_t before = 0; before < s; ++before) first += prepared_.scenes[before].frames.size();
-        const std::vector<VisibleShares> shares = measure_visible(
-            std::span(results_.frames).subspan(first, run.frames.size()), [&](std::size_t i) {
+        const std::vector<VisibleShares> shares =
+            measure_visible(std::span(results_.frames).subspan(first, run.frames.size()), [&](std::size_t i) {
                 ChannelImage picture = read_image(run.pictures[i]);
                 ChannelImage reference = expose_like(picture, truths_[s][i].reference);
                 return std::pair(std::move(picture), std::move(reference));
